@@ -1,0 +1,36 @@
+// import.h: splines from any file we can read: our own document or another program's. A format is one file beside this
+// one with a struct SplineFormat; which one a file has is decided by its content, never by its name alone.
+#pragma once
+#include "lib/model/splines.h"
+#include "open.h"
+#include <optional>
+#include <vector>
+
+namespace bough {
+
+struct ImportOptions {
+    std::optional<double> unit;  // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
+    char up = 0;                 // 'y' or 'z' for the file's up axis; 0: as above
+    std::string name;            // how the file is called in messages
+};
+
+// What a reader wants the user to know: guesses made (units, up) with the reason, things left out, with counts.
+struct ImportNotes {
+    std::vector<std::string> lines;
+};
+
+struct SplineFormat {
+    const char* name;                                     // "SpeedTree raw XML"
+    bool (*recognizes)(std::string_view content);         // cheap: the head of the file
+    Splines (*read)(std::string_view content, const ImportOptions&, ImportNotes&);  // throws InputError
+};
+
+extern const SplineFormat speedtree_format;   // speedtree.cpp
+extern const SplineFormat treetools_format;   // treetools.cpp
+extern const SplineFormat swc_format;         // swc.cpp
+
+// Our own splines document, or the first format that recognizes the content. Throws InputError that lists what could
+// be read, with advice for well-known files that cannot (SpeedTree .srt/.spm, Alembic, USD ...).
+Splines import_splines(std::string_view content, const ImportOptions&, ImportNotes&);
+
+} // namespace bough

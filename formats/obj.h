@@ -1,0 +1,23 @@
+// obj.h: a skin mesh as Wavefront OBJ, at rest or as a numbered sequence with one mtl.
+#pragma once
+#include "lib/growth/skin.h"
+#include "open.h"
+#include <string>
+#include <vector>
+
+namespace bough {
+
+// The mesh with the given positions and normals (arrays over the skin's vertices) and a mtllib line naming `mtl`.
+void write_obj(Output&, const Skin&, const std::vector<Vec3>& position, const std::vector<Vec3>& normal,
+               const std::string& mtl);
+// Materials of the skin's parts: bark, leaf, fruit.
+void write_mtl(Output&, const Skin&);
+
+// frames/oak_%04d.obj -> frames/oak_0007.obj. The pattern must hold one %d or %0Nd and a prefix before it in the file
+// name; valid_sequence says what is wrong with it, or returns an empty string.
+std::string valid_sequence(const std::string& pattern);
+std::string sequence_name(const std::string& pattern, std::int64_t frame);
+// frames/oak_%04d.obj -> frames/oak.mtl
+std::string sequence_mtl(const std::string& pattern);
+
+} // namespace bough

@@ -1,0 +1,42 @@
+// open.h: files in and out. "-" is stdin or stdout for every format because it is decided here.
+#pragma once
+#include "error.h"
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace bough {
+
+// The whole content of a file, or of stdin for "-". Throws InputError for a missing or unreadable file, a directory,
+// a read error. An empty file gives an empty string (the reader of the format says what it expected).
+std::string read_input(const std::string& path);
+
+// How an input is called in messages: its path, "<stdin>" for "-".
+std::string input_name(const std::string& path);
+
+// One output file. Regular files are written beside their name and renamed by finish(), so that they appear whole or
+// not at all; "-" (stdout), devices and named pipes are written directly. Buffered. A file that is not finished is
+// removed by the destructor. write() and finish() throw OutputError (full disk, closed pipe, no permission ...).
+class Output {
+public:
+    explicit Output(const std::string& path);
+    Output(const Output&) = delete;
+    Output& operator=(const Output&) = delete;
+    ~Output();
+    void write(std::string_view bytes);
+    void flush();   // what was written so far reaches the reader of a pipe (once a frame for JSON lines)
+    void finish();  // flush, close, check, rename
+    const std::string& name() const { return name_; }
+
+private:
+    std::string name_, path_, temporary_;
+    std::FILE* file_ = nullptr;
+};
+
+// Text or binary form of a document.
+enum class Form { json, safetensors };
+
+// "x.safetensors" -> safetensors, else json.
+Form form_of_name(const std::string& path);
+
+} // namespace bough

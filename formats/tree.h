@@ -1,0 +1,12 @@
+// tree.h: the tree document, "bough-tree" (formats/README.md), JSON or safetensors by content.
+#pragma once
+#include "lib/model/tree.h"
+#include "open.h"
+
+namespace bough {
+
+bool is_tree(std::string_view content);
+Tree read_tree(std::string_view content, const std::string& name);
+void write_tree(Output&, const Tree&, Form);
+
+} // namespace bough

@@ -1,0 +1,39 @@
+// segment.h: splines to rigid bodies (§3, §10): branches cut into frustums by arc length and curvature, leaves and
+// fruit jointed to the piece they grow on, each with mass, inertia, stiffness and damping.
+//
+// Cuts. A branch is cut into pieces of at most `segment_length` (default: from the branch, see below) and at most
+// `max_bend` of turning each, pieces even in arc length between forced cuts; joints lie on the curve. Points nearer
+// than `merge` to the one before are merged. The side branch's joint stays where it was drawn, off the parent's axis.
+// Stiffness. Compliance of a joint = half the parent piece's + half the child piece's, integrated over taper (at the
+// ground and where a side branch leaves: the child's half only): bend 1/(E I), twist 1/(G J), K = (kx, ky, kz).
+// Damping. beta = 2 zeta / omega with omega the branch's own first bending frequency (branch_mode.h).
+// Order. Bodies stand branch by branch, a branch's pieces in order, parents before children; leaves and fruit follow
+// all branches. Cost O(points + bodies). Throws nothing: a branch without length is left out and counted.
+#pragma once
+#include "../model/splines.h"
+#include "../model/tree.h"
+#include "../model/wood.h"
+#include <cstdint>
+
+namespace bough {
+
+struct SegmentOptions {
+    double segment_length = 0;      // [m] longest piece; 0: by the default rule, which depends on the splines alone
+    double max_bend = 0.35;         // [rad] largest turning of the curve within one piece
+    std::int64_t max_bodies = 0;    // 0: as many as come; else pieces grow longer until all bodies fit, never dropping any
+    double merge = 1e-6;            // points nearer than this times the tree's height are one
+};
+
+struct SegmentReport {
+    std::int64_t merged_points = 0;     // near-coincident points
+    std::int64_t dropped_branches = 0;  // without length after merging, and whatever grows on them moved to the parent
+    std::int64_t thin_points = 0;       // radii raised to the least radius that still gives a positive mass
+    double segment_length = 0;          // [m] longest piece, as used
+};
+
+// How many bodies segment() would make, without making them. O(points).
+std::int64_t count_bodies(const Splines&, const SegmentOptions&);
+
+Tree segment(const Splines&, const Material&, const SegmentOptions&, SegmentReport* report = nullptr);
+
+} // namespace bough

@@ -1,0 +1,29 @@
+// body_shape.h: mass, centre of mass, inertia and areas of the three body shapes (§3, §7, §8), in closed form.
+//
+// Body frame: origin at the joint, z along the body. A frustum has its axis on z from 0 to length; a leaf is a thin
+// triangular prism, base edge (width) along x centred on the origin, apex at z = length, thickness along y, uniform;
+// a fruit is a sphere with its centre on z. Each result is exact for the solid named. Cost O(1). No errors: sizes are
+// checked by whoever made them (zero length or radius gives zero mass).
+#pragma once
+#include "math.h"
+
+namespace bough {
+
+struct MassProperties {
+    double mass = 0;            // [kg]
+    Vec3 com = Vec3::Zero();    // [m] body frame
+    Mat3 inertia = Mat3::Zero();  // [kg m^2] about com, body axes
+};
+
+MassProperties frustum(double length, double radius_base, double radius_tip, double density);
+MassProperties leaf_prism(double length, double width, double thickness, double density);
+MassProperties sphere(double center, double radius, double density);
+
+// Longitudinal cross-section A_c of a frustum [m^2] (21): the trapezoid length * (radius_base + radius_tip).
+double frustum_section(double length, double radius_base, double radius_tip);
+// Area A_t of the leaf's triangle [m^2] (23).
+double leaf_area(double length, double width);
+// Circular cross-section A_s of a fruit [m^2] (22).
+double sphere_section(double radius);
+
+} // namespace bough

@@ -1,0 +1,72 @@
+// math.h: vectors, matrices, quaternions, and the two maps between a rotation vector and a rotation.
+//
+// Everything is right-handed. R_ab takes components in frame b to components in frame a, so neighbours cancel:
+// R_wc = R_wp * R_pj * R_jc. Suffix _w: world, _b: body, _j: joint frame.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+
+namespace bough {
+
+template <class T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
+template <class T>
+using Matrix3 = Eigen::Matrix<T, 3, 3>;
+template <class T>
+using Quaternion = Eigen::Quaternion<T, Eigen::DontAlign>;
+
+using Vec3 = Vector3<double>;
+using Mat3 = Matrix3<double>;
+using Quat = Quaternion<double>;
+
+// The cross-product matrix r*: cross_matrix(r) * f == r.cross(f).
+template <class T>
+Matrix3<T> cross_matrix(const Vector3<T>& r) {
+    Matrix3<T> m;
+    m << T(0), -r.z(), r.y(), r.z(), T(0), -r.x(), -r.y(), r.x(), T(0);
+    return m;
+}
+
+// Rotation of |theta| radians about theta (Rodrigues). Series below 1e-4 rad, where 1 - cos loses its digits.
+template <class T>
+Matrix3<T> rotation_from_vector(const Vector3<T>& theta) {
+    const T a2 = theta.squaredNorm();
+    const T a = std::sqrt(a2);
+    const bool small = a < T(1e-2);
+    // sin(a)/a and (1 - cos a)/a^2 = 2 sin^2(a/2)/a^2; both even in a.
+    const T s = small ? T(1) - a2 / T(6) * (T(1) - a2 / T(20)) : std::sin(a) / a;
+    const T h = std::sin(a / T(2));
+    const T c = small ? T(0.5) - a2 / T(24) * (T(1) - a2 / T(30)) : T(2) * h * h / a2;
+    const Matrix3<T> x = cross_matrix(theta);
+    return Matrix3<T>::Identity() + s * x + c * (x * x);
+}
+
+template <class T>
+Quaternion<T> quaternion_from_vector(const Vector3<T>& theta) {
+    const T a = theta.norm();
+    const T half = a / T(2);
+    const T s = a < T(1e-4) ? T(0.5) - a * a / T(48) : std::sin(half) / a;
+    return Quaternion<T>(std::cos(half), s * theta.x(), s * theta.y(), s * theta.z());
+}
+
+// The rotation vector of a unit quaternion, |theta| <= pi.
+template <class T>
+Vector3<T> vector_from_quaternion(const Quaternion<T>& q) {
+    const T sign = q.w() < T(0) ? T(-1) : T(1);
+    const Vector3<T> v = sign * q.vec();
+    const T n = v.norm();
+    if (n < T(1e-8)) return T(2) * v;
+    return (T(2) * std::atan2(n, sign * q.w()) / n) * v;
+}
+
+// A frame whose z axis is `axis` (unit length not needed), turned the least from `near`'s own z axis. Branch bodies
+// take their frames this way along the branch, so that x and y do not spin about it (a twist-free frame).
+inline Quat least_turn(const Quat& near, const Vec3& axis) {
+    const Vec3 z = near * Vec3::UnitZ();
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(z, axis);
+    return Quat((turn * Eigen::Quaterniond(near)).normalized());
+}
+
+} // namespace bough

@@ -1,0 +1,61 @@
+// tree.h: a tree as articulated rigid bodies (§3), constant after load. Arrays over bodies, one per quantity.
+//
+// Order: a parent stands before its children (parent[i] < i), so that a loop over rising indices is the sweep from the
+// root and one over falling indices the sweep from the leaves; bodies keep this order in every output. Body i has one
+// joint, to its parent or (parent -1) to the ground, with three rotational springs about the joint frame's axes. The
+// body frame has its origin at that joint and z along the branch, the leaf's length or the fruit's stalk.
+//
+// The geometry is the drawn pose: theta = 0 puts every body where it was drawn. What the springs' rest pose is (the
+// drawn one, or the one that gravity bends into the drawn one) is the scene's `pose` (pose.h).
+#pragma once
+#include "math.h"
+#include "splines.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+enum class Kind : std::uint8_t { branch = 0, leaf = 1, fruit = 2 };
+
+struct Tree {
+    std::vector<std::int32_t> parent;  // body index < own, -1: the ground
+    std::vector<Kind> kind;
+    std::vector<double> mass;          // [kg] > 0
+    std::vector<Vec3> com;             // [m] centre of mass, body frame
+    std::vector<Mat3> inertia;         // [kg m^2] about the centre of mass, body axes; symmetric, not negative
+    std::vector<Vec3> joint_position;  // [m] own joint in the parent's body frame (world for roots): d_j^p of (10)
+    std::vector<Quat> joint_rotation;  // parent's body frame (world for roots) from joint frame, drawn pose: R_j^p of (7)
+    std::vector<Vec3> stiffness;       // [N m/rad] K about the joint frame's x, y, z: bend, bend, twist (leaf: flap, sway, twist)
+    std::vector<double> damping;       // [s] beta of (5), the stiffness-proportional Rayleigh coefficient
+    std::vector<Vec3> size;            // [m] branch: length, base radius, tip radius; leaf: length, width, thickness;
+                                       //     fruit: joint to centre, radius, radius
+    std::vector<std::int32_t> branch;  // branch of the splines that the body belongs to (a leaf or fruit: grows on)
+    std::vector<std::int32_t> level;   // that branch's level, 0 for trunks
+    std::vector<double> s;             // fraction of that branch's arc length at the body's own joint, 0..1
+
+    std::string name;      // what the tree is called
+    std::string material;  // wood preset or file that gave mass and stiffness
+    std::string source;    // command lines that made it, oldest first, one a line
+
+    std::size_t size_bodies() const { return parent.size(); }
+    void resize(std::size_t bodies);  // every array to this length, values unspecified
+};
+
+// True where body i goes on its parent's branch (both pieces of one branch), as opposed to leaving it.
+inline bool continues_parent(const Tree& tree, std::size_t i) {
+    const std::int32_t p = tree.parent[i];
+    return p >= 0 && tree.kind[i] == Kind::branch && tree.kind[std::size_t(p)] == Kind::branch &&
+           tree.branch[i] == tree.branch[std::size_t(p)];
+}
+
+// The first broken rule, or none: array lengths equal, parent before child, mass > 0, inertia symmetric and positive
+// semidefinite with the triangle inequality (to rounding), stiffness and damping >= 0, unit quaternions, finite
+// numbers, s in 0..1. O(bodies).
+std::optional<Defect> check(const Tree&);
+
+// Appends `more` to `tree`, turned by yaw [rad] about +Y and moved by position [m]: how a scene stands several trees
+// in one world. Branch numbers of `more` are shifted behind those present. Returns the first body's index.
+std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw);
+
+} // namespace bough

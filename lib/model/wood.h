@@ -1,0 +1,28 @@
+// wood.h: what a tree is made of. Presets with sources, or the user's own file (formats/material.h).
+#pragma once
+#include <string>
+#include <vector>
+
+namespace bough {
+
+struct Material {
+    std::string name;               // preset name or file
+    double density = 0;             // [kg/m^3] green wood, with its water: what moves
+    double youngs_modulus = 0;      // [Pa] E along the grain, green
+    double shear_modulus = 0;       // [Pa] G for torsion about the grain (about E/15 in wood)
+    double damping_ratio = 0;       // [1] zeta of the branch's first bending mode, structural (no air)
+    double leaf_density = 0;        // [kg/m^3] of fresh leaf tissue
+    double leaf_thickness = 0;      // [m]
+    double leaf_modulus = 0;        // [Pa] E of the petiole, which is what a leaf bends on
+    double leaf_damping_ratio = 0;  // [1] of the leaf on its petiole
+    double fruit_density = 0;       // [kg/m^3]
+    double fruit_damping_ratio = 0; // [1]
+    std::string source;             // where the figures are from
+};
+
+// All presets, each with its source; the first is the default. names() lists them for --help.
+const std::vector<Material>& wood_presets();
+// The preset of this name, or nullptr.
+const Material* find_wood(const std::string& name);
+
+} // namespace bough
