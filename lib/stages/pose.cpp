@@ -56,7 +56,8 @@ std::vector<Vec3> gravity_moments(const Tree& tree, const std::vector<Vec3>& P, 
     return tau;
 }
 
-// theta with K theta = exp(theta) tau, the moment given in the body's frame.
+// theta with K theta = J^T tau, the moment given in the body's frame, J the body rates' Jacobian at theta. The slope of
+// J^T tau is left out of Newton's matrix but for its first term: what remains is small and converges in a few rounds.
 Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     const Vec3& K = tree.stiffness[i];
     for (int a = 0; a < 3; ++a)
@@ -67,15 +68,15 @@ Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     if (tau.norm() == 0) return Vec3::Zero();
     Vec3 theta = tau.cwiseQuotient(K);
     for (int iteration = 0; iteration < 100; ++iteration) {
-        const Vec3 turned = rotation_from_vector(theta) * tau;
+        const Vec3 turned = body_rate_jacobian(theta).transpose() * tau;
         const Vec3 residual = turned - K.cwiseProduct(theta);
-        const Mat3 slope = Mat3(K.asDiagonal()) + cross_matrix(turned);
+        const Mat3 slope = Mat3(K.asDiagonal()) + 0.5 * cross_matrix(turned);
         const Vec3 change = slope.partialPivLu().solve(residual);
         theta += change;
         if (change.norm() <= 1e-15 * theta.norm()) return theta;
     }
     // Rounding can keep the last digit moving; what is left must be rounding.
-    const Vec3 left = rotation_from_vector(theta) * tau - K.cwiseProduct(theta);
+    const Vec3 left = body_rate_jacobian(theta).transpose() * tau - K.cwiseProduct(theta);
     if (left.norm() > 1e-12 * tau.norm())
         throw std::domain_error(name_of(tree, i) + " is too soft to carry its weight in the drawn pose");
     return theta;
