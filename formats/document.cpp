@@ -142,7 +142,7 @@ void refuse(const std::optional<Defect>& defect, const std::string& name, const 
             components = array->components;
             if (components > 1 && array->per.count) entry = array->per.what.substr(0, array->per.what.find(' '));
         }
-    place += "/" + std::to_string(std::size_t(defect->index) * components);
+    place.append("/").append(std::to_string(std::size_t(defect->index) * components));
     if (entry.empty()) throw InputError(place, defect->message);
     throw InputError(place, entry + " " + std::to_string(defect->index) + " " + defect->message);
 }

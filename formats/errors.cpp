@@ -70,7 +70,7 @@ std::string pointer(const std::string& at, std::string_view key) {
 }
 
 std::string in_quotes(std::string_view text) {
-    return "\"" + shown(text) + "\"";
+    return std::string("\"").append(shown(text)).append("\"");
 }
 
 std::vector<std::string> names(const std::vector<Field>& fields) {
