@@ -1,0 +1,361 @@
+// Each way a document can be wrong, with the place and the message; then every cut and every flipped byte.
+#include "formats/motion.h"
+#include "formats/scene.h"
+#include "formats/splines.h"
+#include "formats/tree.h"
+#include "random_documents.h"
+#include <cstring>
+
+using namespace bough;
+using namespace bough::test;
+using Catch::Contains;
+using Catch::Equals;
+using Catch::StartsWith;
+
+namespace {
+
+// Two bodies, a line of the file for each field.
+const std::string two_bodies = R"({
+"format": "bough-tree",
+"version": 1,
+"name": "oak",
+"parent": [-1, 0],
+"kind": [0, 1],
+"mass": [2, 3],
+"com": [0, 0, 0.5, 0, 0, 0.5],
+"inertia": [0.2, 0.2, 0.01, 0, 0, 0, 0.2, 0.2, 0.01, 0, 0, 0],
+"joint_position": [0, 0, 0, 0, 0, 1],
+"joint_rotation": [0, 0, 0, 1, 0, 0, 0, 1],
+"stiffness": [10, 10, 5, 10, 10, 5],
+"damping": [0.1, 0.1],
+"size": [1, 0.1, 0.05, 1, 0.05, 0.01],
+"branch": [0, 0],
+"level": [0, 0],
+"s": [0, 0.5]
+}
+)";
+
+std::string tree_error(const std::string& text) {
+    const std::string error = error_of([&] { read_tree(text, "t.json"); });
+    CHECK(error.find('\n') == std::string::npos);
+    return error;
+}
+
+std::string changed(const std::string& from, const std::string& to) {
+    return tree_error(replaced(two_bodies, from, to));
+}
+
+std::string scene_error(const std::string& fields) {
+    return error_of([&] { read_scene(R"({"format": "bough-scene", "version": 1, )" + fields + "}", "s"); });
+}
+
+// A safetensors file made by hand.
+std::string binary(const std::string& header, const std::string& data) {
+    std::string length(8, '\0');
+    const std::uint64_t size = header.size();
+    std::memcpy(length.data(), &size, 8);
+    return length + header + data;
+}
+
+std::string binary_tree() {
+    const Tree tree = read_tree(two_bodies, "t");
+    return written([&](Output& o) { write_tree(o, tree, Form::safetensors); });
+}
+
+// The same file with its header changed (`data` bytes added at the end).
+std::string changed_header(const std::string& from, const std::string& to, const std::string& data = "") {
+    const std::string file = binary_tree();
+    std::uint64_t size = 0;
+    std::memcpy(&size, file.data(), 8);
+    return binary(replaced(file.substr(8, size), from, to), file.substr(8 + size) + data);
+}
+
+} // namespace
+
+TEST_CASE("the two bodies are right before they are made wrong") {
+    CHECK(tree_error(two_bodies) == "");
+}
+
+TEST_CASE("a wrong field is named with its place") {
+    CHECK(changed("\"mass\"", "\"masss\"") == "t.json: /masss: is an unknown field, did you mean \"mass\"?");
+    CHECK_THAT(changed("\"mass\"", "\"weather\""),
+               StartsWith("t.json: /weather: is an unknown field, expected one of "));
+    CHECK(changed("[2, 3]", "7") == "t.json: /mass: is 7, expected a flat array of numbers");
+    CHECK(changed("[2, 3]", "[2, \"x\"]") == "t.json: /mass/1: is \"x\", expected a number");
+    CHECK(changed("[2, 3]", "[2, null]") == "t.json: /mass/1: is null, expected a number");
+    CHECK(changed("[2, 3]", "[[2], [3]]") == "t.json: /mass/0: is an array, expected a number");
+    CHECK(changed("[2, 3]", "[2, {\"a\": 3}]") == "t.json: /mass/1: is an object, expected a number");
+    CHECK(changed("[-1, 0]", "[-1, 0.5]") == "t.json: /parent/1: is 0.5, expected an integer");
+    CHECK(changed("[-1, 0]", "[-1, 3000000000]") ==
+          "t.json: /parent/1: is 3000000000, expected an integer from -2147483648 to 2147483647");
+    CHECK(changed("\"oak\"", "12") == "t.json: /name: is 12, expected text");
+    CHECK(changed("\"oak\"", "[]") == "t.json: /name: is an array, expected text");
+    CHECK(changed("[2, 3]", "[2, 3, 4]") == "t.json: /mass: has 3 numbers, expected 2 (one for each body in /parent)");
+    CHECK(changed("[0, 0, 0.5, 0, 0, 0.5]", "[0, 0, 0.5, 0]") ==
+          "t.json: /com: has 4 numbers, expected 6 (3 for each body in /parent)");
+    CHECK(changed("\"mass\": [2, 3],\n", "") == "t.json: /mass: is missing");
+    CHECK(changed("\"mass\"", "\"com\": [], \"com\"") == "t.json: /com: appears twice");
+    CHECK(changed("\"kind\": [0, 1],\n", "") == "");
+}
+
+TEST_CASE("rules between fields are named with their place") {
+    CHECK_THAT(changed("[-1, 0]", "[-1, 1]"), StartsWith("t.json: /parent/1: is 1, expected -1 or less than 1"));
+    CHECK_THAT(changed("[-1, 0]", "[1, 0]"), StartsWith("t.json: /parent/0: is 1, expected -1"));
+    CHECK_THAT(changed("[-1, 0]", "[-1, -2]"), StartsWith("t.json: /parent/1: is -2, expected -1 or"));
+    CHECK(changed("[0, 1]", "[0, 3]") == "t.json: /kind/1: is 3, expected 0 (branch), 1 (leaf) or 2 (fruit)");
+    CHECK(changed("[2, 3]", "[2, 0]") == "t.json: /mass/1: is 0, expected more than 0");
+    CHECK_THAT(changed("1, 0, 0, 0, 1]", "1, 0, 0, 0, 2]"),
+               Equals("t.json: /joint_rotation/4: body 1 has length 2, expected a unit quaternion"));
+    CHECK_THAT(changed("[0.2, 0.2, 0.01", "[0.2, 0.2, 0.41"), StartsWith("t.json: /inertia/0: body 0 has principal"));
+    CHECK_THAT(changed("[0, 0.5]", "[0, 1.5]"), Equals("t.json: /s/1: is 1.5, expected 0 to 1"));
+}
+
+TEST_CASE("numbers that are not finite are refused") {
+    CHECK(changed("[2, 3]", "[2, NaN]") == "t.json:7:13: /mass/1 is NaN, expected a finite number");
+    CHECK(changed("[2, 3]", "[2, Infinity]") == "t.json:7:13: /mass/1 is Infinity, expected a finite number");
+    CHECK(changed("[2, 3]", "[2, -Infinity]") == "t.json:7:13: /mass/1 is -Infinity, expected a finite number");
+    CHECK(changed("[2, 3]", "[2, 1e999]") == "t.json:7:13: /mass/1 is 1e999, expected a finite number");
+    CHECK(changed("[2, 3]", "[2, nan]") == "t.json:7:13: /mass/1 is nan, expected a finite number");
+
+    std::string file = binary_tree();
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+        const double three = 3;
+        const std::string bytes(reinterpret_cast<const char*>(&bad), 8), now(reinterpret_cast<const char*>(&three), 8);
+        CHECK_THAT(tree_error(replaced(file, now, bytes)), StartsWith("t.json: /mass/1: is "));
+    }
+}
+
+TEST_CASE("another document, or none, is called what it is") {
+    CHECK(changed("bough-tree", "bough-splines") ==
+          "t.json: is a bough-splines document, expected bough-tree: run treeconvert on it first");
+    CHECK(changed("bough-tree", "gltf") == "t.json: /format: is \"gltf\", expected \"bough-tree\"");
+    CHECK(changed("\"version\": 1", "\"version\": 2") ==
+          "t.json: /version: is 2, newer than this program, which reads 1");
+    CHECK(changed("\"version\": 1", "\"version\": 2, \"new\": []") ==
+          "t.json: /version: is 2, newer than this program, which reads 1");
+    CHECK(changed("\"version\": 1", "\"version\": 0") == "t.json: /version: is 0, expected 1");
+    CHECK(changed("\"version\": 1", "\"version\": \"1\"") == "t.json: /version: is \"1\", expected an integer");
+    CHECK(changed("\"version\": 1,\n", "") == "t.json: /version: is missing");
+    CHECK(changed("\"format\": \"bough-tree\",\n", "") == "t.json: /format: is missing");
+    CHECK(tree_error(R"({"name": "a-package", "files": []})") == "t.json: /format: is missing");
+    CHECK(tree_error("") == "t.json: is empty, expected a bough-tree document");
+    CHECK(tree_error(" \n\t") == "t.json: is empty, expected a bough-tree document");
+    CHECK(tree_error("<xml/>") == "t.json: is neither JSON nor safetensors, expected a bough-tree document");
+    CHECK(tree_error("[1, 2]") == "t.json: is neither JSON nor safetensors, expected a bough-tree document");
+    // The format may stand last: it still says what the document is.
+    std::string last = replaced(two_bodies, "\"format\": \"bough-tree\",\n", "");
+    last = replaced(last, "\"s\": [0, 0.5]\n", "\"s\": [0, 0.5], \"format\": \"bough-motion\"\n");
+    CHECK(tree_error(last) == "t.json: is a bough-motion document, expected bough-tree");
+}
+
+TEST_CASE("text that is no JSON is shown by line and column") {
+    CHECK_THAT(changed("[2, 3]", "[2 3]"), StartsWith("t.json:7:12: in /mass/1: syntax error"));
+    CHECK_THAT(changed("\"oak\",", "\"oak\""), StartsWith("t.json:5:1: "));
+    CHECK_THAT(changed("[2, 3]", "[2, 3,]"), StartsWith("t.json:7:14: "));
+    CHECK_THAT(changed("\"s\"", "'s'"), StartsWith("t.json:17:1: "));
+    CHECK_THAT(tree_error(two_bodies + "x"), StartsWith("t.json:19:1: "));
+    const std::string cut = two_bodies.substr(0, two_bodies.find("3],"));
+    CHECK(tree_error(cut) ==
+          "t.json:7: ends here inside /mass/1, expected the rest of the document: is the file whole?");
+    CHECK_THAT(tree_error(two_bodies.substr(0, 1)), StartsWith("t.json:1: ends here"));
+    CHECK_THAT(tree_error(two_bodies + std::string(100000, '[')), StartsWith("t.json:19:1: "));
+    CHECK_THAT(changed("\"oak\"", "\"\xff\""), StartsWith("t.json:4:9: "));
+    CHECK_THAT(changed("[2, 3]", "[2, " + std::string(1'000'000, '[')), StartsWith("t.json: /mass/1: is an array"));
+}
+
+TEST_CASE("splines name the branch that is wrong") {
+    const std::string good = R"({"format": "bough-splines", "version": 1, "parent": [-1, 0], "parent_at": [0, 0.5],
+"level": [0, 1], "first_point": [0, 2, 4], "point": [0,0,0, 0,1,0, 0,0,0, 1,1,0], "radius": [1,1,1,1],
+"leaf_branch": [1], "leaf_at": [0.5], "leaf_position": [0,0,0], "leaf_rotation": [0,0,0,1], "leaf_length": [1], "leaf_width": [1]})";
+    const auto wrong = [&](const std::string& from, const std::string& to) {
+        return error_of([&] { read_splines(replaced(good, from, to), "s"); });
+    };
+    CHECK(wrong("0.5", "0.5") == "");
+    CHECK_THAT(wrong("[0, 2, 4]", "[0, 3, 4]"), StartsWith("s: /first_point/2: is 4, expected 5 or more"));
+    CHECK_THAT(wrong("[0, 2, 4]", "[0, 2, 5]"),
+               StartsWith("s: /first_point/2: is 5, expected the number of points, 4"));
+    CHECK_THAT(wrong("[0, 2, 4]", "[1, 2, 4]"), StartsWith("s: /first_point/0: is 1, expected 0"));
+    CHECK(wrong("[0, 2, 4]", "[0, 4]") ==
+          "s: /first_point: has 2 numbers, expected 3 (one for each branch in /parent, and the end)");
+    CHECK_THAT(wrong("1,1,0]", "1,1]"), StartsWith("s: /point: has 11 numbers, expected a multiple of 3"));
+    CHECK_THAT(wrong("[1,1,1,1]", "[1,1,-1,1]"), StartsWith("s: /radius/2: is -1, expected 0 or more"));
+    CHECK_THAT(wrong("[1], \"leaf_at\"", "[2], \"leaf_at\""), StartsWith("s: /leaf_branch/0: is 2, expected a branch"));
+    CHECK_THAT(wrong("\"leaf_width\": [1]", "\"leaf_width\": [0]"),
+               StartsWith("s: /leaf_width/0: is 0, expected more"));
+    CHECK_THAT(wrong(", \"leaf_width\": [1]", ""),
+               StartsWith("s: /leaf_width: is missing, expected 1 (one for each leaf"));
+}
+
+TEST_CASE("scenes name the nested place") {
+    CHECK(scene_error("\"wind\": \"gusty\"") == "");
+    CHECK_THAT(scene_error("\"wind\": \"gale\""),
+               StartsWith("s: /wind: is \"gale\", expected calm, breeze, gusty, storm"));
+    CHECK(scene_error("\"wind\": {\"velocity\": [1, 0, 0], \"gust\": 2}") ==
+          "s: /wind/gust: is an unknown field, expected one of gust_factor, gust_period, profile, reference_height, "
+          "seed, "
+          "turbulence, velocity");
+    CHECK(scene_error("\"wind\": {\"velocity\": [1, 0]}") == "s: /wind/velocity: has 2 numbers, expected 3 (x, y, z)");
+    CHECK(scene_error("\"wind\": {}") == "s: /wind/velocity: is missing");
+    CHECK(scene_error("\"wind\": {\"velocity\": [1, 0, 0], \"gust_period\": 0}") ==
+          "s: /wind/gust_period: is 0, expected more than 0");
+    CHECK(scene_error("\"trees\": [{\"file\": \"a\"}, {\"file\": 7}]") == "s: /trees/1/file: is 7, expected text");
+    CHECK(scene_error("\"trees\": [{\"yaw\": 7}]") == "s: /trees/0/file: is missing");
+    CHECK(scene_error("\"gravitty\": [0, 0, 0]") == "s: /gravitty: is an unknown field, did you mean \"gravity\"?");
+    CHECK(scene_error("\"gravity\": [0, \"x\", 0]") == "s: /gravity/1: is \"x\", expected a number");
+    CHECK(scene_error("\"pose\": \"sitting\"") == "s: /pose: is \"sitting\", expected one of drawn, settled, rest");
+    CHECK(scene_error("\"air_density\": -1") == "s: /air_density: is -1, expected 0 or more");
+    CHECK(scene_error("\"air_density\": 1, \"air_density\": 1") == "s: /air_density: appears twice");
+    CHECK_THAT(scene_error("\"gravity\": [0, NaN, 0]"), StartsWith("s:1:") && Contains("/gravity/1 is NaN"));
+
+    const auto pull = [](const std::string& on, const std::string& rest) {
+        return scene_error("\"pulls\": [{\"on\": " + on + ", " + rest + "}]");
+    };
+    const std::string good = "\"time\": [0, 1], \"force\": [[0, 0, 1], [0, 0, 2]]";
+    CHECK(pull("{\"body\": 3}", good) == "");
+    CHECK(pull("{\"body\": 3}", "\"time\": [0, 1], \"force\": [0, 0, 1, 0, 0, 2]") == "");
+    CHECK(pull("{}", good) == "s: /pulls/0/on: names no body, expected body, branch, nearest or level");
+    CHECK(pull("{\"body\": 3, \"level\": 1}", good) ==
+          "s: /pulls/0/on/level: stands beside \"body\", expected only one of them");
+    CHECK(pull("{\"level\": 1, \"at\": 1}", good) == "s: /pulls/0/on/at: goes only with branch");
+    CHECK(pull("{\"branch\": 1, \"at\": 2}", good) == "s: /pulls/0/on/at: is 2, expected 0 to 1");
+    CHECK_THAT(pull("{\"body\": 1, \"tree\": 1}", good), StartsWith("s: /pulls/0/on/tree: is 1, expected a tree"));
+    CHECK_THAT(pull("{\"body\": -1}", good), StartsWith("s: /pulls/0/on/body: is -1, expected 0 or more"));
+    CHECK_THAT(pull("{\"body\": 3}", "\"time\": [0, 0], \"force\": [[0, 0, 1], [0, 0, 2]]"),
+               StartsWith("s: /pulls/0/time/1: is 0"));
+    CHECK_THAT(pull("{\"body\": 3}", "\"time\": [0], \"force\": [[0, 0, 1], [0, 0, 2]]"),
+               StartsWith("s: /pulls/0/force: has 2 forces"));
+    CHECK(pull("{\"body\": 3}", "\"time\": [0, 1], \"force\": [[0, 0, 1], [0, \"x\", 2]]") ==
+          "s: /pulls/0/force/1/1: is \"x\", expected a number");
+    CHECK(pull("{\"body\": 3}", "\"time\": [0]") == "s: /pulls/0/force: is missing");
+}
+
+TEST_CASE("a wind document has its own places") {
+    const auto wrong = [](const std::string& fields) {
+        return error_of([&] { read_wind(R"({"format": "bough-wind", "version": 1, )" + fields + "}", "w"); });
+    };
+    CHECK(wrong("\"velocity\": [1, 0, 0]") == "");
+    CHECK(wrong("\"velocity\": [1, 0, 0], \"turbulence\": -1") == "w: /turbulence: is -1, expected 0 or more");
+    CHECK(wrong("\"speed\": 1") == "w: /velocity: is missing");
+}
+
+TEST_CASE("motions name the line of the frame") {
+    const std::string head =
+        "{\"format\": \"bough-motion\", \"version\": 1, \"fps\": 30, \"bodies\": 1, \"fields\": [\"pose\"]}\n";
+    const std::string frame = "{\"frame\": 0, \"time\": 0, \"position\": [0, 0, 0], \"rotation\": [0, 0, 0, 1]}\n";
+    const auto wrong = [](const std::string& text) { return error_of([&] { read_motion(text, "m"); }); };
+    CHECK(wrong(head + frame + frame) == "");
+    CHECK(wrong(head + frame + replaced(frame, "[0, 0, 0]", "[0, 0, 0, 0, 0, 0]")) ==
+          "m:3: /position: has 6 numbers, expected 3 (3 for each of 1 bodies)");
+    CHECK(wrong(head + frame + replaced(frame, "\"time\": 0, ", "")) == "m:3: /time: is missing");
+    CHECK(wrong(head + replaced(frame, "position", "positions")) ==
+          "m:2: /positions: is an unknown field, did you mean \"position\"?");
+    CHECK_THAT(wrong(head + frame + frame.substr(0, 30)), StartsWith("m:3: ends here"));
+    CHECK_THAT(wrong(head + replaced(frame, "[0, 0, 0]", "[0, 0 0]")), StartsWith("m:2:"));
+    CHECK(wrong(replaced(head, "\"pose\"", "\"poses\"")) ==
+          "m: /fields/0: is \"poses\", expected pose, velocity, torque or angles");
+    CHECK(wrong(head + replaced(frame, "}", ", \"torque\": [0, 0, 0]}")) ==
+          "m:2: /torque: has 3 numbers, expected none: /fields does not name it");
+}
+
+TEST_CASE("a binary file is believed only as far as it goes") {
+    const std::string file = binary_tree();
+    REQUIRE(tree_error(file) == "");
+    const std::string metadata = "\"__metadata__\":{\"format\":\"bough-tree\",\"version\":\"1\"}";
+
+    std::string longer = file;
+    longer[7] = '\x7f';
+    CHECK_THAT(tree_error(longer), Contains("longer than the file"));
+    CHECK_THAT(tree_error(file.substr(0, 100)), Contains("longer than the file"));
+    CHECK_THAT(tree_error(std::string(3, '\0')), StartsWith("t.json: is 3 bytes long"));
+    CHECK_THAT(tree_error(file.substr(0, file.size() - 1)), Contains("/data_offsets: ends at byte"));
+    CHECK(tree_error(file + "xy") == "t.json: has 2 bytes after its last array, expected none");
+    CHECK_THAT(tree_error(changed_header("\"mass\"", "\"masss\"")),
+               Equals("t.json: /masss: is an unknown field, did you mean \"mass\"?"));
+    CHECK(tree_error(changed_header("{\"dtype\":\"I32\"", "{\"dtype\":\"F32\"")) ==
+          "t.json: /parent/dtype: is F32, expected I32");
+    CHECK_THAT(tree_error(changed_header("{\"dtype\":\"I32\"", "{\"dtype\":\"X\"")),
+               StartsWith("t.json: /parent/dtype: is \"X\""));
+    CHECK(tree_error(changed_header("\"shape\":[2,3]", "\"shape\":[3,2]")) ==
+          "t.json: /com/shape: is [3, 2], expected [n, 3]");
+    CHECK_THAT(tree_error(changed_header("\"shape\":[2,3]", "\"shape\":[2,4]")),
+               Contains("/com/data_offsets: hold 48 bytes, expected 64"));
+    CHECK_THAT(tree_error(changed_header("\"shape\":[2,3]", "\"shape\":[4611686018427387904,3]")),
+               Contains("larger than any file"));
+    CHECK_THAT(tree_error(changed_header("\"shape\":[2,3]", "\"shape\":[-2,3]")), Contains("/com/shape/0: is \"-2\""));
+    CHECK_THAT(tree_error(changed_header("\"data_offsets\":[16,64]", "\"data_offsets\":[8,56]")),
+               Contains("inside another array"));
+    CHECK_THAT(tree_error(changed_header("\"data_offsets\":[16,64]", "\"data_offsets\":[64,16]")),
+               Contains("is no range"));
+    CHECK_THAT(tree_error(changed_header("\"data_offsets\":[16,64]",
+                                         "\"data_offsets\":[18446744073709551600,18446744073709551615]")),
+               Contains("ends at byte"));
+    CHECK_THAT(tree_error(changed_header("\"version\":\"1\"", "\"version\":\"9\"")), Contains("/version: is 9, newer"));
+    CHECK_THAT(tree_error(changed_header("\"version\":\"1\"", "\"version\":1")), Contains("/version: is not text"));
+    CHECK_THAT(tree_error(changed_header("bough-tree", "bough-splines")), Contains("run treeconvert on it first"));
+    CHECK_THAT(tree_error(changed_header("\"name\"", "\"nane\"")), Contains("/__metadata__/nane: is an unknown field"));
+    CHECK(tree_error(binary("{" + metadata + "}", "")) == "t.json: /parent: is missing");
+    CHECK(tree_error(binary("{}", "")) == "t.json: /__metadata__/format: is missing");
+    CHECK_THAT(tree_error(binary("{" + metadata + "," + metadata + "}", "")), Contains("/__metadata__: appears twice"));
+    CHECK_THAT(tree_error(binary("{" + metadata, "")), Contains("in its safetensors header"));
+    CHECK_THAT(
+        tree_error(binary("{" + metadata + ",\"mass\":{\"dtype\":\"F64\",\"shape\":[1],\"data_offsets\":[8,16]}}",
+                          std::string(16, '\0'))),
+        Contains("after a gap"));
+}
+
+TEST_CASE("cut or with any byte changed, a document is read as it stands or refused") {
+    Random random;
+    const Tree tree = random_tree(2, random);
+    Scene scene;
+    scene.trees = {{"a", {1, 2, 3}, 4}};
+    scene.wind = Wind{};
+    scene.pulls.resize(1);
+    scene.pulls[0].time = {0};
+    scene.pulls[0].force = {{1, 2, 3}};
+    const Splines splines = random_splines(2, random);
+    const Motion motion = random_motion({true, true, true, true}, 1, 2, random);
+    SavedState state;
+    state.precision = "double";
+    state.theta = state.theta_dot = {Vec3(1, 2, 3)};
+
+    std::vector<std::string> documents{two_bodies};
+    for (const Form form : {Form::json, Form::safetensors}) {
+        documents.push_back(written([&](Output& o) { write_tree(o, tree, form); }));
+        documents.push_back(written([&](Output& o) { write_splines(o, splines, form); }));
+        documents.push_back(written([&](Output& o) { write_scene(o, scene, form); }));
+        documents.push_back(written([&](Output& o) { write_state(o, state, form); }));
+    }
+    for (const MotionForm form : {MotionForm::jsonl, MotionForm::json, MotionForm::safetensors})
+        documents.push_back(written([&](Output& o) {
+            MotionWriter writer(o, motion.header, form);
+            for (const MotionFrame& frame : motion.frame) writer.write(frame);
+            writer.finish();
+        }));
+
+    std::size_t refused = 0, read = 0, wrong = 0;
+    const auto try_all = [&](const std::string& text) {
+        const std::string errors[] = {
+            error_of([&] { read_tree(text, "f"); }), error_of([&] { read_splines(text, "f"); }),
+            error_of([&] { read_scene(text, "f"); }), error_of([&] { read_motion(text, "f"); }),
+            error_of([&] { read_state(text, "f"); })};
+        for (const std::string& error : errors) {
+            error.empty() ? ++read : ++refused;
+            if (!error.empty() && (error[0] != 'f' || error[1] != ':' || error.find('\n') != std::string::npos))
+                ++wrong;
+        }
+    };
+    for (const std::string& text : documents) {
+        try_all(text);
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            try_all(text.substr(0, i));
+            for (const int flip : {1, 32, 128}) {
+                std::string flipped = text;
+                flipped[i] = char(flipped[i] ^ flip);
+                try_all(flipped);
+            }
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(refused > documents.size());
+    CHECK(read >= documents.size());
+}
