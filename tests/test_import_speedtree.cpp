@@ -136,24 +136,24 @@ TEST_CASE("wrong SpeedTree files are refused with their line") {
         return error_of(replaced(good, from, to), "s.xml");
     };
     CHECK(error("<Z>0. 0. 5e+001 </Z>", "<Z>0. 0. 5e+001x </Z>") ==
-          "s.xml:24: <Spine> Z holds \"5e+001x\", expected finite numbers");
-    CHECK(error("3e-002 0,02", "3e-002 0,0,2").find("s.xml:25: <Spine> Radius holds \"0,0,2\"") == 0);
-    CHECK(error("3e-002 0,02", "-3e-002 0,02").find("s.xml:21: <Spine> Radius holds -0.03") == 0);
+          "s.xml:21: <Spine> Z holds \"5e+001x\", expected finite numbers");
+    CHECK(error("3e-002 0,02", "3e-002 0,0,2").find("s.xml:22: <Spine> Radius holds \"0,0,2\"") == 0);
+    CHECK(error("3e-002 0,02", "-3e-002 0,02").find("s.xml:18: <Spine> Radius holds -0.03") == 0);
     CHECK(error("<X>0. 50. 100. </X>", "<X>0. 50. nan </X>").find("\"nan\"") != std::string::npos);
     CHECK(error("<X>0. 50. 100. </X>", "<X>0. 50. 1e999 </X>").find("\"1e999\"") != std::string::npos);
-    CHECK(error("<X>0. 50. 100. </X>", "<X>0. 50. </X>").find("s.xml:21: <Spine> Y holds 3 values, expected 2") == 0);
-    CHECK(error("<Spine Count=\"3\">", "<Spine Count=\"4\">").find("s.xml:21: <Spine> says Count 4 but holds 3") == 0);
+    CHECK(error("<X>0. 50. 100. </X>", "<X>0. 50. </X>").find("s.xml:18: <Spine> Y holds 3 values, expected 2") == 0);
+    CHECK(error("<Spine Count=\"3\">", "<Spine Count=\"4\">").find("s.xml:18: <Spine> says Count 4 but holds 3") == 0);
     CHECK(error("ID=\"3\" ParentID=\"1\"", "ID=\"3\" ParentID=\"11\"")
-              .find("s.xml:20: <Object> ParentID 11 does not exist") == 0);
+              .find("s.xml:17: <Object> ParentID 11 does not exist") == 0);
     CHECK(error("ID=\"3\" ParentID=\"1\"", "ID=\"2\" ParentID=\"1\"").find("ID 2 is used twice") != std::string::npos);
     CHECK(error("ID=\"1\" ParentID=\"0\"", "ID=\"1\" ParentID=\"3\"").find("is its own ancestor") != std::string::npos);
     CHECK(error("<BoneID>3 </BoneID>", "<BoneID>99 </BoneID>") ==
-          "s.xml:47: <LeafReferences> BoneID 99 does not exist, expected the ID of a Bone or -1");
+          "s.xml:44: <LeafReferences> BoneID 99 does not exist, expected the ID of a Bone or -1");
     CHECK(error("<Scale>12. </Scale>", "<Scale>0 </Scale>").find("Scale holds 0") != std::string::npos);
     CHECK(error("<Scale>12. </Scale>", "").find("Scale holds 0 values, expected 1") != std::string::npos);
     CHECK(error("<RotAxisZ>1. </RotAxisZ>", "<RotAxisZ>0 </RotAxisZ>").find("axis of no length") != std::string::npos);
-    CHECK(error("Radius=\"8,4\"", "Radius=\"8,4.\"").find("s.xml:65: <Bone> Radius is \"8,4.\"") == 0);
-    CHECK(error("</Objects>", "</Object>").find("s.xml:63: XML is broken") == 0);
+    CHECK(error("Radius=\"8,4\"", "Radius=\"8,4.\"").find("s.xml:61: <Bone> Radius is \"8,4.\"") == 0);
+    CHECK(error("</Objects>", "</Object>").find("s.xml:59: XML is broken") == 0);
     CHECK(error_of(replaced(bones, "units=\"ft\"", "units=\"cubit\""), "b.xml")
               .find("b.xml:2: <SpeedTreeRaw> units is \"cubit\"") == 0);
     CHECK(error_of(replaced(bones, "upAxis=\"Y\"", "upAxis=\"X\""), "b.xml").find("upAxis is \"X\"") !=

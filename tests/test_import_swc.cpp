@@ -1,4 +1,5 @@
 #include "import_support.h"
+#include <map>
 
 using namespace bough;
 using namespace bough::test;
@@ -56,7 +57,7 @@ TEST_CASE("wrong SWC files are refused with their line") {
     CHECK(error_of(replaced(good, "0 7  0.5", "0 7 -0.5"), "s.swc").find("s.swc:9: radius is -0.5") == 0);
     CHECK(error_of(replaced(good, "0 7  0.5", "0 7 inf"), "s.swc").find("s.swc:9: \"inf\" is not a node's radius") ==
           0);
-    CHECK(error_of(replaced(good, "0 7  0.5  5", "0 7  0.5"), "s.swc").find("s.swc:9: 6 columns") == 0);
+    CHECK(error_of(replaced(good, "0 7  0.5   5", "0 7  0.5"), "s.swc").find("s.swc:9: 6 columns") == 0);
     CHECK(error_of(replaced(good, "0.5  4\n", "0.5  12\n"), "s.swc").find("is its own ancestor") != std::string::npos);
     CHECK(error_of("# nothing\n", "s.swc").find("s.swc: holds no node") == 0);
     CHECK(error_of("1 1 0 0 0 1 -1\n", "s.swc").find("no branch with a length") != std::string::npos);
@@ -84,6 +85,7 @@ TEST_CASE("skeletons of neurons: lengths and roots as another reading counts the
         INFO(c.name);
         double length = 0;
         std::map<int, Vec3> point;
+        std::map<int, int> parent_of;
         std::istringstream lines(*content);
         for (std::string line; std::getline(lines, line);) {
             std::istringstream numbers(line.substr(0, line.find('#')));
@@ -91,8 +93,10 @@ TEST_CASE("skeletons of neurons: lengths and roots as another reading counts the
             double x, y, z, r;
             if (!(numbers >> id >> type >> x >> y >> z >> r >> parent)) continue;
             point[id] = {x, y, z};
-            if (parent != -1) length += (point[id] - point.at(parent)).norm();
+            parent_of[id] = parent;
         }
+        for (const auto& [id, parent] : parent_of)
+            if (parent != -1) length += (point.at(id) - point.at(parent)).norm();
         ImportOptions metres;
         metres.unit = 1;
         const Splines s = imported(*content, c.name, metres).splines;
