@@ -57,10 +57,11 @@ struct GrowthParameters {
     double flare = 0;                            // 0..100
     double attraction_up = 0;                    // -100..100, from level 2 on; negative: down
     std::array<LevelParameters, 4> level;
-    double leaves = 0;  // -1e6..1e6, most leaves of one stem of the last level; negative: a fan (as in the paper)
-    int leaf_shape = 0; // >= 0, kept for the skin; 0 oval
-    double leaf_scale = 0.1, leaf_scale_x = 0.5,
-           leaf_bend = 0;                   // [m] > 0 length, > 0 width / length, 0..1 turning to the light
+    double leaves = 0;       // -1e6..1e6, most leaves of one stem of the last level; negative: a fan (as in the paper)
+    int leaf_shape = 0;      // >= 0, kept for the skin; 0 oval
+    double leaf_scale = 0.1; // [m] > 0, length
+    double leaf_scale_x = 0.5;              // > 0, width / length
+    double leaf_bend = 0;                   // 0..1, turning to the light
     double fruits = 0, fruit_radius = 0.03; // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
     std::string name = "tree";
 };
@@ -74,11 +75,11 @@ GrowthParameters default_growth();
 Splines grow(const GrowthParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit);
 
 // The same tree with numbers of children, leaves and fruit changed so that segment() with default options makes `bodies`
-// bodies of it, within 10 %. One factor f is searched: numbers of level n change by f^w, more for deeper levels (and
-// where one bough more is too wide a step, those of the last level once more); and
-// where the deepest level would come to less than one stem a parent it is left out, leaves then growing on the level
-// above. Lengths, and so the height, stay. Neighbouring numbers give similar trees. Cost: some five to ten growths of
-// up to that size. Throws std::invalid_argument where the parameters cannot reach the number, or it exceeds 2e7.
+// bodies of it, within 10 %. One factor f is searched: numbers of level n change by f^w, more for deeper levels; where one
+// bough more is too wide a step, those of the last level by a second factor; where the deepest level would come to less
+// than one stem a parent it is left out, leaves then growing on the level above. Lengths, and so the height, stay.
+// Neighbouring numbers give similar trees. Cost: some five to ten growths of up to that size. Throws
+// std::invalid_argument where the parameters cannot reach the number, or it exceeds 2e7.
 Splines grow_bodies(const GrowthParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit,
                     std::int64_t bodies);
 
