@@ -1,7 +1,7 @@
 // segment.h: splines to rigid bodies (§3, §10): branches cut into frustums by arc length and curvature, leaves and
 // fruit jointed to the piece they grow on, each with mass, inertia, stiffness and damping.
 //
-// Cuts. A branch is cut into pieces of at most `segment_length` (default: from the branch, see below) and at most
+// Cuts. A branch is cut into pieces of at most `segment_length` (default: by the rule of cut.h) and at most
 // `max_bend` of turning each, pieces even in arc length between forced cuts; joints lie on the curve. Points nearer
 // than `merge` to the one before are merged. The side branch's joint stays where it was drawn, off the parent's axis.
 // Stiffness. Compliance of a joint = half the parent piece's + half the child piece's, integrated over taper (at the
