@@ -1,7 +1,6 @@
 // open.h: files in and out. "-" is stdin or stdout for every format because it is decided here.
 #pragma once
 #include "error.h"
-#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -16,7 +15,9 @@ std::string input_name(const std::string& path);
 
 // One output file. Regular files are written beside their name and renamed by finish(), so that they appear whole or
 // not at all; "-" (stdout), devices and named pipes are written directly. Buffered. A file that is not finished is
-// removed by the destructor. write() and finish() throw OutputError (full disk, closed pipe, no permission ...).
+// removed by the destructor. write(), flush() and finish() throw OutputError (full disk, closed pipe, no permission ...).
+// A symbolic link stays one: the file it names is replaced. A new file has the permissions that the umask gives, one
+// that replaces another keeps that one's. A closed pipe is an error only where SIGPIPE is ignored: tools do that first.
 class Output {
 public:
     explicit Output(const std::string& path);
@@ -24,14 +25,25 @@ public:
     Output& operator=(const Output&) = delete;
     ~Output();
     void write(std::string_view bytes);
-    void flush();   // what was written so far reaches the reader of a pipe (once a frame for JSON lines)
-    void finish();  // flush, close, check, rename
+    void flush();  // what was written so far reaches the reader of a pipe (once a frame for JSON lines)
+    void finish(); // flush, close, check, rename
     const std::string& name() const { return name_; }
 
 private:
-    std::string name_, path_, temporary_;
-    std::FILE* file_ = nullptr;
+    void open_direct();
+    void open_temporary(unsigned mode);
+    void write_out(std::string_view bytes);
+    [[noreturn]] void fail(const std::string& what, int error);
+
+    std::string name_, path_, temporary_; // in messages; after links; being written ("" for direct output)
+    std::string buffer_;
+    int file_ = -1;
+    void* registered_ = nullptr; // temporary_'s entry in the list of remove_unfinished_outputs()
 };
+
+// Removes the temporary files of all outputs that are not finished. For a signal handler that is about to end the
+// process (async-signal-safe); everywhere else the destructors do it.
+void remove_unfinished_outputs() noexcept;
 
 // Text or binary form of a document.
 enum class Form { json, safetensors };

@@ -52,8 +52,9 @@ struct Defect {
     std::string message;   // e.g. "is 7, expected -1 or less than 3 (parents stand before children)"
 };
 
-// The first broken rule of the splines, or none: array lengths, parents before children, indices in range, fractions
-// in 0..1, at least two points a branch, finite numbers, radii >= 0, unit quaternions (1e-6), sizes > 0. O(points).
+// The first broken rule of the splines, or none: at least one branch, array lengths, parents before children, indices
+// in range, fractions in 0..1, at least two points a branch, finite numbers, radii >= 0, unit quaternions (1e-6),
+// sizes > 0, a fruit's centre off its joint. O(points).
 std::optional<Defect> check(const Splines&);
 
 } // namespace bough

@@ -49,13 +49,14 @@ inline bool continues_parent(const Tree& tree, std::size_t i) {
            tree.branch[i] == tree.branch[std::size_t(p)];
 }
 
-// The first broken rule, or none: array lengths equal, parent before child, mass > 0, inertia symmetric and positive
-// semidefinite with the triangle inequality (to rounding), stiffness and damping >= 0, unit quaternions, finite
-// numbers, s in 0..1. O(bodies).
+// The first broken rule, or none: at least one body, array lengths equal, parent before child, mass > 0, inertia
+// symmetric and positive semidefinite with the triangle inequality (to rounding, 1e-9 of its trace), stiffness and
+// damping >= 0, unit quaternions (1e-6), sizes >= 0 with a length > 0, finite numbers, s in 0..1. O(bodies).
 std::optional<Defect> check(const Tree&);
 
 // Appends `more` to `tree`, turned by yaw [rad] about +Y and moved by position [m]: how a scene stands several trees
-// in one world. Branch numbers of `more` are shifted behind those present. Returns the first body's index.
+// in one world. Branch numbers of `more` are shifted behind those present; name, material and source stay those of the
+// first tree. Returns the first body's index.
 std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw);
 
 } // namespace bough

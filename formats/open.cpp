@@ -1,0 +1,218 @@
+#include "open.h"
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <poll.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace bough {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t(1) << 20;
+
+std::string reason(int error) {
+    return std::generic_category().message(error);
+}
+
+struct Descriptor {
+    int fd;
+    bool owned;
+    ~Descriptor() {
+        if (owned && fd >= 0) ::close(fd);
+    }
+};
+
+// Reads until the end; `expected` bytes are asked for first so that a file of known size is one allocation.
+std::string read_all(int fd, std::size_t expected, const std::string& name) {
+    std::string content;
+    std::size_t used = 0;
+    try {
+        content.resize(expected + 1);
+        for (;;) {
+            const ssize_t n = ::read(fd, content.data() + used, content.size() - used);
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) throw InputError(name, "cannot be read: " + reason(errno));
+            if (n == 0) break;
+            used += std::size_t(n);
+            if (used == content.size()) content.resize(2 * content.size());
+        }
+    } catch (const std::bad_alloc&) {
+        throw InputError(name, "does not fit into memory");
+    } catch (const std::length_error&) {
+        throw InputError(name, "does not fit into memory");
+    }
+    content.resize(used);
+    return content;
+}
+
+// Temporary files that exist, for remove_unfinished_outputs(). A list that only grows, its entries used again; whoever
+// takes a name out of an entry owns it, so that a signal at any moment sees a whole name or none.
+struct Unfinished {
+    std::atomic<char*> path{nullptr};
+    Unfinished* next = nullptr;
+};
+std::atomic<Unfinished*> unfinished{nullptr};
+
+Unfinished* register_unfinished(const std::string& path) {
+    char* copy = ::strdup(path.c_str());
+    if (!copy) throw std::bad_alloc();
+    for (Unfinished* u = unfinished.load(); u; u = u->next) {
+        char* none = nullptr;
+        if (u->path.compare_exchange_strong(none, copy)) return u;
+    }
+    auto* u = new Unfinished;
+    u->path = copy;
+    u->next = unfinished.load();
+    while (!unfinished.compare_exchange_weak(u->next, u)) {
+    }
+    return u;
+}
+
+void release_unfinished(void* entry) {
+    if (entry) std::free(static_cast<Unfinished*>(entry)->path.exchange(nullptr));
+}
+
+bool is_special(const std::string& path) {
+    return path.rfind("/dev/", 0) == 0 || path.rfind("/proc/", 0) == 0;
+}
+
+} // namespace
+
+std::string input_name(const std::string& path) {
+    return path == "-" ? "<stdin>" : path;
+}
+
+std::string read_input(const std::string& path) {
+    const std::string name = input_name(path);
+    const bool standard = path == "-";
+    const Descriptor file{standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard};
+    if (file.fd < 0) throw InputError(name, "cannot be opened: " + reason(errno));
+    struct stat status;
+    if (::fstat(file.fd, &status) != 0) throw InputError(name, "cannot be read: " + reason(errno));
+    if (S_ISDIR(status.st_mode)) throw InputError(name, "is a directory, expected a file");
+    const bool sized = S_ISREG(status.st_mode) && status.st_size > 0;
+    return read_all(file.fd, sized ? std::size_t(status.st_size) : 65536, name);
+}
+
+Output::Output(const std::string& path) : name_(path == "-" ? "<stdout>" : path), path_(path) {
+    if (path == "-") {
+        if (::fcntl(STDOUT_FILENO, F_GETFD) < 0) fail("is closed", errno);
+        file_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+        if (file_ < 0) fail("cannot be opened", errno);
+        return;
+    }
+    // Follow links ourselves: the file a link names is replaced, or made if it is not there yet.
+    bool special = is_special(path_);
+    std::error_code none;
+    for (int hops = 0; !special && std::filesystem::is_symlink(path_, none); ++hops) {
+        if (hops == 40) fail("cannot be opened", ELOOP);
+        const std::filesystem::path here(path_);
+        path_ = (here.parent_path() / std::filesystem::read_symlink(here, none)).string();
+        special = is_special(path_);
+    }
+    struct stat status;
+    const bool exists = ::stat(path_.c_str(), &status) == 0;
+    if (!exists && errno != ENOENT) fail("cannot be written", errno);
+    if (exists && S_ISDIR(status.st_mode)) fail("cannot be written", EISDIR);
+    if (exists && (special || !S_ISREG(status.st_mode))) {
+        open_direct();
+        return;
+    }
+    if (exists && ::access(path_.c_str(), W_OK) != 0) fail("cannot be written", errno);
+    open_temporary(exists ? unsigned(status.st_mode) & 07777u : 0u);
+}
+
+void Output::open_direct() {
+    file_ = ::open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+    if (file_ < 0) fail("cannot be opened", errno);
+}
+
+void Output::open_temporary(unsigned mode) {
+    static std::atomic<unsigned> count{0};
+    const std::filesystem::path directory = std::filesystem::path(path_).parent_path();
+    do {
+        const std::string leaf = ".bough-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp";
+        temporary_ = (directory / leaf).string();
+        file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (file_ < 0 && errno == EEXIST);
+    if (file_ < 0) {
+        const int error = errno;
+        temporary_.clear();
+        fail("cannot be created", error);
+    }
+    registered_ = register_unfinished(temporary_);
+    if (mode != 0) (void)!::fchmod(file_, mode); // another owner's file: the umask's permissions are what we may give
+}
+
+Output::~Output() {
+    if (file_ >= 0) ::close(file_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    release_unfinished(registered_);
+}
+
+void Output::fail(const std::string& what, int error) {
+    if (file_ >= 0) ::close(file_);
+    file_ = -1;
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    temporary_.clear();
+    release_unfinished(std::exchange(registered_, nullptr));
+    throw OutputError(name_, what + ": " + reason(error));
+}
+
+void Output::write_out(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+        if (n >= 0) {
+            bytes.remove_prefix(std::size_t(n));
+        } else if (errno == EAGAIN ||
+                   errno == EWOULDBLOCK) { // a terminal or pipe that another program made non-blocking
+            pollfd ready{file_, POLLOUT, 0};
+            ::poll(&ready, 1, -1);
+        } else if (errno != EINTR) {
+            fail("cannot be written", errno);
+        }
+    }
+}
+
+void Output::write(std::string_view bytes) {
+    if (file_ < 0) throw OutputError(name_, "cannot be written: it is closed");
+    if (buffer_.size() + bytes.size() > buffer_size) flush();
+    if (bytes.size() > buffer_size) return write_out(bytes);
+    if (buffer_.capacity() < buffer_size) buffer_.reserve(buffer_size);
+    buffer_.append(bytes);
+}
+
+void Output::flush() {
+    if (file_ < 0) throw OutputError(name_, "cannot be written: it is closed");
+    write_out(buffer_);
+    buffer_.clear();
+}
+
+void Output::finish() {
+    flush();
+    if (::close(std::exchange(file_, -1)) != 0 && errno != EINTR) fail("cannot be written", errno);
+    if (temporary_.empty()) return;
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be written", errno);
+    temporary_.clear();
+    release_unfinished(std::exchange(registered_, nullptr));
+}
+
+void remove_unfinished_outputs() noexcept {
+    for (Unfinished* u = unfinished.load(); u; u = u->next)
+        if (const char* path = u->path.exchange(nullptr)) ::unlink(path);
+}
+
+Form form_of_name(const std::string& path) {
+    constexpr std::string_view ending = ".safetensors";
+    const bool binary =
+        path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+    return binary ? Form::safetensors : Form::json;
+}
+
+} // namespace bough

@@ -1,0 +1,106 @@
+#include "scene.h"
+#include <array>
+#include <charconv>
+
+namespace bough {
+namespace {
+
+std::string text(double value) {
+    std::array<char, 32> buffer;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    return std::string(buffer.data(), end);
+}
+
+std::optional<Defect> finite(const std::string& field, const Vec3& value) {
+    if (value.allFinite()) return std::nullopt;
+    return Defect{field, -1, "is not finite, expected finite numbers"};
+}
+
+std::optional<Defect> at_least(const std::string& field, double value, double low) {
+    if (std::isfinite(value) && value >= low) return std::nullopt;
+    return Defect{field, -1, "is " + text(value) + ", expected " + text(low) + " or more"};
+}
+
+std::optional<Defect> above_zero(const std::string& field, double value) {
+    if (std::isfinite(value) && value > 0) return std::nullopt;
+    return Defect{field, -1, "is " + text(value) + ", expected more than 0"};
+}
+
+std::optional<Defect> check(const Placement& tree, const std::string& at) {
+    if (tree.file.empty()) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
+    if (auto defect = finite(at + "/position", tree.position)) return defect;
+    if (!std::isfinite(tree.yaw)) return Defect{at + "/yaw", -1, "is not finite, expected degrees"};
+    return std::nullopt;
+}
+
+std::optional<Defect> check(const Wind& wind) {
+    if (auto defect = finite("wind/velocity", wind.velocity)) return defect;
+    if (auto defect = above_zero("wind/reference_height", wind.reference_height)) return defect;
+    if (auto defect = at_least("wind/profile", wind.profile, 0)) return defect;
+    if (auto defect = at_least("wind/turbulence", wind.turbulence, 0)) return defect;
+    if (auto defect = at_least("wind/gust_factor", wind.gust_factor, 1)) return defect;
+    return above_zero("wind/gust_period", wind.gust_period);
+}
+
+// `trees` of 0: the caller has the one tree that the scene is for.
+std::optional<Defect> check(const Selector& on, const std::string& at, std::size_t trees) {
+    const std::size_t count = trees == 0 ? 1 : trees;
+    const auto index = [&](const char* field, std::int64_t value) -> std::optional<Defect> {
+        if (value >= 0) return std::nullopt;
+        return Defect{at + field, -1, "is " + std::to_string(value) + ", expected 0 or more"};
+    };
+    if (on.tree < 0 || std::size_t(on.tree) >= count)
+        return Defect{at + "/tree", -1,
+                      "is " + std::to_string(on.tree) + ", expected a tree of the scene, 0 to less than " +
+                          std::to_string(count)};
+    switch (on.by) {
+    case Selector::By::body:
+        return index("/body", on.body);
+    case Selector::By::level:
+        return index("/level", on.level);
+    case Selector::By::nearest:
+        return finite(at + "/nearest", on.nearest);
+    case Selector::By::branch:
+        break;
+    }
+    if (auto defect = index("/branch", on.branch)) return defect;
+    if (on.at >= 0 && on.at <= 1) return std::nullopt;
+    return Defect{at + "/at", -1, "is " + text(on.at) + ", expected 0 to 1"};
+}
+
+std::optional<Defect> check(const Pull& pull, const std::string& at, std::size_t trees) {
+    if (auto defect = check(pull.on, at + "/on", trees)) return defect;
+    const std::string count = std::to_string(pull.time.size());
+    if (pull.time.empty()) return Defect{at + "/time", -1, "is empty, expected at least one time"};
+    if (pull.force.size() != pull.time.size())
+        return Defect{at + "/force", -1,
+                      "has " + std::to_string(pull.force.size()) + " forces, expected " + count +
+                          " (one for each time)"};
+    for (std::size_t i = 0; i < pull.time.size(); ++i) {
+        const std::int64_t entry = std::int64_t(i);
+        if (!std::isfinite(pull.time[i])) return Defect{at + "/time", entry, "is not finite, expected seconds"};
+        if (i > 0 && !(pull.time[i] > pull.time[i - 1]))
+            return Defect{at + "/time", entry,
+                          "is " + text(pull.time[i]) + ", expected more than " + text(pull.time[i - 1]) +
+                              " (times rise)"};
+        if (!pull.force[i].allFinite()) return Defect{at + "/force", entry, "is not finite, expected newtons"};
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Defect> check(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.trees.size(); ++i)
+        if (auto defect = check(scene.trees[i], "trees/" + std::to_string(i))) return defect;
+    if (auto defect = finite("gravity", scene.gravity)) return defect;
+    if (scene.wind)
+        if (auto defect = check(*scene.wind)) return defect;
+    if (auto defect = at_least("air_density", scene.air_density, 0)) return defect;
+    for (std::size_t i = 0; i < scene.pulls.size(); ++i)
+        if (auto defect = check(scene.pulls[i], "pulls/" + std::to_string(i), scene.trees.size())) return defect;
+    if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
+    return at_least("damping_scale", scene.damping_scale, 0);
+}
+
+} // namespace bough

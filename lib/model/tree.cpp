@@ -1,0 +1,65 @@
+#include "tree.h"
+#include <algorithm>
+
+namespace bough {
+namespace {
+
+template <class T> void add(std::vector<T>& to, const std::vector<T>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+} // namespace
+
+void Tree::resize(std::size_t bodies) {
+    parent.resize(bodies);
+    kind.resize(bodies);
+    mass.resize(bodies);
+    com.resize(bodies);
+    inertia.resize(bodies);
+    joint_position.resize(bodies);
+    joint_rotation.resize(bodies);
+    stiffness.resize(bodies);
+    damping.resize(bodies);
+    size.resize(bodies);
+    branch.resize(bodies);
+    level.resize(bodies);
+    s.resize(bodies);
+}
+
+std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw) {
+    const std::size_t first = tree.size_bodies();
+    const std::int32_t first_branch = first == 0 ? 0 : *std::max_element(tree.branch.begin(), tree.branch.end()) + 1;
+    if (first == 0) {
+        tree.name = more.name;
+        tree.material = more.material;
+        tree.source = more.source;
+    }
+    add(tree.parent, more.parent);
+    add(tree.kind, more.kind);
+    add(tree.mass, more.mass);
+    add(tree.com, more.com);
+    add(tree.inertia, more.inertia);
+    add(tree.joint_position, more.joint_position);
+    add(tree.joint_rotation, more.joint_rotation);
+    add(tree.stiffness, more.stiffness);
+    add(tree.damping, more.damping);
+    add(tree.size, more.size);
+    add(tree.branch, more.branch);
+    add(tree.level, more.level);
+    add(tree.s, more.s);
+
+    // Only roots are placed in the world; every other body hangs in its parent's frame and comes along.
+    const Quat turn(Eigen::AngleAxisd(yaw, Vec3::UnitY()));
+    for (std::size_t i = first; i < tree.size_bodies(); ++i) {
+        tree.branch[i] += first_branch;
+        if (tree.parent[i] >= 0) {
+            tree.parent[i] += std::int32_t(first);
+            continue;
+        }
+        tree.joint_position[i] = turn * tree.joint_position[i] + position;
+        tree.joint_rotation[i] = (turn * tree.joint_rotation[i]).normalized();
+    }
+    return first;
+}
+
+} // namespace bough
