@@ -141,9 +141,9 @@ void write_obj(Output& output, const Skin& skin, const std::vector<Vec3>& positi
 void write_mtl(Output& output, const Skin& skin) {
     for (const SkinPart& part : skin.part) {
         std::string_view color = "0.5 0.5 0.5";
-        if (part.name == "bark") color = "0.33 0.24 0.17";
-        if (part.name == "leaf") color = "0.24 0.42 0.1";
-        if (part.name == "fruit") color = "0.7 0.1 0.08";
+        if (part.name == "bark") color = "0.45 0.34 0.25";
+        if (part.name == "leaf") color = "0.34 0.56 0.16";
+        if (part.name == "fruit") color = "0.8 0.14 0.1";
         output.write("newmtl " + part.name + "\nKd " + std::string(color) + "\nKs 0 0 0\nillum 1\n\n");
     }
 }
