@@ -48,27 +48,54 @@ int sides_for(double radius, double thickest, int most) {
     return std::max(3, int(std::lround(most * std::sqrt(std::min(1.0, radius / thickest)))));
 }
 
-void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, int most_sides) {
-    const Chains chains = find_chains(tree);
+// Corners of the tube that each branch piece belongs to, 0 for other bodies.
+std::vector<int> find_sides(const Tree& tree, const Chains& chains, int most) {
     auto thickness = [&](std::int32_t start) {
         const Vec3& size = tree.size[std::size_t(start)];
         return std::max(size.y(), size.z());
     };
     double thickest = 0;
     for (const std::int32_t start : chains.starts) thickest = std::max(thickest, thickness(start));
+    std::vector<int> sides(tree.size_bodies(), 0);
+    for (const std::int32_t start : chains.starts) {
+        const int corners = sides_for(thickness(start), thickest, most);
+        for (std::int32_t i = start; i >= 0; i = chains.next[std::size_t(i)]) sides[std::size_t(i)] = corners;
+    }
+    return sides;
+}
 
-    std::vector<std::int32_t> sides(tree.size_bodies(), 0); // of the tube a branch piece belongs to
+// Room for the whole mesh (at most a few rings too much), so that it is never copied while it grows.
+void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vector<int>& sides) {
+    std::size_t vertices = 0, triangles = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        const std::size_t n = std::size_t(sides[i]), rings = n > 3 ? 2 : 1;
+        if (tree.kind[i] == Kind::branch) vertices += rings * (n + 1), triangles += rings * 2 * n;
+        if (tree.kind[i] == Kind::leaf) vertices += leaf_vertices, triangles += leaf_triangles;
+        if (tree.kind[i] == Kind::fruit) vertices += fruit_vertices, triangles += fruit_triangles;
+    }
+    for (const std::int32_t start : chains.starts) {
+        const std::size_t n = std::size_t(sides[std::size_t(start)]);
+        vertices += 2 * (n + 1) + 2 * n;
+        triangles += 2 * 2 * n;
+    }
+    skin.position.reserve(vertices);
+    skin.normal.reserve(vertices);
+    skin.texture.reserve(vertices);
+    skin.joint.reserve(vertices);
+    skin.weight.reserve(vertices);
+    skin.triangle.reserve(triangles);
+}
+
+void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, const Chains& chains,
+              const std::vector<int>& sides) {
     BranchTube tube;
     for (const std::int32_t start : chains.starts) {
-        tube.sides = sides_for(thickness(start), thickest, most_sides);
+        tube.sides = sides[std::size_t(start)];
         tube.piece.clear();
-        for (std::int32_t i = start; i >= 0; i = chains.next[std::size_t(i)]) {
-            tube.piece.push_back(i);
-            sides[std::size_t(i)] = tube.sides;
-        }
+        for (std::int32_t i = start; i >= 0; i = chains.next[std::size_t(i)]) tube.piece.push_back(i);
         const std::int32_t parent = tree.parent[std::size_t(start)];
-        tube.parent_sides = parent >= 0 ? sides[std::size_t(parent)] : 0;
         const std::int32_t below = parent >= 0 ? tree.parent[std::size_t(parent)] : -1;
+        tube.parent_sides = parent >= 0 ? sides[std::size_t(parent)] : 0;
         tube.parent_base = parent >= 0 && (below < 0 || tree.kind[std::size_t(below)] != Kind::branch);
         tube.parent_tip = parent >= 0 && chains.next[std::size_t(parent)] < 0;
         add_tube(skin, tree, pose, tube);
@@ -86,8 +113,11 @@ Skin build_skin(const Tree& tree, const SkinOptions& options) {
     assert(options.sides >= 3);
     DrawnPose pose;
     drawn_pose(tree, pose.R_wb, pose.x_w);
+    const Chains chains = find_chains(tree);
+    const std::vector<int> sides = find_sides(tree, chains, options.sides);
     Skin skin;
-    add_bark(skin, tree, pose, options.sides);
+    reserve(skin, tree, chains, sides);
+    add_bark(skin, tree, pose, chains, sides);
     close_part(skin, "bark");
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
         if (tree.kind[i] == Kind::leaf) add_leaf(skin, tree, pose, i);

@@ -21,7 +21,7 @@ void add_leaf(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t b
 }
 
 void add_fruit(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t body) {
-    constexpr int columns = 8, bands = 4;
+    constexpr int columns = int(fruit_columns), bands = int(fruit_bands);
     const double center = tree.size[body].x(), radius = tree.size[body].y();
     const Binding binding = bound_to(body);
     const double pi = std::numbers::pi;
