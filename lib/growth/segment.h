@@ -8,7 +8,10 @@
 // ground and where a side branch leaves: the child's half only): bend 1/(E I), twist 1/(G J), K = (kx, ky, kz).
 // Damping. beta = 2 zeta / omega with omega the branch's own first bending frequency (branch_mode.h).
 // Order. Bodies stand branch by branch, a branch's pieces in order, parents before children; leaves and fruit follow
-// all branches. Cost O(points + bodies). Throws nothing: a branch without length is left out and counted.
+// all branches. Cost O(points + bodies), some thirty times the former with max_bodies. A branch without length is left
+// out and counted (curves.h). The exact rules of cutting: cut.h.
+// Throws std::invalid_argument where max_bodies is less than the least number possible (says which), or where there
+// are more bodies than an index holds.
 #pragma once
 #include "../model/splines.h"
 #include "../model/tree.h"
@@ -21,7 +24,7 @@ struct SegmentOptions {
     double segment_length = 0;      // [m] longest piece; 0: by the default rule, which depends on the splines alone
     double max_bend = 0.35;         // [rad] largest turning of the curve within one piece
     std::int64_t max_bodies = 0;    // 0: as many as come; else pieces grow longer until all bodies fit, never dropping any
-    double merge = 1e-6;            // points nearer than this times the tree's height are one
+    double merge = 1e-6;            // points nearer than this times the tree's extent are one
 };
 
 struct SegmentReport {

@@ -10,9 +10,9 @@
 namespace bough {
 
 struct MassProperties {
-    double mass = 0;            // [kg]
-    Vec3 com = Vec3::Zero();    // [m] body frame
-    Mat3 inertia = Mat3::Zero();  // [kg m^2] about com, body axes
+    double mass = 0;             // [kg]
+    Vec3 com = Vec3::Zero();     // [m] body frame
+    Mat3 inertia = Mat3::Zero(); // [kg m^2] about com, body axes
 };
 
 MassProperties frustum(double length, double radius_base, double radius_tip, double density);

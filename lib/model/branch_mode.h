@@ -1,10 +1,21 @@
 // branch_mode.h: the first bending and twisting mode of each branch by Rayleigh's quotient, and what the analytic step
-// takes from it: a frequency per branch, an inertia factor and a weight per joint. (Derivation in the .cpp's header.)
+// takes from it: a frequency per branch, an inertia factor and a weight per joint.
 //
-// Each branch is taken as clamped where it leaves its parent, carrying its side branches, leaves and fruit rigidly.
-// Its trial shape is the static one under a sideways acceleration: kappa_k = |h_k| / K_k at joint k, h_k the first
-// moment of everything outboard. For a uniform rod the frequency is within 1.5 % of the true one from 5 pieces on.
-// Reads   Tree (drawn pose). Writes one entry per body. O(n). Errors none; K = 0 gives omega 0.
+// A branch is taken straightened along its arc, clamped where it leaves its parent, with its side branches, leaves and
+// fruit carried rigidly by the pieces they grow on. Piece k with what it carries is a lump about its own joint: mass
+// m_k, first moment h_k along the branch, inertia j_k across it, t_k about it. With joints k turning at rates kappa_k,
+// joint j feels the angular momentum sum_k M_jk kappa_k, M the joint-space mass matrix of the branch. The trial shape
+// is the static one: kappa_k = (moment at k under a sideways acceleration) / K_k, i.e. H_k / K_k with H_k the first
+// moment of all that is outboard; for twist, (inertia about the branch of all that is outboard) / K_z.
+//
+//   omega^2 = sum_k K_k kappa_k^2 / sum_jk kappa_j M_jk kappa_k            (Rayleigh's quotient, an upper bound)
+//   f_j     = sum_k M_jk kappa_k / (M_jj kappa_j)                          >= 1, as every M_jk is positive here
+//
+// A joint that turns by itself with the inertia f_j M_jj rings at the branch's first frequency wherever kappa is the
+// first mode, so that cutting a branch into more pieces does not raise it (M_jj alone: as the root of their number).
+// M and both sums by one forward and one backward sweep of scalars. O(n). A branch with a free joint (K = 0) has omega 0
+// and the trial shape kappa = 1. A leaf or fruit is a branch of one joint: factor 1, its softer bending axis.
+// Reads Tree (drawn pose). Writes one entry per body. Errors none.
 #pragma once
 #include "tree.h"
 #include <vector>
@@ -12,11 +23,11 @@
 namespace bough {
 
 struct BranchModes {
-    std::vector<double> omega_bend;    // [rad/s] first bending frequency of the body's branch (its own joint: leaf, fruit)
-    std::vector<double> omega_twist;   // [rad/s] first twisting frequency, likewise
-    std::vector<double> factor_bend;   // [1] f_j = sum_k M_jk kappa_k / (M_jj kappa_j), k over joint j's own branch
-    std::vector<double> factor_twist;  // [1] the same for twist about the branch
-    std::vector<double> weight;        // [rad/m] u_j = kappa_j / deflection of the branch's tip in its trial shape
+    std::vector<double> omega_bend;   // [rad/s] first bending frequency of the body's branch
+    std::vector<double> omega_twist;  // [rad/s] first twisting frequency, likewise
+    std::vector<double> factor_bend;  // [1] f_j for bending
+    std::vector<double> factor_twist; // [1] f_j for twist about the branch
+    std::vector<double> weight; // [rad/m] u_j = kappa_j over the deflection of the branch's tip in its trial shape
 };
 
 BranchModes branch_modes(const Tree&);

@@ -10,28 +10,23 @@
 
 namespace bough {
 
-template <class T>
-using Vector3 = Eigen::Matrix<T, 3, 1>;
-template <class T>
-using Matrix3 = Eigen::Matrix<T, 3, 3>;
-template <class T>
-using Quaternion = Eigen::Quaternion<T, Eigen::DontAlign>;
+template <class T> using Vector3 = Eigen::Matrix<T, 3, 1>;
+template <class T> using Matrix3 = Eigen::Matrix<T, 3, 3>;
+template <class T> using Quaternion = Eigen::Quaternion<T, Eigen::DontAlign>;
 
 using Vec3 = Vector3<double>;
 using Mat3 = Matrix3<double>;
 using Quat = Quaternion<double>;
 
 // The cross-product matrix r*: cross_matrix(r) * f == r.cross(f).
-template <class T>
-Matrix3<T> cross_matrix(const Vector3<T>& r) {
+template <class T> Matrix3<T> cross_matrix(const Vector3<T>& r) {
     Matrix3<T> m;
     m << T(0), -r.z(), r.y(), r.z(), T(0), -r.x(), -r.y(), r.x(), T(0);
     return m;
 }
 
 // Rotation of |theta| radians about theta (Rodrigues). Series below 1e-4 rad, where 1 - cos loses its digits.
-template <class T>
-Matrix3<T> rotation_from_vector(const Vector3<T>& theta) {
+template <class T> Matrix3<T> rotation_from_vector(const Vector3<T>& theta) {
     const T a2 = theta.squaredNorm();
     const T a = std::sqrt(a2);
     const bool small = a < T(1e-2);
@@ -43,8 +38,7 @@ Matrix3<T> rotation_from_vector(const Vector3<T>& theta) {
     return Matrix3<T>::Identity() + s * x + c * (x * x);
 }
 
-template <class T>
-Quaternion<T> quaternion_from_vector(const Vector3<T>& theta) {
+template <class T> Quaternion<T> quaternion_from_vector(const Vector3<T>& theta) {
     const T a = theta.norm();
     const T half = a / T(2);
     const T s = a < T(1e-4) ? T(0.5) - a * a / T(48) : std::sin(half) / a;
@@ -52,8 +46,7 @@ Quaternion<T> quaternion_from_vector(const Vector3<T>& theta) {
 }
 
 // The rotation vector of a unit quaternion, |theta| <= pi.
-template <class T>
-Vector3<T> vector_from_quaternion(const Quaternion<T>& q) {
+template <class T> Vector3<T> vector_from_quaternion(const Quaternion<T>& q) {
     const T sign = q.w() < T(0) ? T(-1) : T(1);
     const Vector3<T> v = sign * q.vec();
     const T n = v.norm();

@@ -9,30 +9,30 @@ namespace bough {
 
 // Which arrays a frame carries; an unwanted one is neither computed for output nor written.
 struct MotionFields {
-    bool pose = true;       // position, rotation
-    bool velocity = false;  // velocity (of the centre of mass), angular_velocity
-    bool torque = false;    // torque
-    bool angles = false;    // theta, theta_dot
+    bool pose = true;      // position, rotation
+    bool velocity = false; // velocity (of the centre of mass), angular_velocity
+    bool torque = false;   // torque
+    bool angles = false;   // theta, theta_dot
 };
 
 struct MotionHeader {
     double fps = 30;
     std::int64_t bodies = 0;
     MotionFields fields;
-    std::string name;    // the tree's
-    std::string source;  // command lines that made it
+    std::string name;   // the tree's
+    std::string source; // command lines that made it
 };
 
 struct MotionFrame {
     std::int64_t frame = 0;
-    double time = 0;                     // [s]
-    std::vector<Vec3> position;          // [m] own joint of each body, world
-    std::vector<Quat> rotation;          // world from body, x y z w in files
-    std::vector<Vec3> velocity;          // [m/s] of the centre of mass, world
-    std::vector<Vec3> angular_velocity;  // [rad/s] world
-    std::vector<Vec3> torque;            // [N m] of the joint's spring and damper on the body, joint frame
-    std::vector<Vec3> theta;             // [rad] joint frame
-    std::vector<Vec3> theta_dot;         // [rad/s] joint frame
+    double time = 0;                    // [s]
+    std::vector<Vec3> position;         // [m] own joint of each body, world
+    std::vector<Quat> rotation;         // world from body, x y z w in files
+    std::vector<Vec3> velocity;         // [m/s] of the centre of mass, world
+    std::vector<Vec3> angular_velocity; // [rad/s] world
+    std::vector<Vec3> torque;           // [N m] of the joint's spring and damper on the body, joint frame
+    std::vector<Vec3> theta;            // [rad] joint frame
+    std::vector<Vec3> theta_dot;        // [rad/s] joint frame
 };
 
 struct Motion {
@@ -42,14 +42,14 @@ struct Motion {
 
 // A run's state between two frames, enough to go on as if it had not been cut: `treesim --save-state`, `--resume`.
 struct SavedState {
-    std::int64_t frame = 0;         // the last frame that was made
+    std::int64_t frame = 0; // the last frame that was made
     double fps = 30;
     std::int32_t substeps = 1;
-    std::string precision;          // "float" or "double"
-    std::string solver;             // "analytic"
-    std::uint64_t fingerprint = 0;  // of the tree and the scene it belongs to
-    std::vector<Vec3> theta;        // [rad]; floats are exact in doubles
-    std::vector<Vec3> theta_dot;    // [rad/s]
+    std::string precision;         // "float" or "double"
+    std::string solver;            // "analytic"
+    std::uint64_t fingerprint = 0; // of the tree and the scene it belongs to
+    std::vector<Vec3> theta;       // [rad]; floats are exact in doubles
+    std::vector<Vec3> theta_dot;   // [rad/s]
     std::string source;
 };
 

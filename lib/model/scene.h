@@ -14,18 +14,18 @@ namespace bough {
 struct Selector {
     enum class By : std::uint8_t { body, branch, nearest, level };
     By by = By::body;
-    std::int32_t tree = 0;      // which of the scene's trees (for body and branch); index into Scene::trees
-    std::int64_t body = 0;      // by body: its index in that tree's document
-    std::int32_t branch = 0;    // by branch: number in the splines ...
-    double at = 1;              // ... and fraction of its arc length, 0..1
-    Vec3 nearest = Vec3::Zero();  // by nearest: [m] world point, drawn pose; the body whose axis is nearest to it
-    std::int32_t level = 0;     // by level: every branch body of this level
+    std::int32_t tree = 0;       // which of the scene's trees (for body and branch); index into Scene::trees
+    std::int64_t body = 0;       // by body: its index in that tree's document
+    std::int32_t branch = 0;     // by branch: number in the splines ...
+    double at = 1;               // ... and fraction of its arc length, 0..1
+    Vec3 nearest = Vec3::Zero(); // by nearest: [m] world point, drawn pose; the body whose axis is nearest to it
+    std::int32_t level = 0;      // by level: every branch body of this level
 };
 
 // Where a selector points: a body and a point on it (body frame).
 struct Selected {
     std::size_t body;
-    Vec3 point_b;  // [m] body frame: on the axis at `at` (branch), nearest point on the axis (nearest), centre of mass
+    Vec3 point_b; // [m] body frame: on the axis at `at` (branch), nearest point on the axis (nearest), centre of mass
 };
 
 // Bodies that a selector names in the joined tree (tree_first: the first body and the first branch of each of the
@@ -37,22 +37,22 @@ struct TreeRange {
 std::vector<Selected> select(const Tree& joined, const std::vector<TreeRange>&, const Selector&);
 
 struct Placement {
-    std::string file;              // tree document, relative to the scene file
-    Vec3 position = Vec3::Zero();  // [m]
-    double yaw = 0;                // [deg] about +Y
+    std::string file;             // tree document, relative to the scene file
+    Vec3 position = Vec3::Zero(); // [m]
+    double yaw = 0;               // [deg] about +Y
 };
 
 // Wind (design: one definition for all). Velocity at height y above the ground, time t:
 //   u(y, t) = (y / reference_height)^profile * [ V (1 + (gust_factor - 1) g(t / gust_period)) + |V| turbulence q(t) ]
 // g has mean 0, peak 1, period 1; q has unit variance along V, and 0.75 and 0.5 times that across and up.
 struct Wind {
-    Vec3 velocity = Vec3::Zero();     // [m/s] mean at the reference height, blowing toward
-    double reference_height = 10;     // [m]
-    double profile = 0.15;            // [1] exponent over height, 0: uniform
-    double turbulence = 0;            // [1] intensity: standard deviation along the wind over the mean
-    double gust_factor = 1;           // [1] peak over mean, 1: no gusts
-    double gust_period = 6;           // [s]
-    std::uint64_t seed = 1;           // of the turbulence
+    Vec3 velocity = Vec3::Zero(); // [m/s] mean at the reference height, blowing toward
+    double reference_height = 10; // [m]
+    double profile = 0.15;        // [1] exponent over height, 0: uniform
+    double turbulence = 0;        // [1] intensity: standard deviation along the wind over the mean
+    double gust_factor = 1;       // [1] peak over mean, 1: no gusts
+    double gust_period = 6;       // [s]
+    std::uint64_t seed = 1;       // of the turbulence
 };
 // calm 1, breeze 4, gusty 8, storm 20 m/s along +x. nullopt for another name.
 std::optional<Wind> wind_preset(const std::string& name);
@@ -60,32 +60,32 @@ std::optional<Wind> wind_preset(const std::string& name);
 // A force on a point of a body over time: linear between keys, zero before the first and after the last.
 struct Pull {
     Selector on;
-    std::vector<double> time;  // [s] rising
-    std::vector<Vec3> force;   // [N] world, one per time
+    std::vector<double> time; // [s] rising
+    std::vector<Vec3> force;  // [N] world, one per time
 };
 
 enum class Pose : std::uint8_t {
-    drawn,    // the drawn tree is the equilibrium under gravity
-    settled,  // the drawn tree is unloaded; the run starts at its sag
-    rest      // the drawn tree is unloaded; the run starts from it
+    drawn,   // the drawn tree is the equilibrium under gravity
+    settled, // the drawn tree is unloaded; the run starts at its sag
+    rest     // the drawn tree is unloaded; the run starts from it
 };
 
 // Which inertia a joint's oscillator has (spring.h).
 enum class JointInertia : std::uint8_t {
-    branch,  // scaled so that the branch's first mode keeps its frequency under any segmentation
-    paper    // the composite's own, as in the paper
+    branch, // scaled so that the branch's first mode keeps its frequency under any segmentation
+    paper   // the composite's own, as in the paper
 };
 
 struct Scene {
-    std::vector<Placement> trees;      // may be empty where the caller has the tree already
-    Vec3 gravity{0, -9.81, 0};         // [m/s^2]; zero: absent
+    std::vector<Placement> trees; // may be empty where the caller has the tree already
+    Vec3 gravity{0, -9.81, 0};    // [m/s^2]; zero: absent
     std::optional<Wind> wind;
-    double air_density = 1.2;          // [kg/m^3]
+    double air_density = 1.2; // [kg/m^3]
     std::vector<Pull> pulls;
     Pose pose = Pose::drawn;
     JointInertia joint_inertia = JointInertia::branch;
-    double stiffness_scale = 1;        // [1] multiplies every K
-    double damping_scale = 1;          // [1] multiplies every beta
+    double stiffness_scale = 1; // [1] multiplies every K
+    double damping_scale = 1;   // [1] multiplies every beta
 };
 
 // The first broken rule, or none. O(keys).

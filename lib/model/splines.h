@@ -12,32 +12,32 @@ namespace bough {
 
 struct Splines {
     // Per branch.
-    std::vector<std::int32_t> parent;       // branch index, -1: stands on the ground
-    std::vector<double> parent_at;          // where on the parent, fraction of its arc length, 0..1 (0 for roots)
-    std::vector<std::int32_t> level;        // 0 for trunks, parent's level + 1 or the generator's own count
-    std::vector<std::int32_t> first_point;  // branches + 1 entries; a branch has at least 2 points
+    std::vector<std::int32_t> parent;      // branch index, -1: stands on the ground
+    std::vector<double> parent_at;         // where on the parent, fraction of its arc length, 0..1 (0 for roots)
+    std::vector<std::int32_t> level;       // 0 for trunks, parent's level + 1 or the generator's own count
+    std::vector<std::int32_t> first_point; // branches + 1 entries; a branch has at least 2 points
 
     // Per point.
-    std::vector<Vec3> point;      // [m]; a branch's first point is its joint, which may lie off the parent's axis
-    std::vector<double> radius;   // [m], >= 0
+    std::vector<Vec3> point;    // [m]; a branch's first point is its joint, which may lie off the parent's axis
+    std::vector<double> radius; // [m], >= 0
 
     // Per leaf: a triangle, its base edge (width) centred on the joint, its apex at length along z.
-    std::vector<std::int32_t> leaf_branch;  // the branch it grows on
-    std::vector<double> leaf_at;            // fraction of that branch's arc length
-    std::vector<Vec3> leaf_position;        // [m] where it is attached
-    std::vector<Quat> leaf_rotation;        // world from leaf: x width, y normal, z length
-    std::vector<double> leaf_length;        // [m]
-    std::vector<double> leaf_width;         // [m]
+    std::vector<std::int32_t> leaf_branch; // the branch it grows on
+    std::vector<double> leaf_at;           // fraction of that branch's arc length
+    std::vector<Vec3> leaf_position;       // [m] where it is attached
+    std::vector<Quat> leaf_rotation;       // world from leaf: x width, y normal, z length
+    std::vector<double> leaf_length;       // [m]
+    std::vector<double> leaf_width;        // [m]
 
     // Per fruit: a sphere hanging from a joint.
     std::vector<std::int32_t> fruit_branch;
     std::vector<double> fruit_at;
-    std::vector<Vec3> fruit_position;  // [m] its joint
-    std::vector<Vec3> fruit_center;    // [m]; differs from the joint
-    std::vector<double> fruit_radius;  // [m]
+    std::vector<Vec3> fruit_position; // [m] its joint
+    std::vector<Vec3> fruit_center;   // [m]; differs from the joint
+    std::vector<double> fruit_radius; // [m]
 
-    std::string name;     // what the tree is called, e.g. the species or the file
-    std::string source;   // how it was made: the command line or the imported file's own statement
+    std::string name;   // what the tree is called, e.g. the species or the file
+    std::string source; // how it was made: the command line or the imported file's own statement
 
     std::size_t branches() const { return parent.size(); }
     std::size_t points() const { return point.size(); }
@@ -47,9 +47,9 @@ struct Splines {
 
 // A broken rule of a document held in memory: which array, which entry, what is wrong and what was expected.
 struct Defect {
-    std::string field;     // e.g. "parent"
-    std::int64_t index;    // entry of it, -1 for the array as a whole
-    std::string message;   // e.g. "is 7, expected -1 or less than 3 (parents stand before children)"
+    std::string field;   // e.g. "parent"
+    std::int64_t index;  // entry of it, -1 for the array as a whole
+    std::string message; // e.g. "is 7, expected -1 or less than 3 (parents stand before children)"
 };
 
 // The first broken rule of the splines, or none: at least one branch, array lengths, parents before children, indices

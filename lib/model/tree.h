@@ -19,27 +19,29 @@ namespace bough {
 enum class Kind : std::uint8_t { branch = 0, leaf = 1, fruit = 2 };
 
 struct Tree {
-    std::vector<std::int32_t> parent;  // body index < own, -1: the ground
+    std::vector<std::int32_t> parent; // body index < own, -1: the ground
     std::vector<Kind> kind;
-    std::vector<double> mass;          // [kg] > 0
-    std::vector<Vec3> com;             // [m] centre of mass, body frame
-    std::vector<Mat3> inertia;         // [kg m^2] about the centre of mass, body axes; symmetric, not negative
-    std::vector<Vec3> joint_position;  // [m] own joint in the parent's body frame (world for roots): d_j^p of (10)
-    std::vector<Quat> joint_rotation;  // parent's body frame (world for roots) from joint frame, drawn pose: R_j^p of (7)
-    std::vector<Vec3> stiffness;       // [N m/rad] K about the joint frame's x, y, z: bend, bend, twist (leaf: flap, sway, twist)
-    std::vector<double> damping;       // [s] beta of (5), the stiffness-proportional Rayleigh coefficient
-    std::vector<Vec3> size;            // [m] branch: length, base radius, tip radius; leaf: length, width, thickness;
-                                       //     fruit: joint to centre, radius, radius
-    std::vector<std::int32_t> branch;  // branch of the splines that the body belongs to (a leaf or fruit: grows on)
-    std::vector<std::int32_t> level;   // that branch's level, 0 for trunks
-    std::vector<double> s;             // fraction of that branch's arc length at the body's own joint, 0..1
+    std::vector<double> mass;         // [kg] > 0
+    std::vector<Vec3> com;            // [m] centre of mass, body frame
+    std::vector<Mat3> inertia;        // [kg m^2] about the centre of mass, body axes; symmetric, not negative
+    std::vector<Vec3> joint_position; // [m] own joint in the parent's body frame (world for roots): d_j^p of (10)
+    std::vector<Quat>
+        joint_rotation; // parent's body frame (world for roots) from joint frame, drawn pose: R_j^p of (7)
+    std::vector<Vec3>
+        stiffness; // [N m/rad] K about the joint frame's x, y, z: bend, bend, twist (leaf: flap, sway, twist)
+    std::vector<double> damping;      // [s] beta of (5), the stiffness-proportional Rayleigh coefficient
+    std::vector<Vec3> size;           // [m] branch: length, base radius, tip radius; leaf: length, width, thickness;
+                                      //     fruit: joint to centre, radius, radius
+    std::vector<std::int32_t> branch; // branch of the splines that the body belongs to (a leaf or fruit: grows on)
+    std::vector<std::int32_t> level;  // that branch's level, 0 for trunks
+    std::vector<double> s;            // fraction of that branch's arc length at the body's own joint, 0..1
 
-    std::string name;      // what the tree is called
-    std::string material;  // wood preset or file that gave mass and stiffness
-    std::string source;    // command lines that made it, oldest first, one a line
+    std::string name;     // what the tree is called
+    std::string material; // wood preset or file that gave mass and stiffness
+    std::string source;   // command lines that made it, oldest first, one a line
 
     std::size_t size_bodies() const { return parent.size(); }
-    void resize(std::size_t bodies);  // every array to this length, values unspecified
+    void resize(std::size_t bodies); // every array to this length, values unspecified
 };
 
 // True where body i goes on its parent's branch (both pieces of one branch), as opposed to leaving it.

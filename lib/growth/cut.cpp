@@ -1,0 +1,140 @@
+#include "cut.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bough {
+
+namespace {
+
+constexpr double pieces_of_height = 11; // of a curve as long as the tree is high
+constexpr double rounding = 1e-9;       // relative: a length that is a whole number of pieces gives that number
+constexpr double closed = 1e-3;         // chord over arc below which a piece has no direction worth the name
+
+double pieces_wanted(const Curves& curves, std::size_t c, const CutRule& rule) {
+    const double length = curves.length(c);
+    if (rule.segment_length > 0) return std::max(1.0, std::ceil(length / (rule.segment_length * rule.grow) - rounding));
+    const double thick = std::max(1.0, std::floor(length / (2 * curves.radius[curves.first[c]])));
+    const double wanted = std::min(pieces_of_height * std::sqrt(length / curves.extent[c]), thick);
+    return std::max(1.0, std::round(wanted / rule.grow));
+}
+
+Vec3 tangent(const Curves& curves, std::size_t i) {
+    return (curves.point[i + 1] - curves.point[i]).normalized();
+}
+
+// Cosine of the turning allowed; -2 where every turning is.
+double least_cosine(const CutRule& rule) {
+    const double bend = rule.max_bend * rule.grow;
+    return bend < EIGEN_PI ? std::cos(bend) - 1e-12 : -2.0;
+}
+
+// Whether `pieces` even pieces keep the tangent near the first one of each.
+bool even_pieces_turn_little(const Curves& curves, std::size_t c, double pieces, double cosine) {
+    const double piece = curves.length(c) / pieces;
+    const std::size_t begin = curves.first[c], end = curves.first[c + 1] - 1;
+    double current = -1;
+    Vec3 first = Vec3::Zero();
+    for (std::size_t i = begin; i < end; ++i) {
+        const Vec3 t = tangent(curves, i);
+        const double starts_in = std::floor(curves.arc[i] / piece + rounding);
+        if (starts_in > current) {
+            current = starts_in;
+            first = t;
+        }
+        if (first.dot(t) < cosine) return false;
+        const double ends_in = std::ceil(curves.arc[i + 1] / piece - rounding) - 1;
+        if (ends_in > current) {
+            current = ends_in;
+            first = t;
+        }
+    }
+    return true;
+}
+
+// Arc lengths where a cut is forced, the curve's two ends included.
+std::vector<double> forced_cuts(const Curves& curves, std::size_t c, double cosine) {
+    const std::size_t begin = curves.first[c], end = curves.first[c + 1] - 1;
+    const double length = curves.length(c);
+    std::vector<double> forced{0};
+    Vec3 first = tangent(curves, begin);
+    for (std::size_t i = begin + 1; i < end; ++i) {
+        const Vec3 t = tangent(curves, i);
+        if (!(first.dot(t) < cosine)) continue;
+        const double shortest = curves.radius[i];
+        if (curves.arc[i] - forced.back() < shortest || length - curves.arc[i] < shortest) continue;
+        forced.push_back(curves.arc[i]);
+        first = t;
+    }
+    forced.push_back(length);
+    return forced;
+}
+
+void append_even(std::vector<double>& cuts, double from, double to, std::int64_t pieces) {
+    for (std::int64_t k = 1; k < pieces; ++k) cuts.push_back(from + (to - from) * double(k) / double(pieces));
+    cuts.push_back(to);
+}
+
+// Point of the curve strictly between two cuts that is farthest from the first; -1 if there is none.
+std::ptrdiff_t farthest_between(const Curves& curves, std::size_t c, double from, double to) {
+    const auto base = curves.arc.begin();
+    const auto begin = std::upper_bound(base + curves.first[c], base + curves.first[c + 1], from);
+    const auto end = std::lower_bound(begin, base + curves.first[c + 1], to);
+    const Vec3 start = curves.position_at(c, from);
+    std::ptrdiff_t farthest = -1;
+    double distance = 0;
+    for (auto i = begin - base; i < end - base; ++i) {
+        const double d = (curves.point[i] - start).norm();
+        if (d > distance) {
+            distance = d;
+            farthest = i;
+        }
+    }
+    return farthest;
+}
+
+bool all_but_closed(const Curves& curves, std::size_t c, double from, double to) {
+    return (curves.position_at(c, to) - curves.position_at(c, from)).norm() < closed * (to - from);
+}
+
+void open_loops(const Curves& curves, std::size_t c, std::vector<double>& cuts) {
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+        if (!all_but_closed(curves, c, cuts[k], cuts[k + 1])) continue;
+        const std::ptrdiff_t i = farthest_between(curves, c, cuts[k], cuts[k + 1]);
+        if (i < 0) continue;
+        cuts.insert(cuts.begin() + std::ptrdiff_t(k) + 1, curves.arc[i]);
+        ++k;
+    }
+}
+
+} // namespace
+
+std::int64_t cut_curve(const Curves& curves, std::size_t c, const CutRule& rule, std::int64_t limit,
+                       std::vector<double>& cuts) {
+    const double wanted = pieces_wanted(curves, c, rule), length = curves.length(c), cosine = least_cosine(rule);
+    if (wanted > double(limit)) return limit + 1;
+    cuts.assign(1, 0.0);
+    const double more[] = {wanted, wanted + 1, wanted + 2, std::ceil(1.5 * wanted), 2 * wanted};
+    const auto even = std::find_if(std::begin(more), std::end(more),
+                                   [&](double n) { return even_pieces_turn_little(curves, c, n, cosine); });
+    if (even != std::end(more)) {
+        append_even(cuts, 0, length, std::int64_t(*even));
+    } else {
+        const std::vector<double> forced = forced_cuts(curves, c, cosine);
+        for (std::size_t k = 0; k + 1 < forced.size(); ++k) {
+            const double pieces = std::ceil((forced[k + 1] - forced[k]) * wanted / length - rounding);
+            append_even(cuts, forced[k], forced[k + 1], std::int64_t(std::max(1.0, pieces)));
+        }
+    }
+    open_loops(curves, c, cuts);
+    return std::min(std::int64_t(cuts.size()) - 1, limit + 1);
+}
+
+std::int64_t count_pieces(const Curves& curves, const CutRule& rule, std::int64_t limit) {
+    std::vector<double> cuts;
+    std::int64_t pieces = 0;
+    for (std::size_t c = 0; c < curves.size() && pieces <= limit; ++c)
+        pieces += cut_curve(curves, c, rule, limit - pieces, cuts);
+    return std::min(pieces, limit + 1);
+}
+
+} // namespace bough

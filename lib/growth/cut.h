@@ -1,0 +1,31 @@
+// cut.h: where a branch is cut into pieces (segment.h), by arc length and turning.
+//
+// Pieces wanted of a curve of length L: with a segment length l > 0: ceil(L / l). By default
+//   round(11 sqrt(L / extent)), at least 1, at most L / (2 r_base)
+// with the extent of the whole tree (curves.h) and the curve's base radius: 11 pieces for a trunk as high as the tree, 6
+// for a bough of a third of it, 3 for one of a tenth, 1 for a twig of 1/50; no piece shorter than its branch is thick.
+// That depends on the splines alone. `grow` >= 1 lengthens pieces and the turning allowed alike.
+// Turning: even pieces are taken, from the number wanted up to twice it, if in each of them the tangent stays within
+// max_bend of the piece's first. Else a cut is forced at each point where the curve has turned by more than max_bend
+// since the last forced cut, and the stretches between are cut evenly. A forced cut that would leave a stretch shorter
+// than the radius there is not made: so short a piece bends nothing. A piece whose ends all but meet (a loop, a
+// fold) is cut once more at its point farthest from its start, so that every piece has a direction.
+#pragma once
+#include "curves.h"
+
+namespace bough {
+
+struct CutRule {
+    double segment_length = 0; // [m] 0: the default
+    double max_bend = 0.35;    // [rad]
+    double grow = 1;           // infinity: as few pieces as can be
+};
+
+// Arc lengths of curve c's cuts, 0 and its length included, into `cuts` (replaced); returns the number of pieces. If
+// that would exceed `limit`, returns limit + 1 without cutting. O(points + pieces).
+std::int64_t cut_curve(const Curves&, std::size_t c, const CutRule&, std::int64_t limit, std::vector<double>& cuts);
+
+// Pieces of all curves, or limit + 1 if there are more. O(points + pieces).
+std::int64_t count_pieces(const Curves&, const CutRule&, std::int64_t limit);
+
+} // namespace bough
