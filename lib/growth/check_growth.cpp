@@ -1,0 +1,83 @@
+#include "weber_penn.h"
+#include <charconv>
+#include <stdexcept>
+
+namespace bough {
+
+namespace {
+
+std::string text(double value) {
+    char buffer[32];
+    return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+[[noreturn]] void refuse(const std::string& name, double value, const std::string& expected) {
+    throw std::invalid_argument(name + ": is " + text(value) + ", expected " + expected);
+}
+
+// Written so that NaN fails every test.
+void within(const std::string& name, double value, double least, double most) {
+    if (!(value >= least && value <= most)) refuse(name, value, text(least) + " to " + text(most));
+}
+
+void below(const std::string& name, double value, double least, double limit) {
+    if (!(value >= least && value < limit))
+        refuse(name, value, "at least " + text(least) + " and less than " + text(limit));
+}
+
+void positive(const std::string& name, double value, double most) {
+    if (!(value > 0 && value <= most)) refuse(name, value, "more than 0 and at most " + text(most));
+}
+
+void check_angles(const std::string& at, const LevelParameters& l) {
+    within(at + "down_angle", l.down_angle, -360, 360);
+    within(at + "down_angle_v", l.down_angle_v, -360, 360);
+    within(at + "rotate", l.rotate, -360, 360);
+    within(at + "rotate_v", l.rotate_v, -360, 360);
+}
+
+void check_level(const std::string& at, const LevelParameters& l, bool trunk) {
+    check_angles(at, l);
+    within(at + "branches", l.branches, 0, trunk ? 1 : 1e6);
+    within(at + "branch_dist", l.branch_dist, 0, 1);
+    positive(at + "length", l.length, 1e3);
+    below(at + "length_v", l.length_v, 0, l.length);
+    within(at + "taper", l.taper, 0, 3);
+    within(at + "curve_res", l.curve_res, 1, 1000);
+    within(at + "seg_splits", l.seg_splits, 0, 100);
+    within(at + "base_splits", l.base_splits, 0, 100);
+    if (l.curve_res < 2 && (l.seg_splits > 0 || l.base_splits > 0))
+        refuse(at + "curve_res", l.curve_res, "2 or more, as the stems split where segments meet");
+    within(at + "split_angle", l.split_angle, -360, 360);
+    within(at + "split_angle_v", l.split_angle_v, -360, 360);
+    within(at + "curve", l.curve, -3600, 3600);
+    within(at + "curve_back", l.curve_back, -3600, 3600);
+    within(at + "curve_v", l.curve_v, -3600, 3600);
+}
+
+} // namespace
+
+void check_growth(const GrowthParameters& p) {
+    within("shape", p.shape, 0, 7);
+    within("levels", p.levels, 1, 4);
+    positive("scale", p.scale, 1e4);
+    below("scale_v", p.scale_v, 0, p.scale);
+    below("base_size", p.base_size, 0, 1);
+    positive("ratio", p.ratio, 1);
+    within("ratio_power", p.ratio_power, 0, 10);
+    positive("radius_scale", p.radius_scale, 1e3);
+    below("radius_scale_v", p.radius_scale_v, 0, p.radius_scale);
+    within("flare", p.flare, 0, 100);
+    within("attraction_up", p.attraction_up, -100, 100);
+    for (int n = 0; n < p.levels; ++n) check_level("level[" + std::to_string(n) + "].", p.level[n], n == 0);
+    within("leaves", p.leaves, -1e6, 1e6);
+    within("fruits", p.fruits, 0, 1e6);
+    if (p.levels < 4 && p.leaves != 0) check_angles("level[" + std::to_string(p.levels) + "].", p.level[p.levels]);
+    if (p.leaf_shape < 0) refuse("leaf_shape", p.leaf_shape, "0 or more");
+    positive("leaf_scale", p.leaf_scale, 1e3);
+    positive("leaf_scale_x", p.leaf_scale_x, 1e3);
+    within("leaf_bend", p.leaf_bend, 0, 1);
+    positive("fruit_radius", p.fruit_radius, 1e3);
+}
+
+} // namespace bough

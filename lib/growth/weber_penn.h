@@ -1,0 +1,38 @@
+// weber_penn.h: the closed formulas of Weber and Penn's paper that the growth is made of; private to growth and its tests.
+//
+// All O(1), no errors: grow() has checked the parameters.
+#pragma once
+#include "grow.h"
+#include <vector>
+
+namespace bough {
+
+constexpr double kLeastTaper = 0.05; // least radius of a stem over its radius at the base
+
+// ShapeRatio(shape, ratio): the paper's table, shapes 0..7, ratio 0 (top) .. 1 (base of the crown).
+double shape_ratio(int shape, double ratio);
+
+// Length over `length_max` times the trunk's, of a child at `offset` on a trunk of length `trunk`, bare up to `base`.
+double crown_ratio(int shape, double trunk, double base, double offset);
+
+// Radius at z (0 base .. 1 tip) of a stem of base radius `radius`, length `length`: section "Stem radius", without flare,
+// at least kLeastTaper * radius.
+double taper_radius(double taper, double radius, double length, double z);
+
+// Factor on the trunk's radius at z: flare (100^y - 1) / 100 + 1 with y = 1 - 8 z, not below 1.
+double flare_factor(double flare, double z);
+
+// Rising z in 0..1 (without both) where the radius bends between segments' ends: points are needed there.
+std::vector<double> taper_marks(double taper, double flare, double radius, double length);
+
+// Number of whole things for a number `count` >= 0: its floor, plus one as often as the fraction says (unit in 0..1).
+std::int64_t whole_number(double count, double unit);
+
+// Throws std::invalid_argument for the first parameter out of its range (grow.h).
+void check_growth(const GrowthParameters&);
+
+// grow() that gives up, returning false, as soon as there are more than `most` branches, leaves and fruit together.
+bool grow_up_to(const GrowthParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit, std::int64_t most,
+                Splines& out);
+
+} // namespace bough

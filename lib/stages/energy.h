@@ -1,0 +1,21 @@
+// energy.h: the energies that stability is audited with, and the audit itself is a test's or a tool's.
+//
+// kinetic    of the joints' oscillators, sum of theta_dot^T S theta_dot / 2 (joint.h): what the analytic step conserves in a
+//            joint; with JointInertia::branch it is not the bodies' own.
+// bodies     sum of m v^2 / 2 + omega^T I omega / 2 of the bodies with the velocities of (8), (11).
+// elastic    sum of theta^T K theta / 2.
+// potential  of gravity, sum of -m g.x, relative to x = 0.
+// Reads a state with kinematics up to date. O(n), doubles throughout. Errors none.
+#pragma once
+#include "plan.h"
+#include "state.h"
+
+namespace bough {
+
+struct Energy {
+    double kinetic = 0, bodies = 0, elastic = 0, potential = 0; // [J]
+};
+
+template <class T> Energy energy(const Plan<T>&, const State<T>&);
+
+} // namespace bough

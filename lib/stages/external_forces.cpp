@@ -1,0 +1,72 @@
+#include "external_forces.h"
+#include <algorithm>
+
+namespace bough {
+
+Vec3 pull_force(const Pull& pull, double t) {
+    if (pull.time.empty() || t < pull.time.front() || t > pull.time.back()) return Vec3::Zero();
+    const auto after = std::upper_bound(pull.time.begin(), pull.time.end(), t);
+    if (after == pull.time.end()) return pull.force.back();
+    const auto k = std::size_t(after - pull.time.begin()) - 1;
+    const double w = (t - pull.time[k]) / (pull.time[k + 1] - pull.time[k]);
+    return (1 - w) * pull.force[k] + w * pull.force[k + 1];
+}
+
+namespace {
+
+template <class T> struct Drag {
+    Vector3<T> force;
+    T speed; // the speed that scales it
+};
+
+// Force over kappa rho A.
+template <class T> Drag<T> drag(Kind kind, const Matrix3<T>& R, const Vector3<T>& u) {
+    if (kind == Kind::branch) {
+        const Vector3<T> t = R.col(2);
+        const Vector3<T> across = u - u.dot(t) * t;
+        const T speed = across.norm();
+        return {speed * across, speed};
+    }
+    const T speed = u.norm();
+    if (kind == Kind::fruit) return {speed * u, speed};
+    const Vector3<T> normal = R.col(1);
+    return {speed * u.dot(normal) * normal, speed};
+}
+
+template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::size_t i) {
+    const Matrix3<T>& R = state.R_wb[i];
+    const Vector3<T> arm = R * plan.com[i];
+    const Vector3<T> wind = state.wind.at(state.x_w[i].y() + arm.y());
+    const Drag<T> still = drag(plan.kind[i], R, wind);
+    const Drag<T> moving = drag(plan.kind[i], R, Vector3<T>(wind - state.v_w[i]));
+    const T scale = plan.drag_area[i];
+    state.f_w[i] = scale * still.force;
+    state.tau_w[i] = arm.cross(state.f_w[i]);
+    state.drag_f_w[i] = scale * (moving.force - still.force);
+    state.drag_tau_w[i] = arm.cross(state.drag_f_w[i]);
+    state.drag_bound[i] = scale * (moving.speed + still.speed);
+}
+
+} // namespace
+
+template <class T> void external_forces(const Plan<T>& plan, State<T>& state, double time) {
+    const auto n = std::int64_t(plan.bodies);
+    if (plan.wind) {
+#pragma omp parallel for schedule(static) if (n > 2000)
+        for (std::int64_t i = 0; i < n; ++i) wind_on_body(plan, state, std::size_t(i));
+    } else {
+        std::fill(state.f_w.begin(), state.f_w.end(), Vector3<T>::Zero());
+        std::fill(state.tau_w.begin(), state.tau_w.end(), Vector3<T>::Zero());
+    }
+    for (const PlannedPull<T>& pull : plan.pulls) {
+        const Vector3<T> f = pull_force(plan.scene.pulls[pull.source], time).template cast<T>();
+        const Vector3<T> arm = state.R_wb[pull.body] * pull.point_b;
+        state.f_w[pull.body] += f;
+        state.tau_w[pull.body] += arm.cross(f);
+    }
+}
+
+template void external_forces(const Plan<float>&, State<float>&, double);
+template void external_forces(const Plan<double>&, State<double>&, double);
+
+} // namespace bough

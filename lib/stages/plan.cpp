@@ -1,0 +1,151 @@
+#include "plan.h"
+#include "../model/body_shape.h"
+#include "../model/branch_mode.h"
+#include "pose.h"
+#include "state_arrays.h"
+#include <algorithm>
+
+namespace bough {
+
+const char* stage_name(Stage stage) {
+    static constexpr const char* names[stage_count] = {"wind_field", "external_forces", "composite",
+                                                       "drag",       "spring",          "state_update"};
+    return names[std::size_t(stage)];
+}
+
+namespace {
+
+constexpr double cylinder_drag = 1.2, sphere_drag = 0.47, plate_drag = 1.2; // C_d; kappa is half of each
+
+double drag_area(const Tree& tree, std::size_t i, double air_density) {
+    const Vec3& size = tree.size[i];
+    switch (tree.kind[i]) {
+    case Kind::leaf:
+        return plate_drag / 2 * air_density * leaf_area(size[0], size[1]);
+    case Kind::fruit:
+        return sphere_drag / 2 * air_density * sphere_section(size[1]);
+    case Kind::branch:
+        break;
+    }
+    return cylinder_drag / 2 * air_density * frustum_section(size[0], size[1], size[2]);
+}
+
+template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, const Scene& scene) {
+    const std::size_t n = plan.bodies;
+    const StartPose pose = start_pose(tree, scene.gravity, scene.pose);
+    std::vector<double> c_mass(tree.mass);
+    for (std::size_t i = n; i-- > 0;)
+        if (tree.parent[i] >= 0) c_mass[std::size_t(tree.parent[i])] += c_mass[i];
+    plan.parent = tree.parent;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Mat3 com = cross_matrix(tree.com[i]);
+        plan.joint_position.push_back(tree.joint_position[i].template cast<T>());
+        plan.R_pj.push_back(pose.joint_rotation[i].toRotationMatrix().template cast<T>());
+        plan.theta_start.push_back(pose.theta[i].template cast<T>());
+        plan.mass.push_back(T(tree.mass[i]));
+        plan.c_mass.push_back(T(c_mass[i]));
+        plan.com.push_back(tree.com[i].template cast<T>());
+        plan.inertia_joint.push_back(Mat3(tree.inertia[i] - tree.mass[i] * com * com).template cast<T>());
+        plan.K.push_back(tree.stiffness[i].template cast<T>());
+        plan.beta.push_back(T(tree.damping[i]));
+    }
+}
+
+// The factors of inertia, and the weights by which gravity and drag are summed along a path.
+template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene& scene) {
+    const std::size_t n = plan.bodies;
+    const bool scaled = scene.joint_inertia == JointInertia::branch;
+    const BranchModes modes = branch_modes(tree);
+    std::vector<double> inboard(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double fb = scaled ? modes.factor_bend[i] : 1, ft = scaled ? modes.factor_twist[i] : 1;
+        plan.inertia_factor.push_back(Vec3(std::sqrt(fb), std::sqrt(fb), std::sqrt(ft)).template cast<T>());
+        const bool on = continues_parent(tree, i);
+        const double u = modes.weight[i];
+        inboard[i] = u + (on ? inboard[std::size_t(tree.parent[i])] : 0);
+        if (plan.gravity) {
+            plan.gravity_weight.push_back(T(scaled && on ? u : 0));
+            plan.gravity_inboard.push_back(T(scaled ? inboard[i] / u : 1));
+            plan.gravity_outboard.push_back(T(scaled ? 1 / u : 0));
+        }
+    }
+    if (!plan.wind) return;
+    std::vector<double> sum(n), moved(n); // over the path: of u, and what it moves the body's joint by
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto p = std::size_t(tree.parent[i]);
+        const double r = tree.parent[i] < 0 ? 0 : tree.joint_position[i].norm();
+        sum[i] = modes.weight[i] + (tree.parent[i] < 0 ? 0 : sum[p]);
+        moved[i] = tree.parent[i] < 0 ? 0 : moved[p] + sum[p] * r;
+        plan.kind.push_back(tree.kind[i]);
+        plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
+        plan.sway.push_back(T(moved[i] + sum[i] * tree.com[i].norm()));
+        plan.joint_distance.push_back(T(r));
+        plan.com_distance.push_back(T(tree.com[i].norm()));
+        plan.inverse_weight.push_back(T(1 / modes.weight[i]));
+    }
+}
+
+// Highest point that a body could reach by standing straight up from the ground: the wind's table covers it.
+double highest_reach(const Tree& tree) {
+    std::vector<double> reach(tree.size_bodies());
+    double top = 0;
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+        reach[i] = tree.parent[i] < 0 ? std::max(0.0, tree.joint_position[i].y())
+                                      : reach[std::size_t(tree.parent[i])] + tree.joint_position[i].norm();
+        top = std::max(top, reach[i] + tree.size[i][0]);
+    }
+    return top;
+}
+
+template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
+    const auto add = [&plan](Stage stage, bool on, const char* reason) { plan.stages.push_back({stage, on, reason}); };
+    add(Stage::wind_field, plan.wind, plan.wind ? "/wind" : "no wind");
+    add(Stage::external_forces, plan.forces,
+        plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
+        : plan.wind                      ? "/wind"
+        : plan.forces                    ? "/pulls"
+                                         : "no wind, no pulls");
+    add(Stage::composite, true, "every scene");
+    add(Stage::drag, plan.wind, plan.wind ? "/wind" : "no wind");
+    add(Stage::spring, true, "every scene");
+    add(Stage::state_update, true,
+        !plan.velocity    ? "every scene (poses; no wind, no output field velocity: no velocities)"
+        : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
+                          : "every scene (poses; velocities for /wind)");
+    State<T> empty;
+    visit_arrays(plan, empty, [&](const char* name, auto& array, bool on, const std::string& reason) {
+        plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
+    });
+}
+
+} // namespace
+
+template <class T>
+Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt) {
+    Tree tree = drawn;
+    for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
+    for (double& beta : tree.damping) beta *= scene.damping_scale;
+    Plan<T> plan;
+    plan.bodies = tree.size_bodies();
+    plan.dt = dt;
+    plan.scene = scene;
+    plan.gravity = !scene.gravity.isZero();
+    plan.wind = scene.wind && !scene.wind->velocity.isZero();
+    for (std::size_t k = 0; k < scene.pulls.size(); ++k)
+        for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
+            plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
+    plan.forces = plan.wind || !plan.pulls.empty();
+    plan.velocity = plan.wind || wishes.velocity;
+    plan.torque = wishes.torque;
+    plan.top = plan.wind ? highest_reach(tree) : 0;
+    plan_bodies(plan, tree, scene);
+    plan_modes(plan, tree, scene);
+    explain(plan, wishes);
+    return plan;
+}
+
+template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double);
+template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double);
+
+} // namespace bough

@@ -1,0 +1,87 @@
+// plan.h: what one scene needs, decided once (§ "leave out"): which stages run, which arrays exist, and the constants
+// they read, in the precision of the run. A stage or array that nothing needs is not run and not allocated; why, is
+// said in `stages` and `arrays`, which `treesim --explain` prints and the tests hold against what really happened.
+#pragma once
+#include "../model/scene.h"
+#include "../model/tree.h"
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+enum class Stage : std::uint8_t { wind_field, external_forces, composite, drag, spring, state_update };
+constexpr std::size_t stage_count = 6;
+const char* stage_name(Stage);
+
+// What the caller will read besides poses: arrays for it exist only then.
+struct Wishes {
+    bool velocity = false; // velocity and angular velocity of each body
+    bool torque = false;   // spring torque of each joint
+};
+
+struct PlannedStage {
+    Stage stage;
+    bool on;
+    std::string reason; // the part of the scene that asks for it, or that lacks it
+};
+
+struct PlannedArray {
+    std::string name;
+    bool on;
+    std::size_t bytes; // as allocated, or as it would be
+    std::string reason;
+};
+
+// A pull with its target looked up.
+template <class T> struct PlannedPull {
+    std::size_t body;
+    Vector3<T> point_b; // [m] body frame
+    std::size_t source; // index into Scene::pulls
+};
+
+template <class T> struct Plan {
+    std::size_t bodies = 0;
+    double dt = 0; // [s] one step
+    Scene scene;   // as given, for times and forces
+    bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
+    std::vector<PlannedStage> stages;
+    std::vector<PlannedArray> arrays;
+
+    // Constants of every scene, arrays over bodies.
+    std::vector<std::int32_t> parent;
+    std::vector<Vector3<T>> joint_position; // [m] parent's body frame (world for roots)
+    std::vector<Matrix3<T>> R_pj;           // parent's body frame from joint frame, rest pose
+    std::vector<T> mass;                    // [kg]
+    std::vector<T> c_mass;                  // [kg] (1): constant until something breaks
+    std::vector<Vector3<T>> com;            // [m] body frame
+    std::vector<Matrix3<T>> inertia_joint;  // [kg m^2] about own joint, body axes
+    std::vector<Vector3<T>> K;              // [N m/rad]
+    std::vector<T> beta;                    // [s]
+    std::vector<Vector3<T>> inertia_factor; // [1] square roots of F's diagonal (spring.h)
+    std::vector<Vector3<T>> theta_start;    // [rad]
+
+    // Gravity's gradient (spring.h).
+    std::vector<T> gravity_weight;   // [rad/m] u_j, 0 where the joint does not go on its parent's branch
+    std::vector<T> gravity_inboard;  // [1] sum of u over the branch up to and with j, over u_j
+    std::vector<T> gravity_outboard; // [m/rad] 1 / u_j
+
+    // Wind (drag.h, external_forces.h).
+    std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)
+    std::vector<Kind> kind;
+    std::vector<T> sway;                         // [1] W_b: what the weights move the body's centre of mass by
+    std::vector<T> joint_distance, com_distance; // [m] |joint_position|, |com|
+    std::vector<T> inverse_weight;               // [m/rad] 1 / u_j
+    double top = 0;                              // [m] highest point, for the wind's table
+
+    std::vector<PlannedPull<T>> pulls;
+};
+
+// tree: joined and checked; ranges: of each of the scene's trees in it (one range for a tree on its own). Scales K and
+// beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).
+// Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow.
+template <class T>
+Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt);
+
+} // namespace bough

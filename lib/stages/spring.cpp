@@ -1,0 +1,130 @@
+#include "spring.h"
+#include "joint.h"
+#include "oscillator.h"
+#include <Eigen/Cholesky>
+
+namespace bough {
+
+template <class T> void symmetric_eigen(Matrix3<T> A, Matrix3<T>& V, Vector3<T>& values) {
+    V.setIdentity();
+    constexpr int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    // Quadratic convergence: from the fourth sweep on nothing is left to turn in either precision.
+    for (int sweep = 0; sweep < 6; ++sweep) {
+        bool turned = false;
+        for (const auto& [p, q] : pairs) {
+            const T off = A(p, q);
+            const T limit = std::numeric_limits<T>::epsilon() * std::sqrt(std::abs(A(p, p)) * std::abs(A(q, q))) / 8;
+            if (!(std::abs(off) > limit)) continue;
+            turned = true;
+            const T tau = (A(q, q) - A(p, p)) / (2 * off);
+            const T t = (tau >= 0 ? T(1) : T(-1)) / (std::abs(tau) + std::sqrt(1 + tau * tau));
+            const T c = 1 / std::sqrt(1 + t * t), s = t * c;
+            const int r = 3 - p - q;
+            A(p, p) -= t * off;
+            A(q, q) += t * off;
+            A(p, q) = A(q, p) = 0;
+            const T arp = A(r, p), arq = A(r, q);
+            A(r, p) = A(p, r) = c * arp - s * arq;
+            A(r, q) = A(q, r) = s * arp + c * arq;
+            const Vector3<T> vp = V.col(p), vq = V.col(q);
+            V.col(p) = c * vp - s * vq;
+            V.col(q) = s * vp + c * vq;
+        }
+        if (!turned) break;
+    }
+    values = A.diagonal();
+}
+
+namespace {
+
+template <class T> struct Joint {
+    Vector3<T> tau; // moment at the start of the step, joint frame
+    Matrix3<T> KG;  // K + G
+};
+
+template <class T> Joint<T> load(const Plan<T>& plan, const State<T>& s, std::size_t i, const Matrix3<T>& R_wj) {
+    Joint<T> joint{Vector3<T>::Zero(), Matrix3<T>(plan.K[i].asDiagonal())};
+    Vector3<T> tau_w = Vector3<T>::Zero();
+    if (plan.forces) tau_w += s.c_tau_w[i];
+    if (plan.gravity) {
+        const Vector3<T> g_w = plan.scene.gravity.template cast<T>();
+        tau_w += s.c_h_w[i].cross(g_w);
+        const Vector3<T> g = R_wj.transpose() * g_w;
+        const Vector3<T> h =
+            R_wj.transpose() * (plan.gravity_inboard[i] * s.c_h_w[i] + plan.gravity_outboard[i] * s.c_out_h_w[i]);
+        const Matrix3<T> hg = h * g.transpose();
+        joint.KG += g.dot(h) * Matrix3<T>::Identity() - T(0.5) * (hg + hg.transpose());
+    }
+    joint.tau = R_wj.transpose() * tau_w;
+    return joint;
+}
+
+template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_t i, T h) {
+    const Matrix3<T> R_wj = joint_frame(plan, s, i);
+    const Joint<T> joint = load(plan, s, i, R_wj);
+    const Matrix3<T> S = joint_inertia(plan, s, i, R_wj);
+    const Matrix3<T> L = S.llt().matrixL();
+    const auto lower = L.template triangularView<Eigen::Lower>();
+    Matrix3<T> half = joint.KG;
+    lower.solveInPlace(half);        // L^-1 (K + G)
+    Matrix3<T> A = half.transpose(); // (K + G) L^-T, transposed twice
+    lower.solveInPlace(A);           // L^-1 (K + G) L^-T
+    A = (T(0.5) * (A + A.transpose())).eval();
+    Matrix3<T> X;
+    Vector3<T> lambda;
+    symmetric_eigen(A, X, lambda);
+    Matrix3<T> U = X;
+    L.transpose().template triangularView<Eigen::Upper>().solveInPlace(U);
+
+    const Vector3<T> r = U.transpose() * (joint.tau - plan.K[i].cwiseProduct(s.theta[i]));
+    const Vector3<T> v = X.transpose() * (L.transpose() * s.theta_dot[i]); // U^-1 = X^T L^T
+    StepFlags flags;
+    Vector3<T> dq, v_new;
+    for (int k = 0; k < 3; ++k) {
+        T b = plan.beta[i] * U.col(k).cwiseAbs2().dot(plan.K[i]);
+        T l = lambda[k];
+        if (l < 0) ++flags.buckling;
+        if (l > largest_lambda<T>()) {
+            b *= largest_lambda<T>() / l;
+            l = largest_lambda<T>();
+            ++flags.bounded_lambda;
+        }
+        const T residual = l == lambda[k] ? r[k] : r[k] * (l / lambda[k]);
+        const Propagator<T> p = propagate(b, l, h);
+        dq[k] = p.E * residual + p.B * v[k];
+        v_new[k] = p.B * residual + p.C * v[k];
+    }
+    s.theta[i] += U * dq;
+    s.theta_dot[i] = U * v_new;
+    return flags;
+}
+
+} // namespace
+
+template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
+    const auto n = std::int64_t(plan.bodies);
+    const T h = T(plan.dt);
+    std::uint64_t buckling = 0, bounded = 0;
+#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded) if (n > 2000)
+    for (std::int64_t i = 0; i < n; ++i) {
+        const StepFlags flags = evolve(plan, state, std::size_t(i), h);
+        buckling += flags.buckling;
+        bounded += flags.bounded_lambda;
+    }
+    state.flags.buckling += buckling;
+    state.flags.bounded_lambda += bounded;
+}
+
+template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {
+    for (std::size_t i = 0; i < state.torque_j.size(); ++i)
+        state.torque_j[i] = -plan.K[i].cwiseProduct(state.theta[i] + plan.beta[i] * state.theta_dot[i]);
+}
+
+template void symmetric_eigen(Matrix3<float>, Matrix3<float>&, Vector3<float>&);
+template void symmetric_eigen(Matrix3<double>, Matrix3<double>&, Vector3<double>&);
+template void spring_update(const Plan<float>&, State<float>&);
+template void spring_update(const Plan<double>&, State<double>&);
+template void spring_torque(const Plan<float>&, State<float>&);
+template void spring_torque(const Plan<double>&, State<double>&);
+
+} // namespace bough

@@ -1,0 +1,76 @@
+#include "state.h"
+#include "spring.h"
+#include "state_arrays.h"
+#include "state_update.h"
+#include <bit>
+#include <type_traits>
+
+namespace bough {
+
+namespace {
+
+template <class T> void set_zero(T& value) {
+    if constexpr (std::is_floating_point_v<T>)
+        value = 0;
+    else
+        value.setZero();
+}
+
+} // namespace
+
+template <class T> State<T> make_state(const Plan<T>& plan) {
+    State<T> state;
+    visit_arrays(plan, state, [&](const char*, auto& array, bool on, const std::string&) {
+        if (!on) return;
+        array.resize(plan.bodies);
+        for (auto& value : array) set_zero(value);
+    });
+    state.theta = plan.theta_start;
+    if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
+    state_update(plan, state);
+    if (plan.torque) spring_torque(plan, state);
+    return state;
+}
+
+template <class T> std::size_t State<T>::bytes() const {
+    std::size_t sum = 0;
+    visit_arrays(Plan<T>(), *this, [&](const char*, const auto& array, bool, const std::string&) {
+        sum += array.capacity() * sizeof(array[0]);
+    });
+    return sum;
+}
+
+template <class T> std::uint64_t state_hash(const State<T>& state) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    const auto add = [&hash](const std::vector<Vector3<T>>& array) {
+        for (const Vector3<T>& v : array)
+            for (int k = 0; k < 3; ++k) {
+                using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+                const Bits bits = std::bit_cast<Bits>(T(v[k]));
+                for (unsigned shift = 0; shift < 8 * sizeof(T); shift += 8) {
+                    hash ^= (bits >> shift) & 0xff;
+                    hash *= 0x100000001b3u;
+                }
+            }
+    };
+    add(state.theta);
+    add(state.theta_dot);
+    return hash;
+}
+
+template <class T> std::optional<std::size_t> first_non_finite(const State<T>& state) {
+    for (std::size_t i = 0; i < state.theta.size(); ++i)
+        if (!state.theta[i].allFinite() || !state.theta_dot[i].allFinite()) return i;
+    return std::nullopt;
+}
+
+template struct State<float>;
+template struct State<double>;
+template State<float> make_state(const Plan<float>&);
+template State<double> make_state(const Plan<double>&);
+template std::uint64_t state_hash(const State<float>&);
+template std::uint64_t state_hash(const State<double>&);
+template std::optional<std::size_t> first_non_finite(const State<float>&);
+template std::optional<std::size_t> first_non_finite(const State<double>&);
+
+} // namespace bough

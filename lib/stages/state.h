@@ -1,0 +1,62 @@
+// state.h: what a step changes, in arrays grouped by the stage that writes them. Empty where the plan leaves them out.
+#pragma once
+#include "plan.h"
+#include "wind.h"
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace bough {
+
+// What happened in the steps so far; none of it acts on the result but the bound on lambda (oscillator.h).
+struct StepFlags {
+    std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
+    std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
+};
+
+template <class T> struct State {
+    std::int64_t step = 0; // steps taken; the time is step * dt
+
+    std::vector<Vector3<T>> theta, theta_dot; // [rad], [rad/s] joint frame: the state proper; hashed, saved
+
+    // state_update
+    std::vector<Matrix3<T>> R_wb;         // world from body
+    std::vector<Vector3<T>> x_w;          // [m] own joint, world
+    std::vector<Vector3<T>> omega_w, v_w; // [rad/s], [m/s] of the centre of mass; with wind or when asked for
+
+    // wind_field
+    WindTable<T> wind;
+
+    // external_forces
+    std::vector<Vector3<T>> f_w, tau_w; // [N], [N m about own joint] at rest: pulls, wind on bodies that stand still
+    std::vector<Vector3<T>> drag_f_w, drag_tau_w; // what the bodies' velocities change of the wind's force
+    std::vector<T> drag_bound;                    // [N s/m] bound on the drag's derivative
+
+    // composite
+    std::vector<Vector3<T>> c_h_w;          // [kg m] first moment of the composite about own joint
+    std::vector<Matrix3<T>> c_J_w;          // [kg m^2] inertia of the composite about own joint
+    std::vector<Vector3<T>> c_out_h_w;      // [kg] sum over the branch's joints further out of u_k h_k
+    std::vector<Vector3<T>> c_f_w, c_tau_w; // (3), (4)
+    std::vector<Vector3<T>> c_drag_f_w, c_drag_tau_w;
+    std::vector<T> c_drag, c_drag_row; // [N s/m], [N s] sums of the row-sum bound (drag.h)
+
+    // spring
+    std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for
+
+    std::array<std::uint64_t, stage_count> calls{}; // how often each stage ran
+    StepFlags flags;
+
+    std::size_t bytes() const; // allocated by all arrays
+};
+
+// At the plan's start pose, at rest, kinematics up to date.
+template <class T> State<T> make_state(const Plan<T>&);
+
+// 64 bits (FNV-1a over little-endian bytes) of theta and theta_dot in document order.
+template <class T> std::uint64_t state_hash(const State<T>&);
+
+// The first body with a non-finite theta or theta_dot.
+template <class T> std::optional<std::size_t> first_non_finite(const State<T>&);
+
+} // namespace bough

@@ -1,0 +1,45 @@
+// state_arrays.h: the one list of a state's arrays, with what each is for: the plan counts them, make_state allocates them.
+#pragma once
+#include "plan.h"
+#include "state.h"
+#include <string>
+
+namespace bough {
+
+// visit(name, array, on, reason) for every array over bodies.
+template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>& plan, StateType& s, Visit&& visit) {
+    const std::string always = "every scene";
+    const std::string wind = plan.wind ? "/wind" : "no wind";
+    const std::string forces = plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
+                               : plan.wind                      ? "/wind"
+                               : plan.forces                    ? "/pulls"
+                                                                : "no wind, no pulls";
+    const std::string gravity = plan.gravity ? "/gravity" : "gravity is zero";
+    const std::string velocity = plan.wind       ? "/wind (drag)"
+                                 : plan.velocity ? "output field velocity"
+                                                 : "no wind, no output field velocity";
+    const std::string torque = plan.torque ? "output field torque" : "no output field torque";
+    visit("theta", s.theta, true, always);
+    visit("theta_dot", s.theta_dot, true, always);
+    visit("R_wb", s.R_wb, true, always);
+    visit("x_w", s.x_w, true, always);
+    visit("omega_w", s.omega_w, plan.velocity, velocity);
+    visit("v_w", s.v_w, plan.velocity, velocity);
+    visit("f_w", s.f_w, plan.forces, forces);
+    visit("tau_w", s.tau_w, plan.forces, forces);
+    visit("drag_f_w", s.drag_f_w, plan.wind, wind);
+    visit("drag_tau_w", s.drag_tau_w, plan.wind, wind);
+    visit("drag_bound", s.drag_bound, plan.wind, wind);
+    visit("c_h_w", s.c_h_w, true, always);
+    visit("c_J_w", s.c_J_w, true, always);
+    visit("c_out_h_w", s.c_out_h_w, plan.gravity, gravity);
+    visit("c_f_w", s.c_f_w, plan.forces, forces);
+    visit("c_tau_w", s.c_tau_w, plan.forces, forces);
+    visit("c_drag_f_w", s.c_drag_f_w, plan.wind, wind);
+    visit("c_drag_tau_w", s.c_drag_tau_w, plan.wind, wind);
+    visit("c_drag", s.c_drag, plan.wind, wind);
+    visit("c_drag_row", s.c_drag_row, plan.wind, wind);
+    visit("torque_j", s.torque_j, plan.torque, torque);
+}
+
+} // namespace bough
