@@ -1,8 +1,11 @@
 #include "cut.h"
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace bough {
+
+using std::numbers::pi;
 
 namespace {
 
@@ -25,7 +28,7 @@ Vec3 tangent(const Curves& curves, std::size_t i) {
 // Cosine of the turning allowed; -2 where every turning is.
 double least_cosine(const CutRule& rule) {
     const double bend = rule.max_bend * rule.grow;
-    return bend < EIGEN_PI ? std::cos(bend) - 1e-12 : -2.0;
+    return bend < pi ? std::cos(bend) - 1e-12 : -2.0;
 }
 
 // Whether `pieces` even pieces keep the tangent near the first one of each.
