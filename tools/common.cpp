@@ -12,6 +12,9 @@
 #include <new>
 #include <thread>
 #include <unistd.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 namespace bough {
 namespace {
@@ -23,11 +26,25 @@ std::atomic<bool> bar_on_screen{false};
 extern "C" void on_signal(int signal) {
     caught_signal = signal;
     if (at_boundary) {
-        std::signal(signal, SIG_DFL);  // a second one ends the program at once
+        std::signal(signal, SIG_DFL); // a second one ends the program at once
         return;
     }
     remove_unfinished_outputs();
     _exit(128 + signal);
+}
+
+#ifdef _OPENMP
+constexpr int most_threads = 4096;
+#else
+constexpr int most_threads = 1; // built without OpenMP
+#endif
+
+void set_threads(int threads) {
+#ifdef _OPENMP
+    omp_set_num_threads(threads);
+#else
+    (void)threads;              // most_threads is 1
+#endif
 }
 
 // A standard stream that the caller closed must not become the next file we open: it is held by a descriptor on which
@@ -100,10 +117,8 @@ void declare_common(CLI::App& app, const ToolInfo& info, CommonOptions& common) 
     app.add_flag("-q,--quiet", common.quiet, "No notes and no progress on stderr");
     app.add_option("--threads", common.threads, "Threads to work with; all of the machine unless given")
         ->option_text("N")
-        ->check(whole_number(1, 4096));
-    app.add_option("-o,--output", common.output, "Output, - for stdout")
-        ->option_text("FILE")
-        ->check(file_name());
+        ->check(whole_number(1, most_threads));
+    app.add_option("-o,--output", common.output, "Output, - for stdout")->option_text("FILE")->check(file_name());
     if (!info.formats.empty()) {
         std::string names;
         for (const std::string& f : info.formats) names += (names.empty() ? "" : ", ") + f;
@@ -169,6 +184,7 @@ int parse_and_work(const ToolInfo& info, int argc, char** argv, CommonOptions& c
         return exit_usage;
     }
     if (common.threads == 0) common.threads = machine_threads();
+    set_threads(common.threads);
     common.command_line = joined(info.name, argc, argv);
     return work_and_report(info, work);
 }
@@ -271,8 +287,10 @@ std::optional<double> unit_in_metres(const std::string& units) {
 std::vector<std::string> split_list(const std::string& text) {
     std::vector<std::string> parts(1);
     for (const char c : text)
-        if (c == ',') parts.emplace_back();
-        else parts.back() += c;
+        if (c == ',')
+            parts.emplace_back();
+        else
+            parts.back() += c;
     return parts;
 }
 
@@ -284,7 +302,8 @@ std::vector<double> number_list(const std::string& option, const std::string& te
         values.push_back(*value);
     }
     if (values.size() != count || split_list(text).size() != count)
-        throw UsageError(option + " is '" + text + "', expected " + std::to_string(count) + " numbers parted by commas");
+        throw UsageError(option + " is '" + text + "', expected " + std::to_string(count) +
+                         " numbers parted by commas");
     return values;
 }
 
@@ -338,7 +357,7 @@ const char* simd_target() {
     return "none (scalar)";
 }
 int machine_threads() {
-    return std::max(1, int(std::thread::hardware_concurrency()));
+    return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads);
 }
 
 } // namespace bough

@@ -37,21 +37,21 @@ struct Interrupted : std::runtime_error {
 
 // Options that every tool has.
 struct CommonOptions {
-    bool quiet = false;         // -q: no notes, no progress
-    int threads = 0;            // --threads; as many as the machine has unless given
-    std::string output = "-";   // -o
-    std::string format;         // --format; empty: by the output's name
-    bool source = true;         // --no-source: the output does not carry the command line
-    std::string command_line;   // of this run, quoted for a shell
-    std::vector<std::string> notes;  // what the user should know once the run has succeeded
+    bool quiet = false;             // -q: no notes, no progress
+    int threads = 0;                // --threads; as many as the machine has unless given
+    std::string output = "-";       // -o
+    std::string format;             // --format; empty: by the output's name
+    bool source = true;             // --no-source: the output does not carry the command line
+    std::string command_line;       // of this run, quoted for a shell
+    std::vector<std::string> notes; // what the user should know once the run has succeeded
 };
 
 struct ToolInfo {
-    const char* name;                  // "treegen"
-    const char* about;                 // one or two lines for --help
-    const char* epilog;                // examples and details for --help
-    std::vector<std::string> formats;  // what --format takes; empty: no --format
-    bool has_source = true;            // whether outputs record the command line (--no-source)
+    const char* name;                 // "treegen"
+    const char* about;                // one or two lines for --help
+    const char* epilog;               // examples and details for --help
+    std::vector<std::string> formats; // what --format takes; empty: no --format
+    bool has_source = true;           // whether outputs record the command line (--no-source)
 };
 
 // Runs a tool: declares the common options and the tool's own, parses, works, reports what went wrong in one line on
@@ -60,10 +60,10 @@ int run_tool(const ToolInfo&, int argc, char** argv, CommonOptions&, const std::
              const std::function<void()>& work);
 
 // Validators for options: the value is refused with the option's name.
-CLI::Validator positive_number();      // finite, > 0
-CLI::Validator not_negative_number();  // finite, >= 0
+CLI::Validator positive_number();     // finite, > 0
+CLI::Validator not_negative_number(); // finite, >= 0
 CLI::Validator whole_number(std::int64_t least, std::int64_t most = INT64_MAX);
-CLI::Validator file_name();            // not empty, not an option by mistake
+CLI::Validator file_name(); // not empty, not an option by mistake
 
 // --units and --up of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
 struct ImportChoice {
@@ -103,9 +103,9 @@ private:
 
 // What a timing or a result was made with.
 const char* bough_version();
-const char* compiler_name();   // "GNU 12.2.0"
-const char* compiler_flags();  // of the library
-const char* simd_target();     // "none (scalar)"
+const char* compiler_name();  // "GNU 12.2.0"
+const char* compiler_flags(); // of the library
+const char* simd_target();    // "none (scalar)"
 int machine_threads();
 
 } // namespace bough
