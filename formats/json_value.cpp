@@ -1,0 +1,139 @@
+#include "document_parts.h"
+#include <algorithm>
+
+namespace bough {
+namespace {
+
+using nlohmann::json;
+
+// Builds a tree of values as nlohmann's own reader does, but takes no name twice and knows where it is.
+class Builder : public nlohmann::json_sax<json> {
+public:
+    Builder(std::string_view text, const std::string& name, const std::string& at)
+        : text_(text), name_(name), at_(at) {}
+    json result;
+
+    bool null() override { return put(nullptr); }
+    bool boolean(bool value) override { return put(value); }
+    bool number_integer(std::int64_t value) override { return put(value); }
+    bool number_unsigned(std::uint64_t value) override { return put(value); }
+    bool number_float(double value, const std::string&) override { return put(value); }
+    bool string(std::string& value) override { return put(std::move(value)); }
+    bool binary(json::binary_t&) override { return false; }
+    bool start_object(std::size_t) override { return open(json::object()); }
+    bool start_array(std::size_t) override { return open(json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+
+    bool key(std::string& key) override {
+        keys_.back() = key;
+        if (open_.back()->contains(key)) throw InputError(name_ + ": " + here(), "appears twice");
+        return true;
+    }
+
+    bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& e) override {
+        syntax_error(text_, name_, 0, position, token, e.what(), here());
+    }
+
+private:
+    std::string here() const {
+        std::string at = at_;
+        for (std::size_t i = 0; i < open_.size(); ++i) {
+            const bool last = i + 1 == open_.size();
+            if (open_[i]->is_array())
+                at += "/" + std::to_string(open_[i]->size() - (last || open_[i]->empty() ? 0 : 1));
+            else if (!keys_[i].empty())
+                at = pointer(at, keys_[i]);
+        }
+        return at;
+    }
+
+    json* add(json&& value) {
+        if (open_.empty()) {
+            result = std::move(value);
+            return &result;
+        }
+        json& parent = *open_.back();
+        if (parent.is_object()) return &(parent[keys_.back()] = std::move(value));
+        parent.push_back(std::move(value));
+        return &parent.back();
+    }
+
+    bool put(json&& value) {
+        add(std::move(value));
+        return true;
+    }
+
+    bool open(json&& value) {
+        open_.push_back(add(std::move(value)));
+        keys_.emplace_back();
+        return true;
+    }
+
+    bool close() {
+        open_.pop_back();
+        keys_.pop_back();
+        return true;
+    }
+
+    std::string_view text_;
+    const std::string &name_, &at_;
+    std::vector<json*> open_; // objects and arrays around what is being read
+    std::vector<std::string> keys_;
+};
+
+// "NaN" where the reader stopped at its first letter.
+std::string word_at(std::string_view text, std::size_t start) {
+    std::size_t end = start;
+    const auto of_word = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
+    };
+    while (end < text.size() && end < start + 40 && of_word(text[end])) ++end;
+    return std::string(text.substr(start, end - start));
+}
+
+bool is_not_finite(std::string word) {
+    if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.erase(0, 1);
+    for (char& c : word) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return word == "nan" || word == "inf" || word == "infinity";
+}
+
+} // namespace
+
+json parse_json(std::string_view text, const std::string& name, const std::string& at) {
+    Builder builder(text, name, at);
+    json::sax_parse(text.begin(), text.end(), &builder);
+    return std::move(builder.result);
+}
+
+void syntax_error(std::string_view text, const std::string& name, std::size_t line, std::size_t position,
+                  const std::string& token, const std::string& why, const std::string& at) {
+    const bool ended = position > text.size();
+    const std::size_t stop = std::min(position, text.size());
+    const std::size_t start = ended || token.size() > stop ? stop : stop - token.size();
+    const std::string_view before = text.substr(0, start);
+    const std::size_t last_end = before.rfind('\n');
+    const std::size_t column = start - (last_end == std::string_view::npos ? 0 : last_end + 1) + 1;
+    if (line == 0) line = std::size_t(std::count(before.begin(), before.end(), '\n')) + 1;
+    const std::string in = at.empty() ? "" : at + " ";
+    if (ended)
+        throw InputError(name + ":" + std::to_string(line),
+                         "ends here" + (at.empty() ? "" : " inside " + at) +
+                             ", expected the rest of the document: is the file whole?");
+
+    const std::string place = name + ":" + std::to_string(line) + ":" + std::to_string(column);
+    const std::string word = word_at(text, start);
+    if (is_not_finite(word) || why.find("number overflow") != std::string::npos)
+        throw InputError(place, in + "is " + word + ", expected a finite number");
+    const std::size_t reason = why.find("syntax error");
+    std::string message = reason == std::string::npos ? why : why.substr(reason);
+    message = message.substr(0, message.find("; last read"));
+    std::string got;
+    if (const std::size_t dash = why.rfind("; expected "); dash != std::string::npos && dash > reason)
+        got = why.substr(dash + 2);
+    if (!got.empty() && message.find(got) == std::string::npos) message += ", " + got;
+    throw InputError(place,
+                     (at.empty() ? "" : "in " + at + ": ") + message + " at " + in_quotes(text.substr(start, 20)));
+}
+
+} // namespace bough

@@ -1,0 +1,181 @@
+#include "motion_fields.h"
+#include <cassert>
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <unistd.h>
+
+namespace bough {
+namespace {
+
+// Bytes that must wait: an unnamed file in TMPDIR, or /tmp.
+class Spool {
+public:
+    explicit Spool(std::string output) : output_(std::move(output)) {
+        const char* directory = std::getenv("TMPDIR");
+        place_ = directory && *directory ? directory : "/tmp";
+        std::string path = place_ + "/bough-XXXXXX";
+        file_ = ::mkstemp(path.data());
+        if (file_ < 0) fail();
+        ::unlink(path.c_str());
+    }
+    Spool(const Spool&) = delete;
+    Spool& operator=(const Spool&) = delete;
+    ~Spool() {
+        if (file_ >= 0) ::close(file_);
+    }
+
+    void write(const std::string& bytes) {
+        for (std::size_t done = 0; done < bytes.size();) {
+            const ssize_t n = ::write(file_, bytes.data() + done, bytes.size() - done);
+            if (n < 0 && errno != EINTR) fail();
+            if (n > 0) done += std::size_t(n);
+        }
+    }
+
+    void read(std::uint64_t offset, std::string& bytes) {
+        for (std::size_t done = 0; done < bytes.size();) {
+            const ssize_t n = ::pread(file_, bytes.data() + done, bytes.size() - done, off_t(offset + done));
+            if (n < 0 && errno != EINTR) fail();
+            if (n == 0) throw OutputError(output_, "cannot be written: its temporary file in " + place_ + " was cut");
+            if (n > 0) done += std::size_t(n);
+        }
+    }
+
+private:
+    [[noreturn]] void fail() {
+        const int error = errno;
+        if (file_ >= 0) ::close(file_);
+        file_ = -1;
+        throw OutputError(output_, "cannot be written: temporary file in " + place_ + ": " +
+                                       std::generic_category().message(error));
+    }
+
+    std::string output_, place_;
+    int file_ = -1;
+};
+
+void append_frame(std::string& bytes, const FrameArray& array, const MotionFrame& frame, const std::string& output) {
+    const auto add = [&](const double* values, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (!std::isfinite(values[i]))
+                throw OutputError(output, "/" + std::string(array.name) + " of frame " + std::to_string(frame.frame) +
+                                              " is not finite, and documents hold finite numbers only");
+        bytes.append(reinterpret_cast<const char*>(values), count * sizeof(double));
+    };
+    if (array.vectors)
+        for (const Vec3& v : frame.*array.vectors) add(v.data(), 3);
+    else
+        for (const Quat& q : frame.*array.rotations) add(q.coeffs().data(), 4); // Eigen keeps x y z w
+}
+
+[[maybe_unused]] bool holds_just(const MotionFrame& frame, const MotionHeader& header) {
+    for (const FrameArray& array : frame_arrays)
+        if (array.size(frame) != (header.fields.*array.wanted ? std::size_t(header.bodies) : 0)) return false;
+    return true;
+}
+
+} // namespace
+
+struct MotionWriter::Implementation {
+    Output& output;
+    MotionHeader header;
+    MotionForm form;
+    std::vector<const FrameArray*> arrays;
+    std::size_t frames = 0;
+    // safetensors: the arrays' frames, one after the other, and the small arrays.
+    std::unique_ptr<Spool> spool;
+    std::vector<std::int64_t> frame;
+    std::vector<double> time;
+
+    std::string header_text(const char* separator) {
+        std::vector<std::string> words = words_of(header.fields);
+        std::string text = "{\"format\": \"" + std::string(motion_type.format) + "\"" + separator +
+                           "\"version\": " + std::to_string(motion_type.version);
+        for (const Field& field : header_fields(header, words))
+            if (!is_left_out(field)) text += separator + ("\"" + field.name + "\": ") + value_text(field);
+        return text;
+    }
+
+    void write_text(const MotionFrame& f) {
+        MotionFrame& looked_at = const_cast<MotionFrame&>(f);
+        if (form == MotionForm::json) output.write(frames == 0 ? "\n" : ",\n");
+        write_json_line(output, nullptr, frame_fields(looked_at));
+        if (form == MotionForm::json) return;
+        output.write("\n");
+        output.flush();
+    }
+
+    void write_binary(const MotionFrame& f) {
+        if (!std::isfinite(f.time)) throw OutputError(output.name(), "/time is not finite");
+        std::string bytes;
+        for (const FrameArray* array : arrays) append_frame(bytes, *array, f, output.name());
+        spool->write(bytes);
+        frame.push_back(f.frame);
+        time.push_back(f.time);
+    }
+
+    std::uint64_t bytes_a_frame(const FrameArray& array) const {
+        return std::uint64_t(header.bodies) * array.components() * sizeof(double);
+    }
+
+    void finish_binary() {
+        std::vector<std::pair<std::string, Tensor>> tensors{{"frame", {"I64", {frames}, 8 * frames, {}}},
+                                                            {"time", {"F64", {frames}, 8 * frames, {}}}};
+        std::uint64_t stride = 0;
+        for (const FrameArray* a : arrays) {
+            const std::uint64_t bytes = bytes_a_frame(*a);
+            tensors.push_back(
+                {a->name, {"F64", {frames, std::uint64_t(header.bodies), a->components()}, frames * bytes, {}}});
+            stride += bytes;
+        }
+        std::vector<std::string> words = words_of(header.fields);
+        output.write(safetensors_header(metadata_of(motion_type, header_fields(header, words)), tensors));
+        output.write({reinterpret_cast<const char*>(frame.data()), 8 * frames});
+        output.write({reinterpret_cast<const char*>(time.data()), 8 * frames});
+        std::uint64_t offset = 0;
+        for (const FrameArray* a : arrays) {
+            std::string bytes(bytes_a_frame(*a), '\0');
+            for (std::size_t i = 0; i < frames; ++i) {
+                spool->read(i * stride + offset, bytes);
+                output.write(bytes);
+            }
+            offset += bytes.size();
+        }
+    }
+};
+
+MotionWriter::MotionWriter(Output& output, const MotionHeader& header, MotionForm form)
+    : implementation_(new Implementation{output, header, form, {}, 0, nullptr, {}, {}}) {
+    for (const FrameArray& array : frame_arrays)
+        if (header.fields.*array.wanted) implementation_->arrays.push_back(&array);
+    if (form == MotionForm::safetensors) {
+        implementation_->spool = std::make_unique<Spool>(output.name());
+    } else if (form == MotionForm::json) {
+        output.write(implementation_->header_text(",\n") + ",\n\"frames\": [");
+    } else {
+        output.write(implementation_->header_text(", ") + "}\n");
+        output.flush();
+    }
+}
+
+MotionWriter::~MotionWriter() = default;
+
+void MotionWriter::write(const MotionFrame& frame) {
+    Implementation& to = *implementation_;
+    assert(holds_just(frame, to.header));
+    if (to.form == MotionForm::safetensors)
+        to.write_binary(frame);
+    else
+        to.write_text(frame);
+    ++to.frames;
+}
+
+void MotionWriter::finish() {
+    Implementation& to = *implementation_;
+    if (to.form == MotionForm::json) to.output.write(to.frames == 0 ? "]}\n" : "\n]}\n");
+    if (to.form == MotionForm::safetensors) to.finish_binary();
+    to.output.flush();
+}
+
+} // namespace bough

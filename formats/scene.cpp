@@ -1,0 +1,237 @@
+#include "scene.h"
+#include "scene_fields.h"
+
+namespace bough {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr DocumentType scene_type{"bough-scene", 1};
+constexpr DocumentType wind_type{"bough-wind", 1};
+const std::vector<std::string> poses{"drawn", "settled", "rest"};
+const std::vector<std::string> inertias{"branch", "paper"};
+
+// The document's fields as one object. In the binary form they all stand in __metadata__: what begins as an object, an
+// array or a number does is JSON text, anything else a string.
+json fields_of(std::string_view content, const std::string& name, const DocumentType& type) {
+    if (!is_binary(content, name, type)) return parse_json(content, name);
+    const Safetensors file = parse_safetensors(content, name);
+    if (!file.tensors.empty()) unknown_field(name, "", file.tensors.begin()->first, {"__metadata__"});
+    json fields = json::object();
+    for (const auto& [key, text] : file.metadata) {
+        const bool value = !text.empty() && std::string_view("{[-0123456789").find(text[0]) != std::string_view::npos;
+        fields[key] =
+            value ? parse_json(text, name + ": " + pointer("/__metadata__", key), pointer("", key)) : json(text);
+    }
+    return fields;
+}
+
+// Format and version first: what follows from a wrong one would only mislead.
+void read_type(ObjectReader& object, const std::string& name, const DocumentType& type) {
+    std::string format;
+    std::int64_t version = 0;
+    object.need("format");
+    object.read("format", format);
+    check_format(name, format, type);
+    object.need("version");
+    object.read("version", version);
+    check_version(name, version, type);
+}
+
+void read_wind_fields(ObjectReader& object, Wind& wind) {
+    object.need("velocity");
+    object.read("velocity", wind.velocity);
+    object.read("reference_height", wind.reference_height);
+    object.read("profile", wind.profile);
+    object.read("turbulence", wind.turbulence);
+    object.read("gust_factor", wind.gust_factor);
+    object.read("gust_period", wind.gust_period);
+    object.read("seed", wind.seed);
+    object.finish();
+}
+
+Wind read_wind_value(const json& value, const std::string& name) {
+    if (value.is_string()) {
+        const std::string preset = value.get<std::string>();
+        if (const std::optional<Wind> wind = wind_preset(preset)) return *wind;
+        throw InputError(name + ": /wind",
+                         "is " + in_quotes(preset) + ", expected calm, breeze, gusty, storm or an object");
+    }
+    Wind wind;
+    ObjectReader object(value, name, "/wind");
+    read_wind_fields(object, wind);
+    return wind;
+}
+
+Placement read_placement(const json& value, const std::string& name, const std::string& at) {
+    Placement tree;
+    ObjectReader object(value, name, at);
+    object.need("file");
+    object.read("file", tree.file);
+    object.read("position", tree.position);
+    object.read("yaw", tree.yaw);
+    object.finish();
+    return tree;
+}
+
+Selector read_selector(const json& value, const std::string& name, const std::string& at) {
+    const std::vector<std::string> ways{"body", "branch", "nearest", "level"};
+    Selector on;
+    ObjectReader object(value, name, at);
+    std::vector<std::string> given;
+    for (std::size_t i = 0; i < ways.size(); ++i)
+        if (object.has(ways[i])) {
+            given.push_back(ways[i]);
+            on.by = Selector::By(i);
+        }
+    const auto only_for = [&](const char* key, bool allowed, const char* with) {
+        if (object.has(key) && !allowed) object.fail(key, std::string("goes only with ") + with);
+    };
+    object.read("body", on.body);
+    object.read("branch", on.branch);
+    object.read("nearest", on.nearest);
+    object.read("level", on.level);
+    object.read("tree", on.tree);
+    object.read("at", on.at);
+    object.finish();
+    if (given.empty()) throw InputError(name + ": " + at, "names no body, expected body, branch, nearest or level");
+    if (given.size() > 1) object.fail(given[1], "stands beside " + in_quotes(given[0]) + ", expected only one of them");
+    only_for("tree", on.by == Selector::By::body || on.by == Selector::By::branch, "body or branch");
+    only_for("at", on.by == Selector::By::branch, "branch");
+    return on;
+}
+
+Pull read_pull(const json& value, const std::string& name, const std::string& at) {
+    Pull pull;
+    ObjectReader object(value, name, at);
+    pull.on = read_selector(object.need("on"), name, object.at("on"));
+    object.need("time");
+    object.read("time", pull.time);
+    object.need("force");
+    object.read("force", pull.force);
+    object.finish();
+    return pull;
+}
+
+ordered_json numbers(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+ordered_json value_of(const Wind& wind) {
+    return {{"velocity", numbers(wind.velocity)},
+            {"reference_height", wind.reference_height},
+            {"profile", wind.profile},
+            {"turbulence", wind.turbulence},
+            {"gust_factor", wind.gust_factor},
+            {"gust_period", wind.gust_period},
+            {"seed", wind.seed}};
+}
+
+ordered_json value_of(const Selector& on) {
+    switch (on.by) {
+    case Selector::By::body:
+        return {{"tree", on.tree}, {"body", on.body}};
+    case Selector::By::branch:
+        return {{"tree", on.tree}, {"branch", on.branch}, {"at", on.at}};
+    case Selector::By::nearest:
+        return {{"nearest", numbers(on.nearest)}};
+    case Selector::By::level:
+        break;
+    }
+    return {{"level", on.level}};
+}
+
+ordered_json value_of(const Scene& scene) {
+    ordered_json fields{{"format", scene_type.format}, {"version", scene_type.version}};
+    fields["trees"] = ordered_json::array();
+    for (const Placement& tree : scene.trees)
+        fields["trees"].push_back({{"file", tree.file}, {"position", numbers(tree.position)}, {"yaw", tree.yaw}});
+    fields["gravity"] = numbers(scene.gravity);
+    if (scene.wind) fields["wind"] = value_of(*scene.wind);
+    fields["air_density"] = scene.air_density;
+    fields["pulls"] = ordered_json::array();
+    for (const Pull& pull : scene.pulls) {
+        ordered_json force = ordered_json::array();
+        for (const Vec3& f : pull.force) force.push_back(numbers(f));
+        fields["pulls"].push_back({{"on", value_of(pull.on)}, {"time", pull.time}, {"force", force}});
+    }
+    fields["pose"] = poses[std::size_t(scene.pose)];
+    fields["joint_inertia"] = inertias[std::size_t(scene.joint_inertia)];
+    fields["stiffness_scale"] = scene.stiffness_scale;
+    fields["damping_scale"] = scene.damping_scale;
+    return fields;
+}
+
+std::string text_of(const ordered_json& value) {
+    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+} // namespace
+
+bool is_scene(std::string_view content) {
+    return document_format(content) == scene_type.format;
+}
+
+Scene read_scene(std::string_view content, const std::string& name) {
+    const json fields = fields_of(content, name, scene_type);
+    Scene scene;
+    ObjectReader object(fields, name, "");
+    read_type(object, name, scene_type);
+    for (const json& value : object.list("trees"))
+        scene.trees.push_back(read_placement(value, name, "/trees/" + std::to_string(scene.trees.size())));
+    object.read("gravity", scene.gravity);
+    if (object.has("wind")) scene.wind = read_wind_value(object.need("wind"), name);
+    object.read("air_density", scene.air_density);
+    for (const json& value : object.list("pulls"))
+        scene.pulls.push_back(read_pull(value, name, "/pulls/" + std::to_string(scene.pulls.size())));
+    scene.pose = Pose(object.word("pose", poses, std::size_t(scene.pose)));
+    scene.joint_inertia = JointInertia(object.word("joint_inertia", inertias, std::size_t(scene.joint_inertia)));
+    object.read("stiffness_scale", scene.stiffness_scale);
+    object.read("damping_scale", scene.damping_scale);
+    object.finish();
+    refuse(check(scene), name, {});
+    return scene;
+}
+
+Wind read_wind(std::string_view content, const std::string& name) {
+    const json fields = fields_of(content, name, wind_type);
+    Scene scene;
+    scene.wind.emplace();
+    ObjectReader object(fields, name, "");
+    read_type(object, name, wind_type);
+    read_wind_fields(object, *scene.wind);
+    if (std::optional<Defect> defect = check(scene)) {
+        defect->field.erase(0, std::string("wind/").size());
+        refuse(defect, name, {});
+    }
+    return *scene.wind;
+}
+
+void write_scene(Output& output, const Scene& scene, Form form) {
+    if (const std::optional<Defect> defect = check(scene))
+        throw OutputError(output.name(), "/" + defect->field + " " + defect->message);
+    const ordered_json fields = value_of(scene);
+    if (form == Form::safetensors) {
+        std::vector<std::pair<std::string, std::string>> metadata;
+        for (const auto& [key, value] : fields.items())
+            metadata.emplace_back(key, value.is_string() ? value.get<std::string>() : text_of(value));
+        output.write(safetensors_header(metadata, {}));
+        return;
+    }
+    std::string text = "{";
+    for (const auto& [key, value] : fields.items()) {
+        text += (text.size() > 1 ? ",\n" : "\n") + text_of(key) + ": ";
+        if (key == "trees" || key == "pulls") { // one a line
+            text += "[";
+            for (const ordered_json& entry : value)
+                text += (&entry == &value.front() ? "\n  " : ",\n  ") + text_of(entry);
+            text += "]";
+        } else {
+            text += text_of(value);
+        }
+    }
+    output.write(text + "\n}\n");
+}
+
+} // namespace bough

@@ -1,0 +1,67 @@
+#include "document.h"
+#include "motion.h"
+#include <charconv>
+
+namespace bough {
+namespace {
+
+constexpr DocumentType type{"bough-state", 1};
+
+// `fingerprint`: 16 hexadecimal digits, because JSON's numbers do not hold 64 bits everywhere.
+std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
+    const Per body{"body in /theta", [&state] { return state.theta.size(); }};
+    return {{"frame", &state.frame},
+            {"fps", &state.fps},
+            {"substeps", &state.substeps},
+            {"precision", &state.precision},
+            {"solver", &state.solver},
+            {"fingerprint", &fingerprint},
+            optional({"source", &state.source}),
+            array("theta", state.theta, {}),
+            array("theta_dot", state.theta_dot, body)};
+}
+
+std::string hexadecimal(std::uint64_t value) {
+    std::string digits(16, '0');
+    for (std::size_t i = 16; i-- > 0; value >>= 4) digits[i] = "0123456789abcdef"[value & 15u];
+    return digits;
+}
+
+bool read_hexadecimal(const std::string& text, std::uint64_t& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    return text.size() == 16 && text[0] != '-' && error == std::errc() && end == text.data() + text.size();
+}
+
+void check_state(const SavedState& state, const std::string& name) {
+    const auto fail = [&](const char* field, const std::string& message) {
+        throw InputError(name + ": /" + field, message);
+    };
+    if (state.frame < 0) fail("frame", "is " + std::to_string(state.frame) + ", expected 0 or more");
+    if (!(state.fps > 0)) fail("fps", "is not above 0, expected frames a second");
+    if (state.substeps < 1) fail("substeps", "is " + std::to_string(state.substeps) + ", expected 1 or more");
+    if (state.precision != "float" && state.precision != "double")
+        fail("precision", "is \"" + state.precision.substr(0, 20) + "\", expected \"float\" or \"double\"");
+}
+
+} // namespace
+
+bool is_state(std::string_view content) {
+    return document_format(content) == type.format;
+}
+
+SavedState read_state(std::string_view content, const std::string& name) {
+    SavedState state;
+    std::string fingerprint;
+    read_document(content, name, type, fields_of(state, fingerprint));
+    if (!read_hexadecimal(fingerprint, state.fingerprint))
+        throw InputError(name + ": /fingerprint", "is not 16 hexadecimal digits");
+    check_state(state, name);
+    return state;
+}
+
+void write_state(Output& output, const SavedState& state, Form form) {
+    std::string fingerprint = hexadecimal(state.fingerprint);
+    write_document(output, form, type, fields_of(const_cast<SavedState&>(state), fingerprint)); // a writer only looks
+}
+
+} // namespace bough

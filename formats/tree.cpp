@@ -1,0 +1,46 @@
+#include "tree.h"
+#include "document.h"
+
+namespace bough {
+namespace {
+
+constexpr DocumentType type{"bough-tree", 1};
+
+std::vector<Field> fields_of(Tree& t) {
+    const Per body{"body in /parent", [&t] { return t.size_bodies(); }};
+    return {optional({"name", &t.name}),
+            optional({"material", &t.material}),
+            optional({"source", &t.source}),
+            array("parent", t.parent, {}),
+            array("kind", t.kind, body, Kind::branch),
+            array("mass", t.mass, body),
+            array("com", t.com, body),
+            array("inertia", t.inertia, body),
+            array("joint_position", t.joint_position, body),
+            array("joint_rotation", t.joint_rotation, body),
+            array("stiffness", t.stiffness, body),
+            array("damping", t.damping, body, 0.0),
+            array("size", t.size, body),
+            array("branch", t.branch, body),
+            array("level", t.level, body),
+            array("s", t.s, body)};
+}
+
+} // namespace
+
+bool is_tree(std::string_view content) {
+    return document_format(content) == type.format;
+}
+
+Tree read_tree(std::string_view content, const std::string& name) {
+    Tree tree;
+    read_document(content, name, type, fields_of(tree));
+    refuse(check(tree), name, fields_of(tree));
+    return tree;
+}
+
+void write_tree(Output& output, const Tree& tree, Form form) {
+    write_document(output, form, type, fields_of(const_cast<Tree&>(tree))); // a writer only looks
+}
+
+} // namespace bough
