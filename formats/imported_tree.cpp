@@ -221,7 +221,8 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
         add_leaf(s, leaf, place.fraction, frame);
     }
     if (const auto defect = check(s)) {
-        const std::string entry = defect->index < 0 ? "" : "[" + std::to_string(defect->index) + "]";
+        std::string entry;
+        if (defect->index >= 0) entry.append("[").append(std::to_string(defect->index)).append("]");
         throw InputError(options.name, "imported " + defect->field + entry + " " + defect->message);
     }
     return s;

@@ -109,6 +109,7 @@ void complete_ends(std::vector<Bone>& bones, ImportNotes& notes) {
         Bone& b = bones[i];
         if (b.has_end) continue;
         ++missing;
+        b.has_end = true;
         if (ends_at[i] >= 0)
             b.end = bones[ends_at[i]].start;
         else

@@ -24,8 +24,8 @@ struct Bone {
     std::int64_t id = 0;
     std::int32_t parent = -1; // index, -1: root
     Vec3 start = Vec3::Zero(), end = Vec3::Zero();
-    double radius = 0; // at the start; 0: the file gives none
-    bool has_end = false;
+    double radius = 0;    // at the start; 0: the file gives none
+    bool has_end = false; // from the file, later completed
     std::string generator;
     std::size_t line = 0;
 };

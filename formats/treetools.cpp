@@ -109,7 +109,9 @@ void add_tree(Skeleton& s, std::string_view text, const Fields& f, std::size_t l
 bool recognizes_treetools(std::string_view content) {
     Lines lines(without_bom(content));
     std::string_view line;
-    return lines.next(line) && line.size() < 65536 && line.find(mandatory) != std::string_view::npos;
+    if (!lines.next(line) || line.size() > 65536) return false;
+    const std::size_t at = line.find(mandatory);
+    return at == 0 || (at != std::string_view::npos && line.find("parent_id", at) != std::string_view::npos);
 }
 
 Splines read_treetools(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
