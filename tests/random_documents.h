@@ -1,0 +1,235 @@
+// random_documents.h: valid documents full of awkward numbers, and helpers to write and read them in tests.
+#pragma once
+#include "formats/open.h"
+#include "lib/model/motion.h"
+#include "lib/model/scene.h"
+#include "lib/model/splines.h"
+#include "lib/model/tree.h"
+#include <bit>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <unistd.h>
+
+namespace bough::test {
+
+// A folder of this test's own, removed afterwards.
+struct Folder {
+    std::filesystem::path path;
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "bough-test-XXXXXX").string();
+        path = ::mkdtemp(name.data());
+    }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::string operator/(const std::string& name) const { return (path / name).string(); }
+    std::size_t files() const {
+        return std::size_t(
+            std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
+    }
+};
+
+// What `write(Output&)` writes.
+template <class Write> std::string written(Write write) {
+    const Folder folder;
+    Output output(folder / "document");
+    write(output);
+    output.finish();
+    return read_input(folder / "document");
+}
+
+// What an InputError says, "" where nothing is thrown.
+template <class Read> std::string error_of(Read read) {
+    try {
+        read();
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+struct Random {
+    std::mt19937_64 engine{20};
+
+    // Any finite double but for its size: signs, subnormal ones, zeros of both signs, extremes.
+    double any() {
+        for (;;) {
+            const double value = std::bit_cast<double>(engine());
+            switch (engine() % 16) {
+            case 0:
+                return -0.0;
+            case 1:
+                return 0.0;
+            case 2:
+                return std::numeric_limits<double>::denorm_min();
+            case 3:
+                return std::numeric_limits<double>::max();
+            case 4:
+                return 1;
+            case 5:
+                return 9007199254740993.0;
+            default:
+                if (std::isfinite(value)) return value;
+            }
+        }
+    }
+    double positive() { return std::max(std::abs(any()), std::numeric_limits<double>::denorm_min()); }
+    double fraction() { return std::generate_canonical<double, 53>(engine); }
+    Vec3 vector() { return {any(), any(), any()}; }
+    Quat rotation() {
+        return Quat(fraction() - 0.5, fraction() - 0.5, fraction() - 0.5, fraction() + 0.1).normalized();
+    }
+    std::int32_t below(std::size_t count) { return std::int32_t(engine() % count); }
+};
+
+// A body's inertia with uneven digits: that of three masses on turned axes.
+inline Mat3 random_inertia(Random& random) {
+    const Mat3 r = random.rotation().toRotationMatrix();
+    const Mat3 moments = r * Vec3(random.fraction() + 0.1, random.fraction() + 0.1, 1e-7).asDiagonal() * r.transpose();
+    const Mat3 inertia = moments.trace() * Mat3::Identity() - moments;
+    return 0.5 * (inertia + inertia.transpose());
+}
+
+inline Tree random_tree(std::size_t bodies, Random& random) {
+    Tree t;
+    t.resize(bodies);
+    for (std::size_t i = 0; i < bodies; ++i) {
+        t.parent[i] = i == 0 ? -1 : random.below(i + 1) - 1;
+        t.kind[i] = Kind(random.below(3));
+        t.mass[i] = random.positive();
+        t.com[i] = random.vector();
+        t.inertia[i] = random_inertia(random);
+        t.joint_position[i] = random.vector();
+        t.joint_rotation[i] = random.rotation();
+        t.stiffness[i] = random.vector().cwiseAbs();
+        t.damping[i] = std::abs(random.any());
+        t.size[i] = {random.positive(), std::abs(random.any()), 0};
+        t.branch[i] = random.below(1u << 31);
+        t.level[i] = random.below(9);
+        t.s[i] = random.fraction();
+    }
+    t.name = "Weide \xc3\xa4 \"quoted\" \\ \n\t\x01 \xf0\x9f\x8c\xb3";
+    t.source = "treegen --seed 7\ntreeconvert -";
+    return t;
+}
+
+inline Splines random_splines(std::size_t branches, Random& random) {
+    Splines s;
+    s.first_point.push_back(0);
+    for (std::size_t b = 0; b < branches; ++b) {
+        s.parent.push_back(b == 0 ? -1 : random.below(b + 1) - 1);
+        s.parent_at.push_back(random.fraction());
+        s.level.push_back(random.below(5));
+        const int points = 2 + random.below(4);
+        for (int i = 0; i < points; ++i) {
+            s.point.push_back(random.vector());
+            s.radius.push_back(std::abs(random.any()));
+        }
+        s.first_point.push_back(std::int32_t(s.points()));
+        s.leaf_branch.push_back(random.below(branches));
+        s.leaf_at.push_back(random.fraction());
+        s.leaf_position.push_back(random.vector());
+        s.leaf_rotation.push_back(random.rotation());
+        s.leaf_length.push_back(random.positive());
+        s.leaf_width.push_back(random.positive());
+        if (b % 2 == 0) continue;
+        s.fruit_branch.push_back(random.below(branches));
+        s.fruit_at.push_back(random.fraction());
+        s.fruit_position.push_back(Vec3(1, 2, 3));
+        s.fruit_center.push_back(Vec3(1, 2, random.fraction()));
+        s.fruit_radius.push_back(random.positive());
+    }
+    s.source = "test";
+    return s;
+}
+
+inline Motion random_motion(const MotionFields& fields, std::int64_t bodies, std::int64_t frames, Random& random) {
+    Motion motion;
+    motion.header.bodies = bodies;
+    motion.header.fps = 24;
+    motion.header.fields = fields;
+    motion.header.name = "oak";
+    const auto vectors = [&](std::vector<Vec3>& to, bool wanted) {
+        for (std::int64_t i = 0; wanted && i < bodies; ++i) to.push_back(random.vector());
+    };
+    for (std::int64_t f = 0; f < frames; ++f) {
+        MotionFrame frame;
+        frame.frame = 5 + f;
+        frame.time = double(f) / 24;
+        vectors(frame.position, fields.pose);
+        for (std::int64_t i = 0; fields.pose && i < bodies; ++i) frame.rotation.push_back(random.rotation());
+        vectors(frame.velocity, fields.velocity);
+        vectors(frame.angular_velocity, fields.velocity);
+        vectors(frame.torque, fields.torque);
+        vectors(frame.theta, fields.angles);
+        vectors(frame.theta_dot, fields.angles);
+        motion.frame.push_back(frame);
+    }
+    return motion;
+}
+
+// Equal bit by bit: 0 and -0 differ.
+inline bool same(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+inline bool same(const Vec3& a, const Vec3& b) {
+    return same(a.x(), b.x()) && same(a.y(), b.y()) && same(a.z(), b.z());
+}
+inline bool same(const Mat3& a, const Mat3& b) {
+    return same(Vec3(a.col(0)), Vec3(b.col(0))) && same(Vec3(a.col(1)), Vec3(b.col(1))) &&
+           same(Vec3(a.col(2)), Vec3(b.col(2)));
+}
+inline bool same(const Quat& a, const Quat& b) {
+    return same(Vec3(a.vec()), Vec3(b.vec())) && same(a.w(), b.w());
+}
+template <class T>
+requires std::is_integral_v<T> || std::is_enum_v<T>
+bool same(T a, T b) {
+    return a == b;
+}
+bool same(const MotionFrame& a, const MotionFrame& b);
+template <class T> bool same(const std::vector<T>& a, const std::vector<T>& b) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (!same(a[i], b[i])) return false;
+    return true;
+}
+
+inline bool same(const Tree& a, const Tree& b) {
+    return same(a.parent, b.parent) && same(a.kind, b.kind) && same(a.mass, b.mass) && same(a.com, b.com) &&
+           same(a.inertia, b.inertia) && same(a.joint_position, b.joint_position) &&
+           same(a.joint_rotation, b.joint_rotation) && same(a.stiffness, b.stiffness) && same(a.damping, b.damping) &&
+           same(a.size, b.size) && same(a.branch, b.branch) && same(a.level, b.level) && same(a.s, b.s) &&
+           a.name == b.name && a.material == b.material && a.source == b.source;
+}
+
+inline bool same(const Splines& a, const Splines& b) {
+    return same(a.parent, b.parent) && same(a.parent_at, b.parent_at) && same(a.level, b.level) &&
+           same(a.first_point, b.first_point) && same(a.point, b.point) && same(a.radius, b.radius) &&
+           same(a.leaf_branch, b.leaf_branch) && same(a.leaf_at, b.leaf_at) && same(a.leaf_position, b.leaf_position) &&
+           same(a.leaf_rotation, b.leaf_rotation) && same(a.leaf_length, b.leaf_length) &&
+           same(a.leaf_width, b.leaf_width) && same(a.fruit_branch, b.fruit_branch) && same(a.fruit_at, b.fruit_at) &&
+           same(a.fruit_position, b.fruit_position) && same(a.fruit_center, b.fruit_center) &&
+           same(a.fruit_radius, b.fruit_radius) && a.name == b.name && a.source == b.source;
+}
+
+inline bool same(const MotionFrame& a, const MotionFrame& b) {
+    return a.frame == b.frame && same(a.time, b.time) && same(a.position, b.position) && same(a.rotation, b.rotation) &&
+           same(a.velocity, b.velocity) && same(a.angular_velocity, b.angular_velocity) && same(a.torque, b.torque) &&
+           same(a.theta, b.theta) && same(a.theta_dot, b.theta_dot);
+}
+
+inline bool same(const Motion& a, const Motion& b) {
+    const MotionFields &f = a.header.fields, &g = b.header.fields;
+    return same(a.header.fps, b.header.fps) && a.header.bodies == b.header.bodies && a.header.name == b.header.name &&
+           a.header.source == b.header.source && f.pose == g.pose && f.velocity == g.velocity && f.torque == g.torque &&
+           f.angles == g.angles && same(a.frame, b.frame);
+}
+
+} // namespace bough::test

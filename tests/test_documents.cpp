@@ -1,0 +1,247 @@
+// Documents written and read again, in both forms, against what was in memory; and small documents written by hand.
+#include "formats/motion.h"
+#include "formats/scene.h"
+#include "formats/splines.h"
+#include "formats/tree.h"
+#include "random_documents.h"
+#include <chrono>
+#include <clocale>
+
+using namespace bough;
+using namespace bough::test;
+
+namespace {
+
+std::string tree_text(const Tree& tree, Form form) {
+    return written([&](Output& o) { write_tree(o, tree, form); });
+}
+std::string splines_text(const Splines& splines, Form form) {
+    return written([&](Output& o) { write_splines(o, splines, form); });
+}
+std::string scene_text(const Scene& scene, Form form) {
+    return written([&](Output& o) { write_scene(o, scene, form); });
+}
+std::string motion_text(const Motion& motion, MotionForm form) {
+    return written([&](Output& o) {
+        MotionWriter writer(o, motion.header, form);
+        for (const MotionFrame& frame : motion.frame) writer.write(frame);
+        writer.finish();
+    });
+}
+
+const char* one_body = R"({"format": "bough-tree", "version": 1, "parent": [-1], "mass": [2], "com": [0, 0, 0.5],
+"inertia": [0.2, 0.2, 0.01, 0.001, 0.002, 0.003], "joint_position": [1, 2, 3], "joint_rotation": [0, 0.6, 0, 0.8],
+"stiffness": [10, 10, 5], "size": [1, 0.1, 0.05], "branch": [0], "level": [0], "s": [0]})";
+
+} // namespace
+
+TEST_CASE("trees come back bit by bit from both forms") {
+    Random random;
+    for (const std::size_t bodies : {1u, 2u, 57u, 5000u}) {
+        const Tree tree = random_tree(bodies, random);
+        for (const Form form : {Form::json, Form::safetensors}) {
+            const std::string text = tree_text(tree, form);
+            CHECK(is_tree(text));
+            CHECK_FALSE(is_splines(text));
+            CHECK(same(read_tree(text, "t"), tree));
+        }
+    }
+}
+
+TEST_CASE("splines come back bit by bit from both forms") {
+    Random random;
+    for (const std::size_t branches : {1u, 2u, 900u}) {
+        const Splines splines = random_splines(branches, random);
+        for (const Form form : {Form::json, Form::safetensors}) {
+            const std::string text = splines_text(splines, form);
+            CHECK(is_splines(text));
+            CHECK(same(read_splines(text, "s"), splines));
+        }
+    }
+}
+
+TEST_CASE("motions come back bit by bit from all three forms") {
+    Random random;
+    const MotionFields all{true, true, true, true}, pose{}, torque{false, false, true, false};
+    for (const MotionFields& fields : {all, pose, torque})
+        for (const std::int64_t frames : {0, 1, 7})
+            for (const std::int64_t bodies : {0, 1, 12}) {
+                const Motion motion = random_motion(fields, bodies, frames, random);
+                for (const MotionForm form : {MotionForm::jsonl, MotionForm::json, MotionForm::safetensors}) {
+                    INFO(frames << " frames of " << bodies << " bodies, form " << int(form));
+                    const std::string text = motion_text(motion, form);
+                    CHECK(is_motion(text));
+                    CHECK(same(read_motion(text, "m"), motion));
+                }
+            }
+}
+
+TEST_CASE("a motion as JSON may stand on one line") {
+    Random random;
+    const Motion motion = random_motion({}, 3, 4, random);
+    std::string text = motion_text(motion, MotionForm::json);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    CHECK(same(read_motion(text, "m"), motion));
+}
+
+TEST_CASE("saved states come back from both forms") {
+    Random random;
+    SavedState state;
+    state.frame = 299;
+    state.fps = 59.94;
+    state.substeps = 4;
+    state.precision = "float";
+    state.solver = "analytic";
+    state.fingerprint = 0xfedcba9876543210u;
+    for (int i = 0; i < 20; ++i) {
+        state.theta.push_back(random.vector());
+        state.theta_dot.push_back(random.vector());
+    }
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_state(o, state, form); });
+        CHECK(is_state(text));
+        const SavedState read = read_state(text, "s");
+        CHECK(read.frame == state.frame);
+        CHECK(same(read.fps, state.fps));
+        CHECK(read.substeps == state.substeps);
+        CHECK(read.precision == state.precision);
+        CHECK(read.solver == state.solver);
+        CHECK(read.fingerprint == state.fingerprint);
+        CHECK(same(read.theta, state.theta));
+        CHECK(same(read.theta_dot, state.theta_dot));
+    }
+}
+
+TEST_CASE("scenes come back from both forms") {
+    Scene scene;
+    scene.trees = {{"oak.json", {1, 0, -0.1}, 30}, {"birch.safetensors", {0, 0, 1e-300}, -7.5}};
+    scene.gravity = {0, -1.62, 0};
+    scene.wind = Wind{{3, 0, 1}, 8, 0.2, 0.3, 1.5, 4, 18446744073709551615u};
+    scene.air_density = 1.1;
+    scene.pose = Pose::settled;
+    scene.joint_inertia = JointInertia::paper;
+    scene.stiffness_scale = 0.5;
+    scene.damping_scale = 2;
+    Pull pull;
+    pull.time = {0, 1.5};
+    pull.force = {{0, 0, 1}, {0.1, 0.2, 0.3}};
+    pull.on.by = Selector::By::branch;
+    pull.on.tree = 1, pull.on.branch = 12, pull.on.at = 0.8;
+    scene.pulls.push_back(pull);
+    pull.on = {};
+    pull.on.by = Selector::By::nearest;
+    pull.on.nearest = {1, 2, 3};
+    scene.pulls.push_back(pull);
+    pull.on = {};
+    pull.on.by = Selector::By::level;
+    pull.on.level = 2;
+    scene.pulls.push_back(pull);
+    pull.on = {};
+    pull.on.body = 57;
+    scene.pulls.push_back(pull);
+
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = scene_text(scene, form);
+        INFO(text);
+        CHECK(is_scene(text));
+        const Scene read = read_scene(text, "s");
+        REQUIRE(read.trees.size() == 2);
+        CHECK(read.trees[1].file == "birch.safetensors");
+        CHECK(same(read.trees[1].position, scene.trees[1].position));
+        CHECK(read.trees[0].yaw == 30);
+        CHECK(same(read.gravity, scene.gravity));
+        REQUIRE(read.wind);
+        CHECK(same(read.wind->velocity, scene.wind->velocity));
+        CHECK(read.wind->reference_height == 8);
+        CHECK(read.wind->profile == 0.2);
+        CHECK(read.wind->turbulence == 0.3);
+        CHECK(read.wind->gust_factor == 1.5);
+        CHECK(read.wind->gust_period == 4);
+        CHECK(read.wind->seed == scene.wind->seed);
+        CHECK(read.air_density == 1.1);
+        CHECK(read.pose == Pose::settled);
+        CHECK(read.joint_inertia == JointInertia::paper);
+        CHECK(read.stiffness_scale == 0.5);
+        CHECK(read.damping_scale == 2);
+        REQUIRE(read.pulls.size() == 4);
+        CHECK(same(read.pulls[0].time, pull.time));
+        CHECK(same(read.pulls[0].force, pull.force));
+        CHECK(read.pulls[0].on.by == Selector::By::branch);
+        CHECK(read.pulls[0].on.tree == 1);
+        CHECK(read.pulls[0].on.branch == 12);
+        CHECK(read.pulls[0].on.at == 0.8);
+        CHECK(read.pulls[1].on.by == Selector::By::nearest);
+        CHECK(same(read.pulls[1].on.nearest, Vec3(1, 2, 3)));
+        CHECK(read.pulls[2].on.by == Selector::By::level);
+        CHECK(read.pulls[2].on.level == 2);
+        CHECK(read.pulls[3].on.by == Selector::By::body);
+        CHECK(read.pulls[3].on.body == 57);
+    }
+}
+
+TEST_CASE("a scene of two lines has the defaults") {
+    const Scene defaults, read = read_scene(R"({"format": "bough-scene", "version": 1})", "s");
+    CHECK(read.trees.empty());
+    CHECK_FALSE(read.wind);
+    CHECK(read.pulls.empty());
+    CHECK(read.gravity == defaults.gravity);
+    CHECK(read.pose == Pose::drawn);
+
+    const Scene gusty = read_scene(R"({"format": "bough-scene", "version": 1, "wind": "gusty"})", "s");
+    REQUIRE(gusty.wind);
+    CHECK(gusty.wind->velocity.norm() == Approx(8));
+    const Wind wind = read_wind(R"({"format": "bough-wind", "version": 1, "velocity": [3, 0, 4]})", "w");
+    CHECK(wind.velocity == Vec3(3, 0, 4));
+    CHECK(wind.gust_factor == 1);
+}
+
+TEST_CASE("a tree written by hand is read as it says") {
+    const Tree tree = read_tree(one_body, "t");
+    REQUIRE(tree.size_bodies() == 1);
+    CHECK(tree.kind[0] == Kind::branch);
+    CHECK(tree.damping[0] == 0);
+    CHECK(tree.joint_rotation[0].y() == 0.6);
+    CHECK(tree.joint_rotation[0].w() == 0.8);
+    CHECK(tree.inertia[0](2, 2) == 0.01);
+    CHECK(tree.inertia[0](0, 1) == 0.001);
+    CHECK(tree.inertia[0](2, 0) == 0.002);
+    CHECK(tree.inertia[0](1, 2) == 0.003);
+    CHECK(same(read_tree(std::string("\xef\xbb\xbf \r\n") + one_body, "t"), tree)); // as Windows programs save it
+}
+
+TEST_CASE("content decides which form it is") {
+    Random random;
+    const Tree tree = random_tree(3, random);
+    const std::string indented = "        " + tree_text(tree, Form::json); // '{' where a safetensors header has it
+    CHECK(is_tree(indented));
+    CHECK(same(read_tree(indented, "t.safetensors"), tree));
+    for (const char* other :
+         {"", "{", "<xml/>", "{}", "[]", "{\"format\": 3}", "{\"a\": {\"format\": \"bough-tree\"}}"})
+        CHECK_FALSE(is_tree(other));
+}
+
+TEST_CASE("numbers do not depend on the locale") {
+    const char* old = std::setlocale(LC_ALL, nullptr);
+    const std::string before = old;
+    for (const char* name : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8"})
+        if (std::setlocale(LC_ALL, name)) break;
+    Random random;
+    const Tree tree = random_tree(20, random);
+    const std::string text = tree_text(tree, Form::json);
+    const bool equal = same(read_tree(text, "t"), tree);
+    if (std::string(std::setlocale(LC_ALL, nullptr)) == before) WARN("no locale with a decimal comma is installed");
+    std::setlocale(LC_ALL, before.c_str());
+    CHECK(equal);
+    CHECK(text == tree_text(tree, Form::json));
+}
+
+TEST_CASE("what cannot be read again is not written") {
+    Random random;
+    Tree tree = random_tree(3, random);
+    tree.com[1].y() = std::numeric_limits<double>::quiet_NaN();
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const Folder folder;
+        Output output(folder / "t");
+        CHECK_THROWS_WITH(write_tree(output, tree, form), Catch::Contains("/com/4") && Catch::Contains("not finite"));
+    }
+}
