@@ -1,7 +1,9 @@
 #include "obj.h"
-#include <array>
+#include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 
