@@ -245,3 +245,31 @@ TEST_CASE("what cannot be read again is not written") {
         CHECK_THROWS_WITH(write_tree(output, tree, form), Catch::Contains("/com/4") && Catch::Contains("not finite"));
     }
 }
+
+TEST_CASE("the examples of formats/README.md are documents") {
+    const std::string page = read_input(BOUGH_DATA_DIR "/../formats/README.md");
+    std::size_t examples = 0;
+    for (std::size_t at = page.find("\n    {\"format\""); at != std::string::npos;
+         at = page.find("\n    {\"format\"", at)) {
+        std::string text;
+        for (std::size_t line = at + 1; page.compare(line, 4, "    ") == 0; line = at + 1) {
+            at = page.find('\n', line);
+            text += page.substr(line + 4, at + 1 - line - 4);
+        }
+        INFO(text);
+        ++examples;
+        if (is_splines(text))
+            CHECK_NOTHROW(read_splines(text, "README.md"));
+        else if (is_tree(text))
+            CHECK_NOTHROW(read_tree(text, "README.md"));
+        else if (is_scene(text))
+            CHECK_NOTHROW(read_scene(text, "README.md"));
+        else if (is_motion(text))
+            CHECK(read_motion(text, "README.md").frame.size() == 1);
+        else if (is_state(text))
+            CHECK_NOTHROW(read_state(text, "README.md"));
+        else
+            CHECK_NOTHROW(read_wind(text, "README.md"));
+    }
+    CHECK(examples == 6);
+}
