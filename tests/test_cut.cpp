@@ -144,8 +144,8 @@ TEST_CASE("a loop and a fold have no piece without a direction") {
     ring.back() = ring.front();
     add_branch(s, -1, 0, ring, std::vector<double>(61, 0.01));
     add_branch(s, -1, 0, {{3, 0, 0}, {3, 1, 0}, {3, 0, 0}}, {0.02, 0.02, 0.02});
-    SegmentOptions o;
-    o.max_bodies = 4;
+    SegmentOptions o = length_of(100);
+    o.max_bend = 10; // one piece each, but for the closing of the curve
     const Tree tree = segment(s, wood(), o);
     require_sound(s, o, tree);
     CHECK(tree.size_bodies() == 4);
