@@ -126,6 +126,7 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         state.theta[i] = saved.theta[i].template cast<T>();
         state.theta_dot[i] = saved.theta_dot[i].template cast<T>();
+        state.scaled_rate[i] = saved.scaled_rate[i].template cast<T>();
     }
     state.step = saved.frame * o.run.substeps;
     state_update(plan, state);
@@ -144,6 +145,7 @@ template <class T> void save(const Options& o, const Setting& setting, const Sta
     for (std::size_t i = 0; i < state.theta.size(); ++i) {
         saved.theta.push_back(state.theta[i].template cast<double>());
         saved.theta_dot.push_back(state.theta_dot[i].template cast<double>());
+        saved.scaled_rate.push_back(state.scaled_rate[i].template cast<double>());
     }
     Output output(o.save_state);
     write_state(output, saved, form_of_name(o.save_state));
