@@ -11,7 +11,7 @@ using namespace simulate;
 namespace {
 
 Tree twiggy_tree() {
-    Tree tree = segment(grow_bodies(default_growth(), 5, true, false, 10000), wood_presets().front(), {});
+    Tree tree = segment(grow_bodies(default_growth(), 5, false, false, 10000), wood_presets().front(), {});
     double thinnest = 1;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
         if (tree.kind[i] == Kind::branch) thinnest = std::min(thinnest, tree.size[i][2]);
@@ -42,7 +42,9 @@ template <class T> void endures(const Tree& tree, double stiffness) {
     INFO("stiffness x " << stiffness << ": largest angle " << largest << ", flags " << run.state.flags.buckling << " "
                         << run.state.flags.bounded_lambda);
     CHECK(std::sqrt(last / third) <= 1.05);
-    CHECK(largest < 3);
+    // A thousand times softer than wood the small angle a joint that the method assumes is left: twigs that stood against
+    // the wind turn over with it. Bounded, but no promise on the angle.
+    if (stiffness >= 1) CHECK(largest < 1.5);
     const Energy e = energy(run.plan, run.state);
     CHECK(e.kinetic <= 0.01 * std::abs(e.elastic) + 1e-3);
 }

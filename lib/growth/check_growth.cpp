@@ -83,6 +83,7 @@ void check_growth(const GrowthParameters& p) {
     positive("leaf_scale_x", p.leaf_scale_x, 1e3);
     within("leaf_bend", p.leaf_bend, 0, 1);
     positive("fruit_radius", p.fruit_radius, 1e3);
+    within("least_radius", p.least_radius, 0, 10);
 }
 
 } // namespace bough

@@ -64,6 +64,7 @@ GrowthParameters default_growth() {
     p.leaf_bend = 0.3;
     p.fruits = 0.3;
     p.fruit_radius = 0.02;
+    p.least_radius = 0.0005;
     return p;
 }
 

@@ -125,7 +125,7 @@ void Grower::draw_points(const Stem& stem, const std::vector<double>& marks, int
     const auto add = [&](double z) {
         const double flare = stem.level == 0 ? flare_factor(p_.flare, z) : 1;
         out_.point.push_back(s.position + s.frame * Vec3(0, 0, (z - from) * stem.length));
-        out_.radius.push_back(flare * taper_radius(l.taper, stem.radius, stem.length, z));
+        out_.radius.push_back(std::max(flare * taper_radius(l.taper, stem.radius, stem.length, z), p_.least_radius));
     };
     if (segment == stem.first_segment) add(from);
     const double apart = 1e-3 * (to - from);
@@ -251,7 +251,7 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
     } else
         child.length = longest * (stem.length - 0.6 * offset);
     const double radius = stem.radius * std::pow(child.length / stem.length, p_.ratio_power);
-    child.radius = std::min(radius, radius_at(out_, grown.branch, child.parent_at));
+    child.radius = std::min(std::max(radius, p_.least_radius), radius_at(out_, grown.branch, child.parent_at));
     const double up = crown_ratio(0, stem.length, base, offset);
     const double down = l.down_angle_v < 0 ? l.down_angle + l.down_angle_v * (1 - 2 * up)
                                            : varied(l.down_angle, l.down_angle_v, child.key, Draw::down_angle);

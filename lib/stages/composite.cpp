@@ -14,8 +14,13 @@ template <class T> void start_from_own_body(const Plan<T>& plan, State<T>& s, st
     if (plan.wind) {
         s.c_drag_f_w[i] = s.drag_f_w[i];
         s.c_drag_tau_w[i] = s.drag_tau_w[i];
+        const T arm = plan.com_distance[i];
         s.c_drag[i] = s.drag_bound[i] * plan.sway[i];
-        s.c_drag_row[i] = s.c_drag[i] * plan.com_distance[i];
+        s.c_wind[i] = s.wind_bound[i] * plan.sway[i];
+        s.c_turn[i] = s.turn_bound[i] * plan.path_weight[i];
+        s.c_drag_row[i] = s.c_drag[i] * arm;
+        s.c_wind_row[i] = s.c_wind[i] * arm;
+        s.c_turn_row[i] = s.c_turn[i] * arm;
     }
 }
 
@@ -33,8 +38,13 @@ template <class T> void add_to_parent(const Plan<T>& plan, State<T>& s, std::siz
     if (plan.wind) {
         s.c_drag_f_w[p] += s.c_drag_f_w[i];
         s.c_drag_tau_w[p] += s.c_drag_tau_w[i] + r.cross(s.c_drag_f_w[i]);
+        const T way = plan.joint_distance[i];
         s.c_drag[p] += s.c_drag[i];
-        s.c_drag_row[p] += s.c_drag_row[i] + plan.joint_distance[i] * s.c_drag[i];
+        s.c_wind[p] += s.c_wind[i];
+        s.c_turn[p] += s.c_turn[i];
+        s.c_drag_row[p] += s.c_drag_row[i] + way * s.c_drag[i];
+        s.c_wind_row[p] += s.c_wind_row[i] + way * s.c_wind[i];
+        s.c_turn_row[p] += s.c_turn_row[i] + way * s.c_turn[i];
     }
 }
 

@@ -17,11 +17,20 @@
 // weights diag(d) - D is positive semidefinite: x^T (diag(d) - D) x >= sum_jk |D_jk| (sqrt(u_k/u_j) |x_j| -
 // sqrt(u_j/u_k) |x_k|)^2 / 2. So N = S + h d bounds h D, and every eigenvalue of N^-1 h D is in [0, 1): a step of still
 // air takes energy (in N's norm) and never turns a rate over, however thin the twigs, long the path or strong the wind.
-// The weights are those of the branches' first modes (branch_mode.h), each scaled to a unit deflection of its tip: along
-// one branch's first mode d_j u_j is then D u itself, and that mode's decay is right, not merely bounded. Other motions
-// are damped less than they should be, never more. Rest is unbiased: the term vanishes with the velocities.
-// W_b is constant; the outer sum goes with the composite sweep, two scalars a body.
-// The split (drag, then spring) leaves the springs' propagators independent of the wind.
+// The wind itself, tau at rest, goes to the spring (spring.h). It is as stiff: a leaf or a 1 mm twig reaches the wind's speed
+// within milliseconds and, under a force held for a frame, would be thrown round by radians. There the bounds of the force at
+// rest join the oscillator, with velocity as
+//   d'_j = (1/u_j) sum_b s_bj (wind_bound)_b W_b, and with direction gamma_j = (1/u_j) sum_b s_bj (turn_bound)_b U_b,
+// U_b = sum of u over b's path: S w' + (beta K + d') w + (K + G + gamma) phi = r + d' w_0. Both enter with w - w_0 and phi
+// alone: at first order of the step nothing is changed and the fixed point is the true one. Where they are large the joint
+// goes with the air and turns by about tau / gamma in a step at the most; what is so light in so strong a wind follows it
+// too slowly. In still air d' and gamma are zero, and drag takes energy alone.
+// The weights are those of the branches' first modes (branch_mode.h), each scaled to a unit deflection of its tip, doubled at
+// each side branch on the way out: what is further out is lighter, answers the drag first, and is to be bounded least. Along
+// one branch's first mode d_j u_j is D u itself but for the other branches of the path; motions are dragged less than they
+// should be, never more.
+// W_b, U_b are constant; the outer sums go with the composite sweep, six scalars a body. (What it costs: the spring's
+// propagators depend on the wind.)
 // Reads   c_drag_tau_w, c_drag_row, c_J_w, R_wb. Writes scaled_rate.
 // After   composite. O(n), joints in parallel. Errors none.
 #pragma once

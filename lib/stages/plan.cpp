@@ -51,12 +51,36 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, const Scene
     }
 }
 
+// Drag's constants. A side branch's weight is twice its parent's again (drag.h), up to 2^16.
+template <class T>
+void plan_air(Plan<T>& plan, const Tree& tree, const Scene& scene, const std::vector<double>& weight) {
+    const std::size_t n = plan.bodies;
+    std::vector<int> depth(n, 0);         // side branches left on the way from the root
+    std::vector<double> sum(n), moved(n); // over the path: of u, and what it moves the body's joint by
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool root = tree.parent[i] < 0;
+        const auto p = std::size_t(tree.parent[i]);
+        if (!root) depth[i] = depth[p] + (continues_parent(tree, i) ? 0 : 1);
+        const double u = std::ldexp(weight[i], std::min(depth[i], 16));
+        const double r = root ? 0 : tree.joint_position[i].norm();
+        sum[i] = u + (root ? 0 : sum[p]);
+        moved[i] = root ? 0 : moved[p] + sum[p] * r;
+        plan.kind.push_back(tree.kind[i]);
+        plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
+        plan.path_weight.push_back(T(sum[i]));
+        plan.sway.push_back(T(moved[i] + sum[i] * tree.com[i].norm()));
+        plan.joint_distance.push_back(T(r));
+        plan.com_distance.push_back(T(tree.com[i].norm()));
+        plan.inverse_weight.push_back(T(1 / u));
+    }
+}
+
 // The factors of inertia, and the weights by which gravity and drag are summed along a path.
 template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene& scene) {
     const std::size_t n = plan.bodies;
     const bool scaled = scene.joint_inertia == JointInertia::branch;
     const BranchModes modes = branch_modes(tree);
-    std::vector<double> sum(n), moved(n); // over the path: of u, and what it moves the body's joint by
+    std::vector<double> sum(n); // of u over the path
     for (std::size_t i = 0; i < n; ++i) {
         const double fb = scaled ? modes.factor_bend[i] : 1, ft = scaled ? modes.factor_twist[i] : 1;
         plan.inertia_factor.push_back(Vec3(std::sqrt(fb), std::sqrt(fb), std::sqrt(ft)).template cast<T>());
@@ -82,18 +106,7 @@ template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene&
         for (std::size_t i = 0; i < n; ++i)
             plan.gravity_row.push_back(T(std::max(0.0, weighed[i] / modes.weight[i] - plain[i])));
     }
-    if (!plan.wind) return;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto p = std::size_t(tree.parent[i]);
-        const double r = tree.parent[i] < 0 ? 0 : tree.joint_position[i].norm();
-        moved[i] = tree.parent[i] < 0 ? 0 : moved[p] + sum[p] * r;
-        plan.kind.push_back(tree.kind[i]);
-        plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
-        plan.sway.push_back(T(moved[i] + sum[i] * tree.com[i].norm()));
-        plan.joint_distance.push_back(T(r));
-        plan.com_distance.push_back(T(tree.com[i].norm()));
-        plan.inverse_weight.push_back(T(1 / modes.weight[i]));
-    }
+    if (plan.wind) plan_air(plan, tree, scene, modes.weight);
 }
 
 // Highest point that a body could reach by standing straight up from the ground: the wind's table covers it.

@@ -85,13 +85,23 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
     for (int k = 0; k < 3; ++k) {
         T b = plan.beta[i] * U.col(k).dot(joint.K_b * U.col(k));
         T l = lambda[k];
+        T residual = r[k];
         if (l < 0) ++flags.buckling;
+        if (plan.wind) {
+            // The air's bounds are multiples of 1, which U makes U^T U: its rows are bounded by their sums in turn.
+            const T row = plan.inverse_weight[i] * (U.transpose() * U.col(k)).cwiseAbs().sum();
+            const T d = row * s.c_wind_row[i];
+            b += d;
+            l += row * s.c_turn_row[i];
+            residual += d * v[k];
+        }
         if (l > largest_lambda<T>()) {
-            b *= largest_lambda<T>() / l;
-            l = largest_lambda<T>();
+            const T ratio = largest_lambda<T>() / l;
+            b *= ratio;
+            l *= ratio;
+            residual *= ratio;
             ++flags.bounded_lambda;
         }
-        const T residual = l == lambda[k] ? r[k] : r[k] * (l / lambda[k]);
         const Propagator<T> p = propagate(b, l, h);
         dq[k] = p.E * residual + p.B * v[k];
         v_new[k] = p.B * residual + p.C * v[k];

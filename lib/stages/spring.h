@@ -21,11 +21,13 @@
 // at least as much energy as it gives gravity (to second order of the step's rotation). gamma is constant, zero for a single
 // joint, and small beside K in wood; where it is not, it damps (as what stands is damped by lag in any case).
 //
+// Air. With wind, the bounds d' and gamma of drag.h join the damping and G; drag.h says why.
+//
 // Carrying. S changes with the pose of what is outboard, and a rate carried through a changing inertia gains or loses
 // energy that nobody did work for: theta_dot kept as it is pumps soft trees without bound. What is carried from step to step
 // is instead w = L^T omega_b, S = L L^T: |w|^2 / 2 is the joint's kinetic energy, so that the change of S does no work.
 //
-// Together: with constant K, beta and no wind, kinetic (|w|^2 / 2) + elastic + potential energy never grows, for any K >= 0,
+// Together: with constant K and beta, in still air or none, kinetic (|w|^2 / 2) + elastic + potential energy never grows, for any K >= 0,
 // beta >= 0 and step, which tests/test_energy.cpp holds.
 //
 // Solution. A = L^-1 (K_b + G) L^-T = X Lambda X^T by Jacobi rotations, U = L^-T X, so that U^T S U = 1 and row i is

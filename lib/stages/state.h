@@ -34,14 +34,18 @@ template <class T> struct State {
     // external_forces
     std::vector<Vector3<T>> f_w, tau_w; // [N], [N m about own joint] at rest: pulls, wind on bodies that stand still
     std::vector<Vector3<T>> drag_f_w, drag_tau_w; // what the bodies' velocities change of the wind's force
-    std::vector<T> drag_bound;                    // [N s/m] bound on the drag's derivative
+    std::vector<T> drag_bound;                    // [N s/m] bound on the drag's change with the body's velocity
+    std::vector<T> wind_bound;                    // [N s/m] the same for the wind on a body that stands still
+    std::vector<T> turn_bound;                    // [N] bound on the wind's change with the body's direction, a radian
 
     // composite
     std::vector<Vector3<T>> c_h_w;          // [kg m] first moment of the composite about own joint
     std::vector<Matrix3<T>> c_J_w;          // [kg m^2] inertia of the composite about own joint
     std::vector<Vector3<T>> c_f_w, c_tau_w; // (3), (4)
     std::vector<Vector3<T>> c_drag_f_w, c_drag_tau_w;
-    std::vector<T> c_drag, c_drag_row; // [N s/m], [N s] sums of the row-sum bound (drag.h)
+    std::vector<T> c_drag, c_drag_row; // [N s/m], [N s] sums of the row-sum bounds (drag.h)
+    std::vector<T> c_wind, c_wind_row;
+    std::vector<T> c_turn, c_turn_row; // [N rad/m], [N rad]
 
     // spring
     std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for

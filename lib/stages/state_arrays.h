@@ -30,6 +30,8 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("drag_f_w", s.drag_f_w, plan.wind, wind);
     visit("drag_tau_w", s.drag_tau_w, plan.wind, wind);
     visit("drag_bound", s.drag_bound, plan.wind, wind);
+    visit("wind_bound", s.wind_bound, plan.wind, wind);
+    visit("turn_bound", s.turn_bound, plan.wind, wind);
     visit("c_h_w", s.c_h_w, true, always);
     visit("c_J_w", s.c_J_w, true, always);
     visit("c_f_w", s.c_f_w, plan.forces, forces);
@@ -38,6 +40,10 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("c_drag_tau_w", s.c_drag_tau_w, plan.wind, wind);
     visit("c_drag", s.c_drag, plan.wind, wind);
     visit("c_drag_row", s.c_drag_row, plan.wind, wind);
+    visit("c_wind", s.c_wind, plan.wind, wind);
+    visit("c_wind_row", s.c_wind_row, plan.wind, wind);
+    visit("c_turn", s.c_turn, plan.wind, wind);
+    visit("c_turn_row", s.c_turn_row, plan.wind, wind);
     visit("torque_j", s.torque_j, plan.torque, torque);
 }
 
