@@ -18,7 +18,8 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             {"fingerprint", &fingerprint},
             optional({"source", &state.source}),
             array("theta", state.theta, {}),
-            array("theta_dot", state.theta_dot, body)};
+            array("theta_dot", state.theta_dot, body),
+            array("scaled_rate", state.scaled_rate, body)};
 }
 
 std::string hexadecimal(std::uint64_t value) {

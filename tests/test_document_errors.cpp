@@ -316,7 +316,7 @@ TEST_CASE("cut or with any byte changed, a document is read as it stands or refu
     const Motion motion = random_motion({true, true, true, true}, 1, 2, random);
     SavedState state;
     state.precision = "double";
-    state.theta = state.theta_dot = {Vec3(1, 2, 3)};
+    state.theta = state.theta_dot = state.scaled_rate = {Vec3(1, 2, 3)};
 
     std::vector<std::string> documents{two_bodies};
     for (const Form form : {Form::json, Form::safetensors}) {

@@ -96,6 +96,7 @@ TEST_CASE("saved states come back from both forms") {
     for (int i = 0; i < 20; ++i) {
         state.theta.push_back(random.vector());
         state.theta_dot.push_back(random.vector());
+        state.scaled_rate.push_back(random.vector());
     }
     for (const Form form : {Form::json, Form::safetensors}) {
         const std::string text = written([&](Output& o) { write_state(o, state, form); });
@@ -109,6 +110,7 @@ TEST_CASE("saved states come back from both forms") {
         CHECK(read.fingerprint == state.fingerprint);
         CHECK(same(read.theta, state.theta));
         CHECK(same(read.theta_dot, state.theta_dot));
+        CHECK(same(read.scaled_rate, state.scaled_rate));
     }
 }
 

@@ -48,6 +48,11 @@ void check_level(const std::string& at, const LevelParameters& l, bool trunk) {
     within(at + "base_splits", l.base_splits, 0, 100);
     if (l.curve_res < 2 && (l.seg_splits > 0 || l.base_splits > 0))
         refuse(at + "curve_res", l.curve_res, "2 or more, as the stems split where segments meet");
+    // Each segment's end after the first multiplies the stem's tips.
+    const double tips =
+        (1 + (l.base_splits > 0 ? l.base_splits : l.seg_splits)) * std::pow(1 + l.seg_splits, l.curve_res - 2);
+    if (l.curve_res > 1 && tips > 1e6)
+        refuse(at + "seg_splits", l.seg_splits, "fewer, so that a stem splits into at most 1e6 over its curve_res");
     within(at + "split_angle", l.split_angle, -360, 360);
     within(at + "split_angle_v", l.split_angle_v, -360, 360);
     within(at + "curve", l.curve, -3600, 3600);

@@ -1,8 +1,11 @@
 #include "cut.h"
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace bough {
+
+using std::numbers::pi;
 
 namespace {
 
@@ -10,12 +13,21 @@ constexpr double pieces_of_height = 11; // of a curve as long as the tree is hig
 constexpr double rounding = 1e-9;       // relative: a length that is a whole number of pieces gives that number
 constexpr double closed = 1e-3;         // chord over arc below which a piece has no direction worth the name
 
-double pieces_wanted(const Curves& curves, std::size_t c, const CutRule& rule) {
+struct Wanted {
+    double pieces; // of the whole curve
+    double length; // [m] longest piece
+};
+
+Wanted wanted_pieces(const Curves& curves, std::size_t c, const CutRule& rule) {
     const double length = curves.length(c);
-    if (rule.segment_length > 0) return std::max(1.0, std::ceil(length / (rule.segment_length * rule.grow) - rounding));
-    const double thick = std::max(1.0, std::floor(length / (2 * curves.radius[curves.first[c]])));
-    const double wanted = std::min(pieces_of_height * std::sqrt(length / curves.extent[c]), thick);
-    return std::max(1.0, std::round(wanted / rule.grow));
+    if (rule.segment_length > 0) {
+        const double longest = rule.segment_length * rule.grow;
+        return {std::max(1.0, std::ceil(length / longest - rounding)), longest};
+    }
+    const double thick = std::max(1.0, std::floor(length / (2 * curves.radius[std::size_t(curves.first[c])])));
+    const double count = std::min(pieces_of_height * std::sqrt(length / curves.extent[c]), thick);
+    const double pieces = std::max(1.0, std::round(count / rule.grow));
+    return {pieces, length / pieces};
 }
 
 Vec3 tangent(const Curves& curves, std::size_t i) {
@@ -25,7 +37,7 @@ Vec3 tangent(const Curves& curves, std::size_t i) {
 // Cosine of the turning allowed; -2 where every turning is.
 double least_cosine(const CutRule& rule) {
     const double bend = rule.max_bend * rule.grow;
-    return bend < EIGEN_PI ? std::cos(bend) - 1e-12 : -2.0;
+    return bend < pi ? std::cos(bend) - 1e-12 : -2.0;
 }
 
 // Whether `pieces` even pieces keep the tangent near the first one of each.
@@ -110,18 +122,20 @@ void open_loops(const Curves& curves, std::size_t c, std::vector<double>& cuts) 
 
 std::int64_t cut_curve(const Curves& curves, std::size_t c, const CutRule& rule, std::int64_t limit,
                        std::vector<double>& cuts) {
-    const double wanted = pieces_wanted(curves, c, rule), length = curves.length(c), cosine = least_cosine(rule);
-    if (wanted > double(limit)) return limit + 1;
+    const Wanted wanted = wanted_pieces(curves, c, rule);
+    if (wanted.pieces > double(limit)) return limit + 1;
+    const double length = curves.length(c), cosine = least_cosine(rule);
+    const std::vector<double> forced = forced_cuts(curves, c, cosine);
     cuts.assign(1, 0.0);
-    const double more[] = {wanted, wanted + 1, wanted + 2, std::ceil(1.5 * wanted), 2 * wanted};
-    const auto even = std::find_if(std::begin(more), std::end(more),
+    const double least = std::max(wanted.pieces, double(forced.size() - 1));
+    const double tries[] = {least, least + 1, least + 2, std::ceil(1.25 * least), std::ceil(1.5 * least)};
+    const auto even = std::find_if(std::begin(tries), std::end(tries),
                                    [&](double n) { return even_pieces_turn_little(curves, c, n, cosine); });
-    if (even != std::end(more)) {
+    if (even != std::end(tries)) {
         append_even(cuts, 0, length, std::int64_t(*even));
     } else {
-        const std::vector<double> forced = forced_cuts(curves, c, cosine);
         for (std::size_t k = 0; k + 1 < forced.size(); ++k) {
-            const double pieces = std::ceil((forced[k + 1] - forced[k]) * wanted / length - rounding);
+            const double pieces = std::ceil((forced[k + 1] - forced[k]) / wanted.length - rounding);
             append_even(cuts, forced[k], forced[k + 1], std::int64_t(std::max(1.0, pieces)));
         }
     }

@@ -5,11 +5,12 @@
 // with the extent of the whole tree (curves.h) and the curve's base radius: 11 pieces for a trunk as high as the tree, 6
 // for a bough of a third of it, 3 for one of a tenth, 1 for a twig of 1/50; no piece shorter than its branch is thick.
 // That depends on the splines alone. `grow` >= 1 lengthens pieces and the turning allowed alike.
-// Turning: even pieces are taken, from the number wanted up to twice it, if in each of them the tangent stays within
-// max_bend of the piece's first. Else a cut is forced at each point where the curve has turned by more than max_bend
-// since the last forced cut, and the stretches between are cut evenly. A forced cut that would leave a stretch shorter
-// than the radius there is not made: so short a piece bends nothing. A piece whose ends all but meet (a loop, a
-// fold) is cut once more at its point farthest from its start, so that every piece has a direction.
+// Turning. A cut is forced at each point where the tangent has turned by more than max_bend since the last forced cut,
+// but not where it would leave a stretch shorter than the branch's radius there: so short a piece bends nothing. If as
+// many even pieces as wanted, or as stretches so found, or up to half as many again, keep the tangent of each within
+// max_bend of its first, they are taken (a smooth curve); else the forced cuts are (a corner), and the stretches between
+// are cut evenly. A piece whose ends all but meet (a loop, a fold) is cut once more at its point farthest from its
+// start, so that every piece has a direction.
 #pragma once
 #include "curves.h"
 

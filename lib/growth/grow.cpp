@@ -9,7 +9,8 @@ namespace bough {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kMostPoints = 100'000'000;
+constexpr std::size_t kMostItems = 50'000'000;     // branches, leaves and fruit
+constexpr std::size_t kMostPoints = 1'000'000'000; // what Splines::first_point can hold, and some room
 
 Quat about(const Vec3& axis, double angle) {
     return quaternion_from_vector<double>(axis * angle);
@@ -85,9 +86,9 @@ bool Grower::run(std::uint64_t seed, bool with_leaves, bool with_fruit, std::int
         stack_.insert(stack_.end(), born_.rbegin(), born_.rend());
         const std::size_t items = out_.branches() + stack_.size() + out_.leaves() + out_.fruits();
         if (items > static_cast<std::size_t>(most)) return false;
-        if (out_.points() > kMostPoints || items > kMostPoints)
-            throw std::invalid_argument(
-                "branches, seg_splits, leaves: make a tree of more than 1e8 points, expected fewer");
+        if (items > kMostItems || out_.points() > kMostPoints)
+            throw std::invalid_argument("branches, seg_splits, leaves: make more than 5e7 branches and leaves or 1e9 "
+                                        "points, expected fewer");
     }
     return true;
 }

@@ -34,33 +34,35 @@ namespace bough {
 
 // What is outside these ranges is refused; of levels that do not grow, only the angles that leaves take are looked at.
 struct LevelParameters {
-    double down_angle = 0, down_angle_v = 0;  // [deg] -360..360; negative V: from the base to the tip of the parent
-    double rotate = 0, rotate_v = 0;          // [deg] -360..360; negative rotate: alternating sides
-    double branches = 0;     // 0..1e6, most children of one stem of the level above; level 0: 0 or 1, one trunk
-    double branch_dist = 0;  // 0..1, 0: spread evenly, 1: in whorls where segments meet (1 - Arbaro's nBranchDist)
-    double length = 0, length_v = 0;  // > 0 and 0 <= V < length, fraction of the parent's (level 0: of scale)
-    double taper = 1;                 // 0..3; 0 cylinder, 1 cone, 2 cylinder with a rounded tip, 3 periodic
-    double seg_splits = 0, split_angle = 0, split_angle_v = 0;  // 0..100; [deg] -360..360
-    double base_splits = 0;                                     // 0..100
-    int curve_res = 1;  // 1..1000 segments; 2 or more where splits are
-    double curve = 0, curve_back = 0, curve_v = 0;  // [deg] over the stem, -3600..3600
+    double down_angle = 0, down_angle_v = 0; // [deg] -360..360; negative V: from the base to the tip of the parent
+    double rotate = 0, rotate_v = 0;         // [deg] -360..360; negative rotate: alternating sides
+    double branches = 0;    // 0..1e6, most children of one stem of the level above; level 0: 0 or 1, one trunk
+    double branch_dist = 0; // 0..1, 0: spread evenly, 1: in whorls where segments meet (1 - Arbaro's nBranchDist)
+    double length = 0, length_v = 0; // > 0 and 0 <= V < length, fraction of the parent's (level 0: of scale)
+    double taper = 1;                // 0..3; 0 cylinder, 1 cone, 2 cylinder with a rounded tip, 3 periodic
+    double seg_splits = 0, split_angle = 0, split_angle_v = 0; // 0..100; [deg] -360..360
+    double base_splits = 0;                                    // 0..100
+    int curve_res = 1;                                         // 1..1000 segments; 2 or more where splits are
+    double curve = 0, curve_back = 0, curve_v = 0;             // [deg] over the stem, -3600..3600
 };
 
 struct GrowthParameters {
-    int shape = 0;                           // 0 conical, 1 spherical, 2 hemispherical, 3 cylindrical, 4 tapered cylindrical, 5 flame,
-                                             // 6 inverse conical, 7 tend flame
-    int levels = 3;                          // 1..4
-    double scale = 10, scale_v = 0;          // [m] height; > 0 and 0 <= V < scale
-    double base_size = 0.2;                  // 0..1 without 1, fraction of the trunk without branches
-    double ratio = 0.02, ratio_power = 1.2;  // 0..1 without 0, radius / length of the trunk; 0..10
-    double radius_scale = 1, radius_scale_v = 0;  // > 0 and 0 <= V < scale, of the trunk (Arbaro's 0Scale, 0ScaleV)
-    double flare = 0;                             // 0..100
-    double attraction_up = 0;                     // -100..100, from level 2 on; negative: down
+    int shape = 0;  // 0 conical, 1 spherical, 2 hemispherical, 3 cylindrical, 4 tapered cylindrical, 5 flame,
+                    // 6 inverse conical, 7 tend flame
+    int levels = 3; // 1..4
+    double scale = 10, scale_v = 0;              // [m] height; > 0 and 0 <= V < scale
+    double base_size = 0.2;                      // 0..1 without 1, fraction of the trunk without branches
+    double ratio = 0.02, ratio_power = 1.2;      // 0..1 without 0, radius / length of the trunk; 0..10
+    double radius_scale = 1, radius_scale_v = 0; // > 0 and 0 <= V < scale, of the trunk (Arbaro's 0Scale, 0ScaleV)
+    double flare = 0;                            // 0..100
+    double attraction_up = 0;                    // -100..100, from level 2 on; negative: down
     std::array<LevelParameters, 4> level;
-    double leaves = 0;   // -1e6..1e6, most leaves of one stem of the last level; negative: a fan (as in the paper)
-    int leaf_shape = 0;  // >= 0, kept for the skin; 0 oval
-    double leaf_scale = 0.1, leaf_scale_x = 0.5, leaf_bend = 0;  // [m] > 0 length, > 0 width / length, 0..1 turning to the light
-    double fruits = 0, fruit_radius = 0.03;  // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
+    double leaves = 0;       // -1e6..1e6, most leaves of one stem of the last level; negative: a fan (as in the paper)
+    int leaf_shape = 0;      // >= 0, kept for the skin; 0 oval
+    double leaf_scale = 0.1; // [m] > 0, length
+    double leaf_scale_x = 0.5;              // > 0, width / length
+    double leaf_bend = 0;                   // 0..1, turning to the light
+    double fruits = 0, fruit_radius = 0.03; // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
     std::string name = "tree";
 };
 
@@ -68,14 +70,17 @@ struct GrowthParameters {
 GrowthParameters default_growth();
 
 // Empty arrays of leaves, fruit where they are not wanted; `source` is left to the caller. Throws std::invalid_argument
-// that names the parameter, its value and what was expected, also for a tree of more than 1e8 points. O(points).
+// that names the parameter, its value and what was expected; also where splits would make more than 1e6 of one stem, or
+// the tree comes to more than 5e7 branches, leaves and fruit. O(points).
 Splines grow(const GrowthParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit);
 
 // The same tree with numbers of children, leaves and fruit changed so that segment() with default options makes `bodies`
-// bodies of it, within 10 %. One factor f is searched: numbers of level n change by f^w, more for deeper levels, and
-// where the deepest level would come to less than one stem a parent it is left out, leaves then growing on the level
-// above. Lengths, and so the height, stay. Neighbouring numbers give similar trees. Cost: some ten growths of about
-// that size. Throws std::invalid_argument where the parameters cannot reach the number.
-Splines grow_bodies(const GrowthParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit, std::int64_t bodies);
+// bodies of it, within 10 %. One factor f is searched: numbers of level n change by f^w, more for deeper levels; where one
+// bough more is too wide a step, those of the last level by a second factor; where the deepest level would come to less
+// than one stem a parent it is left out, leaves then growing on the level above. Lengths, and so the height, stay.
+// Neighbouring numbers give similar trees. Cost: some five to ten growths of up to that size. Throws
+// std::invalid_argument where the parameters cannot reach the number, or it exceeds 2e7.
+Splines grow_bodies(const GrowthParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit,
+                    std::int64_t bodies);
 
 } // namespace bough

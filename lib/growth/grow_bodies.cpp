@@ -10,7 +10,10 @@ namespace {
 // How much more a level's numbers follow the factor than those of the level above it: a tree of few bodies keeps its
 // boughs and loses its twigs.
 constexpr std::array<double, 4> kWeight = {0, 1, 1.6, 2.4};
-constexpr double kLeafWeight = 1.2;
+constexpr double kLeafWeight = 0.8;
+constexpr double kNear = 0.05;  // share of the bodies wanted at which the search ends
+constexpr double kWithin = 0.1; // and that the contract allows
+constexpr std::int64_t kMostBodies = 20'000'000;
 constexpr double kMost = 1e6; // of one stem's children (grow.h)
 
 struct Search {
@@ -25,68 +28,82 @@ struct Search {
     bool has_fruit() const { return with_fruit && parameters.fruits != 0; }
 };
 
-GrowthParameters scaled(const Search& search, double log_factor) {
+// Numbers changed by e^main, shared among the levels by their weights; those of the last level also by e^fine.
+struct Dial {
+    double main = 0, fine = 0;
+};
+
+GrowthParameters scaled(const Search& search, const Dial& dial) {
     GrowthParameters p = search.parameters;
     const bool foliage = search.has_leaves() || search.has_fruit();
     double sum = foliage ? kLeafWeight : 0;
     for (int n = 1; n < p.levels; ++n) sum += kWeight[n];
     if (sum == 0) return p;
-    const auto factor = [&](double weight) { return std::exp(log_factor * weight / sum); };
-    for (int n = 1; n < p.levels; ++n) p.level[n].branches = std::min(kMost, p.level[n].branches * factor(kWeight[n]));
+    const auto factor = [&](double weight) { return std::exp(dial.main * weight / sum); };
+    for (int n = 1; n < p.levels; ++n) {
+        const double fine = n + 1 == p.levels ? std::exp(dial.fine) : 1;
+        p.level[n].branches = std::min(kMost, p.level[n].branches * factor(kWeight[n]) * fine);
+    }
     p.leaves = std::clamp(p.leaves * factor(kLeafWeight), -kMost, kMost);
     p.fruits = std::min(kMost, p.fruits * factor(kLeafWeight));
     return p;
 }
 
-// Bodies at this factor, remembering the tree nearest to what is wanted; more than four times that is not counted out.
-double count_at(Search& search, double log_factor) {
-    const std::int64_t enough = 4 * search.bodies;
+// Logarithm of bodies over those wanted, remembering the tree nearest to what is wanted; a tree of more than twice that
+// is given up.
+double miss(Search& search, const Dial& dial) {
+    const std::int64_t enough = 2 * search.bodies + 100;
     Splines tree;
-    if (!grow_up_to(scaled(search, log_factor), search.seed, search.with_leaves, search.with_fruit, enough, tree))
-        return static_cast<double>(enough);
-    const std::int64_t count = count_bodies(tree, SegmentOptions());
-    if (search.best_count < 0 || std::abs(count - search.bodies) < std::abs(search.best_count - search.bodies)) {
-        search.best = std::move(tree);
-        search.best_count = count;
+    std::int64_t count = enough;
+    if (grow_up_to(scaled(search, dial), search.seed, search.with_leaves, search.with_fruit, enough, tree)) {
+        count = count_bodies(tree, SegmentOptions());
+        if (search.best_count < 0 || std::abs(count - search.bodies) < std::abs(search.best_count - search.bodies)) {
+            search.best = std::move(tree);
+            search.best_count = count;
+        }
     }
-    return static_cast<double>(count);
+    return std::log(static_cast<double>(count) / static_cast<double>(search.bodies));
 }
 
 bool near(const Search& search, double share) {
-    return search.best_count >= 0 &&
-           std::abs(double(search.best_count - search.bodies)) <= share * double(search.bodies);
+    const auto wanted = static_cast<double>(search.bodies);
+    return search.best_count >= 0 && std::abs(static_cast<double>(search.best_count) - wanted) <= share * wanted;
 }
 
-// Finds the factor by regula falsi on logarithms, halving where that is slow; a count is nearly proportional to the
-// factor, so few trees are grown. Returns the factor's logarithm.
-double find_factor(Search& search) {
-    const auto miss = [&](double x) { return std::log(count_at(search, x) / double(search.bodies)); };
+// Turns one knob of the dial until the tree is near: brackets, then regula falsi with every third step a halving. A
+// count is nearly proportional to e^main, so few trees are grown. Leaves the knob at the bracket's lower end.
+void turn(Search& search, Dial& dial, double Dial::*knob) {
+    const auto miss_at = [&](double x) {
+        dial.*knob = x;
+        return miss(search, dial);
+    };
     constexpr double widest = 40; // e^40: no tree needs more
-    double low = 0, high = 0, at_low = miss(0), at_high = at_low;
-    for (double step = std::max(1.0, std::abs(at_low)); at_low > 0 && low > -widest; step *= 1.5) {
+    double low = 0, high = 0, at_low = miss_at(0), at_high = at_low;
+    for (double step = std::max(1.0, std::abs(at_low)); !near(search, kNear) && at_low > 0 && low > -widest;
+         step *= 1.5) {
         high = low, at_high = at_low;
-        low -= step, at_low = miss(low);
+        low -= step, at_low = miss_at(low);
     }
-    for (double step = std::max(1.0, std::abs(at_high)); at_high < 0 && high < widest; step *= 1.5) {
+    for (double step = std::max(1.0, std::abs(at_high)); !near(search, kNear) && at_high < 0 && high < widest;
+         step *= 1.5) {
         low = high, at_low = at_high;
-        high += step, at_high = miss(high);
+        high += step, at_high = miss_at(high);
     }
-    double x = at_low > 0 ? low : high;
-    for (int i = 0; i < 48 && !near(search, 0.02) && at_low < 0 && at_high > 0; ++i) {
+    for (int i = 0; !near(search, kNear) && at_low < 0 && at_high > 0 && high - low > 1e-3; ++i) {
         const double share = std::clamp(at_low / (at_low - at_high), 0.05, 0.95);
-        x = low + (i % 3 == 2 ? 0.5 : share) * (high - low);
-        const double at_x = miss(x);
+        const double x = low + (i % 3 == 2 ? 0.5 : share) * (high - low);
+        const double at_x = miss_at(x);
         if (at_x > 0)
             high = x, at_high = at_x;
         else
             low = x, at_low = at_x;
     }
-    return x;
+    if (!near(search, kNear)) dial.*knob = low;
 }
 
 // Stems of the deepest level on one of the level above, about.
-double deepest_children(const Search& search, double log_factor) {
-    return scaled(search, log_factor).level[search.parameters.levels - 1].branches;
+double deepest_children(const Search& search, const Dial& dial) {
+    return scaled(search, dial).level[search.parameters.levels - 1].branches;
 }
 
 } // namespace
@@ -94,17 +111,22 @@ double deepest_children(const Search& search, double log_factor) {
 Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, bool with_leaves, bool with_fruit,
                     std::int64_t bodies) {
     check_growth(parameters);
-    if (bodies < 1) throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 or more");
+    if (bodies < 1 || bodies > kMostBodies)
+        throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " +
+                                    std::to_string(kMostBodies));
     Search search{parameters, seed, with_leaves, with_fruit, bodies, {}, -1};
     while (true) {
-        const double factor = find_factor(search);
-        if (search.parameters.levels <= 2 || deepest_children(search, factor) >= 1) break;
+        Dial dial;
+        turn(search, dial, &Dial::main);
+        // One bough more or less can be a step too wide for a small tree.
+        if (!near(search, kNear)) turn(search, dial, &Dial::fine);
+        if (search.parameters.levels <= 2 || deepest_children(search, dial) >= 1) break;
         const int levels = search.parameters.levels;
         // Leaves take their angles from the level that is left out, as they would from the one below the last.
         search = Search{search.parameters, seed, with_leaves, with_fruit, bodies, {}, -1};
         search.parameters.levels = levels - 1;
     }
-    if (near(search, 0.1)) return std::move(search.best);
+    if (near(search, kWithin)) return std::move(search.best);
     throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", but the nearest that \"" + parameters.name +
                                 "\" grows to is " + std::to_string(search.best_count));
 }

@@ -1,5 +1,8 @@
 #include "segment.h"
+#include "../model/stiffness.h"
+#include "bodies.h"
 #include "cut.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -63,6 +66,27 @@ std::int64_t count_bodies(const Splines& splines, const SegmentOptions& options)
     const std::int64_t pieces = count_pieces(curves, rule_for(curves, splines, options), room);
     refuse_more_than_an_index_holds(pieces, room);
     return pieces + others;
+}
+
+Tree segment(const Splines& splines, const Material& material, const SegmentOptions& options, SegmentReport* report) {
+    const Curves curves = make_curves(splines, options.merge);
+    const std::int64_t room = most_bodies - growing_bodies(splines);
+    const CutRule rule = rule_for(curves, splines, options);
+    refuse_more_than_an_index_holds(count_pieces(curves, rule, room), room);
+    Tree tree = make_bodies(splines, curves, rule, material.leaf_thickness);
+    set_mass(tree, material);
+    set_stiffness(tree, material);
+    set_damping(tree, material);
+    tree.name = splines.name;
+    tree.material = material.name;
+    tree.source = splines.source;
+    if (report) {
+        *report = {curves.merged_points, curves.dropped_branches, curves.thin_points, 0};
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+            if (tree.kind[i] == Kind::branch)
+                report->segment_length = std::max(report->segment_length, tree.size[i][0]);
+    }
+    return tree;
 }
 
 } // namespace bough

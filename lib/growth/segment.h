@@ -1,7 +1,7 @@
 // segment.h: splines to rigid bodies (§3, §10): branches cut into frustums by arc length and curvature, leaves and
 // fruit jointed to the piece they grow on, each with mass, inertia, stiffness and damping.
 //
-// Cuts. A branch is cut into pieces of at most `segment_length` (default: from the branch, see below) and at most
+// Cuts. A branch is cut into pieces of at most `segment_length` (default: by the rule of cut.h) and at most
 // `max_bend` of turning each, pieces even in arc length between forced cuts; joints lie on the curve. Points nearer
 // than `merge` to the one before are merged. The side branch's joint stays where it was drawn, off the parent's axis.
 // Stiffness. Compliance of a joint = half the parent piece's + half the child piece's, integrated over taper (at the
@@ -21,17 +21,17 @@
 namespace bough {
 
 struct SegmentOptions {
-    double segment_length = 0;      // [m] longest piece; 0: by the default rule, which depends on the splines alone
-    double max_bend = 0.35;         // [rad] largest turning of the curve within one piece
-    std::int64_t max_bodies = 0;    // 0: as many as come; else pieces grow longer until all bodies fit, never dropping any
-    double merge = 1e-6;            // points nearer than this times the tree's extent are one
+    double segment_length = 0;   // [m] longest piece; 0: by the default rule, which depends on the splines alone
+    double max_bend = 0.35;      // [rad] largest turning of the curve within one piece
+    std::int64_t max_bodies = 0; // 0: as many as come; else pieces grow longer until all bodies fit, never dropping any
+    double merge = 1e-6;         // points nearer than this times the tree's extent are one
 };
 
 struct SegmentReport {
-    std::int64_t merged_points = 0;     // near-coincident points
-    std::int64_t dropped_branches = 0;  // without length after merging, and whatever grows on them moved to the parent
-    std::int64_t thin_points = 0;       // radii raised to the least radius that still gives a positive mass
-    double segment_length = 0;          // [m] longest piece, as used
+    std::int64_t merged_points = 0;    // near-coincident points
+    std::int64_t dropped_branches = 0; // without length after merging, and whatever grows on them moved to the parent
+    std::int64_t thin_points = 0;      // radii raised to the least radius that still gives a positive mass
+    double segment_length = 0;         // [m] longest piece, as used
 };
 
 // How many bodies segment() would make, without making them. O(points).

@@ -1,11 +1,19 @@
 // skin.h: a tree's bodies to one skin mesh (§10): adjacent pieces never disjoint, texture coordinates continuous.
 //
-// A branch is a tube of rings with `sides` corners: rings at joints and within pieces, twist-free along the branch, each
-// vertex bound to up to four bodies, blending between the pieces on either side of a joint; the first ring of a side
-// branch lies inside its parent and is bound to both; tips are closed. Leaves are two-sided triangles bound to their
-// body alone, fruit are spheres likewise. u runs 0..1 around (one seam column doubled), v is the arc length from the
-// branch's base over the base's circumference, so that bark is not stretched.
+// A branch is a closed tube of rings with n corners: a ring at each joint, moved half by each piece, and, where n > 3, one
+// at mid-piece, moved by that piece alone; each ring's centre lies on its bodies' axes however they bend. Tubes do not
+// twist along the branch. Twigs of three corners have no mid rings: they are most of a tree. A joint bent by a narrows
+// its ring by cos(a/2) in the plane of the bend; the tube as a whole loses about (1 - cos^2(a/2)) / 2 of its volume, 3 %
+// at 0.5 rad.
+// A side branch begins with a collar, a ring on its parent's axis inside the parent's tube and moved by the parent alone,
+// then a root ring where it comes out, moved by both; so no gap opens whichever way it bends, nor where a branch was
+// drawn starting off the parent's axis. An end ring thinner than 1/1000 of the next is drawn as a point.
+// Leaves are the two broad faces of their prism (no petiole), fruit are spheres with a thin stalk from joints outside
+// them; both are moved by their body alone.
+// u runs 0..1 around (one seam column doubled), v is the arc length from the branch's joint over the circumference at its
+// base (of its thickest ring where that is a point), so that bark is not stretched; v < 0 inside the parent.
 // Reads a checked Tree in the drawn pose. O(bodies * sides). Constant topology: only positions and normals move.
+// Errors  std::length_error beyond 2^31 - 1 vertices.
 #pragma once
 #include "../model/tree.h"
 #include <array>
@@ -15,13 +23,15 @@
 namespace bough {
 
 struct SkinOptions {
-    int sides = 8;  // corners of a ring on the thickest branch, at least 3; thinner levels take fewer, never below 3
+    // Corners of a ring on the thickest branch, at least 3. Others take sides * sqrt(radius / thickest radius), so that
+    // the distance between polygon and circle is about the same everywhere, never below 3.
+    int sides = 8;
 };
 
 struct SkinPart {
-    std::string name;         // "bark", "leaf", "fruit": also the material's name
-    std::size_t first_index;  // into Skin::index
-    std::size_t index_count;
+    std::string name;         // "bark", "leaf", "fruit": also the material's name; parts without triangles are left out
+    std::size_t first_index;  // into Skin::triangle
+    std::size_t index_count;  // triangles
 };
 
 struct Skin {
@@ -31,7 +41,7 @@ struct Skin {
     std::vector<std::array<std::int32_t, 4>> joint;   // bodies that move the vertex; unused entries repeat the first
     std::vector<std::array<float, 4>> weight;         // sum 1, unused 0
     std::vector<std::array<std::int32_t, 3>> triangle;  // counterclockwise seen from outside
-    std::vector<SkinPart> part;                       // in order, covering `triangle` (first_index, index_count in triangles)
+    std::vector<SkinPart> part;                       // in order, covering `triangle`
 };
 
 Skin build_skin(const Tree&, const SkinOptions&);
@@ -40,7 +50,8 @@ Skin build_skin(const Tree&, const SkinOptions&);
 void drawn_pose(const Tree&, std::vector<Mat3>& R_wb, std::vector<Vec3>& x_w);
 
 // Linear blend skinning: positions and normals for the bodies' current frames. R_wb, x_w are arrays over bodies (world
-// from body, own joint in world). Keeps the drawn inverse frames, so that a frame costs O(vertices).
+// from body, own joint in world). Keeps the drawn inverse frames, so that a frame costs O(bodies + vertices). Keeps a
+// reference to the skin, which must outlive it. Each vertex is worked out alone: thread count cannot change the result.
 class SkinDeformer {
 public:
     SkinDeformer(const Skin&, const Tree&);

@@ -54,6 +54,30 @@ template <class T> Vector3<T> vector_from_quaternion(const Quaternion<T>& q) {
     return (T(2) * std::atan2(n, sign * q.w()) / n) * v;
 }
 
+// J: body rates from the rates of a rotation vector, omega_b = J theta_dot for R_jb = exp(theta) (the right Jacobian of
+// SO(3); in the joint frame omega_j = J^T theta_dot). J = 1 - a theta* + c theta* theta*.
+template <class T> Matrix3<T> body_rate_jacobian(const Vector3<T>& theta) {
+    const T a2 = theta.squaredNorm();
+    const T a = std::sqrt(a2);
+    const T h = std::sin(a / T(2));
+    const bool small = a < T(0.1);
+    const T first = small ? T(0.5) - a2 / T(24) * (T(1) - a2 / T(30)) : T(2) * h * h / a2;
+    const T second =
+        small ? T(1) / T(6) - a2 / T(120) * (T(1) - a2 / T(42) * (T(1) - a2 / T(72))) : (a - std::sin(a)) / (a2 * a);
+    const Matrix3<T> x = cross_matrix(theta);
+    return Matrix3<T>::Identity() - first * x + second * (x * x);
+}
+
+// T = J^-1: theta_dot = T omega_b. Finite up to |theta| = 2 pi, where J is singular.
+template <class T> Matrix3<T> body_rate_jacobian_inverse(const Vector3<T>& theta) {
+    const T a2 = theta.squaredNorm();
+    const T a = std::sqrt(a2);
+    const T c = a < T(0.1) ? T(1) / T(12) + a2 / T(720) * (T(1) + a2 / T(42) * (T(1) + a2 / T(40)))
+                           : (T(1) - a / T(2) * std::cos(a / T(2)) / std::sin(a / T(2))) / a2;
+    const Matrix3<T> x = cross_matrix(theta);
+    return Matrix3<T>::Identity() + T(0.5) * x + c * (x * x);
+}
+
 // A frame whose z axis is `axis` (unit length not needed), turned the least from `near`'s own z axis. Branch bodies
 // take their frames this way along the branch, so that x and y do not spin about it (a twist-free frame).
 inline Quat least_turn(const Quat& near, const Vec3& axis) {

@@ -50,6 +50,7 @@ struct SavedState {
     std::uint64_t fingerprint = 0; // of the tree and the scene it belongs to
     std::vector<Vec3> theta;       // [rad]; floats are exact in doubles
     std::vector<Vec3> theta_dot;   // [rad/s]
+    std::vector<Vec3> scaled_rate; // [sqrt(J)] what the analytic step carries of the rates (stages/spring.h)
     std::string source;
 };
 

@@ -1,5 +1,7 @@
 // wood.h: what a tree is made of. Presets with sources, or the user's own file (formats/material.h).
 #pragma once
+#include "splines.h"
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,16 +15,19 @@ struct Material {
     double damping_ratio = 0;       // [1] zeta of the branch's first bending mode, structural (no air)
     double leaf_density = 0;        // [kg/m^3] of fresh leaf tissue
     double leaf_thickness = 0;      // [m]
-    double leaf_modulus = 0;        // [Pa] E of the petiole, which is what a leaf bends on
+    double leaf_modulus = 0;        // [Pa] E of the petiole, which is what a leaf bends on, and of the fruit's stalk
     double leaf_damping_ratio = 0;  // [1] of the leaf on its petiole
     double fruit_density = 0;       // [kg/m^3]
     double fruit_damping_ratio = 0; // [1]
     std::string source;             // where the figures are from
 };
 
-// All presets, each with its source; the first is the default. names() lists them for --help.
+// All presets, each with its source; the first is the default. The names, in order, are for --help.
 const std::vector<Material>& wood_presets();
 // The preset of this name, or nullptr.
 const Material* find_wood(const std::string& name);
+
+// The first broken rule, or none: finite; density, moduli and thickness above 0, damping ratios 0 or more.
+std::optional<Defect> check(const Material&);
 
 } // namespace bough

@@ -7,7 +7,6 @@ template <class T> void start_from_own_body(const Plan<T>& plan, State<T>& s, st
     const Matrix3<T>& R = s.R_wb[i];
     s.c_h_w[i] = plan.mass[i] * (R * plan.com[i]);
     s.c_J_w[i] = R * plan.inertia_joint[i] * R.transpose();
-    if (plan.gravity) s.c_out_h_w[i].setZero();
     if (plan.forces) {
         s.c_f_w[i] = s.f_w[i];
         s.c_tau_w[i] = s.tau_w[i];
@@ -27,8 +26,6 @@ template <class T> void add_to_parent(const Plan<T>& plan, State<T>& s, std::siz
     s.c_h_w[p] += s.c_h_w[i] + m * r;
     const Matrix3<T> outer = r * q.transpose();
     s.c_J_w[p] += s.c_J_w[i] + 2 * r.dot(q) * Matrix3<T>::Identity() - outer - outer.transpose();
-    if (plan.gravity && plan.gravity_weight[i] != 0)
-        s.c_out_h_w[p] += s.c_out_h_w[i] + plan.gravity_weight[i] * s.c_h_w[i];
     if (plan.forces) {
         s.c_f_w[p] += s.c_f_w[i];
         s.c_tau_w[p] += s.c_tau_w[i] + r.cross(s.c_f_w[i]);

@@ -9,7 +9,7 @@
 // terms. (4)'s vector p_hat^a points from the child's joint to the parent's, r the other way. The mass (1) is constant
 // (plan.h). Gravity's torque is h x g, so it has no force array.
 // Reads   R_wb; f_w, tau_w; drag_f_w, drag_tau_w, drag_bound (each where the plan has it).
-// Writes  c_h_w, c_J_w, c_out_h_w, c_f_w, c_tau_w, c_drag_f_w, c_drag_tau_w, c_drag, c_drag_row.
+// Writes  c_h_w, c_J_w, c_f_w, c_tau_w, c_drag_f_w, c_drag_tau_w, c_drag, c_drag_row.
 // After   external_forces. Needs parent[i] < i. O(n). A parent adds its children in falling index order, so the thread
 //         count cannot change a result. Errors none.
 #pragma once

@@ -10,11 +10,13 @@ template <class T> void joint_drag(const Plan<T>& plan, State<T>& state) {
 #pragma omp parallel for schedule(static) if (n > 2000)
     for (std::int64_t k = 0; k < n; ++k) {
         const auto i = std::size_t(k);
-        const Matrix3<T> R_wj = joint_frame(plan, state, i);
-        const Vector3<T> tau = R_wj.transpose() * state.c_drag_tau_w[i];
-        Matrix3<T> N = joint_inertia(plan, state, i, R_wj);
+        const Vector3<T> tau_b = state.R_wb[i].transpose() * state.c_drag_tau_w[i];
+        const Matrix3<T> S = joint_inertia(plan, state, i);
+        const Matrix3<T> L = S.llt().matrixL();
+        Matrix3<T> N = S;
         N.diagonal().array() += h * plan.inverse_weight[i] * state.c_drag_row[i];
-        state.theta_dot[i] += h * Vector3<T>(N.llt().solve(tau));
+        const Vector3<T> change = h * N.llt().solve(tau_b);
+        state.scaled_rate[i] += L.transpose() * change;
     }
 }
 

@@ -6,6 +6,7 @@
 // line on, as the lagged rest is as large. What holds is a diagonal that bounds the whole row:
 //
 //   S_j w_new = S_j w + h (tau_j - d_j (w_new - w)),  i.e.  w_new = w + (S_j + h d_j 1)^-1 h tau_j
+// (w here the joint's rate in the axes of its body; spring.h carries L^T w, which changes by L^T times the change)
 //
 // with tau_j the true, present moment of the drag (external_forces.h, composite.h), S_j the joint's inertia (spring.h) and
 //
@@ -21,7 +22,7 @@
 // are damped less than they should be, never more. Rest is unbiased: the term vanishes with the velocities.
 // W_b is constant; the outer sum goes with the composite sweep, two scalars a body.
 // The split (drag, then spring) leaves the springs' propagators independent of the wind.
-// Reads   c_drag_tau_w, c_drag_row, c_J_w, R_wb. Writes theta_dot.
+// Reads   c_drag_tau_w, c_drag_row, c_J_w, R_wb. Writes scaled_rate.
 // After   composite. O(n), joints in parallel. Errors none.
 #pragma once
 #include "plan.h"

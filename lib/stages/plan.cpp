@@ -56,25 +56,36 @@ template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene&
     const std::size_t n = plan.bodies;
     const bool scaled = scene.joint_inertia == JointInertia::branch;
     const BranchModes modes = branch_modes(tree);
-    std::vector<double> inboard(n);
+    std::vector<double> sum(n), moved(n); // over the path: of u, and what it moves the body's joint by
     for (std::size_t i = 0; i < n; ++i) {
         const double fb = scaled ? modes.factor_bend[i] : 1, ft = scaled ? modes.factor_twist[i] : 1;
         plan.inertia_factor.push_back(Vec3(std::sqrt(fb), std::sqrt(fb), std::sqrt(ft)).template cast<T>());
-        const bool on = continues_parent(tree, i);
-        const double u = modes.weight[i];
-        inboard[i] = u + (on ? inboard[std::size_t(tree.parent[i])] : 0);
-        if (plan.gravity) {
-            plan.gravity_weight.push_back(T(scaled && on ? u : 0));
-            plan.gravity_inboard.push_back(T(scaled ? inboard[i] / u : 1));
-            plan.gravity_outboard.push_back(T(scaled ? 1 / u : 0));
+        const auto p = std::size_t(tree.parent[i]);
+        sum[i] = modes.weight[i] + (tree.parent[i] < 0 ? 0 : sum[p]);
+    }
+    if (plan.gravity) {
+        // P: the first moment that a body's own turning moves; sums over the subtree of |g| |P|, plain and times the path's u.
+        std::vector<Vec3> P(n);
+        std::vector<double> plain(n), weighed(n);
+        for (std::size_t i = 0; i < n; ++i) P[i] = tree.mass[i] * tree.com[i];
+        for (std::size_t i = 0; i < n; ++i)
+            if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += double(plan.c_mass[i]) * tree.joint_position[i];
+        for (std::size_t i = 0; i < n; ++i) {
+            plain[i] = scene.gravity.norm() * P[i].norm();
+            weighed[i] = plain[i] * sum[i];
         }
+        for (std::size_t i = n; i-- > 0;) {
+            if (tree.parent[i] < 0) continue;
+            plain[std::size_t(tree.parent[i])] += plain[i];
+            weighed[std::size_t(tree.parent[i])] += weighed[i];
+        }
+        for (std::size_t i = 0; i < n; ++i)
+            plan.gravity_row.push_back(T(std::max(0.0, weighed[i] / modes.weight[i] - plain[i])));
     }
     if (!plan.wind) return;
-    std::vector<double> sum(n), moved(n); // over the path: of u, and what it moves the body's joint by
     for (std::size_t i = 0; i < n; ++i) {
         const auto p = std::size_t(tree.parent[i]);
         const double r = tree.parent[i] < 0 ? 0 : tree.joint_position[i].norm();
-        sum[i] = modes.weight[i] + (tree.parent[i] < 0 ? 0 : sum[p]);
         moved[i] = tree.parent[i] < 0 ? 0 : moved[p] + sum[p] * r;
         plan.kind.push_back(tree.kind[i]);
         plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
@@ -131,7 +142,7 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     plan.dt = dt;
     plan.scene = scene;
     plan.gravity = !scene.gravity.isZero();
-    plan.wind = scene.wind && !scene.wind->velocity.isZero();
+    plan.wind = scene.wind.has_value(); // a wind of no velocity is still air, which drags
     for (std::size_t k = 0; k < scene.pulls.size(); ++k)
         for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
             plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});

@@ -63,9 +63,7 @@ template <class T> struct Plan {
     std::vector<Vector3<T>> theta_start;    // [rad]
 
     // Gravity's gradient (spring.h).
-    std::vector<T> gravity_weight;   // [rad/m] u_j, 0 where the joint does not go on its parent's branch
-    std::vector<T> gravity_inboard;  // [1] sum of u over the branch up to and with j, over u_j
-    std::vector<T> gravity_outboard; // [m/rad] 1 / u_j
+    std::vector<T> gravity_row; // [N m] bound on what the path's other joints change of gravity's moment
 
     // Wind (drag.h, external_forces.h).
     std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)

@@ -13,21 +13,21 @@ std::string name_of(const Tree& tree, std::size_t i) {
 }
 
 struct Frames {
-    std::vector<Mat3> G, R; // world from joint frame, world from body
-    std::vector<Vec3> r;    // [m] own joint as seen from the parent's joint (zero for roots), world
+    std::vector<Mat3> R; // world from body
+    std::vector<Vec3> r; // [m] own joint as seen from the parent's joint (zero for roots), world
 };
 
 Frames frames(const Tree& tree, const std::vector<Vec3>& theta) {
     const std::size_t n = tree.size_bodies();
-    Frames f{std::vector<Mat3>(n), std::vector<Mat3>(n), std::vector<Vec3>(n, Vec3::Zero())};
+    Frames f{std::vector<Mat3>(n), std::vector<Vec3>(n, Vec3::Zero())};
     for (std::size_t i = 0; i < n; ++i) {
-        f.G[i] = tree.joint_rotation[i].toRotationMatrix();
+        Mat3 R_wj = tree.joint_rotation[i].toRotationMatrix();
         if (tree.parent[i] >= 0) {
             const auto p = std::size_t(tree.parent[i]);
-            f.G[i] = f.R[p] * f.G[i];
+            R_wj = f.R[p] * R_wj;
             f.r[i] = f.R[p] * tree.joint_position[i];
         }
-        f.R[i] = f.G[i] * rotation_from_vector(theta[i]);
+        f.R[i] = R_wj * rotation_from_vector(theta[i]);
     }
     return f;
 }
@@ -56,7 +56,8 @@ std::vector<Vec3> gravity_moments(const Tree& tree, const std::vector<Vec3>& P, 
     return tau;
 }
 
-// theta with K theta = exp(theta) tau, the moment given in the body's frame.
+// theta with K theta = J^T tau, the moment given in the body's frame, J the body rates' Jacobian at theta. The slope of
+// J^T tau is left out of Newton's matrix but for its first term: what remains is small and converges in a few rounds.
 Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     const Vec3& K = tree.stiffness[i];
     for (int a = 0; a < 3; ++a)
@@ -67,15 +68,15 @@ Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     if (tau.norm() == 0) return Vec3::Zero();
     Vec3 theta = tau.cwiseQuotient(K);
     for (int iteration = 0; iteration < 100; ++iteration) {
-        const Vec3 turned = rotation_from_vector(theta) * tau;
+        const Vec3 turned = body_rate_jacobian(theta).transpose() * tau;
         const Vec3 residual = turned - K.cwiseProduct(theta);
-        const Mat3 slope = Mat3(K.asDiagonal()) + cross_matrix(turned);
+        const Mat3 slope = Mat3(K.asDiagonal()) + 0.5 * cross_matrix(turned);
         const Vec3 change = slope.partialPivLu().solve(residual);
         theta += change;
         if (change.norm() <= 1e-15 * theta.norm()) return theta;
     }
     // Rounding can keep the last digit moving; what is left must be rounding.
-    const Vec3 left = rotation_from_vector(theta) * tau - K.cwiseProduct(theta);
+    const Vec3 left = body_rate_jacobian(theta).transpose() * tau - K.cwiseProduct(theta);
     if (left.norm() > 1e-12 * tau.norm())
         throw std::domain_error(name_of(tree, i) + " is too soft to carry its weight in the drawn pose");
     return theta;
@@ -110,12 +111,15 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vecto
     }
     std::int64_t soft = -1;
     for (std::size_t i = n; i-- > 0;) {
-        const Mat3 Z = f.G[i] * tree.stiffness[i].asDiagonal() * f.G[i].transpose();
+        const Mat3 rates = body_rate_jacobian_inverse(theta[i]) * f.R[i].transpose(); // of theta, from world
+        const Mat3 Z = rates.transpose() * tree.stiffness[i].asDiagonal() * rates;
         const Mat3 sum = Z + A[i];
         if (sum.llt().info() != Eigen::Success) soft = std::int64_t(i);
         E[i] = sum.inverse();
         // What this joint's own spring leaves unbalanced; what hangs further out has been added by its own joints.
-        const Vec3 residual = tau[i] - f.G[i] * tree.stiffness[i].cwiseProduct(theta[i]);
+        const Vec3 spring_b =
+            body_rate_jacobian_inverse(theta[i]).transpose() * tree.stiffness[i].cwiseProduct(theta[i]);
+        const Vec3 residual = tau[i] - f.R[i] * spring_b;
         u[i] += residual;
         if (tree.parent[i] < 0) continue;
         const auto p = std::size_t(tree.parent[i]);
@@ -128,7 +132,7 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vecto
         const Vec3 base = tree.parent[i] < 0 ? Vec3(Vec3::Zero()) : psi[std::size_t(tree.parent[i])];
         const Vec3 turn = E[i] * (u[i] - A[i] * base);
         psi[i] = base + turn;
-        change[i] = f.G[i].transpose() * turn;
+        change[i] = body_rate_jacobian_inverse(theta[i]) * (f.R[i].transpose() * turn);
     }
     return soft;
 }

@@ -1,10 +1,10 @@
 // pose.h: the springs' rest pose and the start angles, for the three ways a scene can mean its drawn tree (scene.h).
 //
 // drawn    The drawn tree is the equilibrium: each joint frame is turned back, R_pj = R_drawn exp(-theta), and starts at
-//          theta with K theta = exp(theta) tau, tau the moment of gravity on the drawn composite in the body's drawn frame
-//          (exp(theta) takes it to the joint frame, which is what K is diagonal in). The positions do not change, so the
+//          theta with K theta = J^T tau (spring.h), tau the moment of gravity on the drawn composite in the body's drawn frame,
+//          J = J(theta) the body rates of theta. The positions do not change, so the
 //          joints are independent: one backward sweep and a 3x3 Newton iteration a joint. Exact to rounding.
-// settled  The drawn tree is unloaded; theta is its sag: K theta = tau(theta) for all joints at once, by Newton's method.
+// settled  The drawn tree is unloaded; theta is its sag: T^T K theta = tau(theta) for all joints at once, by Newton's method.
 //          The matrix K + gravity's stiffness is block-diagonal in absolute rotations but for the springs, so a Newton
 //          step is one backward elimination and one forward substitution of 3x3 blocks, O(n); a step that does not
 //          reduce the residual is halved. An elimination block that is not positive definite where the iteration ends is

@@ -37,38 +37,40 @@ template <class T> void symmetric_eigen(Matrix3<T> A, Matrix3<T>& V, Vector3<T>&
 
 namespace {
 
+// One joint at the start of its step, in the axes of its body.
 template <class T> struct Joint {
-    Vector3<T> tau; // moment at the start of the step, joint frame
-    Matrix3<T> KG;  // K + G
+    Matrix3<T> T_tb;       // rates of theta from the body's: J^-1
+    Vector3<T> residual_b; // [N m] tau - T^T K theta
+    Matrix3<T> K_b, KG_b;  // [N m/rad] T^T K T, and with gravity's gradient
 };
 
-template <class T> Joint<T> load(const Plan<T>& plan, const State<T>& s, std::size_t i, const Matrix3<T>& R_wj) {
-    Joint<T> joint{Vector3<T>::Zero(), Matrix3<T>(plan.K[i].asDiagonal())};
+template <class T> Joint<T> load(const Plan<T>& plan, const State<T>& s, std::size_t i) {
+    const Matrix3<T>& R_wb = s.R_wb[i];
+    Joint<T> joint;
+    joint.T_tb = body_rate_jacobian_inverse(s.theta[i]);
+    joint.K_b = joint.T_tb.transpose() * plan.K[i].asDiagonal() * joint.T_tb;
+    joint.KG_b = joint.K_b;
     Vector3<T> tau_w = Vector3<T>::Zero();
     if (plan.forces) tau_w += s.c_tau_w[i];
     if (plan.gravity) {
         const Vector3<T> g_w = plan.scene.gravity.template cast<T>();
         tau_w += s.c_h_w[i].cross(g_w);
-        const Vector3<T> g = R_wj.transpose() * g_w;
-        const Vector3<T> h =
-            R_wj.transpose() * (plan.gravity_inboard[i] * s.c_h_w[i] + plan.gravity_outboard[i] * s.c_out_h_w[i]);
+        const Vector3<T> g = R_wb.transpose() * g_w, h = R_wb.transpose() * s.c_h_w[i];
         const Matrix3<T> hg = h * g.transpose();
-        joint.KG += g.dot(h) * Matrix3<T>::Identity() - T(0.5) * (hg + hg.transpose());
+        joint.KG_b += (g.dot(h) + plan.gravity_row[i]) * Matrix3<T>::Identity() - T(0.5) * (hg + hg.transpose());
     }
-    joint.tau = R_wj.transpose() * tau_w;
+    joint.residual_b = R_wb.transpose() * tau_w - joint.T_tb.transpose() * plan.K[i].cwiseProduct(s.theta[i]);
     return joint;
 }
 
 template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_t i, T h) {
-    const Matrix3<T> R_wj = joint_frame(plan, s, i);
-    const Joint<T> joint = load(plan, s, i, R_wj);
-    const Matrix3<T> S = joint_inertia(plan, s, i, R_wj);
-    const Matrix3<T> L = S.llt().matrixL();
+    const Joint<T> joint = load(plan, s, i);
+    const Matrix3<T> L = joint_inertia(plan, s, i).llt().matrixL();
     const auto lower = L.template triangularView<Eigen::Lower>();
-    Matrix3<T> half = joint.KG;
+    Matrix3<T> half = joint.KG_b;
     lower.solveInPlace(half);        // L^-1 (K + G)
-    Matrix3<T> A = half.transpose(); // (K + G) L^-T, transposed twice
-    lower.solveInPlace(A);           // L^-1 (K + G) L^-T
+    Matrix3<T> A = half.transpose(); // (K + G) L^-T, as K + G is symmetric
+    lower.solveInPlace(A);
     A = (T(0.5) * (A + A.transpose())).eval();
     Matrix3<T> X;
     Vector3<T> lambda;
@@ -76,12 +78,12 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
     Matrix3<T> U = X;
     L.transpose().template triangularView<Eigen::Upper>().solveInPlace(U);
 
-    const Vector3<T> r = U.transpose() * (joint.tau - plan.K[i].cwiseProduct(s.theta[i]));
-    const Vector3<T> v = X.transpose() * (L.transpose() * s.theta_dot[i]); // U^-1 = X^T L^T
+    const Vector3<T> r = U.transpose() * joint.residual_b;
+    const Vector3<T> v = X.transpose() * s.scaled_rate[i]; // U^-1 theta_dot = X^T L^T theta_dot
     StepFlags flags;
     Vector3<T> dq, v_new;
     for (int k = 0; k < 3; ++k) {
-        T b = plan.beta[i] * U.col(k).cwiseAbs2().dot(plan.K[i]);
+        T b = plan.beta[i] * U.col(k).dot(joint.K_b * U.col(k));
         T l = lambda[k];
         if (l < 0) ++flags.buckling;
         if (l > largest_lambda<T>()) {
@@ -94,8 +96,9 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         dq[k] = p.E * residual + p.B * v[k];
         v_new[k] = p.B * residual + p.C * v[k];
     }
-    s.theta[i] += U * dq;
-    s.theta_dot[i] = U * v_new;
+    s.theta[i] += joint.T_tb * (U * dq);
+    s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * (U * v_new);
+    s.scaled_rate[i] = X * v_new;
     return flags;
 }
 
@@ -117,7 +120,8 @@ template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
 
 template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {
     for (std::size_t i = 0; i < state.torque_j.size(); ++i)
-        state.torque_j[i] = -plan.K[i].cwiseProduct(state.theta[i] + plan.beta[i] * state.theta_dot[i]);
+        state.torque_j[i] = -body_rate_jacobian_inverse(Vector3<T>(-state.theta[i])).transpose() *
+                            plan.K[i].cwiseProduct(state.theta[i] + plan.beta[i] * state.theta_dot[i]);
 }
 
 template void symmetric_eigen(Matrix3<float>, Matrix3<float>&, Vector3<float>&);

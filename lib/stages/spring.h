@@ -1,25 +1,38 @@
 // spring.h: analytic spring evolution, (5)-(6), with gravity's gradient, for each joint by itself.
 //
-//   S theta'' + beta K theta' + (K + G) theta = tau + G theta_n,  theta(0) = theta_n,  theta'(0) = theta'_n
+// Equation. In theta, with J = J(theta) the body's rates of it (omega_b = J theta_dot, math.h) and T = J^-1, everything of
+// the joint is written in the axes of its own body and frozen at the start of the step but the relative rotation phi,
+// d theta = T phi:
+//   S phi'' + beta K_b phi' + (K_b + G) phi = tau - T^T K theta,     K_b = T^T K T
+// S: the composite's inertia about the joint (joint.h). tau: moment of the external forces and of gravity on the composite
+// about the joint (the stage's "tau" is the composite's), taken at the start of the step. T^T K theta is the torque of the
+// springs, from the energy theta^T K theta / 2; the paper takes T = 1, which is right for small angles only: measured, T = 1
+// gains energy from |theta| = 1 rad on (a single rod swinging through 2.6 rad grew fivefold in 10 s), the exact map does not.
+// The fixed point is T^T K theta = tau(theta), exactly, whatever S and G are.
 //
-// S: joint.h. tau: moment of the external forces and of gravity on the composite about the joint, in the joint frame, at
-// the start of the step ("tau" of the paper's stage is the composite's, about the parent joint); G: how gravity's moment
-// answers the motion, linearised where the step starts, so that gravity does not lag by a step (lagged, it pumps what
-// hangs and damps what stands). Read as the paper's frozen-coefficient equation with one coefficient more; its fixed
-// point is K theta = tau(theta), exactly, whatever G is.
-// Gravity's moment h x g turned by phi changes by -K_g(h) phi, K_g(h) = (g.h) 1 - h g^T; its symmetric part is used (the
-// other half turns with the frame). Joint j's moment answers every joint of its path: turning k further in moves all of
-// h_j, turning k further out moves h_k. Along the first mode of the branch (rates in proportion to u_k, branch_mode.h)
-// these add up to
-//   G_j = sym K_g( (sum_{k <= j} u_k / u_j) h_j + (1/u_j) sum_{k > j} u_k h_k ),
-// the row sum for gravity that F is for inertia; with JointInertia::paper K_g(h_j), the joint's own motion alone.
-// (T = 1: the analytic step takes theta' for the joint's angular velocity and K theta for the spring's torque in the
-// joint frame, part of its model error.)
-// Solution: Cholesky S = L L^T, L^-1 (K + G) L^-T X = X Lambda by Jacobi rotations, U = L^-T X, so that U^T S U = 1; in
-// the coordinates q = U^-1 theta row i is q'' + b q' + lambda q = f (oscillator.h) with b = beta (U^T K U)_ii. Where G is
-// not 0, U^T K U has small terms off its diagonal: they are dropped, which leaves the damping positive.
-// lambda < 0 is buckling: it grows as it does, and is counted.
-// Reads   theta, theta_dot, c_h_w, c_J_w, c_out_h_w, c_tau_w, R_wb. Writes theta, theta_dot; torque_j.
+// G, gravity's gradient. Gravity's moment h x g, turned by phi, changes by -K_g(h) phi, K_g(h) = (g.h) 1 - h g^T. Held
+// constant over the step instead (G = 0), it lags by half a step and pumps what hangs. G = sym K_g(h_j) + gamma_j 1: the
+// joint's own motion, exact, and a bound on what the path's other joints contribute. The Hessian of gravity's potential is
+// block diagonal in the bodies' absolute rotations psi_b = sum of phi over the path, with blocks sym K_g(P_b), |.| <= |g||P_b|,
+// P_b the first moment that body b's own turning moves (its mass and, at its children's joints, their composites'). As
+// 2 |phi_j.phi_k| <= (u_k/u_j) |phi_j|^2 + (u_j/u_k) |phi_k|^2 for any weights u > 0,
+//   gamma_j = sum_{b outboard or j} |g| |P_b| (U_b - u_j) / u_j,     U_b = sum of u over b's path
+// makes the sum over joints of phi^T G phi at least the Hessian's form: a step of the joints, each by itself, then takes
+// at least as much energy as it gives gravity (to second order of the step's rotation). gamma is constant, zero for a single
+// joint, and small beside K in wood; where it is not, it damps (as what stands is damped by lag in any case).
+//
+// Carrying. S changes with the pose of what is outboard, and a rate carried through a changing inertia gains or loses
+// energy that nobody did work for: theta_dot kept as it is pumps soft trees without bound. What is carried from step to step
+// is instead w = L^T omega_b, S = L L^T: |w|^2 / 2 is the joint's kinetic energy, so that the change of S does no work.
+//
+// Together: with constant K, beta and no wind, kinetic (|w|^2 / 2) + elastic + potential energy never grows, for any K >= 0,
+// beta >= 0 and step, which tests/test_energy.cpp holds.
+//
+// Solution. A = L^-1 (K_b + G) L^-T = X Lambda X^T by Jacobi rotations, U = L^-T X, so that U^T S U = 1 and row i is
+// q'' + b q' + lambda q = r with b = beta (U^T K_b U)_ii, v = X^T w (oscillator.h). Where G is not 0, U^T K_b U has small
+// terms off its diagonal: they are dropped, which leaves the damping positive. lambda < 0 is buckling: it grows as it does,
+// and is counted. lambda is bounded where its square would overflow (oscillator.h), counted.
+// Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb. Writes theta, theta_dot, scaled_rate.
 // After   composite, drag. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
 #pragma once
 #include "plan.h"
@@ -29,7 +42,8 @@ namespace bough {
 
 template <class T> void spring_update(const Plan<T>&, State<T>&);
 
-// The spring's and damper's torque on the body [N m, joint frame], -K (theta + beta theta_dot), for all bodies.
+// The spring's and damper's torque on the body [N m, joint frame], -T_j^T K (theta + beta theta_dot) with T_j = T of the
+// joint frame's rates, into torque_j for all bodies.
 template <class T> void spring_torque(const Plan<T>&, State<T>&);
 
 // Eigenvectors (columns) and values of a symmetric 3x3 matrix by cyclic Jacobi rotations: small eigenvalues keep their

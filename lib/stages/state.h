@@ -20,6 +20,9 @@ template <class T> struct State {
 
     std::vector<Vector3<T>> theta, theta_dot; // [rad], [rad/s] joint frame: the state proper; hashed, saved
 
+    std::vector<Vector3<T>>
+        scaled_rate; // [sqrt(J)] L^T theta_dot, S = L L^T: what is carried from step to step (spring.h)
+
     // state_update
     std::vector<Matrix3<T>> R_wb;         // world from body
     std::vector<Vector3<T>> x_w;          // [m] own joint, world
@@ -36,7 +39,6 @@ template <class T> struct State {
     // composite
     std::vector<Vector3<T>> c_h_w;          // [kg m] first moment of the composite about own joint
     std::vector<Matrix3<T>> c_J_w;          // [kg m^2] inertia of the composite about own joint
-    std::vector<Vector3<T>> c_out_h_w;      // [kg] sum over the branch's joints further out of u_k h_k
     std::vector<Vector3<T>> c_f_w, c_tau_w; // (3), (4)
     std::vector<Vector3<T>> c_drag_f_w, c_drag_tau_w;
     std::vector<T> c_drag, c_drag_row; // [N s/m], [N s] sums of the row-sum bound (drag.h)

@@ -14,13 +14,13 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
                                : plan.wind                      ? "/wind"
                                : plan.forces                    ? "/pulls"
                                                                 : "no wind, no pulls";
-    const std::string gravity = plan.gravity ? "/gravity" : "gravity is zero";
     const std::string velocity = plan.wind       ? "/wind (drag)"
                                  : plan.velocity ? "output field velocity"
                                                  : "no wind, no output field velocity";
     const std::string torque = plan.torque ? "output field torque" : "no output field torque";
     visit("theta", s.theta, true, always);
     visit("theta_dot", s.theta_dot, true, always);
+    visit("scaled_rate", s.scaled_rate, true, always);
     visit("R_wb", s.R_wb, true, always);
     visit("x_w", s.x_w, true, always);
     visit("omega_w", s.omega_w, plan.velocity, velocity);
@@ -32,7 +32,6 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("drag_bound", s.drag_bound, plan.wind, wind);
     visit("c_h_w", s.c_h_w, true, always);
     visit("c_J_w", s.c_J_w, true, always);
-    visit("c_out_h_w", s.c_out_h_w, plan.gravity, gravity);
     visit("c_f_w", s.c_f_w, plan.forces, forces);
     visit("c_tau_w", s.c_tau_w, plan.forces, forces);
     visit("c_drag_f_w", s.c_drag_f_w, plan.wind, wind);

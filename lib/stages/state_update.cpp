@@ -10,7 +10,7 @@ template <class T> void state_update(const Plan<T>& plan, State<T>& s) {
         s.R_wb[i] = R_wj * rotation_from_vector(s.theta[i]);
         s.x_w[i] = parent < 0 ? plan.joint_position[i] : Vector3<T>(s.x_w[p] + s.R_wb[p] * plan.joint_position[i]);
         if (!plan.velocity) continue;
-        const Vector3<T> spin = R_wj * s.theta_dot[i];
+        const Vector3<T> spin = s.R_wb[i] * (body_rate_jacobian(s.theta[i]) * s.theta_dot[i]);
         s.omega_w[i] = parent < 0 ? spin : Vector3<T>(s.omega_w[p] + spin);
         s.v_w[i] = s.omega_w[i].cross(Vector3<T>(s.R_wb[i] * plan.com[i]));
         if (parent < 0) continue;

@@ -2,8 +2,8 @@
 //
 // R_wc = R_wp R_pj exp(theta) (7); the joint of c stays on its parent, x_c = x_p + R_wp d (10), x the joint's place: bodies
 // have their origin at their own joint here, so that (10)'s d_j^c is the centre of mass' negative. Velocities only where
-// the plan has a reader for them (wind, --fields velocity): omega_c = omega_p + R_wj theta_dot (8), which takes theta_dot
-// for the angular velocity of the joint, as (5) does; v_c = v_joint + omega_c x R_wc com (11). Accelerations (9), (12) have
+// the plan has a reader for them (wind, --fields velocity): omega_c = omega_p + R_wc J theta_dot, which is
+// (8) with the exact angular velocity of the joint for theta_dot (math.h); v_c = v_joint + omega_c x R_wc com (11). Accelerations (9), (12) have
 // no reader yet and do not exist.
 // Reads   theta, theta_dot. Writes R_wb, x_w; omega_w, v_w. After spring. Needs parent[i] < i. O(n). Errors none.
 #pragma once

@@ -1,0 +1,65 @@
+// imported_tree.h: what a reader of a foreign format finds, in the file's own unit and axes, and the steps that all
+// readers share to make Splines of it: order, unit, up axis, hosts of leaves.
+#pragma once
+#include "import.h"
+
+namespace bough {
+
+struct ImportedBranch {
+    std::int32_t parent = -1;   // index into ImportedTree::branches, in any order, no cycles; -1: on the ground
+    double parent_at = 0;       // fraction of the parent's arc length
+    std::vector<Vec3> point;    // [file unit] base to tip; the first is the joint
+    std::vector<double> radius; // [file unit] one per point
+};
+
+struct ImportedLeaf {
+    std::int32_t branch = -1;     // -1: the nearest branch
+    Vec3 position = Vec3::Zero(); // [file unit]
+    Mat3 axes = Mat3::Identity(); // columns in file axes: x width, y normal, z length; a rotation
+    double length = 0, width = 0; // [file unit]
+};
+
+struct ImportedTree {
+    std::vector<ImportedBranch> branches;
+    std::vector<ImportedLeaf> leaves;
+    std::string name, source;
+    std::optional<double> unit; // [m] if the file or its format states one
+    char up = 0;                // 'y' or 'z' if the file or its format states it
+};
+
+// Splines in metres and Y up. The unit is the option's, else the file's, else a guess from the height; the up axis the
+// option's, else the file's, else the one that the trunks follow; guesses go into the notes with their reason.
+// Branches are put parents first, otherwise in file order; level is the depth. Points that repeat their predecessor
+// are left out; a branch without any length is left out with a note, what it carried goes to its parent.
+// O(points + leaves), for leaves without a branch O(points) each. Throws InputError (place options.name) for a tree
+// without branches and for one that breaks a rule of Splines.
+Splines finish_import(ImportedTree&&, const ImportOptions&, ImportNotes&);
+
+// The unit [m] that a tree this high [file unit] is most likely given in: m up to 120 (the tallest has 116 m), cm up to
+// 12000, else mm.
+double likely_unit(double height);
+
+// An order of the indices in which parents stand first and which keeps index order where it can. `cycle` is an index
+// on a cycle (the order is then unfinished), or -1. O(n), no recursion.
+struct ParentsFirst {
+    std::vector<std::int32_t> order;
+    std::int32_t cycle = -1;
+};
+ParentsFirst parents_first(const std::vector<std::int32_t>& parent);
+
+// The point of a polyline nearest to p. O(points).
+struct OnPolyline {
+    std::size_t segment = 0; // between points segment and segment + 1
+    double t = 0;            // fraction of that segment
+    double distance = 0;     // from p
+    double fraction = 0;     // of the polyline's arc length
+};
+OnPolyline nearest_on(const std::vector<Vec3>& polyline, const Vec3& p);
+
+// Fraction of the way from a to b where p projects to, within 0..1.
+double projected(const Vec3& a, const Vec3& b, const Vec3& p);
+
+// File name without folders and ending.
+std::string stem_of(const std::string& path);
+
+} // namespace bough

@@ -1,0 +1,107 @@
+#include "plain_text.h"
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace bough {
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+namespace {
+
+// from_chars reports "too small" and "too large" alike; the sign of the exponent tells them apart.
+bool underflows(std::string_view token) {
+    const std::size_t e = token.find_first_of("eE");
+    return e != std::string_view::npos && e + 1 < token.size() && token[e + 1] == '-';
+}
+
+std::optional<double> parse_point_number(std::string_view token) {
+    if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+    if (token.empty() || token.front() == '+') return {};
+    double value = 0;
+    const char* end = token.data() + token.size();
+    const auto [stop, error] = std::from_chars(token.data(), end, value);
+    if (stop != end || error == std::errc::invalid_argument) return {};
+    if (error == std::errc::result_out_of_range) return underflows(token) ? std::optional<double>(0.0) : std::nullopt;
+    if (!std::isfinite(value)) return {};
+    return value;
+}
+
+} // namespace
+
+std::optional<double> parse_number(std::string_view token, bool decimal_comma) {
+    const std::size_t comma = decimal_comma ? token.find(',') : std::string_view::npos;
+    if (comma == std::string_view::npos) return parse_point_number(token);
+    std::array<char, 64> copy;
+    if (token.size() > copy.size() || token.find('.') != std::string_view::npos) return {};
+    std::copy(token.begin(), token.end(), copy.begin());
+    copy[comma] = '.';
+    return parse_point_number({copy.data(), token.size()});
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view token) {
+    if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+    std::int64_t value = 0;
+    const char* end = token.data() + token.size();
+    const auto [stop, error] = std::from_chars(token.data(), end, value);
+    if (token.empty() || token.front() == '+' || stop != end || error != std::errc()) return {};
+    return value;
+}
+
+std::size_t line_of(std::string_view content, std::size_t offset) {
+    const auto end = content.begin() + std::ptrdiff_t(std::min(offset, content.size()));
+    return 1 + std::size_t(std::count(content.begin(), end, '\n'));
+}
+
+std::string file_line(const std::string& name, std::size_t line) {
+    return name + ":" + std::to_string(line);
+}
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::string out = "\"";
+    for (const char c : text.substr(0, longest)) out += c >= ' ' && c <= '~' ? c : '?';
+    return out + (text.size() > longest ? "...\"" : "\"");
+}
+
+namespace {
+
+// Length of the valid UTF-8 sequence that begins at text[at], 0 if there is none.
+std::size_t utf8_length(const std::string& text, std::size_t at) {
+    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
+    const unsigned first = byte(at);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+    if (first < 0xC2 || first > 0xF4) return 0;
+    for (std::size_t k = 1; k < length; ++k)
+        if ((byte(at + k) & 0xC0) != 0x80) return 0;
+    const unsigned second = byte(at + 1);
+    const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+    const bool outside = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
+    return overlong || outside ? 0 : length;
+}
+
+} // namespace
+
+std::string valid_utf8(std::string text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = utf8_length(text, at);
+        const bool control = length == 1 && (static_cast<unsigned char>(text[at]) < 0x20 || text[at] == 0x7F);
+        if (length == 0 || control) text[at] = '?';
+        at += std::max<std::size_t>(1, length);
+    }
+    return text;
+}
+
+std::string shown(double value) {
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 4);
+    return {digits.data(), end.ptr};
+}
+
+} // namespace bough

@@ -1,0 +1,41 @@
+// plain_text.h: strict numbers and places in plain text, for the readers of foreign formats. No locale takes part.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace bough {
+
+inline bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+std::string_view trimmed(std::string_view);
+
+// The next run of non-blank characters at or after `from`, which moves behind it; empty at the end.
+inline std::string_view next_token(std::string_view text, std::size_t& from) {
+    while (from < text.size() && is_blank(text[from])) ++from;
+    const std::size_t start = from;
+    while (from < text.size() && !is_blank(text[from])) ++from;
+    return text.substr(start, from - start);
+}
+
+// The whole token as a finite number ("1", "0.", "1e-002", "+3"), else nothing. With `decimal_comma`, one comma in
+// place of the point is read too ("0,3048"). Values too small for a double are 0, too large ones are refused.
+std::optional<double> parse_number(std::string_view token, bool decimal_comma = false);
+std::optional<std::int64_t> parse_integer(std::string_view token);
+
+// 1-based line of an offset. O(offset).
+std::size_t line_of(std::string_view content, std::size_t offset);
+// "FILE:LINE", how InputError names a place.
+std::string file_line(const std::string& name, std::size_t line);
+
+// A piece of input in quotes, fit for a one-line message: unprintable bytes as '?', cut after 40 characters.
+std::string quoted(std::string_view);
+// The text with every byte that is not part of valid UTF-8, and every control character, replaced by '?'.
+std::string valid_utf8(std::string text);
+// A number for a message, 4 digits.
+std::string shown(double);
+
+} // namespace bough

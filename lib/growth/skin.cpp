@@ -1,0 +1,131 @@
+#include "skin.h"
+#include "skin_mesh.h"
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <stdexcept>
+
+namespace bough {
+
+std::int32_t add_vertex(Skin& skin, const Vec3& position, const Vec3& normal, double u, double v,
+                        const Binding& binding) {
+    const std::size_t index = skin.position.size();
+    if (index >= std::size_t(std::numeric_limits<std::int32_t>::max()))
+        throw std::length_error("the skin mesh has more than 2^31 - 1 vertices; take fewer sides or bodies");
+    skin.position.push_back(position);
+    skin.normal.push_back(normal);
+    skin.texture.push_back({float(u), float(v)});
+    const std::int32_t second = binding.second_weight > 0 ? binding.second : binding.first;
+    skin.joint.push_back({binding.first, second, binding.first, binding.first});
+    skin.weight.push_back({1 - binding.second_weight, binding.second_weight, 0, 0});
+    return std::int32_t(index);
+}
+
+namespace {
+
+// next[i]: the piece that goes on body i's branch, -1 at its tip. starts: the bodies that begin a tube, rising.
+struct Chains {
+    std::vector<std::int32_t> next;
+    std::vector<std::int32_t> starts;
+};
+
+Chains find_chains(const Tree& tree) {
+    Chains chains;
+    chains.next.assign(tree.size_bodies(), -1);
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        if (tree.kind[i] != Kind::branch) continue;
+        if (continues_parent(tree, i) && chains.next[std::size_t(tree.parent[i])] < 0)
+            chains.next[std::size_t(tree.parent[i])] = std::int32_t(i);
+        else
+            chains.starts.push_back(std::int32_t(i));
+    }
+    return chains;
+}
+
+// Corners so that the distance between a ring and its circle, r (1 - cos(pi / n)), is about the same on every branch.
+int sides_for(double radius, double thickest, int most) {
+    if (!(thickest > 0)) return 3;
+    return std::max(3, int(std::lround(most * std::sqrt(std::min(1.0, radius / thickest)))));
+}
+
+// Corners of the tube that each branch piece belongs to, 0 for other bodies.
+std::vector<int> find_sides(const Tree& tree, const Chains& chains, int most) {
+    auto thickness = [&](std::int32_t start) {
+        const Vec3& size = tree.size[std::size_t(start)];
+        return std::max(size.y(), size.z());
+    };
+    double thickest = 0;
+    for (const std::int32_t start : chains.starts) thickest = std::max(thickest, thickness(start));
+    std::vector<int> sides(tree.size_bodies(), 0);
+    for (const std::int32_t start : chains.starts) {
+        const int corners = sides_for(thickness(start), thickest, most);
+        for (std::int32_t i = start; i >= 0; i = chains.next[std::size_t(i)]) sides[std::size_t(i)] = corners;
+    }
+    return sides;
+}
+
+// Room for the whole mesh (at most a few rings too much), so that it is never copied while it grows.
+void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vector<int>& sides) {
+    std::size_t vertices = 0, triangles = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        const std::size_t n = std::size_t(sides[i]), rings = n > 3 ? 2 : 1;
+        if (tree.kind[i] == Kind::branch) vertices += rings * (n + 1), triangles += rings * 2 * n;
+        if (tree.kind[i] == Kind::leaf) vertices += leaf_vertices, triangles += leaf_triangles;
+        if (tree.kind[i] == Kind::fruit) vertices += fruit_vertices, triangles += fruit_triangles;
+    }
+    for (const std::int32_t start : chains.starts) {
+        const std::size_t n = std::size_t(sides[std::size_t(start)]);
+        vertices += 2 * (n + 1) + 2 * n;
+        triangles += 2 * 2 * n;
+    }
+    skin.position.reserve(vertices);
+    skin.normal.reserve(vertices);
+    skin.texture.reserve(vertices);
+    skin.joint.reserve(vertices);
+    skin.weight.reserve(vertices);
+    skin.triangle.reserve(triangles);
+}
+
+void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, const Chains& chains,
+              const std::vector<int>& sides) {
+    BranchTube tube;
+    for (const std::int32_t start : chains.starts) {
+        tube.sides = sides[std::size_t(start)];
+        tube.piece.clear();
+        for (std::int32_t i = start; i >= 0; i = chains.next[std::size_t(i)]) tube.piece.push_back(i);
+        const std::int32_t parent = tree.parent[std::size_t(start)];
+        const std::int32_t below = parent >= 0 ? tree.parent[std::size_t(parent)] : -1;
+        tube.parent_sides = parent >= 0 ? sides[std::size_t(parent)] : 0;
+        tube.parent_base = parent >= 0 && (below < 0 || tree.kind[std::size_t(below)] != Kind::branch);
+        tube.parent_tip = parent >= 0 && chains.next[std::size_t(parent)] < 0;
+        add_tube(skin, tree, pose, tube);
+    }
+}
+
+void close_part(Skin& skin, const char* name) {
+    const std::size_t first = skin.part.empty() ? 0 : skin.part.back().first_index + skin.part.back().index_count;
+    if (skin.triangle.size() > first) skin.part.push_back({name, first, skin.triangle.size() - first});
+}
+
+} // namespace
+
+Skin build_skin(const Tree& tree, const SkinOptions& options) {
+    assert(options.sides >= 3);
+    DrawnPose pose;
+    drawn_pose(tree, pose.R_wb, pose.x_w);
+    const Chains chains = find_chains(tree);
+    const std::vector<int> sides = find_sides(tree, chains, options.sides);
+    Skin skin;
+    reserve(skin, tree, chains, sides);
+    add_bark(skin, tree, pose, chains, sides);
+    close_part(skin, "bark");
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        if (tree.kind[i] == Kind::leaf) add_leaf(skin, tree, pose, i);
+    close_part(skin, "leaf");
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        if (tree.kind[i] == Kind::fruit) add_fruit(skin, tree, pose, i);
+    close_part(skin, "fruit");
+    return skin;
+}
+
+} // namespace bough

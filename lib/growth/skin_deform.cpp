@@ -1,0 +1,59 @@
+#include "skin.h"
+#include <cassert>
+
+namespace bough {
+
+void drawn_pose(const Tree& tree, std::vector<Mat3>& R_wb, std::vector<Vec3>& x_w) {
+    const std::size_t n = tree.size_bodies();
+    R_wb.resize(n);
+    x_w.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Mat3 R_pj = tree.joint_rotation[i].toRotationMatrix();
+        if (tree.parent[i] < 0) {
+            R_wb[i] = R_pj;
+            x_w[i] = tree.joint_position[i];
+        } else {
+            const std::size_t p = std::size_t(tree.parent[i]);
+            R_wb[i] = R_wb[p] * R_pj;
+            x_w[i] = x_w[p] + R_wb[p] * tree.joint_position[i];
+        }
+    }
+}
+
+SkinDeformer::SkinDeformer(const Skin& skin, const Tree& tree) : skin_(skin) {
+    drawn_pose(tree, drawn_R_bw_, drawn_x_w_);
+    for (Mat3& R : drawn_R_bw_) R.transposeInPlace();
+}
+
+void SkinDeformer::deform(const std::vector<Mat3>& R_wb, const std::vector<Vec3>& x_w, std::vector<Vec3>& position,
+                          std::vector<Vec3>& normal) const {
+    assert(R_wb.size() == drawn_R_bw_.size() && x_w.size() == drawn_x_w_.size());
+    const std::int64_t bodies = std::int64_t(R_wb.size()), vertices = std::int64_t(skin_.position.size());
+    position.resize(skin_.position.size());
+    normal.resize(skin_.normal.size());
+    std::vector<Mat3> moved(R_wb.size()); // world now from world drawn
+#pragma omp parallel for schedule(static)
+    for (std::int64_t b = 0; b < bodies; ++b)
+        moved[std::size_t(b)] = R_wb[std::size_t(b)] * drawn_R_bw_[std::size_t(b)];
+
+#pragma omp parallel for schedule(static)
+    for (std::int64_t vertex = 0; vertex < vertices; ++vertex) {
+        const std::size_t v = std::size_t(vertex);
+        // The first weight is what the others leave, so that float weights sum to 1 in double.
+        double first = 1;
+        Vec3 at = Vec3::Zero(), facing = Vec3::Zero();
+        for (int k = 3; k >= 0; --k) {
+            const double weight = k == 0 ? first : double(skin_.weight[v][std::size_t(k)]);
+            if (weight == 0) continue;
+            first -= weight;
+            const std::size_t b = std::size_t(skin_.joint[v][std::size_t(k)]);
+            at += weight * (x_w[b] + moved[b] * (skin_.position[v] - drawn_x_w_[b]));
+            facing += weight * (moved[b] * skin_.normal[v]);
+        }
+        position[v] = at;
+        const double length = facing.norm();
+        normal[v] = length > 0 ? Vec3(facing / length) : Vec3(moved[std::size_t(skin_.joint[v][0])] * skin_.normal[v]);
+    }
+}
+
+} // namespace bough

@@ -1,0 +1,69 @@
+#include "skin_mesh.h"
+#include <numbers>
+
+namespace bough {
+
+void add_leaf(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t body) {
+    const Vec3& size = tree.size[body];
+    const Binding binding = bound_to(body);
+    // The faces stand a leaf's thickness apart, so that they do not flicker in programs that draw both.
+    for (const double side : {1.0, -1.0}) {
+        const double y = side * size.z() / 2;
+        const Vec3 normal = side * pose.R_wb[body].col(1);
+        const std::int32_t a = add_vertex(skin, pose.at(body, {-size.y() / 2, y, 0}), normal, 0, 0, binding);
+        add_vertex(skin, pose.at(body, {size.y() / 2, y, 0}), normal, 1, 0, binding);
+        add_vertex(skin, pose.at(body, {0, y, size.x()}), normal, 0.5, 1, binding);
+        if (side > 0)
+            skin.triangle.push_back({a, a + 2, a + 1});
+        else
+            skin.triangle.push_back({a, a + 1, a + 2});
+    }
+}
+
+void add_fruit(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t body) {
+    constexpr int columns = int(fruit_columns), bands = int(fruit_bands);
+    const double center = tree.size[body].x(), radius = tree.size[body].y();
+    const Binding binding = bound_to(body);
+    const double pi = std::numbers::pi;
+
+    // Profile from the joint's side to the far end: distance along the body, radius, normal's angle from -z.
+    struct Row {
+        double z, r, angle;
+    };
+    std::vector<Row> rows;
+    const bool stalk = center > radius;
+    if (stalk) {
+        const double neck = 0.04; // [rad] where the stalk enters the sphere
+        rows.push_back({0, 0, 0});
+        rows.push_back({0, 0.04 * radius, pi / 2});
+        rows.push_back({center - radius * std::cos(neck), radius * std::sin(neck), neck});
+    } else {
+        rows.push_back({center - radius, 0, 0});
+    }
+    for (int k = 1; k <= bands; ++k) {
+        const double angle = pi * k / bands;
+        rows.push_back({center - radius * std::cos(angle), k < bands ? radius * std::sin(angle) : 0, angle});
+    }
+
+    std::int32_t lower = 0;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const Row& at = rows[row];
+        std::int32_t upper = 0;
+        for (int j = 0; j <= columns; ++j) {
+            const double around = 2 * pi * (j % columns) / columns;
+            const Vec3 out(std::cos(around), std::sin(around), 0);
+            const Vec3 normal = std::sin(at.angle) * out - std::cos(at.angle) * Vec3::UnitZ();
+            const std::int32_t added =
+                add_vertex(skin, pose.at(body, at.r * out + at.z * Vec3::UnitZ()), pose.R_wb[body] * normal,
+                           double(j) / columns, double(row) / double(rows.size() - 1), binding);
+            if (j == 0) upper = added;
+        }
+        for (std::int32_t j = 0; row > 0 && j < columns; ++j) {
+            if (rows[row - 1].r > 0) skin.triangle.push_back({lower + j, lower + j + 1, upper + j + 1});
+            if (at.r > 0) skin.triangle.push_back({lower + j, upper + j + 1, upper + j});
+        }
+        lower = upper;
+    }
+}
+
+} // namespace bough

@@ -1,0 +1,38 @@
+// stiffness.h: what a tree's bodies get from their material and size: mass, joint stiffness, damping.
+//
+// Branch. A joint bends as the wood around it does, from the middle of the parent's piece to the middle of its own; its
+// compliance about each bend axis is the integral of ds / (E pi r^4 / 4) over that stretch, about the twist axis of
+// ds / (G pi r^4 / 2), closed over the taper (below). At the ground and where a branch leaves its parent, the child's
+// half only. The sag of a cantilever is then second order in the number of pieces, 1 + 1 / (2 n^2) for a load at the
+// tip of a uniform one.
+// Leaf. It bends on its petiole, a round rod as long as half the blade, 0.0075 blade lengths in radius, of modulus
+// leaf_modulus: flap and sway E I / l, twist that over 4.3, the ratio EI/GJ of petioles measured by Louf et al., Sci.
+// Rep. 8:16314 (2018), within the 2.7 to 8.0 of Vogel, J. Exp. Bot. 43:1527 (1992). With the radius in proportion a
+// leaf of any size droops alike under its own weight (0.09 rad at the presets' values, width 0.7 of the length), and a
+// blade of 8 cm swings at 8 Hz. Length and radius are typical proportions, not measured ones.
+// Fruit. It hangs on a stalk from its joint to its skin (at least half its radius long), a round rod of 0.04 fruit
+// radii, of the same modulus and ratio.
+// Damping. beta = 2 zeta / omega: omega the first bending frequency of the joint's own branch (branch_mode.h), of the
+// leaf or fruit on its own joint; zeta the material's for the kind. omega = 0 (no stiffness) gives beta = 0.
+// All read and write Tree; kind, size, parent, branch must stand. O(bodies).
+#pragma once
+#include "tree.h"
+#include "wood.h"
+
+namespace bough {
+
+// Integral of ds / r^4 over a length in which the radius goes linearly from a to b [1/m^3]:
+//   l (a^2 + a b + b^2) / (3 a^3 b^3). Infinite for a radius of 0.
+double integral_r4(double length, double a, double b);
+
+// Stiffness [N m/rad] of the joint between two pieces given as Tree::size (length, radius at base and tip); parent
+// nullptr: at the ground or of a side branch.
+Vec3 branch_stiffness(const Material&, const Vec3& piece, const Vec3* parent);
+Vec3 leaf_stiffness(const Material&, double length);
+Vec3 fruit_stiffness(const Material&, double joint_to_center, double radius);
+
+void set_mass(Tree&, const Material&);      // mass, com, inertia from kind and size
+void set_stiffness(Tree&, const Material&); // stiffness
+void set_damping(Tree&, const Material&);   // damping; mass and stiffness must stand
+
+} // namespace bough

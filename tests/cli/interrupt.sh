@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Ctrl-C ends a run at a frame boundary with a shorter, valid output and exit code 130.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+treegen --bodies 3000 --seed 3 | treeconvert - -o tree.json
+
+# stop FILE COMMAND...: starts it as a shell starts a foreground job (SIGINT not ignored), interrupts it once FILE says
+# that it runs, and checks the code.
+stop() {
+    local code=0
+    python3 - "$@" <<'END' || code=$?
+import signal, subprocess, sys, time
+watched, command = sys.argv[1], sys.argv[2:]
+child = subprocess.Popen(command, stderr=open("err", "wb"), stdout=open("out", "wb"), stdin=subprocess.DEVNULL,
+                         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+import glob, os
+end = time.time() + 60
+while child.poll() is None and time.time() < end and not any(os.path.getsize(f) > 0 for f in glob.glob(watched)):
+    time.sleep(0.01)
+time.sleep(0.3)
+child.send_signal(signal.SIGINT)
+sys.exit(child.wait())
+END
+    [[ $code -eq 130 ]] || fail "exit $code after an interrupt, expected 130: $* ($(cat err))"
+    one_line "interrupted after frame" "${@:2}"
+}
+
+stop out treesim tree.json --frames 1000000
+python3 -c '
+import json
+frames = [json.loads(line) for line in open("out")][1:]
+assert [f["frame"] for f in frames] == list(range(len(frames))) and frames' || fail "the JSON lines are not whole"
+
+stop '.bough-*' treesim tree.json --frames 1000000 -o cut.json
+python3 -c 'import json; assert json.load(open("cut.json"))' || fail "the JSON is not whole"
+
+mkdir frames
+stop 'frames/m_0003.obj' treesim tree.json --frames 1000000 -o frames/m_%04d.obj --save-state state.json
+[[ $(for f in frames/m_*.obj; do grep -c '^f ' "$f"; done | sort -u | wc -l) -eq 1 ]] || fail "a mesh is not whole"
+
+# The state saved by an interrupted run goes on.
+expect 0 treesim tree.json --resume state.json --frames 2 -o rest.jsonl
+last=$(find frames -name 'm_*.obj' | wc -l)
+grep -q "\"frame\": *$last[,}]" rest.jsonl || fail "the run does not go on with frame $last"
+absent

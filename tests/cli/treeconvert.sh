@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+treegen --bodies 400 --seed 3 --leaves --no-source -o splines.json
+wrong_use treeconvert splines.json
+bad_input splines.json treeconvert
+bad_input "$maple" treeconvert
+
+refused 1 "INPUT" treeconvert --strict
+refused 1 "--segment-length" treeconvert splines.json --segment-length -1
+refused 1 "--segment-length" treeconvert splines.json --segment-length nan
+refused 1 "--max-bodies" treeconvert splines.json --max-bodies 2
+refused 1 "--sides" treeconvert splines.json --sides 8
+refused 1 "--sides" treeconvert splines.json --mesh x.obj --sides 2
+refused 1 "--mesh" treeconvert splines.json --mesh x.stl
+refused 1 "--material" treeconvert splines.json --material plywood
+refused 2 "nowhere.json" treeconvert splines.json --material ./nowhere.json
+refused 1 "--split" treeconvert splines.json --split
+refused 1 "--units" treeconvert splines.json --units cm
+absent x.obj x.mtl
+
+# A pipe and a file give the same; both forms hold the same tree; a tree is not an input.
+treegen --bodies 400 --seed 3 --leaves --no-source | treeconvert - --no-source >pipe.json
+treeconvert splines.json --no-source -o file.json
+same pipe.json file.json
+treeconvert splines.json --no-source -o file.safetensors
+treesim file.json --frames 3 --no-output --hash 2>a
+treesim file.safetensors --frames 3 --no-output --hash 2>b
+same a b
+refused 2 "file.json" treeconvert file.json
+
+# Importing here is importing in treegen.
+treegen --import "$maple" --leaves -q --no-source | treeconvert - -q --no-source >a.json
+treeconvert "$maple" -q --no-source >b.json
+same a.json b.json
+
+# Options that change the tree do change it.
+bodies() { treeconvert splines.json -q --stats "$@" 2>&1 >/dev/null | sed -n 's/^bodies *\([0-9]*\):.*/\1/p'; }
+[[ $(bodies --segment-length 0.02) -gt $(bodies) ]] || fail "--segment-length changed nothing"
+[[ $(bodies --max-bend 2) -gt $(bodies --max-bend 80) ]] || fail "--max-bend changed nothing"
+[[ $(bodies --max-bodies 300) -le 300 ]] || fail "--max-bodies was passed over"
+while IFS=$'\t' read -r name _; do
+    [[ $name == name ]] || expect 0 treeconvert splines.json --material "$name" -o "wood_$name.json"
+done < <(treeconvert --list-materials)
+[[ $(for f in wood_*.json; do sed 's/"\(material\|source\)"[^,]*,//g' "$f" | cksum; done | sort -u | wc -l) -gt 1 ]] ||
+    fail "all materials are one"
+
+# A mesh beside the tree, whole or not at all.
+expect 0 treeconvert splines.json --mesh rest.obj -o tree.json
+grep -q '^mtllib rest.mtl' rest.obj && grep -q '^newmtl' rest.mtl || fail "the mesh has no materials"
+refused 4 "missing/rest" treeconvert splines.json --mesh missing/rest.obj -o other.json
+absent other.json
+
+# One file a root.
+roots=$top/data/fixtures/two_trunks_spines.xml
+expect 0 treeconvert "$roots" -q --split -o trunk_%d.json --mesh trunk_%d.obj
+[[ -s trunk_0.json && -s trunk_1.json && -s trunk_1.obj && ! -e trunk_2.json ]] || fail "two trunks gave $(ls trunk_*)"
+expect 0 treesim trunk_1.json --frames 2
+
+# --strict makes an error of a guess; the same with the unit stated is none about the unit.
+expect 0 treeconvert "$maple" -o maple.json
+if [[ -s err ]]; then
+    refused 2 "--strict" treeconvert "$maple" --strict -o strict.json
+    absent strict.json
+fi

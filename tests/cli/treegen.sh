@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+wrong_use treegen --bodies 300 --seed 1
+bad_input "$maple" treegen --import
+
+refused 1 "--seed" treegen --import "$maple" --seed 3
+refused 1 "--bodies" treegen --import "$maple" --bodies 300
+refused 1 "--species" treegen --import "$maple" --species broadleaf
+refused 1 "--units" treegen --units cm --seed 1
+refused 1 "--up" treegen --up z --seed 1
+refused 1 "--species" treegen --species baobab
+refused 1 "--units" treegen --import "$maple" --units furlong
+refused 1 "--bodies" treegen --bodies 0
+refused 1 "--bodies" treegen --bodies 1e3
+refused 1 "--format" treegen --seed 1 --format xml
+refused 1 "one argument too many" treegen --seed 1 tree.json
+
+# Every listed name grows; the same seed gives the same bytes, another seed does not.
+expect 0 treegen --list-species
+while read -r name; do expect 0 treegen --species "$name" --bodies 200 -o "$name.json"; done < <(treegen --list-species)
+expect 0 treegen --bodies 500 --seed 7 --no-source -o a.json
+expect 0 treegen --bodies 500 --seed 7 --no-source --threads 3 -o b.json
+expect 0 treegen --bodies 500 --seed 8 --no-source -o c.json
+same a.json b.json
+! cmp -s a.json c.json || fail "two seeds gave one tree"
+
+# The command line is recorded, and is not with --no-source.
+treegen --bodies 300 --seed 7 | grep -q 'treegen --bodies 300 --seed 7' || fail "the command line is not in the output"
+! grep -q 'treegen --bodies' a.json || fail "--no-source left the command line in"
+
+# stdout, -o and both forms say the same; stdin is a file like another.
+treegen --bodies 300 --seed 2 --no-source >stdout.json
+treegen --bodies 300 --seed 2 --no-source -o file.json
+same stdout.json file.json
+treegen --bodies 300 --seed 2 --no-source -o file.safetensors
+treegen --import file.safetensors --no-source >back.json
+same back.json file.json
+treegen --import - --no-source <file.json >back.json
+same back.json file.json
+
+# Leaves only when asked for, and what is left out is said, but not with -q.
+expect 0 treegen --import "$maple" -o bare.json
+grep -q 'leaves left out' err || fail "leaves left out in silence"
+expect 0 treegen --import "$maple" -q -o bare.json
+[[ ! -s err ]] || fail "-q is not quiet: $(cat err)"
+expect 0 treegen --import "$maple" --leaves -q -o leafy.json
+[[ $(wc -c <leafy.json) -gt $(wc -c <bare.json) ]] || fail "--leaves kept none"
+
+# Its own input may be its output.
+cp leafy.json own.json
+expect 0 treegen --import own.json --leaves -o own.json
+expect 0 treegen --import own.json --leaves -o own.json
+absent

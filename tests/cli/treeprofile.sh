@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+treegen --bodies 300 --seed 3 | treeconvert - -o tree.json
+wrong_use treeprofile tree.json --frames 5 --repeat 1
+bad_input tree.json treeprofile --frames 5
+refused 1 "--frames" treeprofile tree.json --frames 2
+refused 1 "compare" treeprofile compare a.json
+refused 1 "INPUT" treeprofile stages
+
+# The report is that of treesim's run: the same hash; stages and "other" make the whole.
+expect 0 treeprofile stages tree.json --wind gusty --frames 30 --report r.json
+grep -q "^hash $(treesim tree.json --wind gusty --frames 30 --no-output --hash 2>&1 | sed 's/hash //')$" out ||
+    fail "the hash is not that of treesim"
+python3 -c '
+import json, math
+r = json.load(open("r.json"))
+for field in "tool version bodies frames threads simd precision hash total_ns_per_body_frame stages".split(): r[field]
+assert r["tool"] == "treeprofile" and r["frames"] == 28
+assert r["stages"][-1]["name"] == "other"
+assert math.isclose(sum(s["share"] for s in r["stages"]), 1, rel_tol=1e-6)
+assert math.isclose(sum(s["ns_per_body_frame"] for s in r["stages"]), r["total_ns_per_body_frame"], rel_tol=1e-6)
+for s in r["stages"]:
+    assert math.isclose(s["seconds"] * 1e9 / r["bodies"] / r["frames"], s["ns_per_body_frame"], rel_tol=1e-6)
+    assert s["calls"] == r["frames"]' || fail "the report does not add up"
+! treeprofile tree.json --frames 5 | grep -q wind_field || fail "a stage that did not run is in the table"
+expect 0 treeprofile tree.json --frames 5 --report r.csv
+[[ $(head -n 1 r.csv) == name,calls,seconds,* ]] || fail "the CSV has no header"
+
+# compare: a report against itself, against a slower one, against one of another kind.
+expect 0 treeprofile compare r.json r.json
+slower() { python3 -c 'import json, sys; r = json.load(open("r.json")); exec(sys.argv[1]); json.dump(r, open("n.json", "w"))' "$1"; }
+slower 'r["total_ns_per_body_frame"] *= 1.2'
+refused 3 "total" treeprofile compare r.json n.json
+expect 0 treeprofile compare r.json n.json --fail-above 1.3
+expect 0 treeprofile compare n.json r.json
+slower 's = max(r["stages"], key=lambda s: s["share"]); s["ns_per_body_frame"] *= 1.5'
+refused 3 "slower" treeprofile compare r.json n.json
+slower 'r["bodies"] += 1'
+refused 2 "/bodies" treeprofile compare r.json n.json
+slower 'del r["stages"][0]["calls"]'
+refused 2 "/stages/0/calls" treeprofile compare r.json n.json
+echo '{"tool":' >n.json
+refused 2 "n.json" treeprofile compare r.json n.json
+absent

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
+wrong_use treesim tree.json --frames 20
+bad_input tree.json treesim
+
+refused 1 "INPUT" treesim --frames 3
+refused 1 "--frames" treesim tree.json --frames 0
+refused 1 "--frames" treesim tree.json --frames 3 --seconds 1
+refused 1 "--fps" treesim tree.json --fps 0
+refused 1 "--fps" treesim tree.json --fps inf
+refused 1 "--wind" treesim tree.json --wind typhoon
+refused 2 "nowhere.json" treesim tree.json --wind ./nowhere.json
+refused 1 "--solver" treesim tree.json --solver coupled
+refused 1 "--precision" treesim tree.json --precision half
+refused 1 "--gravity" treesim tree.json --gravity 1,2
+refused 1 "--fields" treesim tree.json --fields pose,colour
+refused 1 "--seed" treesim tree.json --seed 4
+refused 1 "--sides" treesim tree.json --sides 5
+refused 1 ".glb" treesim tree.json -o x.glb
+refused 1 "-o" treesim tree.json -o frames.obj
+refused 1 "-o" treesim tree.json --format obj
+refused 1 "--no-output" treesim tree.json --no-output -o x.json
+refused 2 "state.json" treesim tree.json --resume ./state.json
+
+# Frames: --frames N writes N, --seconds S round(S fps) + 1; a header line before them.
+lines() { treesim tree.json "$@" | wc -l; }
+[[ $(lines --frames 7) -eq 8 ]] || fail "--frames 7 wrote $(lines --frames 7) lines"
+[[ $(lines --seconds 0.5 --fps 24) -eq 14 ]] || fail "--seconds 0.5 wrote $(lines --seconds 0.5 --fps 24) lines"
+treesim tree.json --frames 2 --wind gusty | python3 -c '
+import json, sys
+head, *frames = [json.loads(line) for line in sys.stdin]
+assert head["format"] == "bough-motion", head
+assert [f["frame"] for f in frames] == [0, 1], frames
+assert all(len(f["position"]) == 3 * head["bodies"] for f in frames)
+assert all(len(f["rotation"]) == 4 * head["bodies"] for f in frames)' || fail "the motion is not as documented"
+
+# Fields: only those asked for.
+treesim tree.json --frames 2 --fields velocity,angles | tail -n 1 >frame
+grep -q '"velocity"' frame && grep -q '"theta_dot"' frame || fail "a field is missing"
+! grep -q '"position"' frame || fail "pose was not asked for"
+
+# The hash does not depend on what is written, nor on where.
+hash() { treesim "$@" --hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
+one=$(hash tree.json --wind gusty --frames 20)
+[[ $(hash tree.json --wind gusty --frames 20 --no-output) == "$one" ]] || fail "output changes the hash"
+[[ $(hash tree.json --wind gusty --frames 20 -q -o m.safetensors --fields pose,velocity,torque,angles) == "$one" ]] ||
+    fail "fields change the hash"
+[[ $(hash tree.json --wind gusty --frames 20 -o "obj/../m_%03d.obj" 2>/dev/null || true) == "" ]] || fail "a missing folder"
+mkdir frames
+[[ $(hash tree.json --wind gusty --frames 20 -o frames/m_%03d.obj) == "$one" ]] || fail "meshes change the hash"
+[[ $(find frames -name 'm_*.obj' | wc -l) -eq 20 && -s frames/m.mtl ]] || fail "20 frames gave $(ls frames)"
+[[ $(grep -c '^v ' frames/m_000.obj) -eq $(grep -c '^v ' frames/m_019.obj) ]] || fail "the topology changes"
+! cmp -s frames/m_000.obj frames/m_019.obj || fail "nothing moves in a gusty wind"
+for option in "--wind storm" "--seed 5" "--gravity 0,-3,0" "--precision float" "--pose rest" "--joint-inertia paper" \
+    "--stiffness-scale 2" "--damping-scale 3" "--substeps 2" "--fps 60"; do
+    # shellcheck disable=SC2086
+    [[ $(hash tree.json --wind gusty --frames 20 $option) != "$one" ]] || fail "$option changes nothing"
+done
+
+# A scene beside its tree, run from elsewhere.
+mkdir -p place/trees
+cp tree.json place/trees/oak.json
+cat >place/scene.json <<'END'
+{"format": "bough-scene", "version": 1,
+ "trees": [{"file": "trees/oak.json"}, {"file": "trees/oak.json", "position": [5, 0, 0], "yaw": 90}]}
+END
+[[ $(treesim place/scene.json --frames 2 | head -n 1 | python3 -c 'import json, sys; print(json.loads(sys.stdin.readline())["bodies"])') \
+    -eq $((2 * $(treesim tree.json --frames 1 | python3 -c 'import json, sys; print(json.loads(sys.stdin.readline())["bodies"])'))) ]] ||
+    fail "two trees are not twice one"
+sed 's,trees/oak,trees/elm,' place/scene.json >place/lost.json
+refused 2 "trees/elm.json" treesim place/lost.json
+sed 's,"trees",/"trees",' place/scene.json >place/broken.json
+refused 2 "place/broken.json" treesim place/broken.json
+
+# --explain says what is left out.
+treesim tree.json --frames 3 --explain --no-output 2>still
+treesim tree.json --frames 3 --explain --no-output --wind calm 2>windy
+grep -q 'wind_field left out' still && grep -q 'wind_field on' windy || fail "--explain says nothing of the wind"
+grep -q '^calls wind_field 0$' still && grep -q '^calls wind_field 2$' windy || fail "calls are not as explained"
+
+# Sequences keep their finished frames; a full disk ends them with a count.
+if mkdir small && mount -t tmpfs -o size=1m tmpfs small 2>/dev/null; then
+    code=0
+    treesim tree.json --frames 200 -o small/m_%03d.obj >out 2>err || code=$?
+    whole=$(find small -name '*.obj' | wc -l)
+    left=$(find small -name '.bough-*' | wc -l)
+    sizes=$(for f in small/m_*.obj; do grep -c '^f ' "$f"; done | sort -u | wc -l)
+    umount small
+    [[ $code -eq 4 && $left -eq 0 && $sizes -le 1 ]] || fail "a sequence on a full disk: exit $code, $left unfinished"
+    one_line "after $whole frames" treesim
+fi
+absent x.json x.glb

@@ -1,0 +1,59 @@
+// Bounded, as the design defines it, on a grown tree of ten thousand bodies with twigs of a millimetre in a wind of 30 m/s
+// for 60 s at one step a frame. Slow: its CTest label leaves it out of sanitized builds.
+#include "lib/growth/grow.h"
+#include "lib/growth/segment.h"
+#include "simulate.h"
+#include <catch2/catch.hpp>
+
+using namespace bough;
+using namespace simulate;
+
+namespace {
+
+Tree twiggy_tree() {
+    Tree tree = segment(grow_bodies(default_growth(), 5, true, false, 10000), wood_presets().front(), {});
+    double thinnest = 1;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        if (tree.kind[i] == Kind::branch) thinnest = std::min(thinnest, tree.size[i][2]);
+    REQUIRE(thinnest < 0.0011);
+    return tree;
+}
+
+template <class T> void endures(const Tree& tree, double stiffness) {
+    Scene scene;
+    scene.wind = steady(30);
+    scene.stiffness_scale = stiffness;
+    scene.pose = Pose::rest;
+    Run<T> run(tree, scene);
+    const auto rms = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i) sum += double((run.state.x_w[i]).squaredNorm());
+        return std::sqrt(sum / double(tree.size_bodies()));
+    };
+    double third = 0, last = 0, largest = 0;
+    for (int frame = 0; frame < 1800; ++frame) {
+        run.steps(1);
+        if (frame < 900) continue;
+        const double position = rms();
+        REQUIRE(std::isfinite(position));
+        (frame < 1350 ? third : last) += position * position;
+        if (frame % 50 == 0) largest = std::max(largest, run.largest_angle());
+    }
+    INFO("stiffness x " << stiffness << ": largest angle " << largest << ", flags " << run.state.flags.buckling << " "
+                        << run.state.flags.bounded_lambda);
+    CHECK(std::sqrt(last / third) <= 1.05);
+    CHECK(largest < 3);
+    const Energy e = energy(run.plan, run.state);
+    CHECK(e.kinetic <= 0.01 * std::abs(e.elastic) + 1e-3);
+}
+
+} // namespace
+
+TEST_CASE("Ten thousand bodies endure a storm") {
+    const Tree tree = twiggy_tree();
+    for (const double stiffness : {1e-3, 1.0, 1e6}) {
+        CAPTURE(stiffness);
+        endures<float>(tree, stiffness);
+        endures<double>(tree, stiffness);
+    }
+}

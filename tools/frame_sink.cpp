@@ -1,0 +1,72 @@
+#include "frame_sink.h"
+#include "formats/motion.h"
+#include "formats/obj.h"
+#include "lib/growth/skin.h"
+#include <filesystem>
+
+namespace bough {
+namespace {
+
+class MotionSink : public FrameSink {
+public:
+    MotionSink(const std::string& file, MotionForm form, const MotionHeader& header)
+        : output_(file), writer_(output_, header, form) {}
+    void write(const MotionFrame& frame) override { writer_.write(frame); }
+    void finish() override {
+        writer_.finish();
+        output_.finish();
+    }
+
+private:
+    Output output_;
+    MotionWriter writer_;
+};
+
+class ObjSink : public FrameSink {
+public:
+    ObjSink(const std::string& pattern, const Tree& tree, int sides)
+        : pattern_(pattern), skin_(build_skin(tree, {sides})), deformer_(skin_, tree),
+          mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
+        Output output(sequence_mtl(pattern));
+        write_mtl(output, skin_);
+        output.finish();
+    }
+    void write(const MotionFrame& frame) override {
+        rotation_.resize(frame.rotation.size());
+        for (std::size_t i = 0; i < rotation_.size(); ++i) rotation_[i] = frame.rotation[i].toRotationMatrix();
+        deformer_.deform(rotation_, frame.position, position_, normal_);
+        try {
+            Output output(sequence_name(pattern_, frame.frame));
+            write_obj(output, skin_, position_, normal_, mtl_);
+            output.finish();
+        } catch (const OutputError& error) {
+            throw OutputError(pattern_, "stopped after " + std::to_string(written_) + " frames: " + error.what());
+        }
+        ++written_;
+    }
+    void finish() override {}
+
+private:
+    std::string pattern_;
+    Skin skin_;
+    SkinDeformer deformer_;
+    std::string mtl_;
+    std::vector<Mat3> rotation_;
+    std::vector<Vec3> position_, normal_;
+    std::int64_t written_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::string& format, const MotionHeader& header) {
+    const MotionForm form = format == "json"          ? MotionForm::json
+                            : format == "safetensors" ? MotionForm::safetensors
+                                                      : MotionForm::jsonl;
+    return std::make_unique<MotionSink>(file, form, header);
+}
+
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, int sides) {
+    return std::make_unique<ObjSink>(pattern, tree, sides);
+}
+
+} // namespace bough

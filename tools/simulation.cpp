@@ -1,0 +1,287 @@
+#include "simulation.h"
+#include "formats/scene.h"
+#include "formats/tree.h"
+#include "lib/stages/state_arrays.h"
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+namespace bough {
+namespace {
+
+Wind chosen_wind(const std::string& wind) {
+    if (const std::optional<Wind> preset = wind_preset(wind)) return *preset;
+    std::error_code none;
+    if (wind.find_first_of("./") == std::string::npos && !std::filesystem::exists(wind, none))
+        throw UsageError("--wind is '" + wind + "', neither calm, breeze, gusty, storm nor a file");
+    return read_wind(read_input(wind), input_name(wind));
+}
+
+void apply(const RunOptions& o, Scene& scene) {
+    if (!o.wind.empty()) scene.wind = chosen_wind(o.wind);
+    if (o.seed) {
+        if (!scene.wind) throw UsageError("--seed: only with a wind, whose turbulence is what it seeds");
+        scene.wind->seed = *o.seed;
+    }
+    if (!o.gravity.empty()) {
+        const std::vector<double> g = number_list("--gravity", o.gravity, 3);
+        scene.gravity = Vec3(g[0], g[1], g[2]);
+    }
+    if (!o.pose.empty())
+        scene.pose = o.pose == "drawn" ? Pose::drawn : o.pose == "settled" ? Pose::settled : Pose::rest;
+    if (!o.joint_inertia.empty())
+        scene.joint_inertia = o.joint_inertia == "paper" ? JointInertia::paper : JointInertia::branch;
+    if (o.stiffness_scale) scene.stiffness_scale = *o.stiffness_scale;
+    if (o.damping_scale) scene.damping_scale = *o.damping_scale;
+}
+
+void stand(Setting& setting, const Tree& tree, const Placement& place) {
+    const std::vector<std::int32_t>& branch = setting.tree.branch;
+    const std::int32_t first_branch = branch.empty() ? 0 : *std::max_element(branch.begin(), branch.end()) + 1;
+    const std::size_t first = append(setting.tree, tree, place.position, place.yaw * 3.14159265358979323846 / 180);
+    setting.ranges.push_back({first, tree.size_bodies(), first_branch});
+    if (!tree.source.empty() && setting.source.find(tree.source) == std::string::npos)
+        setting.source += (setting.source.empty() ? "" : "\n") + tree.source;
+}
+
+void read_scene_trees(Setting& setting, const std::string& scene_file) {
+    const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
+    if (setting.scene.trees.empty())
+        throw InputError(input_name(scene_file), "/trees: is empty or missing, expected at least one tree");
+    for (const Placement& place : setting.scene.trees) {
+        const std::string file = (folder / place.file).string();
+        stand(setting, read_tree(read_input(file), file), place);
+    }
+}
+
+// FNV-1a over little-endian bytes, fields and lengths in a fixed order.
+struct Fingerprint {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    void add(std::uint64_t bits) {
+        for (unsigned shift = 0; shift < 64; shift += 8) hash = (hash ^ ((bits >> shift) & 0xff)) * 0x100000001b3u;
+    }
+    void add(double value) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        add(bits);
+    }
+    void add(const Vec3& v) {
+        for (int k = 0; k < 3; ++k) add(v[k]);
+    }
+    void add(const Tree& tree) {
+        add(std::uint64_t(tree.size_bodies()));
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+            add(std::uint64_t(tree.parent[i]));
+            add(std::uint64_t(tree.kind[i]));
+            add(tree.mass[i]);
+            add(tree.com[i]);
+            for (int k = 0; k < 9; ++k) add(tree.inertia[i](k / 3, k % 3));
+            add(tree.joint_position[i]);
+            for (int k = 0; k < 4; ++k) add(tree.joint_rotation[i].coeffs()[k]);
+            add(tree.stiffness[i]);
+            add(tree.damping[i]);
+            add(tree.size[i]);
+            add(std::uint64_t(tree.branch[i]));
+            add(std::uint64_t(tree.level[i]));
+            add(tree.s[i]);
+        }
+    }
+    void add(const Wind& w) {
+        add(w.velocity);
+        for (const double value : {w.reference_height, w.profile, w.turbulence, w.gust_factor, w.gust_period})
+            add(value);
+        add(w.seed);
+    }
+    void add(const Pull& pull) {
+        const Selector& on = pull.on;
+        for (const std::int64_t value : {std::int64_t(on.by), std::int64_t(on.tree), on.body, std::int64_t(on.branch),
+                                         std::int64_t(on.level), std::int64_t(pull.time.size())})
+            add(std::uint64_t(value));
+        add(on.at);
+        add(on.nearest);
+        for (const double t : pull.time) add(t);
+        for (const Vec3& f : pull.force) add(f);
+    }
+    void add(const Scene& s) {
+        add(s.gravity);
+        add(std::uint64_t(s.wind.has_value()));
+        if (s.wind) add(*s.wind);
+        add(std::uint64_t(s.pulls.size()));
+        for (const Pull& pull : s.pulls) add(pull);
+        for (const double value : {s.air_density, s.stiffness_scale, s.damping_scale}) add(value);
+        add(std::uint64_t(s.pose));
+        add(std::uint64_t(s.joint_inertia));
+    }
+};
+
+template <class T> bool finite(const T& value) {
+    if constexpr (std::is_floating_point_v<T>)
+        return std::isfinite(value);
+    else
+        return value.allFinite();
+}
+
+std::string body_text(const Tree& tree, std::size_t i) {
+    return "body " + std::to_string(i) + " (branch " + std::to_string(tree.branch[i]) + ")";
+}
+
+// The stage before the spring that writes an array (state.h); visit_arrays names them in the order of the stages.
+const char* early_stage(const std::string& array) {
+    if (array.rfind("c_", 0) == 0) return stage_name(Stage::composite);
+    if (array == "f_w" || array == "tau_w" || array.rfind("drag_", 0) == 0) return stage_name(Stage::external_forces);
+    return nullptr;
+}
+
+template <class T> [[noreturn]] void name_non_finite(const State<T>& state, const Tree& tree, std::int64_t frame) {
+    std::string place;
+    visit_arrays(Plan<T>(), state, [&](const std::string& name, const auto& array, bool, const std::string&) {
+        const char* stage = place.empty() ? early_stage(name) : nullptr;
+        for (std::size_t i = 0; stage && place.empty() && i < array.size(); ++i)
+            if (!finite(array[i])) place = std::string(stage) + " (" + name + "), " + body_text(tree, i);
+    });
+    if (place.empty())
+        place = std::string(stage_name(Stage::spring)) + " (theta), " + body_text(tree, *first_non_finite(state));
+    throw PromiseError("the simulation became non-finite in frame " + std::to_string(frame) + ": stage " + place);
+}
+
+} // namespace
+
+void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
+    const std::string seconds_text = std::to_string(int(seconds_default));
+    app.add_option("INPUT", o.input, "A tree or a scene; - for stdin");
+    CLI::Option* seconds = app.add_option("--seconds", o.seconds, "Length of the run [s] (" + seconds_text + ")")
+                               ->option_text("S")
+                               ->check(not_negative_number());
+    app.add_option("--frames", o.frames, "Length of the run in frames, the start included")
+        ->option_text("N")
+        ->check(whole_number(1))
+        ->excludes(seconds);
+    app.add_option("--fps", o.fps, "Frames a second (30)")->option_text("F")->check(positive_number());
+    app.add_option("--substeps", o.substeps, "Steps a frame (1)")->option_text("N")->check(whole_number(1, 1000000));
+    app.add_option("--wind", o.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file")
+        ->option_text("NAME|FILE");
+    app.add_option("--seed", o.seed, "Seed of the wind's turbulence")->option_text("N")->check(whole_number(0));
+    app.add_option("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)")->option_text("X,Y,Z");
+    app.add_option("--solver", o.solver, "How a step is made: analytic")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"analytic"}));
+    app.add_option("--precision", o.precision, "float or double (double)")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"float", "double"}));
+    app.add_option(
+           "--pose", o.pose,
+           "What the drawn tree is: drawn (in equilibrium under gravity), settled (unloaded; starts at its sag), "
+           "rest (unloaded; starts from it)")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"drawn", "settled", "rest"}));
+    app.add_option("--joint-inertia", o.joint_inertia,
+                   "branch (a branch keeps its frequency under any segmentation) or paper")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"branch", "paper"}));
+    app.add_option("--stiffness-scale", o.stiffness_scale, "Multiplies every joint's stiffness (1)")
+        ->option_text("X")
+        ->check(not_negative_number());
+    app.add_option("--damping-scale", o.damping_scale, "Multiplies every joint's damping (1)")
+        ->option_text("X")
+        ->check(not_negative_number());
+}
+
+std::int64_t frames_of(const RunOptions& o, double seconds_default) {
+    if (o.frames) return *o.frames;
+    const double frames = std::round(o.seconds.value_or(seconds_default) * o.fps) + 1;
+    if (!(frames < 9e15)) throw UsageError("--seconds: more frames than can be counted");
+    return std::int64_t(frames);
+}
+
+Setting read_setting(const RunOptions& o) {
+    if (o.input.empty()) throw UsageError("INPUT: missing");
+    Setting setting;
+    const std::string content = read_input(o.input), name = input_name(o.input);
+    if (is_scene(content)) {
+        setting.scene = read_scene(content, name);
+        apply(o, setting.scene);
+        read_scene_trees(setting, o.input);
+    } else {
+        apply(o, setting.scene);
+        stand(setting, read_tree(content, name), Placement());
+    }
+    if (const std::optional<Defect> defect = check(setting.scene))
+        throw UsageError("the scene's " + defect->field + " " + defect->message);
+    return setting;
+}
+
+std::uint64_t fingerprint(const Setting& setting) {
+    Fingerprint f;
+    f.add(setting.tree);
+    f.add(setting.scene);
+    return f.hash;
+}
+
+template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
+    try {
+        return make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps));
+    } catch (const std::out_of_range& error) {
+        throw InputError(input_name(o.input), error.what());
+    } catch (const std::domain_error& error) {
+        throw InputError(input_name(o.input), error.what());
+    }
+}
+
+template <class T>
+void advance_frame(const Plan<T>& plan, State<T>& state, const Tree& tree, std::int64_t frame, int substeps,
+                   StageClock* clock) {
+    for (int k = 0; k < substeps; ++k) {
+        step(plan, state, clock);
+        require_finite(state, tree, frame);
+    }
+}
+
+template <class T> void require_finite(const State<T>& state, const Tree& tree, std::int64_t frame) {
+    if (first_non_finite(state)) name_non_finite(state, tree, frame);
+}
+
+template <class T>
+void fill_frame(const State<T>& state, std::int64_t frame, double fps, const MotionFields& fields, MotionFrame& out) {
+    const auto copy = [&](bool wanted, const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
+        if (!wanted) return;
+        to.resize(from.size());
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            to[i] = from[i].template cast<double>();
+            if (!to[i].allFinite())
+                throw PromiseError("the simulation became non-finite in frame " + std::to_string(frame) +
+                                   ": stage state_update, body " + std::to_string(i));
+        }
+    };
+    out.frame = frame;
+    out.time = double(frame) / fps;
+    copy(fields.pose, state.x_w, out.position);
+    copy(fields.velocity, state.v_w, out.velocity);
+    copy(fields.velocity, state.omega_w, out.angular_velocity);
+    copy(fields.torque, state.torque_j, out.torque);
+    copy(fields.angles, state.theta, out.theta);
+    copy(fields.angles, state.theta_dot, out.theta_dot);
+    if (!fields.pose) return;
+    out.rotation.resize(state.R_wb.size());
+    for (std::size_t i = 0; i < state.R_wb.size(); ++i) {
+        out.rotation[i] = Quat(Mat3(state.R_wb[i].template cast<double>())).normalized();
+        if (out.rotation[i].w() < 0) out.rotation[i].coeffs() *= -1;
+    }
+}
+
+std::string hash_text(std::uint64_t hash) {
+    std::string text(16, '0');
+    for (std::size_t k = 16; k-- > 0; hash >>= 4) text[k] = "0123456789abcdef"[hash & 15];
+    return text;
+}
+
+template Plan<float> plan_run(const Setting&, const Wishes&, const RunOptions&);
+template Plan<double> plan_run(const Setting&, const Wishes&, const RunOptions&);
+template void advance_frame(const Plan<float>&, State<float>&, const Tree&, std::int64_t, int, StageClock*);
+template void advance_frame(const Plan<double>&, State<double>&, const Tree&, std::int64_t, int, StageClock*);
+template void require_finite(const State<float>&, const Tree&, std::int64_t);
+template void require_finite(const State<double>&, const Tree&, std::int64_t);
+template void fill_frame(const State<float>&, std::int64_t, double, const MotionFields&, MotionFrame&);
+template void fill_frame(const State<double>&, std::int64_t, double, const MotionFields&, MotionFrame&);
+
+} // namespace bough

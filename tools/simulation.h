@@ -1,0 +1,59 @@
+// simulation.h: what treesim and treeprofile share: the options of a run, its trees and scene, and one run as frames.
+#pragma once
+#include "common.h"
+#include "lib/model/motion.h"
+#include "lib/model/scene.h"
+#include "lib/stages/plan.h"
+#include "lib/stages/state.h"
+#include "lib/stages/step.h"
+
+namespace bough {
+
+struct RunOptions {
+    std::string input;
+    std::optional<double> seconds;
+    std::optional<std::int64_t> frames;
+    double fps = 30;
+    int substeps = 1;
+    std::string wind, gravity, solver = "analytic", precision = "double", pose, joint_inertia;
+    std::optional<double> stiffness_scale, damping_scale;
+    std::optional<std::uint64_t> seed;
+};
+
+// seconds_default: what runs without --seconds and --frames.
+void add_run_options(CLI::App&, RunOptions&, double seconds_default);
+
+// Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
+std::int64_t frames_of(const RunOptions&, double seconds_default);
+
+// The trees of a run joined into one, and the scene with the options applied.
+struct Setting {
+    Tree tree;
+    std::vector<TreeRange> ranges;
+    Scene scene;
+    std::string source; // command lines of the inputs
+};
+// Reads a tree, or a scene and its trees. Throws UsageError, InputError.
+Setting read_setting(const RunOptions&);
+
+// 64 bits of all that decides how a run goes on: the joined tree's numbers and the scene's.
+std::uint64_t fingerprint(const Setting&);
+
+// make_plan with its errors as the tool's.
+template <class T> Plan<T> plan_run(const Setting&, const Wishes&, const RunOptions&);
+
+// Takes the steps of one frame. A state that became non-finite throws PromiseError with frame, stage and body.
+template <class T>
+void advance_frame(const Plan<T>&, State<T>&, const Tree&, std::int64_t frame, int substeps,
+                   StageClock* clock = nullptr);
+
+// Throws that PromiseError where theta or theta_dot is non-finite.
+template <class T> void require_finite(const State<T>&, const Tree&, std::int64_t frame);
+
+// The frame's arrays, as far as `fields` asks for them. Throws PromiseError where a pose is non-finite.
+template <class T>
+void fill_frame(const State<T>&, std::int64_t frame, double fps, const MotionFields& fields, MotionFrame&);
+
+std::string hash_text(std::uint64_t hash); // 16 hex digits
+
+} // namespace bough

@@ -1,0 +1,225 @@
+// treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
+#include "common.h"
+#include "formats/import.h"
+#include "formats/material.h"
+#include "formats/obj.h"
+#include "formats/splines.h"
+#include "formats/tree.h"
+#include "lib/growth/segment.h"
+#include "lib/growth/skin.h"
+#include "lib/model/split.h"
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace {
+
+using namespace bough;
+
+struct Options {
+    CommonOptions common;
+    ImportChoice choice;
+    std::string input, mesh, material;
+    std::optional<double> segment_length, max_bend;
+    std::optional<std::int64_t> max_bodies;
+    std::optional<int> sides;
+    bool strict = false, stats = false, split = false, list_materials = false;
+};
+
+const ToolInfo info = {"treeconvert",
+                       "Turns splines, or any file that treegen --import takes, into a tree of jointed rigid bodies.\n"
+                       "Usage: treeconvert INPUT [-o FILE] [--mesh FILE.obj] [--material NAME|FILE] ...",
+                       "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json "
+                       "gives trunk_0.json,\n"
+                       "trunk_1.json ... in the order of the roots.\n"
+                       "  treegen --bodies 2000 | treeconvert - --mesh rest.obj -o tree.json\n"
+                       "Exit: 0 done, 1 usage, 2 bad input (or --strict), 4 output not written, 130 interrupted.",
+                       {"json", "safetensors"}};
+
+void declare(CLI::App& app, Options& o) {
+    app.add_option("INPUT", o.input, "Splines or an importable file; - for stdin");
+    app.add_option("--segment-length", o.segment_length, "Longest body of a branch [m]; from the branch unless given")
+        ->option_text("M")
+        ->check(positive_number());
+    app.add_option("--max-bend", o.max_bend, "Most that a branch turns within one body [deg] (20)")
+        ->option_text("DEG")
+        ->check(positive_number());
+    app.add_option("--max-bodies", o.max_bodies, "Lengthen bodies until there are at most N")
+        ->option_text("N")
+        ->check(whole_number(1));
+    app.add_option("--mesh", o.mesh, "Also write the skin mesh in the drawn pose, and FILE.mtl beside it")
+        ->option_text("FILE.obj")
+        ->check(file_name());
+    app.add_option("--sides", o.sides, "Corners of the thickest branch's rings, with --mesh (8)")
+        ->option_text("N")
+        ->check(whole_number(3, 256));
+    app.add_option("--material", o.material, "Wood: a preset's name (--list-materials) or a bough-material file")
+        ->option_text("NAME|FILE");
+    app.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
+    app.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
+    app.add_flag("--stats", o.stats, "Print what was made, merged and dropped on stderr");
+    app.add_flag("--split", o.split, "One file for each root");
+    add_import_options(app, o.choice);
+}
+
+std::string ending(const std::string& path) {
+    return std::filesystem::path(path).extension().string();
+}
+
+void refuse_contradictions(const Options& o) {
+    if (o.input.empty()) throw UsageError("INPUT: missing");
+    if (o.sides && o.mesh.empty()) throw UsageError("--sides: only with --mesh");
+    if (o.mesh == "-") throw UsageError("--mesh is '-', expected a file name (its materials go beside it)");
+    if (!o.mesh.empty() && ending(o.mesh) != ".obj")
+        throw UsageError("--mesh is '" + o.mesh + "', expected a name that ends in .obj");
+    if (!o.mesh.empty() && o.mesh == o.common.output) throw UsageError("--mesh and -o name the same file");
+    if (!o.split) return;
+    for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh)}) {
+        if (file->empty()) continue;
+        const std::string wrong = *file == "-" ? "a pattern such as trunk_%d.json is needed" : valid_sequence(*file);
+        if (!wrong.empty()) throw UsageError("--split: " + std::string(name) + " is '" + *file + "': " + wrong);
+    }
+}
+
+Material chosen_material(const Options& o) {
+    if (o.material.empty()) return wood_presets().front();
+    if (const Material* preset = find_wood(o.material)) return *preset;
+    std::error_code none;
+    if (o.material.find_first_of("./") == std::string::npos && !std::filesystem::exists(o.material, none))
+        throw UsageError("--material is '" + o.material + "', neither a preset (see --list-materials) nor a file");
+    return read_material(read_input(o.material), input_name(o.material));
+}
+
+void list_materials() {
+    std::cout << "name\tdensity[kg/m3]\tE[Pa]\tG[Pa]\tdamping ratio\tsource\n";
+    for (const Material& m : wood_presets())
+        std::cout << m.name << "\t" << m.density << "\t" << m.youngs_modulus << "\t" << m.shear_modulus << "\t"
+                  << m.damping_ratio << "\t" << m.source << "\n";
+}
+
+Splines read_splines_of(const Options& o, std::vector<std::string>& notes) {
+    const std::string content = read_input(o.input);
+    ImportOptions options;
+    options.name = input_name(o.input);
+    if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
+        throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + options.name +
+                         " is a bough document, which is in metres and Y up");
+    options.unit = unit_in_metres(o.choice.units);
+    if (!o.choice.up.empty()) options.up = char(std::tolower(o.choice.up[0]));
+    ImportNotes found;
+    Splines splines = import_splines(content, options, found);
+    for (const std::string& line : found.lines) notes.push_back(line);
+    return splines;
+}
+
+SegmentOptions segment_options(const Options& o) {
+    SegmentOptions options;
+    if (o.segment_length) options.segment_length = *o.segment_length;
+    if (o.max_bend) options.max_bend = *o.max_bend * 3.14159265358979323846 / 180;
+    if (o.max_bodies) options.max_bodies = *o.max_bodies;
+    return options;
+}
+
+void note_repairs(const SegmentReport& report, std::vector<std::string>& notes) {
+    const auto note = [&](std::int64_t count, const char* what) {
+        if (count > 0) notes.push_back(std::to_string(count) + what);
+    };
+    note(report.merged_points, " near-coincident points merged");
+    note(report.dropped_branches, " branches without length left out, what grows on them moved to their parent");
+    note(report.thin_points, " radii raised to the least that has a mass");
+}
+
+std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {
+    std::vector<Mat3> R_wb;
+    std::vector<Vec3> x_w;
+    drawn_pose(tree, R_wb, x_w);
+    std::size_t kinds[3] = {0, 0, 0}, roots = 0;
+    double mass = 0, top = 0, softest = INFINITY, stiffest = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        ++kinds[std::size_t(tree.kind[i])];
+        roots += tree.parent[i] < 0;
+        mass += tree.mass[i];
+        top = std::max({top, x_w[i].y(), (x_w[i] + R_wb[i].col(2) * tree.size[i][0]).y()});
+        softest = std::min(softest, tree.stiffness[i].minCoeff());
+        stiffest = std::max(stiffest, tree.stiffness[i].maxCoeff());
+    }
+    std::ostringstream text;
+    text << "splines     " << splines.branches() << " branches, " << splines.points() << " points, " << splines.leaves()
+         << " leaves, " << splines.fruits() << " fruit\n"
+         << "bodies      " << tree.size_bodies() << ": " << kinds[0] << " of branches, " << kinds[1] << " leaves, "
+         << kinds[2] << " fruit; roots " << roots << "\n"
+         << "material    " << tree.material << "\n"
+         << "mass        " << mass << " kg\n"
+         << "height      " << top << " m\n"
+         << "stiffness   " << softest << " to " << stiffest << " N m/rad\n"
+         << "longest     " << report.segment_length << " m of branch in one body\n"
+         << "merged      " << report.merged_points << " points; dropped " << report.dropped_branches
+         << " branches; radii raised " << report.thin_points << "\n";
+    return text.str();
+}
+
+// A tree and the mesh that goes with it: all is written before anything appears under its name.
+void write_one(const Tree& tree, const Options& o, const std::string& file, const std::string& mesh) {
+    std::vector<std::unique_ptr<Output>> outputs;
+    if (!mesh.empty()) {
+        SkinOptions skin_options;
+        if (o.sides) skin_options.sides = *o.sides;
+        const Skin skin = build_skin(tree, skin_options);
+        const std::string mtl = std::filesystem::path(mesh).replace_extension(".mtl").string();
+        outputs.push_back(std::make_unique<Output>(mtl));
+        write_mtl(*outputs.back(), skin);
+        outputs.push_back(std::make_unique<Output>(mesh));
+        write_obj(*outputs.back(), skin, skin.position, skin.normal, std::filesystem::path(mtl).filename().string());
+    }
+    outputs.push_back(std::make_unique<Output>(file));
+    write_tree(*outputs.back(), tree, chosen_form(o.common));
+    for (auto& output : outputs) output->finish();
+}
+
+void write_each(const std::vector<Tree>& trees, const Options& o) {
+    for (std::size_t k = 0; k < trees.size(); ++k) {
+        const std::string mesh = o.mesh.empty() ? "" : sequence_name(o.mesh, std::int64_t(k));
+        try {
+            write_one(trees[k], o, sequence_name(o.common.output, std::int64_t(k)), mesh);
+        } catch (const OutputError& error) {
+            throw OutputError(o.common.output, "stopped after " + std::to_string(k) + " of " +
+                                                   std::to_string(trees.size()) + " trees: " + error.what());
+        }
+    }
+}
+
+void work(Options& o) {
+    if (o.list_materials) return list_materials();
+    refuse_contradictions(o);
+    const Material material = chosen_material(o);
+    const std::string name = input_name(o.input);
+    std::vector<std::string> notes;
+    Splines splines = read_splines_of(o, notes);
+    splines.source = with_command_line(splines.source, o.common);
+    SegmentReport report;
+    Tree tree;
+    try {
+        tree = segment(splines, material, segment_options(o), &report);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError((o.max_bodies ? "--max-bodies: " : "--segment-length: ") + std::string(error.what()));
+    }
+    note_repairs(report, notes);
+    if (o.strict && !notes.empty()) throw InputError(name, notes.front() + " (--strict)");
+    if (tree.size_bodies() == 0) throw InputError(name, "holds no branch with a length, expected a tree");
+    if (o.split)
+        write_each(split_roots(tree), o);
+    else
+        write_one(tree, o, o.common.output, o.mesh);
+    if (o.stats) std::cerr << statistics(splines, tree, report);
+    for (const std::string& note : notes) o.common.notes.push_back(name + ": " + note);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Options o;
+    return run_tool(
+        info, argc, argv, o.common, [&o](CLI::App& app) { declare(app, o); }, [&o] { work(o); });
+}

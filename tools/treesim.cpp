@@ -1,0 +1,248 @@
+// treesim: a timed simulation of a tree or a scene, frame after frame.
+#include "formats/motion.h"
+#include "formats/obj.h"
+#include "frame_sink.h"
+#include "lib/stages/spring.h"
+#include "lib/stages/state_update.h"
+#include "simulation.h"
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+namespace {
+
+using namespace bough;
+
+constexpr double seconds_default = 10;
+
+struct Options {
+    CommonOptions common;
+    RunOptions run;
+    std::string fields, save_state, resume;
+    std::optional<int> sides;
+    bool explain = false, hash = false, no_output = false;
+};
+
+const ToolInfo info = {
+    "treesim",
+    "Moves a tree or a scene in time and writes its frames.\n"
+    "Usage: treesim TREE|SCENE [--wind NAME|FILE] [--seconds S|--frames N] [-o FILE] ...",
+    "Frames go to stdout as JSON lines: a header line, then a frame a line. -o frames/oak_%04d.obj writes a mesh a\n"
+    "frame and frames/oak.mtl. --resume goes on after the saved frame with the same tree and scene; --seconds and\n"
+    "--frames then say how many frames are added.\n"
+    "  treesim tree.json --wind gusty --seconds 10 > motion.jsonl\n"
+    "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite, 4 output not written, 130 interrupted (frames so far stay).",
+    {"jsonl", "json", "safetensors", "obj"}};
+
+void declare(CLI::App& app, Options& o) {
+    add_run_options(app, o.run, seconds_default);
+    app.add_option("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
+        ->option_text("LIST");
+    app.add_option("--sides", o.sides, "Corners of the thickest branch's rings in OBJ frames (8)")
+        ->option_text("N")
+        ->check(whole_number(3, 256));
+    app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
+    app.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
+    app.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
+    app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
+        ->option_text("FILE")
+        ->check(file_name());
+    app.add_option("--resume", o.resume, "Go on from this state")->option_text("FILE");
+}
+
+MotionFields chosen_fields(const Options& o) {
+    if (o.fields.empty()) return {};
+    MotionFields fields{false, false, false, false};
+    for (const std::string& name : split_list(o.fields)) {
+        bool* field = name == "pose"       ? &fields.pose
+                      : name == "velocity" ? &fields.velocity
+                      : name == "torque"   ? &fields.torque
+                      : name == "angles"   ? &fields.angles
+                                           : nullptr;
+        if (!field) throw UsageError("--fields holds '" + name + "', expected pose, velocity, torque, angles");
+        *field = true;
+    }
+    return fields;
+}
+
+std::string chosen_format(const CommonOptions& common) {
+    if (!common.format.empty()) return common.format;
+    std::string ending = std::filesystem::path(common.output).extension().string();
+    if (ending == ".json" || ending == ".safetensors" || ending == ".obj") return ending.substr(1);
+    for (const char* known : {".glb", ".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
+        if (ending == known)
+            throw UsageError("-o is '" + common.output + "', but " + known +
+                             " is not written; there are .jsonl, .json, .safetensors, .obj");
+    return "jsonl";
+}
+
+void refuse_contradictions(const Options& o, const std::string& format) {
+    if (o.no_output) {
+        if (o.common.output != "-") throw UsageError("--no-output: not with -o");
+        if (!o.common.format.empty()) throw UsageError("--no-output: not with --format");
+        if (!o.fields.empty()) throw UsageError("--no-output: not with --fields");
+    }
+    if (format != "obj" || o.no_output) {
+        if (o.sides) throw UsageError("--sides: only with OBJ frames");
+    } else {
+        if (!o.fields.empty()) throw UsageError("--fields: not with OBJ frames, which hold a mesh");
+        const std::string wrong = o.common.output == "-" ? "a pattern such as frames/oak_%04d.obj is needed"
+                                                         : valid_sequence(o.common.output);
+        if (!wrong.empty()) throw UsageError("-o is '" + o.common.output + "': " + wrong);
+    }
+    if (o.save_state == "-" && !o.no_output && o.common.output == "-")
+        throw UsageError("--save-state -: frames and state cannot both go to stdout");
+    if (o.resume == "-" && o.run.input == "-") throw UsageError("--resume -: the input is read from stdin already");
+}
+
+template <class T> std::string explanation(const Plan<T>& plan, const RunOptions& run) {
+    std::ostringstream text;
+    text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s\n";
+    for (const PlannedStage& stage : plan.stages)
+        text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
+    std::size_t used = 0, left = 0;
+    for (const PlannedArray& array : plan.arrays) {
+        text << "array " << array.name << (array.on ? " on, " : " left out, ") << array.bytes
+             << " bytes: " << array.reason << "\n";
+        (array.on ? used : left) += array.bytes;
+    }
+    text << "state: " << used << " bytes, left out " << left << " bytes\n";
+    return text.str();
+}
+
+template <class T> void restore(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state) {
+    const SavedState saved = read_state(read_input(o.resume), input_name(o.resume));
+    const auto refuse = [&](const std::string& field, const std::string& found, const std::string& expected) {
+        if (found != expected)
+            throw InputError(input_name(o.resume), "/" + field + ": is " + found + ", but this run has " + expected);
+    };
+    refuse("precision", saved.precision, o.run.precision);
+    refuse("solver", saved.solver, o.run.solver);
+    refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
+    if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
+    refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(plan.bodies) + " bodies");
+    refuse("fingerprint", hash_text(saved.fingerprint), hash_text(fingerprint(setting)) + ": another tree or scene");
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        state.theta[i] = saved.theta[i].template cast<T>();
+        state.theta_dot[i] = saved.theta_dot[i].template cast<T>();
+        state.scaled_rate[i] = saved.scaled_rate[i].template cast<T>();
+    }
+    state.step = saved.frame * o.run.substeps;
+    state_update(plan, state);
+    if (plan.torque) spring_torque(plan, state);
+}
+
+template <class T> void save(const Options& o, const Setting& setting, const State<T>& state, std::int64_t frame) {
+    SavedState saved;
+    saved.frame = frame;
+    saved.fps = o.run.fps;
+    saved.substeps = o.run.substeps;
+    saved.precision = o.run.precision;
+    saved.solver = o.run.solver;
+    saved.fingerprint = fingerprint(setting);
+    saved.source = with_command_line(setting.source, o.common);
+    for (std::size_t i = 0; i < state.theta.size(); ++i) {
+        saved.theta.push_back(state.theta[i].template cast<double>());
+        saved.theta_dot.push_back(state.theta_dot[i].template cast<double>());
+        saved.scaled_rate.push_back(state.scaled_rate[i].template cast<double>());
+    }
+    Output output(o.save_state);
+    write_state(output, saved, form_of_name(o.save_state));
+    output.finish();
+}
+
+std::unique_ptr<FrameSink> open_sink(const Options& o, const Setting& setting, const std::string& format,
+                                     const MotionFields& fields) {
+    if (o.no_output) return nullptr;
+    if (format == "obj") return obj_sink(o.common.output, setting.tree, o.sides.value_or(8));
+    MotionHeader header;
+    header.fps = o.run.fps;
+    header.bodies = std::int64_t(setting.tree.size_bodies());
+    header.fields = fields;
+    header.name = setting.tree.name;
+    header.source = with_command_line(setting.source, o.common);
+    return motion_sink(o.common.output, format, header);
+}
+
+void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
+    if (flags.buckling > 0)
+        notes.push_back(std::to_string(flags.buckling) +
+                        " times a joint was softer than gravity's pull on it (buckling)");
+    if (flags.bounded_lambda > 0)
+        notes.push_back(std::to_string(flags.bounded_lambda) + " times a joint's growth in a step was bounded");
+}
+
+// Frames first..last into the sink; what ended the run early is thrown after the frames before it are safe.
+template <class T>
+std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state, FrameSink* sink,
+                        const MotionFields& fields, std::int64_t first, std::int64_t last) {
+    MotionFrame frame;
+    Progress progress(o.common, "frame", last - first + 1);
+    std::int64_t done = first - 1;
+    try {
+        for (std::int64_t f = first; f <= last; ++f) {
+            if (interrupted()) throw Interrupted("interrupted after frame " + std::to_string(done));
+            if (f > 0) advance_frame(plan, state, setting.tree, f, o.run.substeps);
+            if (sink) {
+                fill_frame(state, f, o.run.fps, fields, frame);
+                sink->write(frame);
+            }
+            done = f;
+            progress.at(f - first + 1);
+        }
+    } catch (const PromiseError&) {
+        if (sink) sink->finish();
+        throw;
+    } catch (const Interrupted&) {
+        if (sink) sink->finish();
+        if (!o.save_state.empty() && done >= 0) save(o, setting, state, done);
+        throw;
+    }
+    if (sink) sink->finish();
+    return done;
+}
+
+template <class T> void simulate(Options& o, const Setting& setting, const std::string& format) {
+    const MotionFields fields = chosen_fields(o);
+    const Plan<T> plan = plan_run<T>(setting, {fields.velocity, fields.torque}, o.run);
+    if (o.explain) std::cerr << explanation(plan, o.run);
+    State<T> state = make_state(plan);
+    std::int64_t first = 0, last = frames_of(o.run, seconds_default) - 1;
+    if (!o.resume.empty()) {
+        restore(o, setting, plan, state);
+        first = state.step / o.run.substeps + 1;
+        last += first - (o.run.frames ? 0 : 1); // --seconds counts the start, which is not written again
+    }
+    interrupt_at_boundary();
+    const std::unique_ptr<FrameSink> sink = open_sink(o, setting, format, fields);
+    const std::int64_t done = run_frames(o, setting, plan, state, sink.get(), fields, first, last);
+    if (!o.save_state.empty()) save(o, setting, state, done);
+    if (o.explain) {
+        for (std::size_t k = 0; k < stage_count; ++k)
+            std::cerr << "calls " << stage_name(Stage(k)) << " " << state.calls[k] << "\n";
+        std::cerr << "allocated " << state.bytes() << " bytes\n";
+    }
+    if (o.hash) std::cerr << "hash " << hash_text(state_hash(state)) << "\n";
+    note_flags(state.flags, o.common.notes);
+}
+
+void work(Options& o) {
+    if (o.run.input.empty()) throw UsageError("INPUT: missing");
+    const std::string format = o.no_output ? "" : chosen_format(o.common);
+    chosen_fields(o);
+    refuse_contradictions(o, format);
+    const Setting setting = read_setting(o.run);
+    if (o.run.precision == "float")
+        simulate<float>(o, setting, format);
+    else
+        simulate<double>(o, setting, format);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Options o;
+    return run_tool(
+        info, argc, argv, o.common, [&o](CLI::App& app) { declare(app, o); }, [&o] { work(o); });
+}
