@@ -37,7 +37,7 @@ void assign(Field&, const nlohmann::json& value, const std::string& name, const 
 nlohmann::json parse_json(std::string_view text, const std::string& name, const std::string& at = "");
 // Where and why a text is no JSON. `position`: bytes read; `at`: JSON pointer of what was being read.
 [[noreturn]] void syntax_error(std::string_view text, const std::string& name, std::size_t line, std::size_t position,
-                               const std::string& token, const std::string& why, const std::string& at);
+                               const std::string& why, const std::string& at);
 
 // ---- json_writer.cpp ----
 void write_json(Output&, const DocumentType&, const std::vector<Field>&);

@@ -125,8 +125,8 @@ public:
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& e) override {
-        syntax_error(text_, file_, line_, position, token, e.what(), levels_.empty() ? "" : here());
+    bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& e) override {
+        syntax_error(text_, file_, line_, position, e.what(), levels_.empty() ? "" : here());
     }
 
 private:

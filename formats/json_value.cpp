@@ -31,8 +31,8 @@ public:
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& e) override {
-        syntax_error(text_, name_, 0, position, token, e.what(), here());
+    bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& e) override {
+        syntax_error(text_, name_, 0, position, e.what(), here());
     }
 
 private:
@@ -82,12 +82,20 @@ private:
     std::vector<std::string> keys_;
 };
 
-// "NaN" where the reader stopped at its first letter.
+bool of_word(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
+}
+
+// Where the word began whose byte at `last` was the one too many: nlohmann's own token may begin long before.
+std::size_t word_start(std::string_view text, std::size_t last) {
+    if (!of_word(text[last])) return last;
+    while (last > 0 && of_word(text[last - 1])) --last;
+    return last;
+}
+
+// The whole of it: "NaN", of which only the first letter was read.
 std::string word_at(std::string_view text, std::size_t start) {
     std::size_t end = start;
-    const auto of_word = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
-    };
     while (end < text.size() && end < start + 40 && of_word(text[end])) ++end;
     return std::string(text.substr(start, end - start));
 }
@@ -107,10 +115,10 @@ json parse_json(std::string_view text, const std::string& name, const std::strin
 }
 
 void syntax_error(std::string_view text, const std::string& name, std::size_t line, std::size_t position,
-                  const std::string& token, const std::string& why, const std::string& at) {
+                  const std::string& why, const std::string& at) {
     const bool ended = position > text.size();
     const std::size_t stop = std::min(position, text.size());
-    const std::size_t start = ended || token.size() > stop ? stop : stop - token.size();
+    const std::size_t start = ended || stop == 0 ? stop : word_start(text, stop - 1);
     const std::string_view before = text.substr(0, start);
     const std::size_t last_end = before.rfind('\n');
     const std::size_t column = start - (last_end == std::string_view::npos ? 0 : last_end + 1) + 1;
@@ -132,8 +140,9 @@ void syntax_error(std::string_view text, const std::string& name, std::size_t li
     if (const std::size_t dash = why.rfind("; expected "); dash != std::string::npos && dash > reason)
         got = why.substr(dash + 2);
     if (!got.empty() && message.find(got) == std::string::npos) message += ", " + got;
-    throw InputError(place,
-                     (at.empty() ? "" : "in " + at + ": ") + message + " at " + in_quotes(text.substr(start, 20)));
+    std::string_view found = text.substr(start, 20);
+    found = found.substr(0, found.find('\n', 1));
+    throw InputError(place, (at.empty() ? "" : "in " + at + ": ") + message + " at " + in_quotes(found));
 }
 
 } // namespace bough

@@ -19,7 +19,7 @@ template <class Document, class Break> std::string broken(Document document, Bre
     return place(document);
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 // World frames of all bodies, from the roots on: x = x_p + R_p d, R = R_p R_pj.
 void place_bodies(const Tree& tree, std::vector<Vec3>& x, std::vector<Mat3>& r) {
@@ -46,11 +46,11 @@ TEST_CASE("each rule of a tree") {
     CHECK(broken(good, [](Tree& t) { t.parent[4] = -2; }) == "parent/4");
     CHECK(broken(good, [](Tree& t) { t.kind[2] = Kind(3); }) == "kind/2");
     CHECK(broken(good, [](Tree& t) { t.mass[3] = 0; }) == "mass/3");
-    CHECK(broken(good, [](Tree& t) { t.mass[3] = nan; }) == "mass/3");
-    CHECK(broken(good, [](Tree& t) { t.com[3].z() = nan; }) == "com/3");
-    CHECK(broken(good, [](Tree& t) { t.inertia[8](1, 2) = nan; }) == "inertia/8");
+    CHECK(broken(good, [](Tree& t) { t.mass[3] = not_a_number; }) == "mass/3");
+    CHECK(broken(good, [](Tree& t) { t.com[3].z() = not_a_number; }) == "com/3");
+    CHECK(broken(good, [](Tree& t) { t.inertia[8](1, 2) = not_a_number; }) == "inertia/8");
     CHECK(broken(good, [](Tree& t) { t.inertia[8](1, 2) += 0.01; }) == "inertia/8");
-    CHECK(broken(good, [](Tree& t) { t.joint_position[0].x() = nan; }) == "joint_position/0");
+    CHECK(broken(good, [](Tree& t) { t.joint_position[0].x() = not_a_number; }) == "joint_position/0");
     CHECK(broken(good, [](Tree& t) { t.joint_rotation[1].w() += 1e-3; }) == "joint_rotation/1");
     CHECK(broken(good, [](Tree& t) { t.stiffness[1].y() = -1; }) == "stiffness/1");
     CHECK(broken(good, [](Tree& t) { t.stiffness[1].setZero(); }) == "");
@@ -96,10 +96,10 @@ TEST_CASE("each rule of splines") {
     CHECK(broken(good, [](Splines& s) { s.first_point[0] = 1; }) == "first_point/0");
     CHECK(broken(good, [](Splines& s) { s.first_point[6] += 1; }) == "first_point/6");
     CHECK(broken(good, [](Splines& s) { s.first_point.clear(); }) == "first_point");
-    CHECK(broken(good, [](Splines& s) { s.point[2].x() = nan; }) == "point/2");
+    CHECK(broken(good, [](Splines& s) { s.point[2].x() = not_a_number; }) == "point/2");
     CHECK(broken(good, [](Splines& s) { s.radius[2] = -1; }) == "radius/2");
     CHECK(broken(good, [](Splines& s) { s.leaf_branch[2] = 6; }) == "leaf_branch/2");
-    CHECK(broken(good, [](Splines& s) { s.leaf_at[2] = nan; }) == "leaf_at/2");
+    CHECK(broken(good, [](Splines& s) { s.leaf_at[2] = not_a_number; }) == "leaf_at/2");
     CHECK(broken(good, [](Splines& s) { s.leaf_rotation[2].x() += 1; }) == "leaf_rotation/2");
     CHECK(broken(good, [](Splines& s) { s.leaf_length[2] = 0; }) == "leaf_length/2");
     CHECK(broken(good, [](Splines& s) { s.leaf_width.pop_back(); }) == "leaf_width");
@@ -115,15 +115,15 @@ TEST_CASE("each rule of a scene") {
     good.pulls[0].time = {0, 1};
     good.pulls[0].force.resize(2, Vec3::Zero());
     CHECK(place(good) == "");
-    CHECK(broken(good, [](Scene& s) { s.gravity.x() = nan; }) == "gravity");
+    CHECK(broken(good, [](Scene& s) { s.gravity.x() = not_a_number; }) == "gravity");
     CHECK(broken(good, [](Scene& s) { s.trees.resize(1); }) == "trees/0/file");
-    CHECK(broken(good, [](Scene& s) { s.wind->velocity.x() = nan; }) == "wind/velocity");
+    CHECK(broken(good, [](Scene& s) { s.wind->velocity.x() = not_a_number; }) == "wind/velocity");
     CHECK(broken(good, [](Scene& s) { s.wind->reference_height = 0; }) == "wind/reference_height");
     CHECK(broken(good, [](Scene& s) { s.wind->gust_factor = 0.9; }) == "wind/gust_factor");
-    CHECK(broken(good, [](Scene& s) { s.air_density = nan; }) == "air_density");
+    CHECK(broken(good, [](Scene& s) { s.air_density = not_a_number; }) == "air_density");
     CHECK(broken(good, [](Scene& s) { s.pulls[0].time = {1, 1}; }) == "pulls/0/time/1");
     CHECK(broken(good, [](Scene& s) { s.pulls[0].time = {1}; }) == "pulls/0/force");
-    CHECK(broken(good, [](Scene& s) { s.pulls[0].force[1].y() = nan; }) == "pulls/0/force/1");
+    CHECK(broken(good, [](Scene& s) { s.pulls[0].force[1].y() = not_a_number; }) == "pulls/0/force/1");
     CHECK(broken(good, [](Scene& s) { s.pulls[0].on.tree = 1; }) == "pulls/0/on/tree");
     CHECK(broken(good, [](Scene& s) { s.stiffness_scale = -1; }) == "stiffness_scale");
 }

@@ -159,7 +159,7 @@ TEST_CASE("text that is no JSON is shown by line and column") {
           "t.json:7: ends here inside /mass/1, expected the rest of the document: is the file whole?");
     CHECK_THAT(tree_error(two_bodies.substr(0, 1)), StartsWith("t.json:1: ends here"));
     CHECK_THAT(tree_error(two_bodies + std::string(100000, '[')), StartsWith("t.json:19:1: "));
-    CHECK_THAT(changed("\"oak\"", "\"\xff\""), StartsWith("t.json:4:9: "));
+    CHECK_THAT(changed("\"oak\"", "\"\xff\""), StartsWith("t.json:4:10: "));
     CHECK_THAT(changed("[2, 3]", "[2, " + std::string(1'000'000, '[')), StartsWith("t.json: /mass/1: is an array"));
 }
 

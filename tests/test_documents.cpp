@@ -1,4 +1,6 @@
 // Documents written and read again, in both forms, against what was in memory; and small documents written by hand.
+#include "formats/document.h"
+#include "formats/material.h"
 #include "formats/motion.h"
 #include "formats/scene.h"
 #include "formats/splines.h"
@@ -270,8 +272,10 @@ TEST_CASE("the examples of formats/README.md are documents") {
             CHECK(read_motion(text, "README.md").frame.size() == 1);
         else if (is_state(text))
             CHECK_NOTHROW(read_state(text, "README.md"));
+        else if (document_format(text) == "bough-material")
+            CHECK_NOTHROW(read_material(text, "README.md"));
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 6);
+    CHECK(examples == 7);
 }
