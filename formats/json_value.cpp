@@ -83,11 +83,17 @@ private:
 };
 
 bool of_word(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
+    return (c >= '0' && c <= '9') || ((c | 0x20) >= 'a' && (c | 0x20) <= 'z') || c == '+' || c == '-' || c == '.';
 }
 
 // Where the word began whose byte at `last` was the one too many: nlohmann's own token may begin long before.
-std::size_t word_start(std::string_view text, std::size_t last) {
+std::size_t word_start(std::string_view text, std::size_t last, bool string) {
+    if (string) {
+        const auto escaped = [&](std::size_t i) { return (i - 1 - text.find_last_not_of('\\', i - 1)) % 2 == 1; };
+        std::size_t open = last == 0 ? 0 : text.rfind('"', last - 1);
+        while (open != std::string_view::npos && open > 0 && escaped(open)) open = text.rfind('"', open - 1);
+        return open == std::string_view::npos ? last : open;
+    }
     if (!of_word(text[last])) return last;
     while (last > 0 && of_word(text[last - 1])) --last;
     return last;
@@ -102,7 +108,7 @@ std::string word_at(std::string_view text, std::size_t start) {
 
 bool is_not_finite(std::string word) {
     if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.erase(0, 1);
-    for (char& c : word) c = char(std::tolower(static_cast<unsigned char>(c)));
+    for (char& c : word) c = char(c | 0x20); // letters to small ones
     return word == "nan" || word == "inf" || word == "infinity";
 }
 
@@ -118,7 +124,8 @@ void syntax_error(std::string_view text, const std::string& name, std::size_t li
                   const std::string& why, const std::string& at) {
     const bool ended = position > text.size();
     const std::size_t stop = std::min(position, text.size());
-    const std::size_t start = ended || stop == 0 ? stop : word_start(text, stop - 1);
+    const bool whole_string = why.find("unexpected string literal") != std::string::npos;
+    const std::size_t start = ended || stop == 0 ? stop : word_start(text, stop - 1, whole_string);
     const std::string_view before = text.substr(0, start);
     const std::size_t last_end = before.rfind('\n');
     const std::size_t column = start - (last_end == std::string_view::npos ? 0 : last_end + 1) + 1;
@@ -135,10 +142,11 @@ void syntax_error(std::string_view text, const std::string& name, std::size_t li
         throw InputError(place, in + "is " + word + ", expected a finite number");
     const std::size_t reason = why.find("syntax error");
     std::string message = reason == std::string::npos ? why : why.substr(reason);
-    message = message.substr(0, message.find("; last read"));
+    message = message.substr(0, message.find("; "));
     std::string got;
-    if (const std::size_t dash = why.rfind("; expected "); dash != std::string::npos && dash > reason)
-        got = why.substr(dash + 2);
+    if (const std::size_t mark = why.rfind("; expected "); mark != std::string::npos && mark > reason)
+        got = why.substr(mark + 2);
+    if (got == "expected '}'" || got == "expected ']'") got = "expected ',' or " + got.substr(got.size() - 3);
     if (!got.empty() && message.find(got) == std::string::npos) message += ", " + got;
     std::string_view found = text.substr(start, 20);
     found = found.substr(0, found.find('\n', 1));

@@ -150,8 +150,9 @@ TEST_CASE("another document, or none, is called what it is") {
 
 TEST_CASE("text that is no JSON is shown by line and column") {
     CHECK_THAT(changed("[2, 3]", "[2 3]"), StartsWith("t.json:7:12: in /mass/1: syntax error"));
-    CHECK_THAT(changed("\"oak\",", "\"oak\""), StartsWith("t.json:5:1: "));
-    CHECK_THAT(changed("[2, 3]", "[2, 3,]"), StartsWith("t.json:7:14: "));
+    CHECK_THAT(changed("\"oak\",", "\"oak\""),
+               StartsWith("t.json:5:1: in /name: syntax error") && Contains("expected ',' or '}'"));
+    CHECK_THAT(changed("[2, 3]", "[2, 3,]"), StartsWith("t.json:7:15: "));
     CHECK_THAT(changed("\"s\"", "'s'"), StartsWith("t.json:17:1: "));
     CHECK_THAT(tree_error(two_bodies + "x"), StartsWith("t.json:19:1: "));
     const std::string cut = two_bodies.substr(0, two_bodies.find("3],"));
