@@ -1,0 +1,200 @@
+// What a scene does not name is not run and not allocated, and a step allocates nothing: every allocation of this
+// program is counted.
+#include "lib/stages/plan.h"
+#include "lib/stages/state_arrays.h"
+#include "lib/stages/step.h"
+#include "tests/solver_support.h"
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <map>
+#include <new>
+#include <set>
+
+namespace {
+
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t bytes) {
+    ++allocations;
+    if (void* p = std::malloc(bytes ? bytes : 1)) return p;
+    throw std::bad_alloc();
+}
+
+} // namespace
+
+void* operator new(std::size_t bytes) {
+    return counted(bytes);
+}
+void* operator new[](std::size_t bytes) {
+    return counted(bytes);
+}
+void operator delete(void* p) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p) noexcept {
+    std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+    std::free(p);
+}
+
+using namespace bough;
+using namespace solver;
+
+namespace {
+
+using Names = std::set<std::string>;
+
+struct Case {
+    std::string name;
+    Scene scene;
+    Wishes wishes;
+    Names stages, arrays; // what is on beyond what every scene has
+};
+
+const Names every_stage{"composite", "spring", "state_update"};
+const Names every_array{"theta", "theta_dot", "scaled_rate", "R_wb", "x_w", "c_h_w", "c_J_w"};
+
+Names joined(const Names& a, const Names& b) {
+    Names all = a;
+    all.insert(b.begin(), b.end());
+    return all;
+}
+
+std::vector<Case> cases() {
+    const Names forces{"f_w", "tau_w", "c_f_w", "c_tau_w"}, velocities{"omega_w", "v_w"};
+    const Names drag{"drag_f_w", "drag_tau_w", "drag_bound", "c_drag_f_w", "c_drag_tau_w", "c_drag", "c_drag_row"};
+    std::vector<Case> all;
+    all.push_back({"gravity only", Scene{}, {}, {}, {}});
+    all.push_back({"no gravity", empty_scene(), {}, {}, {}});
+    Scene windy;
+    windy.wind = wind_preset("gusty");
+    const Names blown = joined(joined(forces, velocities), drag);
+    all.push_back({"wind", windy, {}, {"wind_field", "external_forces", "drag"}, blown});
+    Scene still = empty_scene();
+    still.wind = Wind{};
+    all.push_back({"still air", still, {}, {"wind_field", "external_forces", "drag"}, blown});
+    Scene pulled;
+    pulled.pulls.push_back({Selector{}, {0, 1}, {Vec3(1, 0, 0), Vec3(2, 0, 0)}});
+    all.push_back({"pulls only", pulled, {}, {"external_forces"}, forces});
+    all.push_back({"velocity wished", Scene{}, {true, false}, {}, velocities});
+    all.push_back({"torque wished", Scene{}, {false, true}, {}, {"torque_j"}});
+    windy.pulls = pulled.pulls;
+    all.push_back(
+        {"everything", windy, {true, true}, {"wind_field", "external_forces", "drag"}, joined(blown, {"torque_j"})});
+    return all;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", float, double) {
+    using T = TestType;
+    const Tree tree = make_tree::branched();
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        const Plan<T> plan = plan_of<T>(tree, c.scene, 1.0 / 30, c.wishes);
+        State<T> state = make_state(plan);
+        for (int k = 0; k < 10; ++k) step(plan, state);
+        CHECK(state.step == 10);
+        CHECK_FALSE(first_non_finite(state).has_value());
+
+        const Names stages = joined(every_stage, c.stages), arrays = joined(every_array, c.arrays);
+        REQUIRE(plan.stages.size() == stage_count);
+        for (std::size_t k = 0; k < stage_count; ++k) {
+            const PlannedStage& planned = plan.stages[k];
+            CAPTURE(stage_name(planned.stage));
+            CHECK(planned.stage == Stage(k)); // said in the order they run in
+            CHECK(planned.on == stages.contains(stage_name(planned.stage)));
+            CHECK(state.calls[k] == (planned.on ? 10u : 0u));
+            CHECK_FALSE(planned.reason.empty());
+        }
+
+        std::map<std::string, std::size_t> held;
+        visit_arrays(plan, state, [&](const char* name, const auto& array, bool, const std::string&) {
+            held[name] = array.capacity() * sizeof(array[0]);
+        });
+        std::size_t sum = 0;
+        Names on;
+        for (const PlannedArray& array : plan.arrays) {
+            CAPTURE(array.name);
+            REQUIRE(held.contains(array.name));
+            CHECK(held[array.name] == (array.on ? array.bytes : 0));
+            CHECK_FALSE(array.reason.empty());
+            sum += array.on ? array.bytes : 0;
+            if (array.on) on.insert(array.name);
+        }
+        CHECK(on == arrays);
+        CHECK(plan.arrays.size() == held.size());
+        CHECK(state.bytes() == sum);
+        CHECK(state.wind.velocity.empty() != c.scene.wind.has_value());
+    }
+}
+
+TEST_CASE("sizes of arrays are those of their numbers") {
+    const Tree tree = make_tree::branched();
+    const auto plan = plan_of<double>(tree, Scene{});
+    for (const PlannedArray& array : plan.arrays) {
+        const std::size_t numbers = array.name == "R_wb" || array.name == "c_J_w" ? 9
+                                    : array.name == "drag_bound" || array.name == "c_drag" || array.name == "c_drag_row"
+                                        ? 1
+                                        : 3;
+        CAPTURE(array.name);
+        CHECK(array.bytes == tree.size_bodies() * numbers * sizeof(double));
+    }
+}
+
+TEST_CASE("the constants of wind and gravity exist only with them") {
+    const Tree tree = make_tree::branched();
+    const auto bare = plan_of(tree, empty_scene());
+    CHECK(bare.gravity_row.capacity() + bare.drag_area.capacity() + bare.kind.capacity() + bare.sway.capacity() +
+              bare.joint_distance.capacity() + bare.com_distance.capacity() + bare.inverse_weight.capacity() ==
+          0);
+    Scene windy;
+    windy.wind = Wind{};
+    const auto full = plan_of(tree, windy);
+    CHECK(full.gravity_row.size() == tree.size_bodies());
+    CHECK(full.inverse_weight.size() == tree.size_bodies());
+}
+
+TEST_CASE("a step allocates nothing, on one thread or several") {
+    for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(3000, 1)})
+        for (const Case& c : cases()) {
+            Scene scene = c.scene;
+            scene.pose = Pose::rest;
+            const auto plan = plan_of(tree, scene, 1.0 / 30, c.wishes);
+            State<double> state = make_state(plan);
+            StageClock clock;
+            step(plan, state);
+            const std::size_t before = allocations;
+            for (int k = 0; k < 3; ++k) step(plan, state, &clock);
+            const std::size_t during = allocations - before;
+            CAPTURE(c.name);
+            CHECK(before > 0); // the counter counts
+            CHECK(during == 0);
+        }
+}
+
+TEST_CASE("a clock has time for the stages that ran and none for the others") {
+    const auto plan = plan_of(make_tree::random_tree(200, 1), empty_scene());
+    State<double> state = make_state(plan);
+    StageClock clock;
+    for (int k = 0; k < 5; ++k) step(plan, state, &clock);
+    for (const PlannedStage& planned : plan.stages)
+        CHECK((clock.seconds[std::size_t(planned.stage)] > 0) == planned.on);
+}
+
+TEST_CASE("scales of stiffness and damping multiply every joint's") {
+    const Tree tree = make_tree::branched();
+    Scene scene = empty_scene();
+    scene.stiffness_scale = 2;
+    scene.damping_scale = 3;
+    const auto plan = plan_of(tree, scene);
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        CHECK((plan.K[i] - 2 * tree.stiffness[i]).norm() == 0);
+        CHECK(plan.beta[i] == 3 * tree.damping[i]);
+    }
+}
