@@ -2,6 +2,7 @@
 #pragma once
 #include "formats/error.h"
 #include "formats/import.h"
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
@@ -61,7 +62,8 @@ inline std::string error_of(const std::string& content, const std::string& name)
         imported(content, name);
     } catch (const InputError& e) {
         const std::string text = e.what();
-        CHECK(text.find('\n') == std::string::npos);
+        const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
+        CHECK(std::all_of(text.begin(), text.end(), printable));
         CHECK(text.compare(0, name.size() + 1, name + ":") == 0);
         return text;
     }

@@ -40,6 +40,9 @@ TEST_CASE("units of an SWC follow from its height unless given") {
     const Imported in = imported(tall, "tall.swc");
     CHECK(top_of(in.splines) == Approx(9));
     CHECK(in.notes_hold("taken as cm, because the tree is 900 units high and no tree is 900 m high"));
+    CHECK(top_of(imported("1 3 0 0 0 1 -1\n2 3 0 0 116 1 1\n", "tallest.swc").splines) == 116);
+    CHECK(top_of(imported("1 3 0 0 0 1 -1\n2 3 0 0 130 1 1\n", "low.swc").splines) == Approx(1.3));
+    CHECK(top_of(imported("1 3 0 0 0 1 -1\n2 3 0 0 20000 1 1\n", "mm.swc").splines) == Approx(20));
     ImportOptions options;
     options.unit = 1e-6;
     options.up = 'y';
