@@ -1,5 +1,5 @@
-#include "integrate.h"
 #include "hand_made.h"
+#include "integrate.h"
 
 using namespace hand_made;
 

@@ -84,6 +84,7 @@ void check_growth(const GrowthParameters& p) {
     within("leaf_bend", p.leaf_bend, 0, 1);
     positive("fruit_radius", p.fruit_radius, 1e3);
     within("least_radius", p.least_radius, 0, 10);
+    within("most_slender", p.most_slender, 0, 1e6);
 }
 
 } // namespace bough

@@ -63,8 +63,9 @@ GrowthParameters default_growth() {
     p.leaf_scale_x = 0.55;
     p.leaf_bend = 0.3;
     p.fruits = 0.3;
-    p.fruit_radius = 0.02;
+    p.fruit_radius = 0.008;
     p.least_radius = 0.0005;
+    p.most_slender = 150;
     return p;
 }
 

@@ -252,6 +252,7 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
         child.length = longest * (stem.length - 0.6 * offset);
     const double radius = stem.radius * std::pow(child.length / stem.length, p_.ratio_power);
     child.radius = std::min(std::max(radius, p_.least_radius), radius_at(out_, grown.branch, child.parent_at));
+    if (p_.most_slender > 0) child.length = std::min(child.length, p_.most_slender * child.radius);
     const double up = crown_ratio(0, stem.length, base, offset);
     const double down = l.down_angle_v < 0 ? l.down_angle + l.down_angle_v * (1 - 2 * up)
                                            : varied(l.down_angle, l.down_angle_v, child.key, Draw::down_angle);

@@ -63,8 +63,8 @@ struct GrowthParameters {
     double leaf_scale_x = 0.5;              // > 0, width / length
     double leaf_bend = 0;                   // 0..1, turning to the light
     double fruits = 0, fruit_radius = 0.03; // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
-    double least_radius =
-        0; // 0..10, our own: [m] no stem is thinner anywhere; wood carries its leaves down to about 0.5 mm
+    double least_radius = 0; // [m] 0..10, our own: no stem is thinner anywhere; wood carries its leaves down to 0.5 mm
+    double most_slender = 0; // 0 (off)..1e6, our own: no child is longer than this times its radius at the base
     std::string name = "tree";
 };
 

@@ -107,6 +107,9 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         v_new[k] = p.B * residual + p.C * v[k];
     }
     s.theta[i] += joint.T_tb * (U * dq);
+    // A free joint has no rest to be turned from: its angle is kept in the chart's middle, the rotation is the same.
+    if (plan.K[i].isZero(0) && s.theta[i].squaredNorm() > T(9.8696))
+        s.theta[i] = vector_from_quaternion(quaternion_from_vector(s.theta[i]));
     s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * (U * v_new);
     s.scaled_rate[i] = X * v_new;
     return flags;
