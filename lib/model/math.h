@@ -61,7 +61,7 @@ template <class T> Matrix3<T> body_rate_jacobian(const Vector3<T>& theta) {
     const T a = std::sqrt(a2);
     const T h = std::sin(a / T(2));
     const bool small = a < T(0.1);
-    const T first = small ? T(0.5) - a2 / T(24) * (T(1) - a2 / T(30)) : T(2) * h * h / a2;
+    const T first = small ? T(0.5) - a2 / T(24) * (T(1) - a2 / T(30) * (T(1) - a2 / T(56))) : T(2) * h * h / a2;
     const T second =
         small ? T(1) / T(6) - a2 / T(120) * (T(1) - a2 / T(42) * (T(1) - a2 / T(72))) : (a - std::sin(a)) / (a2 * a);
     const Matrix3<T> x = cross_matrix(theta);
