@@ -67,7 +67,8 @@ Names joined(const Names& a, const Names& b) {
 
 std::vector<Case> cases() {
     const Names forces{"f_w", "tau_w", "c_f_w", "c_tau_w"}, velocities{"omega_w", "v_w"};
-    const Names drag{"drag_f_w", "drag_tau_w", "drag_bound", "c_drag_f_w", "c_drag_tau_w", "c_drag", "c_drag_row"};
+    const Names drag{"drag_f_w", "drag_tau_w", "drag_bound", "wind_bound", "turn_bound", "c_drag_f_w", "c_drag_tau_w",
+                     "c_drag",   "c_drag_row", "c_wind",     "c_wind_row", "c_turn",     "c_turn_row"};
     std::vector<Case> all;
     all.push_back({"gravity only", Scene{}, {}, {}, {}});
     all.push_back({"no gravity", empty_scene(), {}, {}, {}});
@@ -138,10 +139,10 @@ TEST_CASE("sizes of arrays are those of their numbers") {
     const Tree tree = make_tree::branched();
     const auto plan = plan_of<double>(tree, Scene{});
     for (const PlannedArray& array : plan.arrays) {
-        const std::size_t numbers = array.name == "R_wb" || array.name == "c_J_w" ? 9
-                                    : array.name == "drag_bound" || array.name == "c_drag" || array.name == "c_drag_row"
-                                        ? 1
-                                        : 3;
+        const Names matrices{"R_wb", "c_J_w"};
+        const Names single{"drag_bound", "wind_bound", "turn_bound", "c_drag",    "c_drag_row",
+                           "c_wind",     "c_wind_row", "c_turn",     "c_turn_row"};
+        const std::size_t numbers = matrices.count(array.name) ? 9 : single.count(array.name) ? 1 : 3;
         CAPTURE(array.name);
         CHECK(array.bytes == tree.size_bodies() * numbers * sizeof(double));
     }

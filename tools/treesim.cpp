@@ -122,7 +122,10 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
     if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
     refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(plan.bodies) + " bodies");
-    refuse("fingerprint", hash_text(saved.fingerprint), hash_text(fingerprint(setting)) + ": another tree or scene");
+    if (saved.fingerprint != fingerprint(setting))
+        throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
+                                                   ", but this run's tree and scene have " +
+                                                   hash_text(fingerprint(setting)));
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         state.theta[i] = saved.theta[i].template cast<T>();
         state.theta_dot[i] = saved.theta_dot[i].template cast<T>();
