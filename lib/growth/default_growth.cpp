@@ -66,6 +66,7 @@ GrowthParameters default_growth() {
     p.fruit_radius = 0.008;
     p.least_radius = 0.0005;
     p.most_slender = 150;
+    p.pipe_model = true;
     return p;
 }
 

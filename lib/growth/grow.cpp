@@ -1,4 +1,5 @@
 #include "grow.h"
+#include "pipe.h"
 #include "stem.h"
 #include <algorithm>
 #include <numbers>
@@ -267,7 +268,9 @@ bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, bool wit
     check_growth(parameters);
     out = Splines();
     out.name = parameters.name;
-    return Grower(parameters, out).run(seed, with_leaves, with_fruit, most);
+    const bool whole = Grower(parameters, out).run(seed, with_leaves, with_fruit, most);
+    if (whole && parameters.pipe_model) thicken_by_pipe_model(out);
+    return whole;
 }
 
 Splines grow(const GrowthParameters& parameters, std::uint64_t seed, bool with_leaves, bool with_fruit) {

@@ -65,6 +65,7 @@ struct GrowthParameters {
     double fruits = 0, fruit_radius = 0.03; // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
     double least_radius = 0; // [m] 0..10, our own: no stem is thinner anywhere; wood carries its leaves down to 0.5 mm
     double most_slender = 0; // 0 (off)..1e6, our own: no child is longer than this times its radius at the base
+    bool pipe_model = false; // our own: radii are raised to carry their side branches (pipe.h)
     std::string name = "tree";
 };
 

@@ -29,19 +29,19 @@ struct SkinOptions {
 };
 
 struct SkinPart {
-    std::string name;         // "bark", "leaf", "fruit": also the material's name; parts without triangles are left out
-    std::size_t first_index;  // into Skin::triangle
-    std::size_t index_count;  // triangles
+    std::string name;        // "bark", "leaf", "fruit": also the material's name; parts without triangles are left out
+    std::size_t first_index; // into Skin::triangle
+    std::size_t index_count; // triangles
 };
 
 struct Skin {
-    std::vector<Vec3> position;                       // [m] world, drawn pose
-    std::vector<Vec3> normal;                         // unit, world, drawn pose, outward
-    std::vector<std::array<float, 2>> texture;        // u, v
-    std::vector<std::array<std::int32_t, 4>> joint;   // bodies that move the vertex; unused entries repeat the first
-    std::vector<std::array<float, 4>> weight;         // sum 1, unused 0
-    std::vector<std::array<std::int32_t, 3>> triangle;  // counterclockwise seen from outside
-    std::vector<SkinPart> part;                       // in order, covering `triangle`
+    std::vector<Vec3> position;                        // [m] world, drawn pose
+    std::vector<Vec3> normal;                          // unit, world, drawn pose, outward
+    std::vector<std::array<float, 2>> texture;         // u, v
+    std::vector<std::array<std::int32_t, 4>> joint;    // bodies that move the vertex; unused entries repeat the first
+    std::vector<std::array<float, 4>> weight;          // sum 1, unused 0
+    std::vector<std::array<std::int32_t, 3>> triangle; // counterclockwise seen from outside
+    std::vector<SkinPart> part;                        // in order, covering `triangle`
 };
 
 Skin build_skin(const Tree&, const SkinOptions&);
