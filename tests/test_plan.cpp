@@ -15,14 +15,18 @@ namespace {
 
 std::atomic<std::size_t> allocations{0};
 
+#ifndef __SANITIZE_ADDRESS__
 void* counted(std::size_t bytes) {
     ++allocations;
     if (void* p = std::malloc(bytes ? bytes : 1)) return p;
     throw std::bad_alloc();
 }
+#endif
 
 } // namespace
 
+// The address sanitizer has its own; there nothing is counted.
+#ifndef __SANITIZE_ADDRESS__
 void* operator new(std::size_t bytes) {
     return counted(bytes);
 }
@@ -41,6 +45,7 @@ void operator delete(void* p, std::size_t) noexcept {
 void operator delete[](void* p, std::size_t) noexcept {
     std::free(p);
 }
+#endif
 
 using namespace bough;
 using namespace solver;

@@ -9,22 +9,21 @@ struct Load {
     double area; // [m^2] over pi
 };
 
-// Raises the radii of one branch for its loads; returns the area over pi at its base.
+// Raises the radii of one branch for its loads; returns what it needs at its base.
 double thicken(Splines& s, std::size_t b, std::vector<Load>& loads) {
     const auto first = std::size_t(s.first_point[b]), last = std::size_t(s.first_point[b + 1]) - 1;
     std::vector<double> arc{0};
     for (std::size_t k = first; k < last; ++k) arc.push_back(arc.back() + (s.point[k + 1] - s.point[k]).norm());
     std::sort(loads.begin(), loads.end(), [](const Load& x, const Load& y) { return x.at > y.at; });
-    const double tip = s.radius[last] * s.radius[last];
-    double borne = 0;
+    double needed = s.radius[last] * s.radius[last];
     std::size_t next = 0;
     for (std::size_t k = last + 1; k-- > first;) {
-        const double at = arc.back() > 0 ? arc[k - first] / arc.back() : 0;
-        // A load between two points is borne by the inner one on.
-        while (next < loads.size() && loads[next].at >= at) borne += loads[next++].area;
-        s.radius[k] = std::max(s.radius[k], std::sqrt(tip + borne));
+        // A load between two points is borne by both, so that it is borne where it grows.
+        const double inner = k > first && arc.back() > 0 ? arc[k - 1 - first] / arc.back() : -1;
+        while (next < loads.size() && loads[next].at > inner) needed += loads[next++].area;
+        s.radius[k] = std::max(s.radius[k], std::sqrt(needed));
     }
-    return std::max(s.radius[first] * s.radius[first], tip + borne);
+    return needed;
 }
 
 } // namespace
