@@ -70,6 +70,7 @@ void leave_out(Splines& splines, const Options& o, std::vector<std::string>& not
         splines.leaf_rotation.clear();
         splines.leaf_length.clear();
         splines.leaf_width.clear();
+        splines.leaf_kind.clear();
     }
     if (!o.fruit && splines.fruits() > 0) {
         notes.push_back(std::to_string(splines.fruits()) + " fruit left out (--fruit keeps them)");
