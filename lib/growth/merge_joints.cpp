@@ -8,6 +8,8 @@
 namespace bough {
 namespace {
 
+// Groups a branch gets before deeper levels get any: four rigid pieces follow its curve to a sixteenth of one's error.
+constexpr std::size_t few = 4, any = std::numeric_limits<std::size_t>::max();
 constexpr std::int32_t beyond_levels = std::numeric_limits<std::int32_t>::max(); // of leaves, petals and fruit
 
 // The pieces of a branch in order, or a leaf, petal or fruit alone.
@@ -55,27 +57,42 @@ std::size_t pieces_over(const Chain& chain, std::size_t pieces_a_group) {
     return (chain.piece.size() + pieces_a_group - 1) / pieces_a_group;
 }
 
-// Chains of one level, those that matter most first. Returns the joints left.
+// Chains of one level, those that matter most first. What shares out joints returns those left.
 using Level = std::vector<Chain*>;
 
-std::size_t join_evenly(const Level& level, std::size_t joints) {
+// One joint for each branch, those that matter more first where not all fit.
+std::size_t give_first(const Level& level, std::size_t joints) {
+    for (Chain* chain : level) {
+        if (chain->joints > 0 || joints == 0) continue;
+        chain->joints = 1;
+        --joints;
+    }
+    return joints;
+}
+
+// More joints for pieces of branches that have one, evenly, as many as fit but at most `most` a branch.
+std::size_t give_more(const Level& level, std::size_t joints, std::size_t most) {
     std::size_t longest = 1;
     for (const Chain* chain : level) longest = std::max(longest, chain->piece.size());
+    const auto wanted = [&](const Chain& chain, std::size_t pieces_a_group) {
+        return std::max(chain.joints, std::min(most, pieces_over(chain, pieces_a_group)));
+    };
     const auto needed = [&](std::size_t pieces_a_group) {
         std::size_t sum = 0;
-        for (const Chain* chain : level) sum += pieces_over(*chain, pieces_a_group) - chain->root;
+        for (const Chain* chain : level)
+            if (chain->joints > 0) sum += wanted(*chain, pieces_a_group) - chain->joints;
         return sum;
     };
-    std::size_t fits = longest, too_few = 0; // `longest` leaves one a branch
+    std::size_t fits = longest, too_few = 0; // `longest` asks for no more
     while (fits - too_few > 1) {
         const std::size_t middle = (fits + too_few) / 2;
         (needed(middle) <= joints ? fits : too_few) = middle;
     }
     joints -= needed(fits);
     for (Chain* chain : level) {
-        chain->joints = pieces_over(*chain, fits);
-        if (fits == 1) continue;
-        const std::size_t more = pieces_over(*chain, fits - 1) - chain->joints;
+        if (chain->joints == 0) continue;
+        chain->joints = wanted(*chain, fits);
+        const std::size_t more = fits == 1 ? 0 : wanted(*chain, fits - 1) - chain->joints;
         if (more > joints) continue;
         chain->joints += more;
         joints -= more;
@@ -83,25 +100,7 @@ std::size_t join_evenly(const Level& level, std::size_t joints) {
     return joints;
 }
 
-// Returns the joints left for the next levels: none unless every piece of this one has its own.
-std::size_t share_out(const Level& level, std::size_t joints) {
-    std::size_t new_chains = 0;
-    for (const Chain* chain : level) new_chains += !chain->root;
-    if (new_chains <= joints) {
-        joints = join_evenly(level, joints);
-        const bool all = std::all_of(level.begin(), level.end(),
-                                     [](const Chain* chain) { return chain->joints == chain->piece.size(); });
-        return all ? joints : 0;
-    }
-    for (Chain* chain : level) {
-        if (chain->root || joints == 0) continue;
-        chain->joints = 1;
-        --joints;
-    }
-    return 0;
-}
-
-void share_out_by_level(std::vector<Chain>& chains, std::size_t joints) {
+std::vector<Level> by_level(std::vector<Chain>& chains) {
     std::vector<Chain*> order(chains.size());
     for (std::size_t c = 0; c < chains.size(); ++c) order[c] = &chains[c];
     std::stable_sort(order.begin(), order.end(), [](const Chain* a, const Chain* b) {
@@ -109,12 +108,21 @@ void share_out_by_level(std::vector<Chain>& chains, std::size_t joints) {
         if (a->reach != b->reach) return a->reach > b->reach;
         return a->mass > b->mass;
     });
-    for (auto begin = order.begin(); begin != order.end() && joints > 0;) {
-        const auto end =
-            std::find_if(begin, order.end(), [&](const Chain* chain) { return chain->level != (*begin)->level; });
-        joints = share_out(Level(begin, end), joints);
-        begin = end;
+    std::vector<Level> levels;
+    for (Chain* chain : order) {
+        if (levels.empty() || levels.back().front()->level != chain->level) levels.emplace_back();
+        levels.back().push_back(chain);
     }
+    return levels;
+}
+
+void share_out(std::vector<Chain>& chains, std::size_t joints) {
+    const std::vector<Level> levels = by_level(chains);
+    const std::size_t wood = levels.size() - (levels.back().front()->level == beyond_levels);
+    for (std::size_t l = 0; l < wood && joints > 0; ++l)
+        joints = give_more(levels[l], give_first(levels[l], joints), few);
+    for (std::size_t l = 0; l < wood && joints > 0; ++l) joints = give_more(levels[l], joints, any);
+    if (wood < levels.size()) give_first(levels.back(), joints);
 }
 
 // The piece at half the length of the group that begins with piece `from` and ends before `to`.
@@ -140,7 +148,7 @@ JointGroups merge_joints(const Tree& tree, std::size_t most) {
                                     std::to_string(roots) + " roots at least");
     weigh(chains, tree);
     for (Chain& chain : chains) chain.joints = chain.root;
-    share_out_by_level(chains, most - roots);
+    share_out(chains, most - roots);
 
     std::vector<std::int32_t> lead(n, -1); // of bodies that begin a group
     for (const Chain& chain : chains)

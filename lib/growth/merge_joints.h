@@ -3,11 +3,13 @@
 // Each body begins a group of its own or joins its parent's, so a group is connected and the groups form a tree. A group
 // moves rigidly: about its first body's own joint, turned as its leading body turns. The joints that fit go to the levels
 // from the trunk up, so that the deepest are merged first:
-//   leaves, petals and fruit join the piece that bears them; where only some of them fit, the longest keep their joint;
-//   then the deepest branches join the piece that bears them; where only some of a level's branches fit, those keep a joint
-//   that reach farthest (the longest way from their joint to a tip), of equals the heavier with all they bear;
-//   where each branch of a level has a joint but not each piece, pieces of a branch are joined evenly, as few to a group
-//   as fit; joints left over go to the branches that reach farthest.
+//   - each branch of a level gets one, then up to four, as its pieces allow, before a deeper level gets any; then, again
+//     from the trunk up, as many as it has pieces; then leaves, petals and fruit, which until then join the piece that
+//     bears them, get their own;
+//   - where a level's branches do not all get one, those do that reach farthest (the longest way from their joint to a
+//     tip), of equals the heavier with all they bear; the others join the piece that bears them;
+//   - pieces of a branch are joined evenly, as few to a group as fit; joints left over by that go to those that reach
+//     farthest.
 // Every root keeps a joint. The leading body is the piece at half the length of what the group holds of its first body's
 // branch: of a bend spread evenly over the group, its direction is that of the whole (the first piece's is behind, the
 // last's ahead).
