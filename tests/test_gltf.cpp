@@ -226,6 +226,24 @@ TEST_CASE("attributes: limits, weights, joints, indices, targets") {
     }
 }
 
+TEST_CASE("bodies of one group are one joint of a vertex, with their weights together") {
+    Written w{branched(), build_skin(branched(), {}), merge_joints(branched(), 2), {}};
+    REQUIRE(w.groups.group[1] == 0);
+    REQUIRE(w.groups.group[2] == 1);
+    w.skin.joint[0] = {0, 2, 1, 0};
+    w.skin.weight[0] = {0.125f, 0.5f, 0.375f, 0};
+    const File file;
+    Output output(file.path);
+    GltfWriter(output, w.skin, w.tree, w.groups, {}).finish();
+    output.finish();
+    w.glb = gltf_reader::parse(read_input(file.path));
+    const Json& attributes = w.glb.json["meshes"][0]["primitives"][0]["attributes"];
+    const std::vector<double> joint = gltf_reader::numbers(w.glb, attributes["JOINTS_0"]);
+    const std::vector<double> weight = gltf_reader::numbers(w.glb, attributes["WEIGHTS_0"]);
+    CHECK(std::vector<double>(joint.begin(), joint.begin() + 4) == std::vector<double>{0, 1, 0, 0});
+    CHECK(std::vector<double>(weight.begin(), weight.begin() + 4) == std::vector<double>{0.5, 0.5, 0, 0});
+}
+
 TEST_CASE("triangles are the skin's, in u32 where u16 is too small") {
     const Tree tree = make_tree::forest({branched(), make_tree::chain(2000, 100, 0.1, 0.1)});
     Written w{tree, build_skin(tree, {24}), merge_joints(tree, 1000), {}};
