@@ -101,8 +101,8 @@ Splines imported(Options& o) {
 Splines grown(const Options& o) {
     const std::uint64_t seed = o.seed.value_or(0);
     try {
-        return o.bodies ? grow_bodies(default_growth(), seed, o.leaves, o.fruit, *o.bodies)
-                        : grow(default_growth(), seed, o.leaves, o.fruit);
+        return o.bodies ? grow_bodies(default_growth(), seed, {o.leaves, false, o.fruit}, *o.bodies)
+                        : grow(default_growth(), seed, {o.leaves, false, o.fruit});
     } catch (const std::invalid_argument& error) {
         throw UsageError(error.what());
     }
