@@ -1,4 +1,5 @@
 #include "grow.h"
+#include "carry.h"
 #include "pipe.h"
 #include "stem.h"
 #include <algorithm>
@@ -320,6 +321,7 @@ bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const It
     if (!items.petals) out.leaf_kind.clear();
     if (whole && parameters.pipe_exponent > 0)
         thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
+    if (whole && parameters.most_sag > 0) thicken_to_carry(out, parameters.wood, parameters.most_sag);
     return whole;
 }
 
