@@ -152,15 +152,17 @@ void Grower::draw(const Stem& stem, std::int32_t branch) {
     const std::vector<double> marks = taper_marks(l.taper, stem.level == 0 ? p_.flare : 0, stem.radius, stem.length);
     const double step = stem.length / l.curve_res;
     segment_.clear();
-    segment_.push_back({stem.position, stem.frame});
+    segment_.push_back({stem.position, stem.frame, stem.share});
     Stem state = stem;
     for (int i = stem.first_segment; i < l.curve_res; ++i) {
         draw_points(stem, marks, i);
         if (i + 1 == l.curve_res) break;
         const Segment& now = segment_.back();
-        Segment next{now.position + now.frame * Vec3(0, 0, step), now.frame};
-        if (const int clones = splits_after(stem, i); clones > 0)
+        Segment next{now.position + now.frame * Vec3(0, 0, step), now.frame, now.share};
+        if (const int clones = splits_after(stem, i); clones > 0) {
+            if (p_.split_exponent > 0) next.share *= std::pow(clones + 1, -1 / p_.split_exponent);
             next.frame = split(stem, branch, next, i + 1, clones, state.unbend);
+        }
         next.frame = turned(state, next.frame, i + 1);
         segment_.push_back(next);
     }
@@ -172,10 +174,15 @@ void Grower::draw_points(const Stem& stem, const std::vector<double>& marks, int
     const LevelParameters& l = p_.level[stem.level];
     const double from = static_cast<double>(segment) / l.curve_res, to = static_cast<double>(segment + 1) / l.curve_res;
     const Segment& s = segment_.back();
+    const auto shaped = [&](double z) {
+        const double r = taper_radius(l.taper, stem.radius, stem.length, z);
+        return l.taper_power == 1 ? r : stem.radius * std::pow(r / stem.radius, l.taper_power);
+    };
     const auto add = [&](double z) {
         const double flare = stem.level == 0 ? flare_factor(p_.flare, z) : 1;
         out_.point.push_back(s.position + s.frame * Vec3(0, 0, (z - from) * stem.length));
-        out_.radius.push_back(std::max(flare * taper_radius(l.taper, stem.radius, stem.length, z), p_.least_radius));
+        out_.radius.push_back(
+            std::max(flare * s.share * shaped(z), p_.least_radius));
     };
     if (segment == stem.first_segment) add(from);
     const double apart = 1e-3 * (to - from);
@@ -246,6 +253,7 @@ Quat Grower::split(const Stem& stem, std::int32_t branch, const Segment& end, in
         clone.parent = branch;
         clone.parent_at = static_cast<double>(next - stem.first_segment) / (l.curve_res - stem.first_segment);
         clone.first_segment = next;
+        clone.share = end.share;
         born_.push_back(clone);
     }
     const double angle = turn(stem.key);
@@ -300,7 +308,8 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
         child.length = stem.length * longest * child.crown;
     } else
         child.length = longest * (stem.length - 0.6 * offset);
-    const double radius = l.radius_mod * stem.radius * std::pow(child.length / stem.length, p_.ratio_power);
+    const double radius = l.radius_mod * grown.segment_at(offset).share * stem.radius *
+                          std::pow(child.length / stem.length, p_.ratio_power);
     child.radius = std::min(std::max(radius, p_.least_radius), radius_at(out_, grown.branch, child.parent_at));
     if (p_.most_slender > 0) child.length = std::min(child.length, p_.most_slender * child.radius);
     const double up = shape_ratio(0, (stem.length - offset) / (stem.length - base));
