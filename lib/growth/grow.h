@@ -51,7 +51,7 @@ struct LevelParameters {
     double branch_dist = 0; // 0..1, 0: spread evenly, 1: in whorls where segments meet (1 - Arbaro's nBranchDist)
     double length = 0, length_v = 0; // > 0 and 0 <= V < length, fraction of the parent's (level 0: of scale)
     double taper = 1;                // 0..3; 0 cylinder, 1 cone, 2 cylinder with a rounded tip, 3 periodic
-    double taper_power = 1; // 0.1..10, our own: the stem's taper to this power; 0.5 makes a cone a paraboloid
+    double taper_power = 1;          // 0.1..10, our own: the stem's taper to this power; 0.5 makes a cone a paraboloid
     double seg_splits = 0, split_angle = 0, split_angle_v = 0; // 0..100; [deg] -360..360
     double base_splits = 0;                                    // 0..100
     int curve_res = 1;                                         // 1..1000 segments; 2 or more where splits are

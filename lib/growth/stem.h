@@ -73,6 +73,9 @@ struct GrownStem {
 // segments. O(points of the branch).
 double radius_at(const Splines&, std::int32_t branch, double at);
 
+// Moves leaves, flowers and fruit out to the bark where radii have grown from `drawn`. O(items * points of a branch).
+void seat_on_bark(Splines&, const std::vector<double>& drawn);
+
 // Leaves, flowers and fruit of a stem of the last level, appended to `out`.
 void grow_leaves(const GrowthParameters&, const GrownStem&, Splines& out);
 void grow_blossoms(const GrowthParameters&, const GrownStem&, Splines& out);
