@@ -21,6 +21,7 @@ constexpr Number numbers[] = {
     {"damping_ratio", &Material::damping_ratio},
     {"leaf_density", &Material::leaf_density},
     {"leaf_thickness", &Material::leaf_thickness},
+    {"petal_thickness", &Material::petal_thickness},
     {"leaf_modulus", &Material::leaf_modulus},
     {"leaf_damping_ratio", &Material::leaf_damping_ratio},
     {"fruit_density", &Material::fruit_density},

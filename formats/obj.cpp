@@ -142,11 +142,16 @@ void write_obj(Output& output, const Skin& skin, const std::vector<Vec3>& positi
 
 void write_mtl(Output& output, const Skin& skin) {
     for (const SkinPart& part : skin.part) {
-        std::string_view color = "0.5 0.5 0.5";
-        if (part.name == "bark") color = "0.45 0.34 0.25";
-        if (part.name == "leaf") color = "0.34 0.56 0.16";
-        if (part.name == "fruit") color = "0.8 0.14 0.1";
-        output.write("newmtl " + part.name + "\nKd " + std::string(color) + "\nKs 0 0 0\nillum 1\n\n");
+        Text text(output);
+        text.add("newmtl ");
+        text.add(part.name);
+        text.add("\nKd");
+        for (const double component : part.color) {
+            text.put(' ');
+            text.add_number(component);
+        }
+        text.add("\nKs 0 0 0\nillum 1\n\n");
+        text.hand_on();
     }
 }
 

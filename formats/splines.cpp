@@ -15,6 +15,8 @@ std::vector<Field> fields_of(Splines& s) {
     const Per fruit{"fruit in /fruit_branch", count(s.fruit_branch)};
     return {optional({"name", &s.name}),
             optional({"source", &s.source}),
+            optional({"material", &s.material}),
+            optional(array("color", s.color, {})),
             array("parent", s.parent, {}),
             array("parent_at", s.parent_at, branch),
             array("level", s.level, branch),
@@ -27,6 +29,7 @@ std::vector<Field> fields_of(Splines& s) {
             optional(array("leaf_rotation", s.leaf_rotation, leaf)),
             optional(array("leaf_length", s.leaf_length, leaf)),
             optional(array("leaf_width", s.leaf_width, leaf)),
+            optional(array("leaf_kind", s.leaf_kind, {})),
             optional(array("fruit_branch", s.fruit_branch, {})),
             optional(array("fruit_at", s.fruit_at, fruit)),
             optional(array("fruit_position", s.fruit_position, fruit)),

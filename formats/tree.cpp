@@ -11,6 +11,7 @@ std::vector<Field> fields_of(Tree& t) {
     return {optional({"name", &t.name}),
             optional({"material", &t.material}),
             optional({"source", &t.source}),
+            optional(array("color", t.color, {})),
             array("parent", t.parent, {}),
             array("kind", t.kind, body, Kind::branch),
             array("mass", t.mass, body),

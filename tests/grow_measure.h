@@ -68,7 +68,7 @@ inline GrowthParameters plain(int levels) {
     p.levels = levels;
     p.shape = 0;
     p.scale = 12;
-    p.base_size = 0.25;
+    p.level[0].base_size = 0.25;
     p.ratio = 0.02;
     p.ratio_power = 1.3;
     for (LevelParameters& l : p.level) {

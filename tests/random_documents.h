@@ -138,6 +138,7 @@ inline Splines random_splines(std::size_t branches, Random& random) {
         s.leaf_rotation.push_back(random.rotation());
         s.leaf_length.push_back(random.positive());
         s.leaf_width.push_back(random.positive());
+        s.leaf_kind.push_back(random.below(2));
         if (b % 2 == 0) continue;
         s.fruit_branch.push_back(random.below(branches));
         s.fruit_at.push_back(random.fraction());
@@ -145,6 +146,8 @@ inline Splines random_splines(std::size_t branches, Random& random) {
         s.fruit_center.push_back(Vec3(1, 2, random.fraction()));
         s.fruit_radius.push_back(random.positive());
     }
+    for (int i = 0; i < 4; ++i) s.color.push_back({random.fraction(), random.fraction(), random.fraction()});
+    s.material = "black-willow";
     s.source = "test";
     return s;
 }
@@ -206,7 +209,7 @@ inline bool same(const Tree& a, const Tree& b) {
            same(a.inertia, b.inertia) && same(a.joint_position, b.joint_position) &&
            same(a.joint_rotation, b.joint_rotation) && same(a.stiffness, b.stiffness) && same(a.damping, b.damping) &&
            same(a.size, b.size) && same(a.branch, b.branch) && same(a.level, b.level) && same(a.s, b.s) &&
-           a.name == b.name && a.material == b.material && a.source == b.source;
+           a.name == b.name && a.material == b.material && a.source == b.source && same(a.color, b.color);
 }
 
 inline bool same(const Splines& a, const Splines& b) {
@@ -216,7 +219,8 @@ inline bool same(const Splines& a, const Splines& b) {
            same(a.leaf_rotation, b.leaf_rotation) && same(a.leaf_length, b.leaf_length) &&
            same(a.leaf_width, b.leaf_width) && same(a.fruit_branch, b.fruit_branch) && same(a.fruit_at, b.fruit_at) &&
            same(a.fruit_position, b.fruit_position) && same(a.fruit_center, b.fruit_center) &&
-           same(a.fruit_radius, b.fruit_radius) && a.name == b.name && a.source == b.source;
+           same(a.fruit_radius, b.fruit_radius) && same(a.leaf_kind, b.leaf_kind) && same(a.color, b.color) &&
+           a.material == b.material && a.name == b.name && a.source == b.source;
 }
 
 inline bool same(const MotionFrame& a, const MotionFrame& b) {

@@ -44,7 +44,7 @@ TEST_CASE("each rule of a tree") {
     CHECK(broken(good, [](Tree& t) { t.parent[4] = 4; }) == "parent/4");
     CHECK(broken(good, [](Tree& t) { t.parent[4] = 7; }) == "parent/4");
     CHECK(broken(good, [](Tree& t) { t.parent[4] = -2; }) == "parent/4");
-    CHECK(broken(good, [](Tree& t) { t.kind[2] = Kind(3); }) == "kind/2");
+    CHECK(broken(good, [](Tree& t) { t.kind[2] = Kind(4); }) == "kind/2");
     CHECK(broken(good, [](Tree& t) { t.mass[3] = 0; }) == "mass/3");
     CHECK(broken(good, [](Tree& t) { t.mass[3] = not_a_number; }) == "mass/3");
     CHECK(broken(good, [](Tree& t) { t.com[3].z() = not_a_number; }) == "com/3");

@@ -87,7 +87,7 @@ TEST_CASE("Energy does not rise at any stiffness") {
     Tree tree = make_tree::random_tree(200, 3);
     if (gravity) {
         scene.gravity = Vec3(0, -9.81, 0);
-        tree = segment(grow_bodies(default_growth(), 2, true, true, 300), wood_presets().front(), {});
+        tree = segment(grow_bodies(default_growth(), 2, {true, false, true}, 300), wood_presets().front(), {});
     }
     Run<double> run(tree, scene);
     std::mt19937 random(7);

@@ -19,7 +19,7 @@ TEST_CASE("The shape ratio is the paper's table") {
 
 TEST_CASE("Trunk and first branches have the paper's lengths, radii, angles and places") {
     GrowthParameters p = plain(2);
-    const Splines s = grow(p, 1, false, false);
+    const Splines s = grow(p, 1, {});
     check_sound(s);
     REQUIRE(s.branches() == 9);
     CHECK((s.point[last(s, 0)] - Vec3(0, 12, 0)).norm() < 1e-12);
@@ -45,7 +45,7 @@ TEST_CASE("Trunk and first branches have the paper's lengths, radii, angles and 
 TEST_CASE("Deeper stems shorten along their parent and come in the paper's numbers") {
     GrowthParameters p = plain(4);
     p.level[3].length = 0.4;
-    const Splines s = grow(p, 3, false, false);
+    const Splines s = grow(p, 3, {});
     check_sound(s);
     double expected2 = 0, expected3 = 0;
     for (std::size_t b : of_level(s, 1)) {
@@ -74,7 +74,7 @@ TEST_CASE("Deeper stems shorten along their parent and come in the paper's numbe
 TEST_CASE("A negative variation of the down angle runs from base to tip") {
     GrowthParameters p = plain(2);
     p.level[1].down_angle_v = -40;
-    const Splines s = grow(p, 1, false, false);
+    const Splines s = grow(p, 1, {});
     for (std::size_t b = 1; b < s.branches(); ++b) {
         const double ratio = (12 - 12 * s.parent_at[b]) / 9;
         CHECK(angle(start_direction(s, b), Vec3::UnitY()) == Approx(60 - 40 * (1 - 2 * (0.2 + 0.8 * ratio))));
@@ -85,7 +85,7 @@ TEST_CASE("A negative rotation puts children on alternating sides, whorls where 
     GrowthParameters p = plain(2);
     p.level[1].rotate = -90;
     p.level[1].branch_dist = 1;
-    const Splines s = grow(p, 1, false, false);
+    const Splines s = grow(p, 1, {});
     for (std::size_t b = 2; b < s.branches(); ++b) {
         const Vec3 a = start_direction(s, b - 1), c = start_direction(s, b);
         CHECK(std::abs(angle(Vec3(a.x(), 0, a.z()), Vec3(c.x(), 0, c.z())) - 180) < 1e-6);
@@ -100,7 +100,7 @@ TEST_CASE("Taper follows the paper: cylinder, cone, rounded tip, bumps; radii ar
     GrowthParameters p = plain(1);
     const auto radius_over = [&](double taper, const auto& expected) {
         p.level[0].taper = taper;
-        const Splines s = grow(p, 1, false, false);
+        const Splines s = grow(p, 1, {});
         check_sound(s);
         for (std::size_t i = 0; i < s.points(); ++i)
             CHECK(s.radius[i] == Approx(std::max(expected(s.point[i].y()), 0.05 * 0.24)).margin(1e-12));
@@ -125,7 +125,7 @@ TEST_CASE("Flare widens the lowest eighth of the trunk alone") {
     GrowthParameters p = plain(1);
     p.level[0].taper = 0;
     p.flare = 0.6;
-    const Splines s = grow(p, 1, false, false);
+    const Splines s = grow(p, 1, {});
     CHECK(s.radius[0] == Approx(0.24 * (1 + 0.6 * 0.99)));
     std::size_t between = 0;
     for (std::size_t i = 0; i < s.points(); ++i) {
@@ -140,7 +140,7 @@ TEST_CASE("A curved stem is the polygon of its angles, and curve_back bends it b
     GrowthParameters p = plain(1);
     p.level[0].curve_res = 10;
     p.level[0].curve = 90;
-    Splines s = grow(p, 1, false, false);
+    Splines s = grow(p, 1, {});
     CHECK(angle(start_direction(s, 0), end_direction(s, 0)) == Approx(81));
     Vec3 tip = Vec3::Zero();
     for (int i = 0; i < 10; ++i) tip += 1.2 * Vec3(0, std::cos(i * 9 * pi / 180), std::sin(i * 9 * pi / 180));
@@ -148,7 +148,7 @@ TEST_CASE("A curved stem is the polygon of its angles, and curve_back bends it b
     CHECK(std::hypot(s.point.back().x(), s.point.back().z()) == Approx(tip.z()));
     p.level[0].curve = 50;
     p.level[0].curve_back = -50;
-    s = grow(p, 1, false, false);
+    s = grow(p, 1, {});
     // Five turns of 50 / 5 up to the middle, four of as much back.
     CHECK(angle(start_direction(s, 0), s.point[6] - s.point[5]) == Approx(50));
     CHECK(angle(start_direction(s, 0), end_direction(s, 0)) == Approx(10));
@@ -158,7 +158,7 @@ TEST_CASE("A negative curve_v makes a helix about the stem's axis") {
     GrowthParameters p = plain(1);
     p.level[0].curve_res = 12;
     p.level[0].curve_v = -30;
-    const Splines s = grow(p, 1, false, false);
+    const Splines s = grow(p, 1, {});
     // Steps make equal angles with the axis and sum to it: one whole turn.
     const Vec3 axis = (s.point.back() - s.point.front()).normalized();
     CHECK((s.point.back() - s.point.front()).norm() == Approx(12 * std::cos(30 * pi / 180)));
@@ -169,7 +169,7 @@ TEST_CASE("Splits double the stems at each segment's end, as thick as where they
     GrowthParameters p = plain(1);
     p.level[0].seg_splits = 1;
     p.level[0].split_angle = 20;
-    const Splines s = grow(p, 5, false, false);
+    const Splines s = grow(p, 5, {});
     check_sound(s);
     REQUIRE(s.branches() == 8);
     double total = 0;
@@ -185,7 +185,7 @@ TEST_CASE("Splits double the stems at each segment's end, as thick as where they
     p.level[0].seg_splits = 0.5;
     // Three places, half a clone each: one or two of the trunk's own, whichever seed.
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        const Splines t = grow(p, seed, false, false);
+        const Splines t = grow(p, seed, {});
         const std::size_t own = children(t, 0).size();
         CHECK((own == 1 || own == 2));
     }
@@ -195,7 +195,7 @@ TEST_CASE("Base splits spread evenly about the vertical") {
     GrowthParameters p = plain(1);
     p.level[0].base_splits = 2;
     p.level[0].split_angle = 25;
-    const Splines s = grow(p, 1, false, false);
+    const Splines s = grow(p, 1, {});
     REQUIRE(s.branches() == 3);
     // The split angle is turned back over the three segments left, a third of it at once.
     const Vec3 d[3] = {s.point[2] - s.point[1], start_direction(s, 1), start_direction(s, 2)};
@@ -209,11 +209,11 @@ TEST_CASE("Base splits spread evenly about the vertical") {
 
 TEST_CASE("Attraction turns the third level's stems up or down, never the first two") {
     GrowthParameters p = plain(3);
-    const Splines none = grow(p, 1, false, false);
-    p.attraction_up = 1;
-    const Splines up = grow(p, 1, false, false);
-    p.attraction_up = -1;
-    const Splines down = grow(p, 1, false, false);
+    const Splines none = grow(p, 1, {});
+    p.level[2].attraction_up = p.level[3].attraction_up = 1;
+    const Splines up = grow(p, 1, {});
+    p.level[2].attraction_up = p.level[3].attraction_up = -1;
+    const Splines down = grow(p, 1, {});
     REQUIRE(up.branches() == none.branches());
     for (std::size_t b = 0; b < up.branches(); ++b) {
         const double slope = end_direction(none, b).y();
@@ -233,7 +233,7 @@ TEST_CASE("Leaves come in the paper's numbers and angles") {
     p.leaf_scale_x = 0.25;
     p.level[2].down_angle = 50;
     p.level[2].rotate = 77;
-    const Splines s = grow(p, 1, true, false);
+    const Splines s = grow(p, 1, {true});
     check_sound(s);
     std::map<std::int32_t, double> number;
     for (std::size_t i = 0; i < s.leaves(); ++i) {
@@ -248,7 +248,7 @@ TEST_CASE("Leaves come in the paper's numbers and angles") {
     for (std::size_t b = 1; b < s.branches(); ++b)
         CHECK(std::abs(number[std::int32_t(b)] - 20 * (0.5 + 0.5 * s.parent_at[b])) < 1);
     CHECK(number.count(0) == 0);
-    CHECK(grow(p, 1, false, false).leaves() == 0);
+    CHECK(grow(p, 1, {}).leaves() == 0);
 
     const auto mean_up = [](const Splines& t) {
         double sum = 0;
@@ -256,9 +256,9 @@ TEST_CASE("Leaves come in the paper's numbers and angles") {
         return sum / double(t.leaves());
     };
     p.leaf_bend = 0.6;
-    CHECK(mean_up(grow(p, 1, true, false)) > mean_up(s) + 0.1);
+    CHECK(mean_up(grow(p, 1, {true})) > mean_up(s) + 0.1);
     p.leaf_bend = 1;
-    CHECK(mean_up(grow(p, 1, true, false)) == Approx(1));
+    CHECK(mean_up(grow(p, 1, {true})) == Approx(1));
 }
 
 TEST_CASE("A negative number of leaves is a fan at the tip") {
@@ -266,7 +266,7 @@ TEST_CASE("A negative number of leaves is a fan at the tip") {
     p.leaves = -8;
     p.level[1].down_angle = 0;
     p.level[1].rotate = 120;
-    const Splines s = grow(p, 1, true, false);
+    const Splines s = grow(p, 1, {true});
     REQUIRE(s.leaves() == 8);
     check_sound(s);
     for (std::size_t i = 0; i < 8; ++i) {
@@ -280,11 +280,11 @@ TEST_CASE("Fruit hangs below the stems of the last level") {
     GrowthParameters p = plain(2);
     p.fruits = 3;
     p.fruit_radius = 0.04;
-    const Splines s = grow(p, 1, false, true);
+    const Splines s = grow(p, 1, {false, false, true});
     check_sound(s);
     CHECK(std::abs(double(s.fruits()) - 8 * 3 * 0.8125) <= 8);
     for (std::size_t i = 0; i < s.fruits(); ++i) CHECK(s.fruit_radius[i] == 0.04);
-    CHECK(grow(p, 1, false, false).fruits() == 0);
+    CHECK(grow(p, 1, {}).fruits() == 0);
 }
 
 TEST_CASE("Parameters out of range are refused by name") {
@@ -292,23 +292,23 @@ TEST_CASE("Parameters out of range are refused by name") {
     const auto refused = [](const std::string& name, auto change) {
         GrowthParameters p = default_growth();
         change(p);
-        CHECK_THROWS_AS(grow(p, 1, true, true), std::invalid_argument);
-        CHECK_THROWS_WITH(grow(p, 1, true, true), Catch::StartsWith(name + ": is "));
-        CHECK_THROWS_WITH(grow_bodies(p, 1, true, true, 1000), Catch::StartsWith(name + ": is "));
+        CHECK_THROWS_AS(grow(p, 1, {true, false, true}), std::invalid_argument);
+        CHECK_THROWS_WITH(grow(p, 1, {true, false, true}), Catch::StartsWith(name + ": is "));
+        CHECK_THROWS_WITH(grow_bodies(p, 1, {true, false, true}, 1000), Catch::StartsWith(name + ": is "));
     };
     refused("levels", [](GrowthParameters& p) { p.levels = 0; });
     refused("levels", [](GrowthParameters& p) { p.levels = 5; });
-    refused("shape", [](GrowthParameters& p) { p.shape = 8; });
+    refused("shape", [](GrowthParameters& p) { p.shape = 9; });
     refused("scale", [](GrowthParameters& p) { p.scale = 0; });
     refused("scale", [&](GrowthParameters& p) { p.scale = nan; });
     refused("scale", [&](GrowthParameters& p) { p.scale = inf; });
     refused("scale_v", [](GrowthParameters& p) { p.scale_v = p.scale; });
-    refused("base_size", [](GrowthParameters& p) { p.base_size = 1; });
+    refused("level[0].base_size", [](GrowthParameters& p) { p.level[0].base_size = 1; });
     refused("ratio", [](GrowthParameters& p) { p.ratio = 0; });
     refused("ratio_power", [&](GrowthParameters& p) { p.ratio_power = nan; });
     refused("radius_scale", [](GrowthParameters& p) { p.radius_scale = -1; });
     refused("flare", [](GrowthParameters& p) { p.flare = -0.1; });
-    refused("attraction_up", [&](GrowthParameters& p) { p.attraction_up = -inf; });
+    refused("level[0].attraction_up", [&](GrowthParameters& p) { p.level[0].attraction_up = -inf; });
     refused("level[0].branches", [](GrowthParameters& p) { p.level[0].branches = 2; });
     refused("level[1].branches", [](GrowthParameters& p) { p.level[1].branches = -1; });
     refused("level[2].length", [](GrowthParameters& p) { p.level[2].length = 0; });
@@ -321,12 +321,17 @@ TEST_CASE("Parameters out of range are refused by name") {
     refused("level[1].seg_splits", [](GrowthParameters& p) { p.level[1].seg_splits = -0.1; });
     refused("level[1].seg_splits", [](GrowthParameters& p) { p.level[1].seg_splits = 9; });
     refused("leaf_scale", [](GrowthParameters& p) { p.leaf_scale = 0; });
+    refused("leaf_scale_v", [](GrowthParameters& p) { p.leaf_scale_v = -1; });
+    refused("leaf_angles", [](GrowthParameters& p) { p.leaf_angles = {1, 2}; });
+    refused("prune_width_peak", [](GrowthParameters& p) { p.prune_width_peak = 1; });
+    refused("pipe_exponent", [](GrowthParameters& p) { p.pipe_exponent = 0.5; });
+    refused("petals", [](GrowthParameters& p) { p.petals = 0; });
     refused("leaf_bend", [](GrowthParameters& p) { p.leaf_bend = 1.5; });
     refused("fruits", [](GrowthParameters& p) { p.fruits = -1; });
     GrowthParameters p = default_growth();
     p.level[3].down_angle = 1000;
     p.levels = 2;
-    CHECK_NOTHROW(grow(p, 1, true, true));
+    CHECK_NOTHROW(grow(p, 1, {true, false, true}));
     Splines tree;
-    CHECK_FALSE(grow_up_to(p, 1, false, false, 30, tree));
+    CHECK_FALSE(grow_up_to(p, 1, {}, 30, tree));
 }

@@ -35,21 +35,22 @@ std::string bytes_of(const Splines& s) {
 
 TEST_CASE("The same seed gives the same bytes, another one another tree") {
     const GrowthParameters p = default_growth();
-    const std::string once = bytes_of(grow(p, 7, true, true));
-    CHECK((once == bytes_of(grow(p, 7, true, true))));
-    CHECK((once != bytes_of(grow(p, 8, true, true))));
-    const Splines with = grow(p, 7, true, true), without = grow(p, 7, false, false);
+    const std::string once = bytes_of(grow(p, 7, {true, false, true}));
+    CHECK((once == bytes_of(grow(p, 7, {true, false, true}))));
+    CHECK((once != bytes_of(grow(p, 8, {true, false, true}))));
+    const Splines with = grow(p, 7, {true, false, true}), without = grow(p, 7, {});
     CHECK(with.point == without.point);
-    CHECK((bytes_of(grow_bodies(p, 7, true, true, 3000)) == bytes_of(grow_bodies(p, 7, true, true, 3000))));
+    CHECK((bytes_of(grow_bodies(p, 7, {true, false, true}, 3000)) ==
+           bytes_of(grow_bodies(p, 7, {true, false, true}, 3000))));
 }
 
 TEST_CASE("One parameter changed leaves the other draws alone") {
     const GrowthParameters p = default_growth();
-    const Splines before = grow(p, 7, false, false);
+    const Splines before = grow(p, 7, {});
     GrowthParameters changed = p;
     changed.level[3].length_v = 0.05;
     changed.level[3].curve_v = 10;
-    Splines after = grow(changed, 7, false, false);
+    Splines after = grow(changed, 7, {});
     REQUIRE(after.level == before.level);
     for (std::size_t b = 0; b < before.branches(); ++b)
         if (before.level[b] < 3)
@@ -60,15 +61,15 @@ TEST_CASE("One parameter changed leaves the other draws alone") {
     changed = plain(2);
     changed.shape = 3;
     changed.level[1].length_v = 0.1;
-    const Splines few = grow(changed, 7, false, false);
+    const Splines few = grow(changed, 7, {});
     changed.level[1].branches = 11;
-    const Splines more = grow(changed, 7, false, false);
+    const Splines more = grow(changed, 7, {});
     for (std::size_t b = 1; b < few.branches(); ++b) CHECK(length(few, b) == Approx(length(more, b)));
 }
 
 TEST_CASE("The default tree is a sound broad-leaved tree of about 8 m") {
     for (std::uint64_t seed : {1, 2, 3}) {
-        const Splines s = grow(default_growth(), seed, true, true);
+        const Splines s = grow(default_growth(), seed, {true, false, true});
         check_sound(s);
         double top = 0;
         for (const Vec3& x : s.point) top = std::max(top, x.y());
@@ -84,7 +85,7 @@ TEST_CASE("A tree of N bodies has N within a tenth, and stays a tree") {
     for (const std::int64_t bodies : {100, 137, 250, 600, 1000, 4321, 20000, 100000, 1000000})
         for (const bool foliage : {false, true}) {
             INFO(bodies << (foliage ? " with" : " without") << " leaves and fruit");
-            const Splines s = grow_bodies(default_growth(), 11, foliage, foliage, bodies);
+            const Splines s = grow_bodies(default_growth(), 11, {foliage, false, foliage}, bodies);
             check_sound(s);
             CHECK(std::abs(double(count_bodies(s, SegmentOptions())) / double(bodies) - 1) <= 0.1);
             CHECK(s.branches() >= 8);
@@ -96,7 +97,7 @@ TEST_CASE("A tree of N bodies has N within a tenth, and stays a tree") {
 TEST_CASE("Neighbouring numbers give similar trees") {
     std::size_t before = 0;
     for (std::int64_t bodies = 200; bodies < 40000; bodies *= 2) {
-        const std::size_t boughs = of_level(grow_bodies(default_growth(), 4, true, true, bodies), 1).size();
+        const std::size_t boughs = of_level(grow_bodies(default_growth(), 4, {true, false, true}, bodies), 1).size();
         CHECK(double(boughs) > 0.75 * double(before));
         before = boughs;
     }
@@ -105,10 +106,10 @@ TEST_CASE("Neighbouring numbers give similar trees") {
 TEST_CASE("Stems of one level only, and numbers that cannot be met") {
     GrowthParameters p = plain(2);
     p.level[1].branches = 33;
-    const Splines s = grow_bodies(p, 1, false, false, 5000);
+    const Splines s = grow_bodies(p, 1, {}, 5000);
     CHECK(std::abs(double(count_bodies(s, SegmentOptions())) - 5000) <= 500);
     p = plain(1);
-    CHECK_THROWS_WITH(grow_bodies(p, 1, false, false, 5000), Catch::Contains("5000") && Catch::Contains("bodies"));
-    CHECK_THROWS_WITH(grow_bodies(p, 1, false, false, 0), Catch::Contains("bodies"));
-    CHECK_THROWS_WITH(grow_bodies(p, 1, false, false, 20000001), Catch::Contains("bodies"));
+    CHECK_THROWS_WITH(grow_bodies(p, 1, {}, 5000), Catch::Contains("5000") && Catch::Contains("bodies"));
+    CHECK_THROWS_WITH(grow_bodies(p, 1, {}, 0), Catch::Contains("bodies"));
+    CHECK_THROWS_WITH(grow_bodies(p, 1, {}, 20000001), Catch::Contains("bodies"));
 }

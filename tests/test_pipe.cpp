@@ -14,7 +14,7 @@ TEST_CASE("A branch bears the cross-sections of its side branches") {
     s.point = {{0, 0, 0},   {0, 1, 0},    {0, 2, 0},   {0, 0.5, 0}, {1, 0.5, 0},
                {0, 0.5, 0}, {-1, 0.5, 0}, {0, 1.5, 0}, {0, 1.5, 1}};
     s.radius = {0.001, 0.001, 0.001, 0.003, 0.001, 0.004, 0.001, 0.012, 0.001};
-    thicken_by_pipe_model(s);
+    thicken_by_pipe_model(s, 2);
     // Each twig's tip counts 1e-6, each load at both points beside it.
     CHECK(s.radius[0] == Approx(std::sqrt(4e-6)));
     CHECK(s.radius[1] == Approx(std::sqrt(4e-6)));
@@ -24,7 +24,7 @@ TEST_CASE("A branch bears the cross-sections of its side branches") {
 }
 
 TEST_CASE("A grown tree's branches are as thick as all tips beyond them together") {
-    const Splines s = grow(default_growth(), 4, false, false);
+    const Splines s = grow(default_growth(), 4, {});
     std::vector<double> tips(s.branches(), 0.0);
     for (std::size_t b = s.branches(); b-- > 0;) {
         const double tip = s.radius[std::size_t(s.first_point[b + 1]) - 1];

@@ -117,7 +117,8 @@ TEST_CASE("The sag of a cantilever approaches w L^4 / 8 E I with the square of t
 
 TEST_CASE("The drawn pose stays where it was drawn") {
     const unsigned seed = GENERATE(1u, 2u, 3u);
-    const Tree tree = segment(grow_bodies(default_growth(), seed, true, true, 800), wood_presets().front(), {});
+    const Tree tree =
+        segment(grow_bodies(default_growth(), seed, {true, false, true}, 800), wood_presets().front(), {});
     Scene scene;
     Run<double> run(tree, scene);
     Run<double> drawn(tree, nothing());

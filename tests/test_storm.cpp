@@ -11,7 +11,7 @@ using namespace simulate;
 namespace {
 
 Tree twiggy_tree() {
-    Tree tree = segment(grow_bodies(default_growth(), 5, false, false, 10000), wood_presets().front(), {});
+    Tree tree = segment(grow_bodies(default_growth(), 5, {}, 10000), wood_presets().front(), {});
     double thinnest = 1;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
         if (tree.kind[i] == Kind::branch) thinnest = std::min(thinnest, tree.size[i][2]);

@@ -55,7 +55,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--sides", o.sides, "Corners of the thickest branch's rings, with --mesh (8)")
         ->option_text("N")
         ->check(whole_number(3, 256));
-    app.add_option("--material", o.material, "Wood: a preset's name (--list-materials) or a bough-material file")
+    app.add_option("--material", o.material,
+                   "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
         ->option_text("NAME|FILE");
     app.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
     app.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
@@ -83,8 +84,14 @@ void refuse_contradictions(const Options& o) {
     }
 }
 
-Material chosen_material(const Options& o) {
-    if (o.material.empty()) return wood_presets().front();
+Material chosen_material(const Options& o, const Splines& splines) {
+    if (o.material.empty()) {
+        if (splines.material.empty()) return wood_presets().front();
+        if (const Material* preset = find_wood(splines.material)) return *preset;
+        throw InputError(input_name(o.input) + ": /material", "is \"" + splines.material +
+                                                                  "\", expected a preset (see --list-materials); "
+                                                                  "--material overrides it");
+    }
     if (const Material* preset = find_wood(o.material)) return *preset;
     std::error_code none;
     if (o.material.find_first_of("./") == std::string::npos && !std::filesystem::exists(o.material, none))
@@ -135,7 +142,7 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
     std::vector<Mat3> R_wb;
     std::vector<Vec3> x_w;
     drawn_pose(tree, R_wb, x_w);
-    std::size_t kinds[3] = {0, 0, 0}, roots = 0;
+    std::size_t kinds[4] = {0, 0, 0, 0}, roots = 0;
     double mass = 0, top = 0, softest = INFINITY, stiffest = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         ++kinds[std::size_t(tree.kind[i])];
@@ -149,7 +156,7 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
     text << "splines     " << splines.branches() << " branches, " << splines.points() << " points, " << splines.leaves()
          << " leaves, " << splines.fruits() << " fruit\n"
          << "bodies      " << tree.size_bodies() << ": " << kinds[0] << " of branches, " << kinds[1] << " leaves, "
-         << kinds[2] << " fruit; roots " << roots << "\n"
+         << kinds[3] << " petals, " << kinds[2] << " fruit; roots " << roots << "\n"
          << "material    " << tree.material << "\n"
          << "mass        " << mass << " kg\n"
          << "height      " << top << " m\n"
@@ -193,10 +200,10 @@ void write_each(const std::vector<Tree>& trees, const Options& o) {
 void work(Options& o) {
     if (o.list_materials) return list_materials();
     refuse_contradictions(o);
-    const Material material = chosen_material(o);
     const std::string name = input_name(o.input);
     std::vector<std::string> notes;
     Splines splines = read_splines_of(o, notes);
+    const Material material = chosen_material(o, splines);
     splines.source = with_command_line(splines.source, o.common);
     SegmentReport report;
     Tree tree;

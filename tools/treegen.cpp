@@ -70,6 +70,7 @@ void leave_out(Splines& splines, const Options& o, std::vector<std::string>& not
         splines.leaf_rotation.clear();
         splines.leaf_length.clear();
         splines.leaf_width.clear();
+        splines.leaf_kind.clear();
     }
     if (!o.fruit && splines.fruits() > 0) {
         notes.push_back(std::to_string(splines.fruits()) + " fruit left out (--fruit keeps them)");
@@ -100,8 +101,8 @@ Splines imported(Options& o) {
 Splines grown(const Options& o) {
     const std::uint64_t seed = o.seed.value_or(0);
     try {
-        return o.bodies ? grow_bodies(default_growth(), seed, o.leaves, o.fruit, *o.bodies)
-                        : grow(default_growth(), seed, o.leaves, o.fruit);
+        return o.bodies ? grow_bodies(default_growth(), seed, {o.leaves, false, o.fruit}, *o.bodies)
+                        : grow(default_growth(), seed, {o.leaves, false, o.fruit});
     } catch (const std::invalid_argument& error) {
         throw UsageError(error.what());
     }

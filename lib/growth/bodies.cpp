@@ -13,7 +13,7 @@ class Builder {
 public:
     Builder(const Splines& splines, const Curves& curves, const CutRule& rule);
     void add_curve(std::size_t c);
-    void add_leaf(std::size_t k, double thickness);
+    void add_leaf(std::size_t k, const Material&);
     void add_fruit(std::size_t k);
     Tree finish();
 
@@ -95,11 +95,13 @@ void Builder::add_curve(std::size_t c) {
     }
 }
 
-void Builder::add_leaf(std::size_t k, double thickness) {
+void Builder::add_leaf(std::size_t k, const Material& material) {
     const std::int32_t branch = splines_.leaf_branch[k];
     const std::int32_t parent = piece_at(curves_.place(branch, splines_.leaf_at[k]));
-    add(Kind::leaf, parent, splines_.leaf_position[k], splines_.leaf_rotation[k].normalized(),
-        {splines_.leaf_length[k], splines_.leaf_width[k], thickness}, branch, splines_.leaf_at[k]);
+    const bool petal = splines_.is_petal(k);
+    add(petal ? Kind::petal : Kind::leaf, parent, splines_.leaf_position[k], splines_.leaf_rotation[k].normalized(),
+        {splines_.leaf_length[k], splines_.leaf_width[k], petal ? material.petal_thickness : material.leaf_thickness},
+        branch, splines_.leaf_at[k]);
 }
 
 void Builder::add_fruit(std::size_t k) {
@@ -117,10 +119,10 @@ Tree Builder::finish() {
 
 } // namespace
 
-Tree make_bodies(const Splines& splines, const Curves& curves, const CutRule& rule, double leaf_thickness) {
+Tree make_bodies(const Splines& splines, const Curves& curves, const CutRule& rule, const Material& material) {
     Builder build(splines, curves, rule);
     for (std::size_t c = 0; c < curves.size(); ++c) build.add_curve(c);
-    for (std::size_t k = 0; k < splines.leaves(); ++k) build.add_leaf(k, leaf_thickness);
+    for (std::size_t k = 0; k < splines.leaves(); ++k) build.add_leaf(k, material);
     for (std::size_t k = 0; k < splines.fruits(); ++k) build.add_fruit(k);
     return build.finish();
 }

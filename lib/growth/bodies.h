@@ -9,10 +9,11 @@
 // Writes every array but mass, com, inertia, stiffness, damping. O(points + bodies log points).
 #pragma once
 #include "../model/tree.h"
+#include "../model/wood.h"
 #include "cut.h"
 
 namespace bough {
 
-Tree make_bodies(const Splines&, const Curves&, const CutRule&, double leaf_thickness);
+Tree make_bodies(const Splines&, const Curves&, const CutRule&, const Material&);
 
 } // namespace bough

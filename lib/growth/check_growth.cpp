@@ -39,6 +39,9 @@ void check_angles(const std::string& at, const LevelParameters& l) {
 void check_level(const std::string& at, const LevelParameters& l, bool trunk) {
     check_angles(at, l);
     within(at + "branches", l.branches, 0, trunk ? 1 : 1e6);
+    below(at + "base_size", l.base_size, 0, 1);
+    positive(at + "radius_mod", l.radius_mod, 1e3);
+    within(at + "attraction_up", l.attraction_up, -100, 100);
     within(at + "branch_dist", l.branch_dist, 0, 1);
     positive(at + "length", l.length, 1e3);
     below(at + "length_v", l.length_v, 0, l.length);
@@ -63,23 +66,39 @@ void check_level(const std::string& at, const LevelParameters& l, bool trunk) {
 } // namespace
 
 void check_growth(const GrowthParameters& p) {
-    within("shape", p.shape, 0, 7);
+    within("shape", p.shape, 0, 8);
     within("levels", p.levels, 1, 4);
     positive("scale", p.scale, 1e4);
     below("scale_v", p.scale_v, 0, p.scale);
-    below("base_size", p.base_size, 0, 1);
     positive("ratio", p.ratio, 1);
     within("ratio_power", p.ratio_power, 0, 10);
     positive("radius_scale", p.radius_scale, 1e3);
     below("radius_scale_v", p.radius_scale_v, 0, p.radius_scale);
     within("flare", p.flare, 0, 100);
-    within("attraction_up", p.attraction_up, -100, 100);
+    within("prune_ratio", p.prune_ratio, 0, 1);
+    positive("prune_width", p.prune_width, 10);
+    if (!(p.prune_width_peak > 0 && p.prune_width_peak < 1))
+        refuse("prune_width_peak", p.prune_width_peak, "more than 0 and less than 1");
+    within("prune_power_low", p.prune_power_low, 0, 10);
+    within("prune_power_high", p.prune_power_high, 0, 10);
     for (int n = 0; n < p.levels; ++n) check_level("level[" + std::to_string(n) + "].", p.level[n], n == 0);
     within("leaves", p.leaves, -1e6, 1e6);
     within("fruits", p.fruits, 0, 1e6);
-    if (p.levels < 4 && p.leaves != 0) check_angles("level[" + std::to_string(p.levels) + "].", p.level[p.levels]);
+    within("leaf_distrib", p.leaf_distrib, 0, 8);
+    if (!p.leaf_angles.empty() && p.leaf_angles.size() != 4)
+        refuse("leaf_angles", double(p.leaf_angles.size()), "none or 4: down_angle, down_angle_v, rotate, rotate_v");
+    for (const double angle : p.leaf_angles) within("leaf_angles", angle, -360, 360);
+    within("blossoms", p.blossoms, 0, 1e6);
+    within("petals", p.petals, 1, 1000);
+    positive("petal_scale", p.petal_scale, 1e3);
+    positive("petal_scale_x", p.petal_scale_x, 1e3);
+    within("fruit_stalk", p.fruit_stalk, 0.01, 1000);
+    if (p.pipe_exponent != 0) within("pipe_exponent", p.pipe_exponent, 1, 4);
+    if (p.levels < 4 && p.leaves != 0 && p.leaf_angles.empty())
+        check_angles("level[" + std::to_string(p.levels) + "].", p.level[p.levels]);
     if (p.leaf_shape < 0) refuse("leaf_shape", p.leaf_shape, "0 or more");
     positive("leaf_scale", p.leaf_scale, 1e3);
+    below("leaf_scale_v", p.leaf_scale_v, 0, p.leaf_scale);
     positive("leaf_scale_x", p.leaf_scale_x, 1e3);
     within("leaf_bend", p.leaf_bend, 0, 1);
     positive("fruit_radius", p.fruit_radius, 1e3);

@@ -8,13 +8,12 @@ GrowthParameters default_growth() {
     p.shape = 7;
     p.levels = 4;
     p.scale = 6.7;
-    p.base_size = 0.2;
     p.ratio = 0.0125;
     p.ratio_power = 1.15;
     p.flare = 0.5;
-    p.attraction_up = 0.3;
     LevelParameters& trunk = p.level[0];
     trunk.branches = 1;
+    trunk.base_size = 0.2;
     trunk.length = 1;
     trunk.rotate_v = 180;
     trunk.taper = 0.95;
@@ -37,6 +36,7 @@ GrowthParameters default_growth() {
     bough.curve_v = 90;
     LevelParameters& branch = p.level[2];
     branch.branches = 16;
+    branch.attraction_up = 0.3;
     branch.down_angle = 48;
     branch.down_angle_v = 12;
     branch.rotate = 140;
@@ -49,6 +49,7 @@ GrowthParameters default_growth() {
     branch.curve_v = 80;
     LevelParameters& twig = p.level[3];
     twig.branches = 10;
+    twig.attraction_up = 0.3;
     twig.down_angle = 45;
     twig.down_angle_v = 15;
     twig.rotate = 140;
@@ -66,7 +67,7 @@ GrowthParameters default_growth() {
     p.fruit_radius = 0.008;
     p.least_radius = 0.0005;
     p.most_slender = 150;
-    p.pipe_model = true;
+    p.pipe_exponent = 2;
     return p;
 }
 

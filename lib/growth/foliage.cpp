@@ -30,7 +30,19 @@ Quat upright(const Quat& leaf) {
     return (leaf * Vec3::UnitY()).y() < 0 ? Quat(leaf * about(Vec3::UnitZ(), std::numbers::pi)) : leaf;
 }
 
-void add_leaf(const GrowthParameters& p, const GrownStem& grown, double offset, const Quat& turned, Splines& out) {
+void add_flat(Splines& out, std::int32_t branch, double at, const Vec3& position, const Quat& rotation, double length,
+              double width, int kind) {
+    out.leaf_branch.push_back(branch);
+    out.leaf_at.push_back(at);
+    out.leaf_position.push_back(position);
+    out.leaf_rotation.push_back(rotation.normalized());
+    out.leaf_length.push_back(length);
+    out.leaf_width.push_back(width);
+    out.leaf_kind.push_back(kind);
+}
+
+void add_leaf(const GrowthParameters& p, const GrownStem& grown, double offset, const Quat& turned, double length,
+              Splines& out) {
     const double at = grown.fraction(offset);
     const Vec3 axis = grown.segment_at(offset).frame * Vec3::UnitZ();
     const Vec3 outward = turned * Vec3::UnitZ();
@@ -38,17 +50,13 @@ void add_leaf(const GrowthParameters& p, const GrownStem& grown, double offset, 
     Vec3 position = grown.point_at(offset);
     if (aside.norm() > 1e-9) position += radius_at(out, grown.branch, at) * aside.normalized();
     const Quat leaf = p.leaf_bend > 0 ? bent(upright(turned), position, p.leaf_bend) : turned;
-    out.leaf_branch.push_back(grown.branch);
-    out.leaf_at.push_back(at);
-    out.leaf_position.push_back(position);
-    out.leaf_rotation.push_back(upright(leaf).normalized());
-    out.leaf_length.push_back(p.leaf_scale);
-    out.leaf_width.push_back(p.leaf_scale * p.leaf_scale_x);
+    add_flat(out, grown.branch, at, position, upright(leaf), length, length * p.leaf_scale_x, 0);
 }
 
-// Number on this stem of things of which there are at most `most`: fewer on stems near their parent's base.
-int number_on(const Stem& stem, double most, Draw draw) {
-    const double number = stem.level == 0 ? most : most * shape_ratio(4, stem.place);
+// Number on this stem of things of which there are at most `most`, by the stem's place on its parent.
+int number_on(const GrowthParameters& p, const Stem& stem, double most, Draw draw) {
+    const double share = p.leaf_distrib == 8 ? envelope_ratio(p, stem.place) : shape_ratio(p.leaf_distrib, stem.place);
+    const double number = stem.level == 0 ? most : most * share;
     return static_cast<int>(whole_number(number, random_unit(stem.key, draw)));
 }
 
@@ -81,9 +89,12 @@ double radius_at(const Splines& splines, std::int32_t branch, double at) {
 
 void grow_leaves(const GrowthParameters& p, const GrownStem& grown, Splines& out) {
     const Stem& stem = grown.stem;
-    const LevelParameters& l = p.level[std::min(p.levels, 3)];
+    LevelParameters l = p.level[std::min(p.levels, 3)];
+    if (!p.leaf_angles.empty())
+        l.down_angle = p.leaf_angles[0], l.down_angle_v = p.leaf_angles[1], l.rotate = p.leaf_angles[2],
+        l.rotate_v = p.leaf_angles[3];
     const bool fan = p.leaves < 0;
-    const int count = number_on(stem, std::abs(p.leaves), Draw::leaves);
+    const int count = number_on(p, stem, std::abs(p.leaves), Draw::leaves);
     double turn = 0;
     for (int i = 0; i < count; ++i) {
         const RandomKey key = random_key(stem.key, Draw::leaf, static_cast<std::uint64_t>(i));
@@ -91,23 +102,49 @@ void grow_leaves(const GrowthParameters& p, const GrownStem& grown, Splines& out
         const double down = l.down_angle + std::abs(l.down_angle_v) * random_sign(key, Draw::down_angle);
         const double offset = fan ? stem.length : stem.length * (i + 0.5) / count;
         if (offset < grown.start()) continue;
+        const double length = p.leaf_scale + p.leaf_scale_v * random_sign(key, Draw::leaf_scale);
         const Quat frame = grown.segment_at(offset).frame;
         if (fan) {
             // Spread about the stem's y, in its x-z plane, after which the whole fan leans by the down angle.
             const double spread = std::abs(l.rotate) * ((i + 0.5) / count - 0.5) + varies;
             add_leaf(p, grown, offset,
-                     frame * about(Vec3::UnitX(), down * kDegree) * about(Vec3::UnitY(), spread * kDegree), out);
+                     frame * about(Vec3::UnitX(), down * kDegree) * about(Vec3::UnitY(), spread * kDegree), length,
+                     out);
             continue;
         }
         turn = l.rotate >= 0 ? turn + l.rotate + varies : (i % 2 ? -1 : 1) * (180 + l.rotate + varies);
         add_leaf(p, grown, offset, frame * about(Vec3::UnitZ(), turn * kDegree) * about(Vec3::UnitX(), down * kDegree),
-                 out);
+                 length, out);
+    }
+}
+
+void grow_blossoms(const GrowthParameters& p, const GrownStem& grown, Splines& out) {
+    constexpr double lean = 35 * kDegree; // of a petal off the flower's plane
+    const Stem& stem = grown.stem;
+    const int count = number_on(p, stem, p.blossoms, Draw::blossoms);
+    for (int i = 0; i < count; ++i) {
+        const RandomKey key = random_key(stem.key, Draw::blossom, static_cast<std::uint64_t>(i));
+        const double offset = stem.length * (i + random_unit(key, Draw::blossom)) / count;
+        if (offset < grown.start()) continue;
+        const double at = grown.fraction(offset);
+        const Quat frame = grown.segment_at(offset).frame;
+        const double round = 2 * std::numbers::pi * random_unit(key, Draw::rotate);
+        const Vec3 away = frame * Vec3(std::cos(round), std::sin(round), 0);
+        const Vec3 center = grown.point_at(offset) + (radius_at(out, grown.branch, at) + 0.5 * p.petal_scale) * away;
+        // The flower's axis is z of its frame; x of a petal is its width, so that it leans about x.
+        const Vec3 axis = (away + Vec3::UnitY()).norm() > 1e-6 ? Vec3((away + Vec3::UnitY()).normalized()) : away;
+        const Quat flower = Quat::FromTwoVectors(Vec3::UnitZ(), axis);
+        for (int k = 0; k < p.petals; ++k) {
+            const Quat petal = flower * about(Vec3::UnitZ(), 2 * std::numbers::pi * k / p.petals) *
+                               about(Vec3::UnitX(), std::numbers::pi / 2 - lean);
+            add_flat(out, grown.branch, at, center, petal, p.petal_scale, p.petal_scale * p.petal_scale_x, 1);
+        }
     }
 }
 
 void grow_fruits(const GrowthParameters& p, const GrownStem& grown, Splines& out) {
     const Stem& stem = grown.stem;
-    const int count = number_on(stem, p.fruits, Draw::fruits);
+    const int count = number_on(p, stem, p.fruits, Draw::fruits);
     for (int i = 0; i < count; ++i) {
         const double place =
             (i + random_unit(random_key(stem.key, Draw::fruit, static_cast<std::uint64_t>(i)), Draw::fruit)) / count;
@@ -122,7 +159,7 @@ void grow_fruits(const GrowthParameters& p, const GrownStem& grown, Splines& out
         out.fruit_branch.push_back(grown.branch);
         out.fruit_at.push_back(at);
         out.fruit_position.push_back(joint);
-        out.fruit_center.push_back(joint - Vec3(0, 2 * p.fruit_radius, 0));
+        out.fruit_center.push_back(joint - Vec3(0, (1 + p.fruit_stalk) * p.fruit_radius, 0));
         out.fruit_radius.push_back(p.fruit_radius);
     }
 }

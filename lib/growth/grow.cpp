@@ -36,11 +36,14 @@ double varied(double value, double v, RandomKey key, Draw draw, std::uint64_t in
 class Grower {
 public:
     Grower(const GrowthParameters& parameters, Splines& out) : p_(parameters), out_(out) {}
-    bool run(std::uint64_t seed, bool with_leaves, bool with_fruit, std::int64_t most);
+    bool run(std::uint64_t seed, const Items&, std::int64_t most);
 
 private:
     void plant(std::uint64_t seed);
     void draw(const Stem&, std::int32_t branch);
+    void draw_pruned(Stem&, std::int32_t branch);
+    bool inside_envelope(std::int32_t branch) const;
+    void undraw(std::int32_t branch);
     void draw_points(const Stem&, const std::vector<double>& marks, int segment);
     Quat turned(const Stem&, const Quat& frame, int segment) const;
     int splits_after(const Stem&, int segment) const;
@@ -53,6 +56,7 @@ private:
     Splines& out_;
     std::vector<Stem> stack_, born_;
     std::vector<Segment> segment_;
+    double height_ = 0; // [m] of the trunk, which scales the envelope
 };
 
 void Grower::plant(std::uint64_t seed) {
@@ -61,42 +65,86 @@ void Grower::plant(std::uint64_t seed) {
     trunk.key = random_key(RandomKey{0}, Draw::trunk, seed);
     const double scale = varied(p_.scale, p_.scale_v, trunk.key, Draw::scale);
     trunk.length = scale * varied(l.length, l.length_v, trunk.key, Draw::length);
-    trunk.radius = trunk.length * p_.ratio * varied(p_.radius_scale, p_.radius_scale_v, trunk.key, Draw::radius_scale);
+    trunk.radius = trunk.length * p_.ratio * l.radius_mod *
+                   varied(p_.radius_scale, p_.radius_scale_v, trunk.key, Draw::radius_scale);
     const double roll = varied(l.rotate, l.rotate_v, trunk.key, Draw::rotate);
     const double lean = varied(l.down_angle, l.down_angle_v, trunk.key, Draw::down_angle);
     trunk.frame = about_x(-std::numbers::pi / 2) * about_z(roll * kDegree) * about_x(lean * kDegree);
     stack_.push_back(trunk);
+    height_ = trunk.length;
 }
 
-bool Grower::run(std::uint64_t seed, bool with_leaves, bool with_fruit, std::int64_t most) {
+bool Grower::run(std::uint64_t seed, const Items& items, std::int64_t most) {
     plant(seed);
     out_.first_point.push_back(0);
     while (!stack_.empty()) {
-        const Stem stem = stack_.back();
+        Stem stem = stack_.back();
         stack_.pop_back();
         const auto branch = static_cast<std::int32_t>(out_.branches());
-        born_.clear();
-        draw(stem, branch);
+        p_.prune_ratio > 0 && stem.level > 0 ? draw_pruned(stem, branch) : draw(stem, branch);
         const GrownStem grown{stem, branch, segment_, p_.level[stem.level].curve_res};
         if (stem.level + 1 < p_.levels)
             bear(grown);
         else {
-            if (with_leaves) grow_leaves(p_, grown, out_);
-            if (with_fruit) grow_fruits(p_, grown, out_);
+            if (items.leaves) grow_leaves(p_, grown, out_);
+            if (items.petals) grow_blossoms(p_, grown, out_);
+            if (items.fruit) grow_fruits(p_, grown, out_);
         }
         stack_.insert(stack_.end(), born_.rbegin(), born_.rend());
-        const std::size_t items = out_.branches() + stack_.size() + out_.leaves() + out_.fruits();
-        if (items > static_cast<std::size_t>(most)) return false;
-        if (items > kMostItems || out_.points() > kMostPoints)
+        const std::size_t made = out_.branches() + stack_.size() + out_.leaves() + out_.fruits();
+        if (made > static_cast<std::size_t>(most)) return false;
+        if (made > kMostItems || out_.points() > kMostPoints)
             throw std::invalid_argument("branches, seg_splits, leaves: make more than 5e7 branches and leaves or 1e9 "
                                         "points, expected fewer");
     }
     return true;
 }
 
+// Draws a stem as long as the envelope lets it be (grow.h).
+void Grower::draw_pruned(Stem& stem, std::int32_t branch) {
+    constexpr double shorter = 0.9;
+    constexpr int most_tries = 24;
+    const double length = stem.length, radius = stem.radius;
+    draw(stem, branch);
+    if (inside_envelope(branch)) return;
+    double fits = length;
+    for (int i = 0; i < most_tries && !inside_envelope(branch); ++i) {
+        undraw(branch);
+        fits *= shorter;
+        stem.length = fits;
+        draw(stem, branch);
+    }
+    undraw(branch);
+    stem.length = length + p_.prune_ratio * (fits - length);
+    stem.radius = std::max(radius * std::pow(stem.length / length, p_.ratio_power), std::min(radius, p_.least_radius));
+    draw(stem, branch);
+}
+
+bool Grower::inside_envelope(std::int32_t branch) const {
+    const double bare = p_.level[0].base_size;
+    for (auto i = std::size_t(out_.first_point[std::size_t(branch)]); i < out_.points(); ++i) {
+        const Vec3& at = out_.point[i];
+        const double ratio = (height_ - at.y()) / (height_ * (1 - bare));
+        if (std::hypot(at.x(), at.z()) > height_ * p_.prune_width * envelope_ratio(p_, ratio)) return false;
+    }
+    return true;
+}
+
+void Grower::undraw(std::int32_t branch) {
+    const auto b = std::size_t(branch);
+    const auto first = std::size_t(out_.first_point[b]);
+    out_.parent.resize(b);
+    out_.parent_at.resize(b);
+    out_.level.resize(b);
+    out_.first_point.resize(b + 1);
+    out_.point.resize(first);
+    out_.radius.resize(first);
+}
+
 // Appends a branch: its points, and to born_ the clones that leave it.
 void Grower::draw(const Stem& stem, std::int32_t branch) {
     const LevelParameters& l = p_.level[stem.level];
+    born_.clear();
     out_.parent.push_back(stem.parent);
     out_.parent_at.push_back(stem.parent_at);
     out_.level.push_back(stem.level);
@@ -151,10 +199,10 @@ Quat Grower::turned(const Stem& stem, const Quat& frame, int segment) const {
         const double off = -l.curve_v * kDegree;
         result = result * about_x(-off) * about_z(2 * std::numbers::pi / l.curve_res) * about_x(off);
     }
-    if (stem.level >= 2 && p_.attraction_up != 0) {
+    if (l.attraction_up != 0) {
         // The paper's declination * cos(orientation) about x, written for any frame: about the level axis across the stem.
         const Vec3 across = (result * Vec3::UnitZ()).cross(Vec3::UnitY());
-        result = about(across, p_.attraction_up * declination(result) / l.curve_res) * result;
+        result = about(across, l.attraction_up * declination(result) / l.curve_res) * result;
     }
     return result.normalized();
 }
@@ -212,7 +260,7 @@ void Grower::bear(const GrownStem& grown) {
     if (stem.level == 1) number *= 0.2 + 0.8 * stem.crown;
     if (stem.level > 1) number *= 1 - 0.5 * stem.place;
     const auto count = static_cast<int>(whole_number(number, random_unit(stem.key, Draw::children)));
-    const double base = stem.level == 0 ? p_.base_size * stem.length : 0;
+    const double base = p_.level[stem.level].base_size * stem.length;
     double turn = 0;
     for (int i = 0; i < count; ++i) {
         const double varies = l.rotate_v * random_sign(stem.key, Draw::rotate, static_cast<std::uint64_t>(i));
@@ -237,7 +285,7 @@ double Grower::whorled(double offset, double base, const GrownStem& grown, doubl
 Stem Grower::child_of(const GrownStem& grown, int index, double offset, double turn) const {
     const Stem& stem = grown.stem;
     const LevelParameters& l = p_.level[stem.level + 1];
-    const double base = stem.level == 0 ? p_.base_size * stem.length : 0;
+    const double base = p_.level[stem.level].base_size * stem.length;
     Stem child;
     child.key = random_key(stem.key, Draw::child, static_cast<std::uint64_t>(index));
     child.parent = grown.branch;
@@ -247,14 +295,14 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
     child.place = offset / stem.length;
     const double longest = varied(l.length, l.length_v, child.key, Draw::length);
     if (stem.level == 0) {
-        child.crown = crown_ratio(p_.shape, stem.length, base, offset);
+        child.crown = crown_ratio(p_, stem.length, base, offset);
         child.length = stem.length * longest * child.crown;
     } else
         child.length = longest * (stem.length - 0.6 * offset);
-    const double radius = stem.radius * std::pow(child.length / stem.length, p_.ratio_power);
+    const double radius = l.radius_mod * stem.radius * std::pow(child.length / stem.length, p_.ratio_power);
     child.radius = std::min(std::max(radius, p_.least_radius), radius_at(out_, grown.branch, child.parent_at));
     if (p_.most_slender > 0) child.length = std::min(child.length, p_.most_slender * child.radius);
-    const double up = crown_ratio(0, stem.length, base, offset);
+    const double up = shape_ratio(0, (stem.length - offset) / (stem.length - base));
     const double down = l.down_angle_v < 0 ? l.down_angle + l.down_angle_v * (1 - 2 * up)
                                            : varied(l.down_angle, l.down_angle_v, child.key, Draw::down_angle);
     child.frame = grown.segment_at(offset).frame * about_z(turn * kDegree) * about_x(down * kDegree);
@@ -263,19 +311,21 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
 
 } // namespace
 
-bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, bool with_leaves, bool with_fruit,
-                std::int64_t most, Splines& out) {
+bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t most,
+                Splines& out) {
     check_growth(parameters);
     out = Splines();
     out.name = parameters.name;
-    const bool whole = Grower(parameters, out).run(seed, with_leaves, with_fruit, most);
-    if (whole && parameters.pipe_model) thicken_by_pipe_model(out);
+    const bool whole = Grower(parameters, out).run(seed, items, most);
+    if (!items.petals) out.leaf_kind.clear();
+    if (whole && parameters.pipe_exponent > 0)
+        thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
     return whole;
 }
 
-Splines grow(const GrowthParameters& parameters, std::uint64_t seed, bool with_leaves, bool with_fruit) {
+Splines grow(const GrowthParameters& parameters, std::uint64_t seed, const Items& items) {
     Splines result;
-    grow_up_to(parameters, seed, with_leaves, with_fruit, INT64_MAX, result);
+    grow_up_to(parameters, seed, items, INT64_MAX, result);
     return result;
 }
 

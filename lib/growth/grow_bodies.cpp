@@ -11,6 +11,7 @@ namespace {
 // boughs and loses its twigs.
 constexpr std::array<double, 4> kWeight = {0, 1, 1.6, 2.4};
 constexpr double kLeafWeight = 0.8;
+constexpr double kLeafChange = 4;
 constexpr double kNear = 0.05;  // share of the bodies wanted at which the search ends
 constexpr double kWithin = 0.1; // and that the contract allows
 constexpr std::int64_t kMostBodies = 20'000'000;
@@ -19,14 +20,24 @@ constexpr double kMost = 1e6; // of one stem's children (grow.h)
 struct Search {
     GrowthParameters parameters;
     std::uint64_t seed;
-    bool with_leaves, with_fruit;
+    Items items;
     std::int64_t bodies;
     Splines best;
     std::int64_t best_count = -1;
 
-    bool has_leaves() const { return with_leaves && parameters.leaves != 0; }
-    bool has_fruit() const { return with_fruit && parameters.fruits != 0; }
+    double nominal_leaves; // most_leaves of the parameters as given
+    bool has_foliage() const {
+        return (items.leaves && parameters.leaves != 0) || (items.petals && parameters.blossoms != 0) ||
+               (items.fruit && parameters.fruits != 0);
+    }
 };
+
+// Leaves on all stems, were each to bear the most children that it may; 1 for one without leaves, as only ratios count.
+double most_leaves(const GrowthParameters& p) {
+    double product = p.leaves != 0 ? std::abs(p.leaves) : 1;
+    for (int n = 1; n < p.levels; ++n) product *= std::max(p.level[std::size_t(n)].branches, 1e-9);
+    return product;
+}
 
 // Numbers changed by e^main, shared among the levels by their weights; those of the last level also by e^fine.
 struct Dial {
@@ -35,8 +46,7 @@ struct Dial {
 
 GrowthParameters scaled(const Search& search, const Dial& dial) {
     GrowthParameters p = search.parameters;
-    const bool foliage = search.has_leaves() || search.has_fruit();
-    double sum = foliage ? kLeafWeight : 0;
+    double sum = search.has_foliage() ? kLeafWeight : 0;
     for (int n = 1; n < p.levels; ++n) sum += kWeight[n];
     if (sum == 0) return p;
     const auto factor = [&](double weight) { return std::exp(dial.main * weight / sum); };
@@ -45,7 +55,12 @@ GrowthParameters scaled(const Search& search, const Dial& dial) {
         p.level[n].branches = std::min(kMost, p.level[n].branches * factor(kWeight[n]) * fine);
     }
     p.leaves = std::clamp(p.leaves * factor(kLeafWeight), -kMost, kMost);
+    p.blossoms = std::min(kMost, p.blossoms * factor(kLeafWeight));
     p.fruits = std::min(kMost, p.fruits * factor(kLeafWeight));
+    const double size = std::clamp(std::sqrt(search.nominal_leaves / most_leaves(p)), 1 / kLeafChange, kLeafChange);
+    p.leaf_scale *= size;
+    p.leaf_scale_v *= size;
+    p.petal_scale *= size;
     return p;
 }
 
@@ -55,7 +70,7 @@ double miss(Search& search, const Dial& dial) {
     const std::int64_t enough = 2 * search.bodies + 100;
     Splines tree;
     std::int64_t count = enough;
-    if (grow_up_to(scaled(search, dial), search.seed, search.with_leaves, search.with_fruit, enough, tree)) {
+    if (grow_up_to(scaled(search, dial), search.seed, search.items, enough, tree)) {
         count = count_bodies(tree, SegmentOptions());
         if (search.best_count < 0 || std::abs(count - search.bodies) < std::abs(search.best_count - search.bodies)) {
             search.best = std::move(tree);
@@ -108,13 +123,12 @@ double deepest_children(const Search& search, const Dial& dial) {
 
 } // namespace
 
-Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, bool with_leaves, bool with_fruit,
-                    std::int64_t bodies) {
+Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t bodies) {
     check_growth(parameters);
     if (bodies < 1 || bodies > kMostBodies)
         throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " +
                                     std::to_string(kMostBodies));
-    Search search{parameters, seed, with_leaves, with_fruit, bodies, {}, -1};
+    Search search{parameters, seed, items, bodies, {}, -1, most_leaves(parameters)};
     while (true) {
         Dial dial;
         turn(search, dial, &Dial::main);
@@ -123,7 +137,7 @@ Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, bool
         if (search.parameters.levels <= 2 || deepest_children(search, dial) >= 1) break;
         const int levels = search.parameters.levels;
         // Leaves take their angles from the level that is left out, as they would from the one below the last.
-        search = Search{search.parameters, seed, with_leaves, with_fruit, bodies, {}, -1};
+        search = Search{search.parameters, seed, items, bodies, {}, -1, search.nominal_leaves};
         search.parameters.levels = levels - 1;
     }
     if (near(search, kWithin)) return std::move(search.best);

@@ -73,13 +73,14 @@ Tree segment(const Splines& splines, const Material& material, const SegmentOpti
     const std::int64_t room = most_bodies - growing_bodies(splines);
     const CutRule rule = rule_for(curves, splines, options);
     refuse_more_than_an_index_holds(count_pieces(curves, rule, room), room);
-    Tree tree = make_bodies(splines, curves, rule, material.leaf_thickness);
+    Tree tree = make_bodies(splines, curves, rule, material);
     set_mass(tree, material);
     set_stiffness(tree, material);
     set_damping(tree, material);
     tree.name = splines.name;
     tree.material = material.name;
     tree.source = splines.source;
+    tree.color = splines.color;
     if (report) {
         *report = {curves.merged_points, curves.dropped_branches, curves.thin_points, 0};
         for (std::size_t i = 0; i < tree.size_bodies(); ++i)

@@ -70,7 +70,7 @@ void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vect
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const std::size_t n = std::size_t(sides[i]), rings = n > 3 ? 2 : 1;
         if (tree.kind[i] == Kind::branch) vertices += rings * (n + 1), triangles += rings * 2 * n;
-        if (tree.kind[i] == Kind::leaf) vertices += leaf_vertices, triangles += leaf_triangles;
+        if (is_flat(tree.kind[i])) vertices += leaf_vertices, triangles += leaf_triangles;
         if (tree.kind[i] == Kind::fruit) vertices += fruit_vertices, triangles += fruit_triangles;
     }
     for (const std::int32_t start : chains.starts) {
@@ -102,9 +102,9 @@ void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, const Chains&
     }
 }
 
-void close_part(Skin& skin, const char* name) {
+void close_part(Skin& skin, const char* name, const Vec3& color) {
     const std::size_t first = skin.part.empty() ? 0 : skin.part.back().first_index + skin.part.back().index_count;
-    if (skin.triangle.size() > first) skin.part.push_back({name, first, skin.triangle.size() - first});
+    if (skin.triangle.size() > first) skin.part.push_back({name, color, first, skin.triangle.size() - first});
 }
 
 } // namespace
@@ -118,13 +118,16 @@ Skin build_skin(const Tree& tree, const SkinOptions& options) {
     Skin skin;
     reserve(skin, tree, chains, sides);
     add_bark(skin, tree, pose, chains, sides);
-    close_part(skin, "bark");
-    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
-        if (tree.kind[i] == Kind::leaf) add_leaf(skin, tree, pose, i);
-    close_part(skin, "leaf");
+    const std::vector<Vec3>& color = tree.color.empty() ? default_colors() : tree.color;
+    close_part(skin, "bark", color[0]);
+    for (const Kind kind : {Kind::leaf, Kind::petal}) {
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+            if (tree.kind[i] == kind) add_leaf(skin, tree, pose, i);
+        kind == Kind::leaf ? close_part(skin, "leaf", color[1]) : close_part(skin, "petal", color[2]);
+    }
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
         if (tree.kind[i] == Kind::fruit) add_fruit(skin, tree, pose, i);
-    close_part(skin, "fruit");
+    close_part(skin, "fruit", color[3]);
     return skin;
 }
 

@@ -8,8 +8,8 @@
 // A side branch begins with a collar, a ring on its parent's axis inside the parent's tube and moved by the parent alone,
 // then a root ring where it comes out, moved by both; so no gap opens whichever way it bends, nor where a branch was
 // drawn starting off the parent's axis. An end ring thinner than 1/1000 of the next is drawn as a point.
-// Leaves are the two broad faces of their prism (no petiole), fruit are spheres with a thin stalk from joints outside
-// them; both are moved by their body alone.
+// Leaves and petals are drawn as kites of their prism's length, width and area, one for each broad face (no petiole);
+// fruit are spheres with a thin stalk from joints outside them; all are moved by their body alone.
 // u runs 0..1 around (one seam column doubled), v is the arc length from the branch's joint over the circumference at its
 // base (of its thickest ring where that is a point), so that bark is not stretched; v < 0 inside the parent.
 // Reads a checked Tree in the drawn pose. O(bodies * sides). Constant topology: only positions and normals move.
@@ -29,7 +29,8 @@ struct SkinOptions {
 };
 
 struct SkinPart {
-    std::string name;        // "bark", "leaf", "fruit": also the material's name; parts without triangles are left out
+    std::string name;        // "bark", "leaf", "petal", "fruit": also the material's; parts without triangles: none
+    Vec3 color;              // sRGB 0..1
     std::size_t first_index; // into Skin::triangle
     std::size_t index_count; // triangles
 };
@@ -41,7 +42,7 @@ struct Skin {
     std::vector<std::array<std::int32_t, 4>> joint;    // bodies that move the vertex; unused entries repeat the first
     std::vector<std::array<float, 4>> weight;          // sum 1, unused 0
     std::vector<std::array<std::int32_t, 3>> triangle; // counterclockwise seen from outside
-    std::vector<SkinPart> part;                        // in order, covering `triangle`
+    std::vector<SkinPart> part;                        // in order, covering `triangle`: bark, leaf, petal, fruit
 };
 
 Skin build_skin(const Tree&, const SkinOptions&);

@@ -6,17 +6,23 @@ namespace bough {
 void add_leaf(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t body) {
     const Vec3& size = tree.size[body];
     const Binding binding = bound_to(body);
+    // A kite has the area of the triangle of its length and width; leaves are widest near the base, petals near the tip.
+    const double widest = tree.kind[body] == Kind::petal ? 0.7 : 0.4;
     // The faces stand a leaf's thickness apart, so that they do not flicker in programs that draw both.
     for (const double side : {1.0, -1.0}) {
         const double y = side * size.z() / 2;
         const Vec3 normal = side * pose.R_wb[body].col(1);
-        const std::int32_t a = add_vertex(skin, pose.at(body, {-size.y() / 2, y, 0}), normal, 0, 0, binding);
-        add_vertex(skin, pose.at(body, {size.y() / 2, y, 0}), normal, 1, 0, binding);
+        const std::int32_t a = add_vertex(skin, pose.at(body, {0, y, 0}), normal, 0.5, 0, binding);
+        for (const double across : {-0.5, 0.5})
+            add_vertex(skin, pose.at(body, {across * size.y(), y, widest * size.x()}), normal, 0.5 + across, widest,
+                       binding);
         add_vertex(skin, pose.at(body, {0, y, size.x()}), normal, 0.5, 1, binding);
-        if (side > 0)
-            skin.triangle.push_back({a, a + 2, a + 1});
-        else
-            skin.triangle.push_back({a, a + 1, a + 2});
+        for (const auto& [b, c] : {std::pair(1, 3), std::pair(3, 2)}) {
+            if (side > 0)
+                skin.triangle.push_back({a, a + b, a + c});
+            else
+                skin.triangle.push_back({a, a + c, a + b});
+        }
     }
 }
 

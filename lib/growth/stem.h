@@ -29,7 +29,10 @@ enum class Draw : std::uint8_t {
     split_sign,
     split_spread,
     leaves,
-    fruits
+    fruits,
+    leaf_scale,
+    blossom,
+    blossoms
 };
 
 struct Stem {
@@ -68,8 +71,9 @@ struct GrownStem {
 // segments. O(points of the branch).
 double radius_at(const Splines&, std::int32_t branch, double at);
 
-// Leaves and fruit of a stem of the last level, appended to `out`.
+// Leaves, flowers and fruit of a stem of the last level, appended to `out`.
 void grow_leaves(const GrowthParameters&, const GrownStem&, Splines& out);
+void grow_blossoms(const GrowthParameters&, const GrownStem&, Splines& out);
 void grow_fruits(const GrowthParameters&, const GrownStem&, Splines& out);
 
 } // namespace bough

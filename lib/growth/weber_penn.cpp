@@ -27,8 +27,16 @@ double shape_ratio(int shape, double ratio) {
     }
 }
 
-double crown_ratio(int shape, double trunk, double base, double offset) {
-    return shape_ratio(shape, (trunk - offset) / (trunk - base));
+double envelope_ratio(const GrowthParameters& p, double ratio) {
+    if (!(ratio > 0 && ratio < 1)) return 0;
+    const double above = 1 - p.prune_width_peak;
+    return ratio < above ? std::pow(ratio / above, p.prune_power_high)
+                         : std::pow((1 - ratio) / (1 - above), p.prune_power_low);
+}
+
+double crown_ratio(const GrowthParameters& p, double trunk, double base, double offset) {
+    const double ratio = (trunk - offset) / (trunk - base);
+    return p.shape == 8 ? envelope_ratio(p, ratio) : shape_ratio(p.shape, ratio);
 }
 
 double taper_radius(double taper, double radius, double length, double z) {

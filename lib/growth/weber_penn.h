@@ -12,8 +12,11 @@ constexpr double kLeastTaper = 0.05; // least radius of a stem over its radius a
 // ShapeRatio(shape, ratio): the paper's table, shapes 0..7, ratio 0 (top) .. 1 (base of the crown).
 double shape_ratio(int shape, double ratio);
 
+// ShapeRatio of shape 8, the pruning envelope: 0 at the crown's top and bottom, 1 at its peak.
+double envelope_ratio(const GrowthParameters&, double ratio);
+
 // Length over `length_max` times the trunk's, of a child at `offset` on a trunk of length `trunk`, bare up to `base`.
-double crown_ratio(int shape, double trunk, double base, double offset);
+double crown_ratio(const GrowthParameters&, double trunk, double base, double offset);
 
 // Radius at z (0 base .. 1 tip) of a stem of base radius `radius`, length `length`: section "Stem radius", without flare,
 // at least kLeastTaper * radius.
@@ -32,7 +35,6 @@ std::int64_t whole_number(double count, double unit);
 void check_growth(const GrowthParameters&);
 
 // grow() that gives up, returning false, as soon as there are more than `most` branches, leaves and fruit together.
-bool grow_up_to(const GrowthParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit, std::int64_t most,
-                Splines& out);
+bool grow_up_to(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
 
 } // namespace bough

@@ -134,6 +134,15 @@ void check_sizes(Rules& rules, const char* field, const std::vector<Vec3>& value
             });
 }
 
+void check_colors(Rules& rules, const std::vector<Vec3>& colors) {
+    rules.length("color", colors, colors.empty() ? 0 : default_colors().size(), "none, or bark, leaf, petal and fruit")
+        .each(
+            "color", colors, [](std::size_t, const Vec3& c) { return c.minCoeff() >= 0 && c.maxCoeff() <= 1; },
+            [](std::size_t, const Vec3& c) {
+                return "is (" + text(c.x()) + ", " + text(c.y()) + ", " + text(c.z()) + "), expected 0 to 1 each";
+            });
+}
+
 // Moments of a real body: the second-moment matrix tr(I)/2 - I must not be negative, which is the triangle inequality
 // of the principal moments and holds I itself above zero too. Cholesky pivots after a lift by rounding.
 bool possible_inertia(const Mat3& inertia) {
@@ -160,6 +169,7 @@ std::optional<Defect> check(const Splines& splines) {
         .length("leaf_rotation", splines.leaf_rotation, leaves, "one for each leaf")
         .length("leaf_length", splines.leaf_length, leaves, "one for each leaf")
         .length("leaf_width", splines.leaf_width, leaves, "one for each leaf")
+        .length("leaf_kind", splines.leaf_kind, splines.leaf_kind.empty() ? 0 : leaves, "none, or one for each leaf")
         .length("fruit_at", splines.fruit_at, fruits, "one for each fruit")
         .length("fruit_position", splines.fruit_position, fruits, "one for each fruit")
         .length("fruit_center", splines.fruit_center, fruits, "one for each fruit")
@@ -188,6 +198,9 @@ std::optional<Defect> check(const Splines& splines) {
         .unit("leaf_rotation", splines.leaf_rotation)
         .positive("leaf_length", splines.leaf_length)
         .positive("leaf_width", splines.leaf_width)
+        .each(
+            "leaf_kind", splines.leaf_kind, [](std::size_t, std::int32_t k) { return k == 0 || k == 1; },
+            [](std::size_t, std::int32_t k) { return "is " + std::to_string(k) + ", expected 0 (leaf) or 1 (petal)"; })
         .index("fruit_branch", splines.fruit_branch, branches, "a branch")
         .between("fruit_at", splines.fruit_at, 0, 1)
         .all_finite("fruit_position", splines.fruit_position)
@@ -197,6 +210,7 @@ std::optional<Defect> check(const Splines& splines) {
             [&](std::size_t i, const Vec3& center) { return center != splines.fruit_position[i]; },
             [](std::size_t, const Vec3&) { return std::string("is the fruit's joint, expected a point off it"); })
         .positive("fruit_radius", splines.fruit_radius);
+    check_colors(rules, splines.color);
     return rules.defect;
 }
 
@@ -221,9 +235,9 @@ std::optional<Defect> check(const Tree& tree) {
 
     rules.parents(tree.parent)
         .each(
-            "kind", tree.kind, [](std::size_t, Kind k) { return k <= Kind::fruit; },
+            "kind", tree.kind, [](std::size_t, Kind k) { return k <= Kind::petal; },
             [](std::size_t, Kind k) {
-                return "is " + std::to_string(int(k)) + ", expected 0 (branch), 1 (leaf) or 2 (fruit)";
+                return "is " + std::to_string(int(k)) + ", expected 0 (branch), 1 (leaf), 2 (fruit) or 3 (petal)";
             })
         .positive("mass", tree.mass)
         .all_finite("com", tree.com)
@@ -241,6 +255,7 @@ std::optional<Defect> check(const Tree& tree) {
     rules.between("damping", tree.damping, 0, unbounded);
     check_sizes(rules, "size", tree.size, 1);
     rules.not_negative("branch", tree.branch).not_negative("level", tree.level).between("s", tree.s, 0, 1);
+    check_colors(rules, tree.color);
     return rules.defect;
 }
 

@@ -21,13 +21,14 @@ struct Splines {
     std::vector<Vec3> point;    // [m]; a branch's first point is its joint, which may lie off the parent's axis
     std::vector<double> radius; // [m], >= 0
 
-    // Per leaf: a triangle, its base edge (width) centred on the joint, its apex at length along z.
+    // Per leaf, needle or petal: a triangle, its base edge (width) centred on the joint, its apex at length along z.
     std::vector<std::int32_t> leaf_branch; // the branch it grows on
     std::vector<double> leaf_at;           // fraction of that branch's arc length
     std::vector<Vec3> leaf_position;       // [m] where it is attached
     std::vector<Quat> leaf_rotation;       // world from leaf: x width, y normal, z length
     std::vector<double> leaf_length;       // [m]
     std::vector<double> leaf_width;        // [m]
+    std::vector<std::int32_t> leaf_kind;   // 0 leaf or needle, 1 petal; may be empty: all leaves
 
     // Per fruit: a sphere hanging from a joint.
     std::vector<std::int32_t> fruit_branch;
@@ -36,13 +37,18 @@ struct Splines {
     std::vector<Vec3> fruit_center;   // [m]; differs from the joint
     std::vector<double> fruit_radius; // [m]
 
-    std::string name;   // what the tree is called, e.g. the species or the file
-    std::string source; // how it was made: the command line or the imported file's own statement
+    // What a picture shows; empty, or sRGB 0..1 of bark, leaf, petal and fruit.
+    std::vector<Vec3> color;
+
+    std::string material; // the wood preset (wood.h) that goes with it, "" if nothing is known
+    std::string name;     // what the tree is called, e.g. the species or the file
+    std::string source;   // how it was made: the command line or the imported file's own statement
 
     std::size_t branches() const { return parent.size(); }
     std::size_t points() const { return point.size(); }
     std::size_t leaves() const { return leaf_branch.size(); }
     std::size_t fruits() const { return fruit_branch.size(); }
+    bool is_petal(std::size_t leaf) const { return !leaf_kind.empty() && leaf_kind[leaf] == 1; }
 };
 
 // A broken rule of a document held in memory: which array, which entry, what is wrong and what was expected.
@@ -52,9 +58,16 @@ struct Defect {
     std::string message; // e.g. "is 7, expected -1 or less than 3 (parents stand before children)"
 };
 
+// What is drawn where a document names no colours, in the order of Splines::color.
+inline const std::vector<Vec3>& default_colors() {
+    static const std::vector<Vec3> colors = {
+        {0.45, 0.34, 0.25}, {0.34, 0.56, 0.16}, {0.98, 0.86, 0.89}, {0.8, 0.14, 0.1}};
+    return colors;
+}
+
 // The first broken rule of the splines, or none: at least one branch, array lengths, parents before children, indices
 // in range, fractions in 0..1, at least two points a branch, finite numbers, radii >= 0, unit quaternions (1e-6),
-// sizes > 0, a fruit's centre off its joint. O(points).
+// sizes > 0, a fruit's centre off its joint, colours in 0..1. O(points).
 std::optional<Defect> check(const Splines&);
 
 } // namespace bough

@@ -34,6 +34,7 @@ std::vector<Tree> split_roots(const Tree& tree) {
             trees.back().name = tree.name;
             trees.back().material = tree.material;
             trees.back().source = tree.source;
+            trees.back().color = tree.color;
         }
         root[i] = is_root ? trees.size() - 1 : root[p];
         Tree& own = trees[root[i]];

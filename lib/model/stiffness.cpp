@@ -24,6 +24,7 @@ Vec3 rod_stiffness(double modulus, double length, double radius) {
 double damping_ratio(const Material& material, Kind kind) {
     switch (kind) {
     case Kind::leaf:
+    case Kind::petal:
         return material.leaf_damping_ratio;
     case Kind::fruit:
         return material.fruit_damping_ratio;
@@ -65,6 +66,7 @@ void set_mass(Tree& tree, const Material& material) {
             body = frustum(size[0], size[1], size[2], material.density);
             break;
         case Kind::leaf:
+        case Kind::petal:
             body = leaf_prism(size[0], size[1], size[2], material.leaf_density);
             break;
         case Kind::fruit:
@@ -86,6 +88,7 @@ void set_stiffness(Tree& tree, const Material& material) {
                 material, size, continues_parent(tree, i) ? &tree.size[std::size_t(tree.parent[i])] : nullptr);
             break;
         case Kind::leaf:
+        case Kind::petal:
             tree.stiffness[i] = leaf_stiffness(material, size[0]);
             break;
         case Kind::fruit:

@@ -33,6 +33,7 @@ std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double ya
         tree.name = more.name;
         tree.material = more.material;
         tree.source = more.source;
+        tree.color = more.color;
     }
     add(tree.parent, more.parent);
     add(tree.kind, more.kind);

@@ -16,7 +16,12 @@
 
 namespace bough {
 
-enum class Kind : std::uint8_t { branch = 0, leaf = 1, fruit = 2 };
+enum class Kind : std::uint8_t { branch = 0, leaf = 1, fruit = 2, petal = 3 };
+
+// A thin plate, in shape and in the air: a leaf, a needle, a petal.
+constexpr bool is_flat(Kind kind) {
+    return kind == Kind::leaf || kind == Kind::petal;
+}
 
 struct Tree {
     std::vector<std::int32_t> parent; // body index < own, -1: the ground
@@ -29,16 +34,17 @@ struct Tree {
         joint_rotation; // parent's body frame (world for roots) from joint frame, drawn pose: R_j^p of (7)
     std::vector<Vec3>
         stiffness; // [N m/rad] K about the joint frame's x, y, z: bend, bend, twist (leaf: flap, sway, twist)
-    std::vector<double> damping;      // [s] beta of (5), the stiffness-proportional Rayleigh coefficient
-    std::vector<Vec3> size;           // [m] branch: length, base radius, tip radius; leaf: length, width, thickness;
-                                      //     fruit: joint to centre, radius, radius
+    std::vector<double> damping; // [s] beta of (5), the stiffness-proportional Rayleigh coefficient
+    std::vector<Vec3> size;      // [m] branch: length, base radius, tip radius; leaf, petal: length, width, thickness;
+                                 //     fruit: joint to centre, radius, radius
     std::vector<std::int32_t> branch; // branch of the splines that the body belongs to (a leaf or fruit: grows on)
     std::vector<std::int32_t> level;  // that branch's level, 0 for trunks
     std::vector<double> s;            // fraction of that branch's arc length at the body's own joint, 0..1
 
-    std::string name;     // what the tree is called
-    std::string material; // wood preset or file that gave mass and stiffness
-    std::string source;   // command lines that made it, oldest first, one a line
+    std::string name;        // what the tree is called
+    std::string material;    // wood preset or file that gave mass and stiffness
+    std::string source;      // command lines that made it, oldest first, one a line
+    std::vector<Vec3> color; // as Splines::color
 
     std::size_t size_bodies() const { return parent.size(); }
     void resize(std::size_t bodies); // every array to this length, values unspecified
@@ -57,7 +63,7 @@ inline bool continues_parent(const Tree& tree, std::size_t i) {
 std::optional<Defect> check(const Tree&);
 
 // Appends `more` to `tree`, turned by yaw [rad] about +Y and moved by position [m]: how a scene stands several trees
-// in one world. Branch numbers of `more` are shifted behind those present; name, material and source stay those of the
+// in one world. Branch numbers of `more` are shifted behind those present; name, material, source and colours stay those of the
 // first tree. Returns the first body's index.
 std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw);
 

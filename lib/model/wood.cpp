@@ -26,6 +26,7 @@ Material wood(const char* name, double basic, double youngs_gpa, const char* sou
     m.damping_ratio = 0.03; // within the wood, without leaves or air: Moore & Maguire (2004) found less than 0.05
     m.leaf_density = 800;
     m.leaf_thickness = 0.25e-3;
+    m.petal_thickness = 0.15e-3;
     m.leaf_modulus = 0.5e9;
     m.leaf_damping_ratio = 0.05;
     m.fruit_density = 850;
@@ -76,6 +77,7 @@ std::optional<Defect> check(const Material& m) {
         {"damping_ratio", m.damping_ratio, true},
         {"leaf_density", m.leaf_density, false},
         {"leaf_thickness", m.leaf_thickness, false},
+        {"petal_thickness", m.petal_thickness, false},
         {"leaf_modulus", m.leaf_modulus, false},
         {"leaf_damping_ratio", m.leaf_damping_ratio, true},
         {"fruit_density", m.fruit_density, false},

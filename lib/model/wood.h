@@ -15,6 +15,7 @@ struct Material {
     double damping_ratio = 0;       // [1] zeta of the branch's first bending mode, structural (no air)
     double leaf_density = 0;        // [kg/m^3] of fresh leaf tissue
     double leaf_thickness = 0;      // [m]
+    double petal_thickness = 0;     // [m]; all else of a petal is a leaf's
     double leaf_modulus = 0;        // [Pa] E of the petiole, which is what a leaf bends on, and of the fruit's stalk
     double leaf_damping_ratio = 0;  // [1] of the leaf on its petiole
     double fruit_density = 0;       // [kg/m^3]

@@ -21,6 +21,7 @@ double drag_area(const Tree& tree, std::size_t i, double air_density) {
     const Vec3& size = tree.size[i];
     switch (tree.kind[i]) {
     case Kind::leaf:
+    case Kind::petal:
         return plate_drag / 2 * air_density * leaf_area(size[0], size[1]);
     case Kind::fruit:
         return sphere_drag / 2 * air_density * sphere_section(size[1]);
