@@ -1,5 +1,6 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
+#include "envelope.h"
 #include "formats/import.h"
 #include "formats/splines.h"
 #include "lib/growth/grow.h"
@@ -12,6 +13,7 @@ using namespace bough;
 struct Options {
     CommonOptions common;
     ImportChoice choice;
+    EnvelopeOptions envelope;
     std::string species, import;
     std::optional<std::int64_t> bodies;
     std::optional<std::uint64_t> seed;
@@ -23,8 +25,9 @@ const std::vector<std::string> species_names = {"broadleaf"};
 
 const ToolInfo info = {
     "treegen",
-    "Makes a tree as splines: grown by Weber and Penn's recursion, or imported (--import).\n"
+    "Makes a tree as splines: grown by Weber and Penn's recursion, grown into a volume (--envelope), or imported.\n"
     "Usage: treegen [--species NAME] [--bodies N] [--seed N] [--leaves] [--fruit] [-o FILE]\n"
+    "       treegen --envelope sphere|cone|box|FILE [--envelope-size X,Y,Z] [--attractors N] ... [-o FILE]\n"
     "       treegen --import FILE [--units UNIT] [--up AXIS] [--leaves] [--fruit] [-o FILE]",
     "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, and bough splines; which one a\n"
     "file is, its content decides. The result goes to treeconvert:\n"
@@ -46,12 +49,20 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--fruit", o.fruit, "With fruit; else none");
     app.add_option("--seed", o.seed, "Seed of every random draw (0)")->option_text("N")->check(whole_number(0));
     add_import_options(app, o.choice);
+    add_envelope_options(app, o.envelope);
 }
 
 void refuse_contradictions(const Options& o) {
+    if (!o.envelope.envelope.empty()) {
+        if (!o.import.empty()) throw UsageError("--envelope: not with --import");
+        if (!o.species.empty()) throw UsageError("--envelope: not with --species, which grows in its own way");
+        return;
+    }
+    for (const auto& [option, given] : o.envelope.given())
+        if (given) throw UsageError(option + ": only with --envelope");
     if (o.import.empty()) {
-        if (!o.choice.units.empty()) throw UsageError("--units: only with --import");
-        if (!o.choice.up.empty()) throw UsageError("--up: only with --import");
+        if (!o.choice.units.empty()) throw UsageError("--units: only with --import or --envelope FILE");
+        if (!o.choice.up.empty()) throw UsageError("--up: only with --import or --envelope FILE");
         return;
     }
     const char* reason = ": not with --import, whose file says what the tree is";
@@ -98,8 +109,10 @@ Splines imported(Options& o) {
     return splines;
 }
 
-Splines grown(const Options& o) {
+Splines grown(Options& o) {
     const std::uint64_t seed = o.seed.value_or(0);
+    if (!o.envelope.envelope.empty())
+        return grow_in_envelope(o.envelope, o.choice, {seed, o.bodies, o.leaves, o.fruit}, o.common);
     try {
         return o.bodies ? grow_bodies(default_growth(), seed, {o.leaves, false, o.fruit}, *o.bodies)
                         : grow(default_growth(), seed, {o.leaves, false, o.fruit});

@@ -34,16 +34,16 @@ namespace bough {
 // (volume / points)^(1/3), h the height from the foot of the trunk to the envelope's top.
 struct ColonizeParameters {
     Envelope envelope;
-    std::int64_t points = 1500;  // attraction points, 1..2e7
+    std::int64_t points = 8000;  // attraction points, 1..2e7
     double influence = 0;        // [m] > kill; default 6 s
     double kill = 0;             // [m] >= step; default 0.8 s
     double step = 0;             // [m] between nodes; default half the kill distance
     Vec3 tropism = {0, 0.1, 0};  // added to the unit direction; 0 none, y > 0 upward
     double leader = -1;          // 0..1, of the envelope's height; negative: 0.8 in a cone, else 0.25
     double tip_radius = 0;       // [m]; default such that the trunk's is h / 60 at its foot, but at least 0.5 mm
-    double leaves = 8;           // of each tip; where not whole, rounded up as often as the fraction says
-    double leaf_length = 0.09;   // [m]
-    double leaf_width = 0.05;    // [m]
+    double leaves = 10;          // of each tip; where not whole, rounded up as often as the fraction says
+    double leaf_length = 0;      // [m]; default 0.4 s, but 0.03 to 0.3 m
+    double leaf_width = 0;       // [m]; default 0.55 of the length
     double leaf_angle = 50;      // [deg] between leaf and twig
     double leafy = 0;            // [m] of a branch's end that bears leaves and fruit; default 1.5 s
     double fruits = 0.3;         // of each tip

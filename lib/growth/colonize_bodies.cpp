@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kNear = 0.05, kWithin = 0.1; // share of the bodies wanted: the search ends; the contract allows
 constexpr std::int64_t kMostBodies = 20'000'000, kMostPoints = 20'000'000;
+constexpr double kPilot = 30'000; // points of the first tree tried, at most
 
 struct Search {
     ColonizeParameters parameters;
@@ -38,16 +39,17 @@ struct Search {
     }
 };
 
-// A count is nearly proportional to the number of points: goes on by the factor missed, between the bounds known.
+// A count is nearly proportional to the number of points: goes on by the factor missed, between the bounds known. A large
+// tree's first number is that of a small one scaled up, so that few large ones are grown.
 void search_points(Search& s) {
     std::int64_t low = 0, high = kMostPoints + 1;
-    auto points = static_cast<std::int64_t>(std::clamp(s.bodies / 4, 1.0, static_cast<double>(kMostPoints)));
+    auto points = static_cast<std::int64_t>(std::clamp(s.bodies / 4, 1.0, kPilot));
     while (true) {
         const double found = s.count(points);
         if (s.near(kNear)) return;
         (found < s.bodies ? low : high) = points;
         if (high - low <= 1) return;
-        const double factor = std::clamp(s.bodies / found, 0.1, 10.0);
+        const double factor = std::clamp(s.bodies / std::max(found, 1.0), 0.01, 1e4);
         points = std::clamp(static_cast<std::int64_t>(std::llround(static_cast<double>(points) * factor)), low + 1,
                             high - 1);
     }

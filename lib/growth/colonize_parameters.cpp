@@ -1,4 +1,5 @@
 #include "colonize.h"
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
@@ -36,6 +37,8 @@ ColonizeParameters with_defaults(const ColonizeParameters& given) {
     }
     if (p.influence == 0) p.influence = std::max(6 * s, 2 * p.kill);
     if (p.step == 0) p.step = p.kill / 2;
+    if (p.leaf_length == 0) p.leaf_length = std::clamp(0.4 * s, 0.03, 0.3);
+    if (p.leaf_width == 0) p.leaf_width = 0.55 * p.leaf_length;
     if (p.leafy == 0) p.leafy = 1.5 * s;
     if (p.leader < 0) p.leader = p.envelope.shape == EnvelopeShape::cone ? 0.8 : 0.25;
     require(p.step > 0 && p.step < 1e6, "step", p.step, "more than 0 m");

@@ -6,6 +6,7 @@ namespace bough {
 namespace {
 
 constexpr double kThin = 0.05; // of a step: how far a point left out may lie off the curve
+constexpr double kTip = 0.4;   // radius of a branch's last point over that of its tip
 
 struct Chain {
     std::int32_t fork;              // node of the parent's chain that it leaves, -1: none
@@ -161,7 +162,9 @@ Splines colony_splines(const Colony& c, const ColonizeParameters& p, std::uint64
     const double tips = static_cast<double>(s.branches());
     const double tip = p.tip_radius > 0 ? p.tip_radius : std::max(5e-4, height / 60 / std::sqrt(tips));
     s.radius.assign(s.points(), tip);
-    thicken_by_pipe_model(s);
+    thicken_by_pipe_model(s, 2);
+    // A twig ends thinner than it bears its first leaves.
+    for (std::size_t b = 0; b < s.branches(); ++b) s.radius[static_cast<std::size_t>(s.first_point[b + 1]) - 1] *= kTip;
     add_colony_foliage(p, seed, with_leaves, with_fruit, s);
     return s;
 }
