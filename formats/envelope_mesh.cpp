@@ -60,6 +60,18 @@ AssimpKind kind_of(std::string_view content, const std::string& name) {
     throw InputError(name, std::string("is of an unknown format, ") + readable);
 }
 
+// COLLADA's unit in metres, which assimp has applied.
+double collada_unit(std::string_view content) {
+    const std::size_t unit = content.find("<unit");
+    if (unit == std::string_view::npos) return 1;
+    const std::string_view element = content.substr(unit, std::min(content.find('>', unit), content.size()) - unit);
+    const std::size_t meter = element.find("meter=");
+    if (meter == std::string_view::npos || meter + 7 >= element.size()) return 1;
+    const std::string_view value = element.substr(meter + 7);
+    const std::optional<double> metres = parse_number(value.substr(0, value.find_first_of("\"'")));
+    return metres && *metres > 0 ? *metres : 1;
+}
+
 double guessed_unit(const EnvelopeMesh& mesh, ImportNotes& notes) {
     double low = INFINITY, high = -INFINITY;
     for (const Vec3& p : mesh.vertex) low = std::min(low, p.y()), high = std::max(high, p.y());
@@ -93,7 +105,8 @@ EnvelopeMesh read_envelope_mesh(std::string_view content, const std::string& pat
     if (kind == AssimpKind::obj && options.up == 0)
         notes.lines.push_back("up axis: the file states none; taken as Y (--up overrides)");
     const double unit = options.unit ? *options.unit : found.unit > 0 ? found.unit : guessed_unit(mesh, notes);
-    for (Vec3& p : mesh.vertex) p *= unit;
+    const double applied = options.unit && kind == AssimpKind::dae ? collada_unit(content) : 1;
+    for (Vec3& p : mesh.vertex) p *= unit / applied;
     return mesh;
 }
 
