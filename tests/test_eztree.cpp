@@ -45,6 +45,10 @@ std::array<std::int64_t, 4> counted(const Splines& s) {
 Vec3 first(const Splines& s, std::size_t b) {
     return s.point[static_cast<std::size_t>(s.first_point[b])];
 }
+Vec3 vector(const nlohmann::json& v) {
+    return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+}
+
 Vec3 last(const Splines& s, std::size_t b) {
     return s.point[static_cast<std::size_t>(s.first_point[b + 1]) - 1];
 }
@@ -190,7 +194,8 @@ TEST_CASE("What the reader refuses has its place named") {
     refused(R"({"type": "palm"})", "/type: is \"palm\", expected \"deciduous\" or \"evergreen\"");
     refused(R"({"branch": {"levels": 9}})", "/branch/levels: is 9, expected 0 to 3");
     refused(R"({"branch": {"radius": {"0": -1}}})", "/branch/radius/0: is -1, expected more than 0");
-    refused(R"({"branch": {"children": {"0": 900000, "1": 900000}}})", "preset.json: ");
+    refused(R"({"branch": {"children": {"0": 900000, "1": 900000}}})", "/branch/children: make");
+    refused(R"({"branch": {"children": {"0": 9000}}, "leaves": {"count": 900}})", "/branch/children: make");
 }
 
 TEST_CASE("A preset is known by its content") {
@@ -222,13 +227,12 @@ TEST_CASE("ez-tree's own branch queues: every origin, length, radius and number 
                 length += (s.point[k + 1] - s.point[k]).norm();
             INFO(name << " " << b);
             CHECK(s.level[b] == e["level"].get<int>());
-            CHECK((first(s, b) - Vec3(e["origin"][0], e["origin"][1], e["origin"][2])).norm() < 2e-6 * 40);
+            CHECK((first(s, b) - vector(e["origin"])).norm() < 2e-6 * 40);
             CHECK(length == Approx(e["length"].get<double>()).epsilon(1e-6));
             CHECK(s.radius[static_cast<std::size_t>(s.first_point[b])] ==
                   Approx(e["radius"].get<double>()).epsilon(1e-6));
             CHECK(s.first_point[b + 1] - s.first_point[b] == e["sectionCount"].get<int>() + 1);
-            const Vec3 up =
-                three::from_euler({e["orientation"][0], e["orientation"][1], e["orientation"][2]}) * Vec3::UnitY();
+            const Vec3 up = three::from_euler(vector(e["orientation"])) * Vec3::UnitY();
             const auto k = static_cast<std::size_t>(s.first_point[b]);
             CHECK(((s.point[k + 1] - s.point[k]).normalized() - up).norm() < 1e-5);
         }

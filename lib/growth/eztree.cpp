@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <deque>
 #include <numbers>
-#include <stdexcept>
 
 namespace bough {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTip = 0.001; // [unit] radius at the end of the last branches
-constexpr std::size_t kMostItems = 50'000'000;
 
 // George Marsaglia's multiply with carry, two of 16 bits, in the 32-bit signed arithmetic that ez-tree does it in.
 class Draws {
@@ -73,7 +71,6 @@ private:
     void bear(const Waiting&, std::int32_t branch);
     void add_leaves(std::int32_t branch);
     void add_leaf(std::int32_t branch, double at, const Vec3& origin, const Vec3& orientation);
-    void room() const;
 
     const EzTreeParameters& p_;
     Draws draws_;
@@ -83,11 +80,6 @@ private:
     Splines out_;
 };
 
-void EzGrower::room() const {
-    if (out_.branches() + queue_.size() + out_.leaves() > kMostItems)
-        throw std::invalid_argument("children, leaves count: make more than 5e7 branches and leaves, expected fewer");
-}
-
 Splines EzGrower::run() {
     out_.name = p_.name;
     out_.first_point.push_back(0);
@@ -96,7 +88,6 @@ Splines EzGrower::run() {
         const Waiting branch = queue_.front();
         queue_.pop_front();
         grow(branch);
-        room();
     }
     for (Vec3& p : out_.point) p *= p_.unit;
     for (double& r : out_.radius) r *= p_.unit;
@@ -194,7 +185,6 @@ void EzGrower::bear(const Waiting& b, std::int32_t branch) {
                           p_.length[n] * (p_.evergreen ? 1 - at : 1), p_.radius[n] * place.radius, b.level + 1,
                           p_.sections[n]});
     }
-    room();
 }
 
 void EzGrower::add_leaves(std::int32_t branch) {

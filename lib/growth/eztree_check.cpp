@@ -5,6 +5,8 @@
 namespace bough {
 namespace {
 
+constexpr double kMostItems = 5e7; // branches and leaves
+
 std::string text(double value) {
     char buffer[32];
     return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
@@ -50,6 +52,15 @@ void check_eztree(const EzTreeParameters& p) {
     if (!(p.leaf_size_variance >= 0 && p.leaf_size_variance < 1))
         throw std::invalid_argument("leaves.sizeVariance: is " + text(p.leaf_size_variance) +
                                     ", expected at least 0 and less than 1");
+    double branches = 1, all = 1;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(p.levels); ++n) {
+        branches *= p.children[n] + (p.evergreen ? 0 : 1);
+        all += branches;
+    }
+    all += branches * (p.leaf_count + (p.evergreen ? 0 : 1));
+    if (!(all <= kMostItems))
+        throw std::invalid_argument("branch.children: make " + text(all) +
+                                    " branches and leaves, expected at most 5e7");
     if (!p.trellis.enabled) return;
     for (int k = 0; k < 3; ++k) within("trellis.position", p.trellis.position[k], -1e6, 1e6);
     positive("trellis.width", p.trellis.width);
