@@ -1,5 +1,6 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
+#include "envelope.h"
 #include "formats/import.h"
 #include "formats/species.h"
 #include "formats/splines.h"
@@ -13,6 +14,7 @@ using namespace bough;
 struct Options {
     CommonOptions common;
     ImportChoice choice;
+    EnvelopeOptions envelope;
     std::string species, import;
     std::optional<std::int64_t> bodies;
     std::optional<std::uint64_t> seed;
@@ -32,9 +34,10 @@ const std::vector<std::string> season_names = {"spring", "summer", "autumn", "wi
 
 const ToolInfo info = {
     "treegen",
-    "Makes a tree as splines: grown by Weber and Penn's recursion, or imported (--import).\n"
+    "Makes a tree as splines: grown by Weber and Penn's recursion, grown into a volume (--envelope), or imported.\n"
     "Usage: treegen [--species NAME] [--age YEARS] [--season NAME] [--bodies N] [--seed N] [--leaves] [--petals] "
     "[--fruit]\n"
+    "       treegen --envelope sphere|cone|box|FILE [--envelope-size X,Y,Z] [--attractors N] ... [-o FILE]\n"
     "       treegen --import FILE [--units UNIT] [--up AXIS] [--leaves] [--fruit] [-o FILE]",
     "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, and bough splines; which one a\n"
     "file is, its content decides. The result goes to treeconvert:\n"
@@ -66,12 +69,23 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--fruit", o.fruit, "With fruit");
     app.add_option("--seed", o.seed, "Seed of every random draw (0)")->option_text("N")->check(whole_number(0));
     add_import_options(app, o.choice);
+    add_envelope_options(app, o.envelope);
 }
 
 void refuse_contradictions(const Options& o) {
+    if (!o.envelope.envelope.empty()) {
+        if (!o.import.empty()) throw UsageError("--envelope: not with --import");
+        if (!o.species.empty()) throw UsageError("--envelope: not with --species, which grows in its own way");
+        if (o.age) throw UsageError("--age: not with --envelope, whose size says how big the tree is");
+        if (!o.season.empty()) throw UsageError("--season: not with --envelope, which has no species");
+        if (o.petals) throw UsageError("--petals: not with --envelope, which has no species");
+        return;
+    }
+    for (const auto& [option, given] : o.envelope.given())
+        if (given) throw UsageError(option + ": only with --envelope");
     if (o.import.empty()) {
-        if (!o.choice.units.empty()) throw UsageError("--units: only with --import");
-        if (!o.choice.up.empty()) throw UsageError("--up: only with --import");
+        if (!o.choice.units.empty()) throw UsageError("--units: only with --import or --envelope FILE");
+        if (!o.choice.up.empty()) throw UsageError("--up: only with --import or --envelope FILE");
         return;
     }
     const char* reason = ": not with --import, whose file says what the tree is";
@@ -128,8 +142,10 @@ Species chosen_species(const Options& o) {
 }
 
 Splines grown(Options& o) {
-    const Species species = chosen_species(o);
     const std::uint64_t seed = o.seed.value_or(0);
+    if (!o.envelope.envelope.empty())
+        return grow_in_envelope(o.envelope, o.choice, {seed, o.bodies, o.leaves, o.fruit}, o.common);
+    const Species species = chosen_species(o);
     Items items{o.leaves, o.petals, o.fruit};
     if (!o.season.empty() && !o.leaves && !o.petals && !o.fruit) items = {true, true, true};
     try {
