@@ -104,7 +104,7 @@ TEST_CASE("the joints asked for are used") {
         }
 }
 
-TEST_CASE("leaves and fruit go first, then the deepest branches, then pieces, the trunk last") {
+TEST_CASE("leaves and fruit go first, then pieces of side branches, then the deepest branches, the trunk last") {
     // Bodies: trunk 0-3; branches 4-5 (reach 0.8), 6-7, 8 (the shortest); a twig 9; leaves 10-12, a fruit 13.
     const Tree tree = branched();
     const auto kept = [&](std::size_t most) { return firsts(merge_joints(tree, most)); };
@@ -114,6 +114,8 @@ TEST_CASE("leaves and fruit go first, then the deepest branches, then pieces, th
     CHECK(kept(5) == std::set<std::int32_t>{0, 1, 2, 3, 4});
     CHECK(kept(6) == std::set<std::int32_t>{0, 1, 2, 3, 4, 6});
     CHECK(kept(7) == std::set<std::int32_t>{0, 1, 2, 3, 4, 6, 8});
+    CHECK(kept(8) == std::set<std::int32_t>{0, 1, 2, 3, 4, 6, 8, 9});
+    CHECK(kept(9) == std::set<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 8, 9});
     CHECK(kept(10) == std::set<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
     const JointGroups no_leaves = merge_joints(tree, 10);
     for (const std::size_t leaf : {10u, 11u, 12u, 13u})
@@ -133,7 +135,7 @@ TEST_CASE("pieces of a branch are joined evenly and led by the middle one") {
     }
 }
 
-TEST_CASE("a branch has four groups before deeper ones have any") {
+TEST_CASE("a trunk has four groups before its branches have any") {
     // A trunk of 40 pieces with 12 side branches: 4 for the trunk, one each, the rest to the trunk's pieces.
     Tree tree = chain(40, 8, 0.1, 0.05);
     for (int k = 0; k < 12; ++k)

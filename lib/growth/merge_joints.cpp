@@ -8,8 +8,9 @@
 namespace bough {
 namespace {
 
-// Groups a branch gets before deeper levels get any: four rigid pieces follow its curve to a sixteenth of one's error.
-constexpr std::size_t few = 4, any = std::numeric_limits<std::size_t>::max();
+// Groups that a trunk gets before deeper levels get any. Its curve carries all else, and four rigid pieces follow it to a
+// sixteenth of one's error.
+constexpr std::size_t trunk_groups = 4, any = std::numeric_limits<std::size_t>::max();
 constexpr std::int32_t beyond_levels = std::numeric_limits<std::int32_t>::max(); // of leaves, petals and fruit
 
 // The pieces of a branch in order, or a leaf, petal or fruit alone.
@@ -119,8 +120,10 @@ std::vector<Level> by_level(std::vector<Chain>& chains) {
 void share_out(std::vector<Chain>& chains, std::size_t joints) {
     const std::vector<Level> levels = by_level(chains);
     const std::size_t wood = levels.size() - (levels.back().front()->level == beyond_levels);
-    for (std::size_t l = 0; l < wood && joints > 0; ++l)
-        joints = give_more(levels[l], give_first(levels[l], joints), few);
+    for (std::size_t l = 0; l < wood && joints > 0; ++l) {
+        joints = give_first(levels[l], joints);
+        if (l == 0) joints = give_more(levels[l], joints, trunk_groups);
+    }
     for (std::size_t l = 0; l < wood && joints > 0; ++l) joints = give_more(levels[l], joints, any);
     if (wood < levels.size()) give_first(levels.back(), joints);
 }

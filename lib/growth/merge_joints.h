@@ -3,8 +3,8 @@
 // Each body begins a group of its own or joins its parent's, so a group is connected and the groups form a tree. A group
 // moves rigidly: about its first body's own joint, turned as its leading body turns. The joints that fit go to the levels
 // from the trunk up, so that the deepest are merged first:
-//   - each branch of a level gets one, then up to four, as its pieces allow, before a deeper level gets any; then, again
-//     from the trunk up, as many as it has pieces; then leaves, petals and fruit, which until then join the piece that
+//   - each trunk gets one, then up to four; each branch of the next level one, and so on down; then, again from the trunk
+//     up, branches get as many as they have pieces; then leaves, petals and fruit, which until then join the piece that
 //     bears them, get their own;
 //   - where a level's branches do not all get one, those do that reach farthest (the longest way from their joint to a
 //     tip), of equals the heavier with all they bear; the others join the piece that bears them;
