@@ -1,6 +1,6 @@
 #include "grow.h"
 #include "pipe.h"
-#include "stem.h"
+#include "segment_line.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -13,19 +13,11 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kMostItems = 50'000'000;     // branches, leaves and fruit
 constexpr std::size_t kMostPoints = 1'000'000'000; // what Splines::first_point can hold, and some room
 
-Quat about(const Vec3& axis, double angle) {
-    return quaternion_from_vector<double>(axis * angle);
-}
 Quat about_x(double angle) {
     return about(Vec3::UnitX(), angle);
 }
 Quat about_z(double angle) {
     return about(Vec3::UnitZ(), angle);
-}
-
-// Angle between the stem and the vertical.
-double declination(const Quat& frame) {
-    return std::acos(std::clamp((frame * Vec3::UnitZ()).y(), -1.0, 1.0));
 }
 
 double varied(double value, double v, RandomKey key, Draw draw, std::uint64_t index = 0) {
@@ -44,7 +36,6 @@ private:
     void draw_pruned(Stem&, std::int32_t branch);
     bool inside_envelope(std::int32_t branch) const;
     void undraw(std::int32_t branch);
-    void draw_points(const Stem&, const std::vector<double>& marks, int segment);
     Quat turned(const Stem&, const Quat& frame, int segment) const;
     int splits_after(const Stem&, int segment) const;
     Quat split(const Stem&, std::int32_t branch, const Segment& end, int next, int clones, double& unbend);
@@ -93,9 +84,7 @@ bool Grower::run(std::uint64_t seed, const Items& items, std::int64_t most) {
         stack_.insert(stack_.end(), born_.rbegin(), born_.rend());
         const std::size_t made = out_.branches() + stack_.size() + out_.leaves() + out_.fruits();
         if (made > static_cast<std::size_t>(most)) return false;
-        if (made > kMostItems || out_.points() > kMostPoints)
-            throw std::invalid_argument("branches, seg_splits, leaves: make more than 5e7 branches and leaves or 1e9 "
-                                        "points, expected fewer");
+        check_size(out_, stack_.size());
     }
     return true;
 }
@@ -145,16 +134,14 @@ void Grower::undraw(std::int32_t branch) {
 void Grower::draw(const Stem& stem, std::int32_t branch) {
     const LevelParameters& l = p_.level[stem.level];
     born_.clear();
-    out_.parent.push_back(stem.parent);
-    out_.parent_at.push_back(stem.parent_at);
-    out_.level.push_back(stem.level);
+    append_branch(stem, out_);
     const std::vector<double> marks = taper_marks(l.taper, stem.level == 0 ? p_.flare : 0, stem.radius, stem.length);
     const double step = stem.length / l.curve_res;
     segment_.clear();
     segment_.push_back({stem.position, stem.frame});
     Stem state = stem;
     for (int i = stem.first_segment; i < l.curve_res; ++i) {
-        draw_points(stem, marks, i);
+        append_points(p_, stem, segment_.back(), i, marks, out_);
         if (i + 1 == l.curve_res) break;
         const Segment& now = segment_.back();
         Segment next{now.position + now.frame * Vec3(0, 0, step), now.frame};
@@ -164,23 +151,6 @@ void Grower::draw(const Stem& stem, std::int32_t branch) {
         segment_.push_back(next);
     }
     out_.first_point.push_back(static_cast<std::int32_t>(out_.points()));
-}
-
-// Points of a segment's end and of the marks within; of a branch's first segment also of its start.
-void Grower::draw_points(const Stem& stem, const std::vector<double>& marks, int segment) {
-    const LevelParameters& l = p_.level[stem.level];
-    const double from = static_cast<double>(segment) / l.curve_res, to = static_cast<double>(segment + 1) / l.curve_res;
-    const Segment& s = segment_.back();
-    const auto add = [&](double z) {
-        const double flare = stem.level == 0 ? flare_factor(p_.flare, z) : 1;
-        out_.point.push_back(s.position + s.frame * Vec3(0, 0, (z - from) * stem.length));
-        out_.radius.push_back(std::max(flare * taper_radius(l.taper, stem.radius, stem.length, z), p_.least_radius));
-    };
-    if (segment == stem.first_segment) add(from);
-    const double apart = 1e-3 * (to - from);
-    for (auto z = std::upper_bound(marks.begin(), marks.end(), from + apart); z != marks.end() && *z < to - apart; ++z)
-        add(*z);
-    add(to);
 }
 
 // The frame of segment `segment` from that of the one before.
@@ -311,12 +281,42 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
 
 } // namespace
 
+void append_branch(const Stem& stem, Splines& out) {
+    out.parent.push_back(stem.parent);
+    out.parent_at.push_back(stem.parent_at);
+    out.level.push_back(stem.level);
+}
+
+void append_points(const GrowthParameters& p, const Stem& stem, const Segment& segment, int number,
+                   const std::vector<double>& marks, Splines& out) {
+    const LevelParameters& l = p.level[stem.level];
+    const double from = static_cast<double>(number) / l.curve_res, to = static_cast<double>(number + 1) / l.curve_res;
+    const auto add = [&](double z) {
+        const double flare = stem.level == 0 ? flare_factor(p.flare, z) : 1;
+        out.point.push_back(segment.position + segment.frame * Vec3(0, 0, (z - from) * stem.length));
+        out.radius.push_back(std::max(flare * taper_radius(l.taper, stem.radius, stem.length, z), p.least_radius));
+    };
+    if (number == stem.first_segment) add(from);
+    const double apart = 1e-3 * (to - from);
+    for (auto z = std::upper_bound(marks.begin(), marks.end(), from + apart); z != marks.end() && *z < to - apart; ++z)
+        add(*z);
+    add(to);
+}
+
+void check_size(const Splines& out, std::size_t waiting) {
+    if (out.branches() + waiting + out.leaves() + out.fruits() > kMostItems || out.points() > kMostPoints)
+        throw std::invalid_argument("branches, seg_splits, leaves: make more than 5e7 branches and leaves or 1e9 "
+                                    "points, expected fewer");
+}
+
 bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t most,
                 Splines& out) {
     check_growth(parameters);
     out = Splines();
     out.name = parameters.name;
-    const bool whole = Grower(parameters, out).run(seed, items, most);
+    const bool whole = parameters.rules == GrowthRules::bough     ? Grower(parameters, out).run(seed, items, most)
+                       : parameters.rules == GrowthRules::sapling ? grow_sapling(parameters, seed, items, most, out)
+                                                                  : grow_segments(parameters, seed, items, most, out);
     if (!items.petals) out.leaf_kind.clear();
     if (whole && parameters.pipe_exponent > 0)
         thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
