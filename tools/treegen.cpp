@@ -1,8 +1,9 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
 #include "formats/import.h"
+#include "formats/species.h"
 #include "formats/splines.h"
-#include "lib/growth/grow.h"
+#include <algorithm>
 #include <iostream>
 
 namespace {
@@ -15,16 +16,25 @@ struct Options {
     std::string species, import;
     std::optional<std::int64_t> bodies;
     std::optional<std::uint64_t> seed;
-    bool leaves = false, fruit = false, list_species = false;
+    std::optional<double> age;
+    std::string season;
+    bool leaves = false, petals = false, fruit = false, list_species = false;
 };
 
-// What --species takes. One parameter set so far; a name is only listed once the tree behind it exists.
-const std::vector<std::string> species_names = {"broadleaf"};
+// What --species takes: the default tree and the documents that come with bough.
+std::vector<std::string> species_names() {
+    std::vector<std::string> names = {default_species().name};
+    for (const SpeciesFile& file : species_files()) names.emplace_back(file.name);
+    return names;
+}
+
+const std::vector<std::string> season_names = {"spring", "summer", "autumn", "winter"};
 
 const ToolInfo info = {
     "treegen",
     "Makes a tree as splines: grown by Weber and Penn's recursion, or imported (--import).\n"
-    "Usage: treegen [--species NAME] [--bodies N] [--seed N] [--leaves] [--fruit] [-o FILE]\n"
+    "Usage: treegen [--species NAME] [--age YEARS] [--season NAME] [--bodies N] [--seed N] [--leaves] [--petals] "
+    "[--fruit]\n"
     "       treegen --import FILE [--units UNIT] [--up AXIS] [--leaves] [--fruit] [-o FILE]",
     "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, and bough splines; which one a\n"
     "file is, its content decides. The result goes to treeconvert:\n"
@@ -35,15 +45,25 @@ const ToolInfo info = {
 void declare(CLI::App& app, Options& o) {
     app.add_option("--species", o.species, "Which tree to grow (see --list-species)")
         ->option_text("NAME")
-        ->check(CLI::IsMember(species_names));
+        ->check(CLI::IsMember(species_names()));
     app.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
     app.add_option("--import", o.import, "Import this file instead of growing; - for stdin")->option_text("FILE");
     app.add_option("--bodies", o.bodies,
                    "Grow a tree that treeconvert makes N bodies of by default (within 10 %; leaves and fruit count)")
         ->option_text("N")
         ->check(whole_number(1));
-    app.add_flag("--leaves", o.leaves, "With leaves; else none");
-    app.add_flag("--fruit", o.fruit, "With fruit; else none");
+    app.add_option("--age", o.age, "Years; the mature tree unless given")
+        ->option_text("YEARS")
+        ->check(positive_number());
+    app.add_option(
+           "--season", o.season,
+           "spring, summer, autumn or winter: leaves, petals and fruit as the species then has them, and leaves'\n"
+           "colour; with --leaves, --petals, --fruit only those asked for")
+        ->option_text("NAME")
+        ->check(CLI::IsMember(season_names));
+    app.add_flag("--leaves", o.leaves, "With leaves or needles; else none unless --season");
+    app.add_flag("--petals", o.petals, "With blossoms");
+    app.add_flag("--fruit", o.fruit, "With fruit");
     app.add_option("--seed", o.seed, "Seed of every random draw (0)")->option_text("N")->check(whole_number(0));
     add_import_options(app, o.choice);
 }
@@ -57,6 +77,9 @@ void refuse_contradictions(const Options& o) {
     const char* reason = ": not with --import, whose file says what the tree is";
     if (!o.species.empty()) throw UsageError(std::string("--species") + reason);
     if (o.bodies) throw UsageError(std::string("--bodies") + reason);
+    if (o.age) throw UsageError(std::string("--age") + reason);
+    if (!o.season.empty()) throw UsageError(std::string("--season") + reason);
+    if (o.petals) throw UsageError(std::string("--petals") + reason);
     if (o.seed) throw UsageError(std::string("--seed") + reason);
 }
 
@@ -98,11 +121,38 @@ Splines imported(Options& o) {
     return splines;
 }
 
-Splines grown(const Options& o) {
+Species chosen_species(const Options& o) {
+    for (const SpeciesFile& file : species_files())
+        if (file.name == o.species) return read_species(file.content, o.species);
+    return default_species();
+}
+
+Splines grown(Options& o) {
+    const Species species = chosen_species(o);
     const std::uint64_t seed = o.seed.value_or(0);
+    Items items{o.leaves, o.petals, o.fruit};
+    if (!o.season.empty() && !o.leaves && !o.petals && !o.fruit) items = {true, true, true};
     try {
-        return o.bodies ? grow_bodies(default_growth(), seed, {o.leaves, false, o.fruit}, *o.bodies)
-                        : grow(default_growth(), seed, {o.leaves, false, o.fruit});
+        GrowthParameters growth = o.age ? at_age(species, *o.age) : species.growth;
+        std::vector<Vec3> color = species.color;
+        if (!o.season.empty()) {
+            const auto season =
+                Season(std::find(season_names.begin(), season_names.end(), o.season) - season_names.begin());
+            growth = in_season(species, growth, season);
+            color = colors_in_season(species, season);
+        }
+        const auto note_none = [&](bool wanted, double number, const char* what) {
+            if (wanted && number == 0)
+                o.common.notes.push_back(species.name + " has no " + what +
+                                         (o.season.empty() ? "" : " in " + o.season));
+        };
+        note_none(o.leaves, growth.leaves, "leaves");
+        note_none(o.petals, growth.blossoms, "petals");
+        note_none(o.fruit, growth.fruits, "fruit");
+        Splines splines = o.bodies ? grow_bodies(growth, seed, items, *o.bodies) : grow(growth, seed, items);
+        splines.material = species.material;
+        splines.color = color;
+        return splines;
     } catch (const std::invalid_argument& error) {
         throw UsageError(error.what());
     }
@@ -110,7 +160,7 @@ Splines grown(const Options& o) {
 
 void work(Options& o) {
     if (o.list_species) {
-        for (const std::string& name : species_names) std::cout << name << "\n";
+        for (const std::string& name : species_names()) std::cout << name << "\n";
         return;
     }
     refuse_contradictions(o);

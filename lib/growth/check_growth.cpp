@@ -127,6 +127,9 @@ void check_growth(const GrowthParameters& p) {
     positive("fruit_radius", p.fruit_radius, 1e3);
     within("least_radius", p.least_radius, 0, 10);
     within("most_slender", p.most_slender, 0, 1e6);
+    if (p.most_sag != 0) within("most_sag", p.most_sag, 0.01, 3);
+    if (const auto defect = check(p.wood))
+        throw std::invalid_argument("wood." + defect->field + ": " + defect->message);
 }
 
 } // namespace bough

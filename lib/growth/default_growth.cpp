@@ -66,7 +66,7 @@ GrowthParameters default_growth() {
     p.fruits = 0.3;
     p.fruit_radius = 0.008;
     p.least_radius = 0.0005;
-    p.most_slender = 150;
+    p.most_sag = 0.35;
     p.pipe_exponent = 2;
     return p;
 }

@@ -1,6 +1,8 @@
 #include "grow.h"
+#include "carry.h"
 #include "pipe.h"
 #include "segment_line.h"
+#include "stem.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -36,6 +38,7 @@ private:
     void draw_pruned(Stem&, std::int32_t branch);
     bool inside_envelope(std::int32_t branch) const;
     void undraw(std::int32_t branch);
+    void draw_points(const Stem&, const std::vector<double>& marks, int segment);
     Quat turned(const Stem&, const Quat& frame, int segment) const;
     int splits_after(const Stem&, int segment) const;
     Quat split(const Stem&, std::int32_t branch, const Segment& end, int next, int clones, double& unbend);
@@ -134,23 +137,48 @@ void Grower::undraw(std::int32_t branch) {
 void Grower::draw(const Stem& stem, std::int32_t branch) {
     const LevelParameters& l = p_.level[stem.level];
     born_.clear();
-    append_branch(stem, out_);
+    out_.parent.push_back(stem.parent);
+    out_.parent_at.push_back(stem.parent_at);
+    out_.level.push_back(stem.level);
     const std::vector<double> marks = taper_marks(l.taper, stem.level == 0 ? p_.flare : 0, stem.radius, stem.length);
     const double step = stem.length / l.curve_res;
     segment_.clear();
-    segment_.push_back({stem.position, stem.frame});
+    segment_.push_back({stem.position, stem.frame, stem.share});
     Stem state = stem;
     for (int i = stem.first_segment; i < l.curve_res; ++i) {
-        append_points(p_, stem, segment_.back(), i, marks, out_);
+        draw_points(stem, marks, i);
         if (i + 1 == l.curve_res) break;
         const Segment& now = segment_.back();
-        Segment next{now.position + now.frame * Vec3(0, 0, step), now.frame};
-        if (const int clones = splits_after(stem, i); clones > 0)
+        Segment next{now.position + now.frame * Vec3(0, 0, step), now.frame, now.share};
+        if (const int clones = splits_after(stem, i); clones > 0) {
+            if (p_.split_exponent > 0) next.share *= std::pow(clones + 1, -1 / p_.split_exponent);
             next.frame = split(stem, branch, next, i + 1, clones, state.unbend);
+        }
         next.frame = turned(state, next.frame, i + 1);
         segment_.push_back(next);
     }
     out_.first_point.push_back(static_cast<std::int32_t>(out_.points()));
+}
+
+// Points of a segment's end and of the marks within; of a branch's first segment also of its start.
+void Grower::draw_points(const Stem& stem, const std::vector<double>& marks, int segment) {
+    const LevelParameters& l = p_.level[stem.level];
+    const double from = static_cast<double>(segment) / l.curve_res, to = static_cast<double>(segment + 1) / l.curve_res;
+    const Segment& s = segment_.back();
+    const auto shaped = [&](double z) {
+        const double r = taper_radius(l.taper, stem.radius, stem.length, z);
+        return l.taper_power == 1 ? r : stem.radius * std::pow(r / stem.radius, l.taper_power);
+    };
+    const auto add = [&](double z) {
+        const double flare = stem.level == 0 ? flare_factor(p_.flare, z) : 1;
+        out_.point.push_back(s.position + s.frame * Vec3(0, 0, (z - from) * stem.length));
+        out_.radius.push_back(std::max(flare * s.share * shaped(z), p_.least_radius));
+    };
+    if (segment == stem.first_segment) add(from);
+    const double apart = 1e-3 * (to - from);
+    for (auto z = std::upper_bound(marks.begin(), marks.end(), from + apart); z != marks.end() && *z < to - apart; ++z)
+        add(*z);
+    add(to);
 }
 
 // The frame of segment `segment` from that of the one before.
@@ -215,6 +243,7 @@ Quat Grower::split(const Stem& stem, std::int32_t branch, const Segment& end, in
         clone.parent = branch;
         clone.parent_at = static_cast<double>(next - stem.first_segment) / (l.curve_res - stem.first_segment);
         clone.first_segment = next;
+        clone.share = end.share;
         born_.push_back(clone);
     }
     const double angle = turn(stem.key);
@@ -269,7 +298,8 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
         child.length = stem.length * longest * child.crown;
     } else
         child.length = longest * (stem.length - 0.6 * offset);
-    const double radius = l.radius_mod * stem.radius * std::pow(child.length / stem.length, p_.ratio_power);
+    const double radius = l.radius_mod * grown.segment_at(offset).share * stem.radius *
+                          std::pow(child.length / stem.length, p_.ratio_power);
     child.radius = std::min(std::max(radius, p_.least_radius), radius_at(out_, grown.branch, child.parent_at));
     if (p_.most_slender > 0) child.length = std::min(child.length, p_.most_slender * child.radius);
     const double up = shape_ratio(0, (stem.length - offset) / (stem.length - base));
@@ -280,28 +310,6 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
 }
 
 } // namespace
-
-void append_branch(const Stem& stem, Splines& out) {
-    out.parent.push_back(stem.parent);
-    out.parent_at.push_back(stem.parent_at);
-    out.level.push_back(stem.level);
-}
-
-void append_points(const GrowthParameters& p, const Stem& stem, const Segment& segment, int number,
-                   const std::vector<double>& marks, Splines& out) {
-    const LevelParameters& l = p.level[stem.level];
-    const double from = static_cast<double>(number) / l.curve_res, to = static_cast<double>(number + 1) / l.curve_res;
-    const auto add = [&](double z) {
-        const double flare = stem.level == 0 ? flare_factor(p.flare, z) : 1;
-        out.point.push_back(segment.position + segment.frame * Vec3(0, 0, (z - from) * stem.length));
-        out.radius.push_back(std::max(flare * taper_radius(l.taper, stem.radius, stem.length, z), p.least_radius));
-    };
-    if (number == stem.first_segment) add(from);
-    const double apart = 1e-3 * (to - from);
-    for (auto z = std::upper_bound(marks.begin(), marks.end(), from + apart); z != marks.end() && *z < to - apart; ++z)
-        add(*z);
-    add(to);
-}
 
 void check_size(const Splines& out, std::size_t waiting) {
     if (out.branches() + waiting + out.leaves() + out.fruits() > kMostItems || out.points() > kMostPoints)
@@ -320,6 +328,7 @@ bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const It
     if (!items.petals) out.leaf_kind.clear();
     if (whole && parameters.pipe_exponent > 0)
         thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
+    if (whole && parameters.most_sag > 0) thicken_to_carry(out, parameters.wood, parameters.most_sag);
     return whole;
 }
 

@@ -33,6 +33,7 @@
 // Not here: lobes (bodies are round).
 #pragma once
 #include "../model/splines.h"
+#include "../model/wood.h"
 #include "rules.h"
 #include <array>
 #include <cstdint>
@@ -100,6 +101,10 @@ struct GrowthParameters {
     double least_radius = 0;  // [m] 0..10, our own: no stem is thinner anywhere; wood carries its leaves down to 0.5 mm
     double most_slender = 0;  // 0 (off)..1e6, our own: no child is longer than this times its radius at the base
     double pipe_exponent = 0; // 0 (off) or 1..4, our own: radii are raised to carry their side branches (pipe.h)
+    // Our own: radii are raised until no branch is turned more than this by its load, 0 (off) or 0.01..3 [rad] (carry.h),
+    // made of this wood.
+    double most_sag = 0;
+    Material wood = wood_presets().front();
     std::string name = "tree";
 };
 

@@ -190,10 +190,25 @@ void SegmentGrower::set_density(SegmentStem& stem, bool last) const {
 
 void SegmentGrower::draw(const SegmentStem& stem, const SegmentLine& line) {
     const LevelParameters& l = p_.level[std::size_t(stem.level)];
-    append_branch(stem, out_);
-    const auto marks = taper_marks(l.taper, stem.level == 0 ? p_.flare : 0, stem.radius, stem.length);
-    for (std::size_t i = 0; i < line.segment.size(); ++i)
-        append_points(p_, stem, line.segment[i], stem.first_segment + int(i), marks, out_);
+    out_.parent.push_back(stem.parent);
+    out_.parent_at.push_back(stem.parent_at);
+    out_.level.push_back(stem.level);
+    const double flare = stem.level == 0 ? p_.flare : 0;
+    std::vector<double> marks = taper_marks(l.taper, flare, stem.radius, stem.length);
+    const double apart = 1e-3 / l.curve_res;
+    for (std::size_t i = 0; i < line.segment.size(); ++i) {
+        const double from = double(stem.first_segment + int(i)) / l.curve_res, to = from + 1.0 / l.curve_res;
+        const auto add = [&](double z) {
+            const Segment& s = line.segment[i];
+            out_.point.push_back(s.position + s.frame * Vec3(0, 0, (z - from) * stem.length));
+            const double radius = flare_factor(flare, z) * taper_radius(l.taper, stem.radius, stem.length, z);
+            out_.radius.push_back(std::max(radius, p_.least_radius));
+        };
+        if (i == 0) add(from);
+        auto mark = std::upper_bound(marks.begin(), marks.end(), from + apart);
+        for (; mark != marks.end() && *mark < to - apart; ++mark) add(*mark);
+        add(to);
+    }
     out_.first_point.push_back(static_cast<std::int32_t>(out_.points()));
 }
 

@@ -75,14 +75,6 @@ struct GrownStem {
 // segments. O(points of the branch).
 double radius_at(const Splines&, std::int32_t branch, double at);
 
-// Appends a new branch of the stem, without points.
-void append_branch(const Stem&, Splines& out);
-
-// Appends the points of segment number `number` of a stem, which starts at `segment`, and, of a branch's first segment,
-// also of its start: its end, and the marks within (taper_marks()).
-void append_points(const GrowthParameters&, const Stem&, const Segment& segment, int number,
-                   const std::vector<double>& marks, Splines& out);
-
 // One leaf that grows at `offset` [m] of the stem, `turned`: z its length, y its normal.
 void add_leaf(const GrowthParameters&, const GrownStem&, double offset, const Quat& turned, double length,
               Splines& out);

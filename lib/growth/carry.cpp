@@ -1,0 +1,120 @@
+#include "carry.h"
+#include "../model/body_shape.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace bough {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double gravity = 9.81;
+constexpr double safety = 2; // against buckling
+
+struct Load {
+    double at;         // fraction of the bearing branch's arc length
+    double mass;       // [kg]
+    Vec3 first_moment; // [kg m] about the world's origin
+    double radius;     // [m] of the branch that begins here, 0 for leaves and fruit
+};
+
+// One branch while it is gone through from its tip.
+class Carrier {
+public:
+    Carrier(Splines& s, const Material& wood, double most_sag, std::size_t b);
+    void bear(std::vector<Load>& loads);
+    Load whole() const { return {s_.parent_at[branch_], mass_, moment_, s_.radius[first_]}; }
+
+private:
+    void add(const Load& load);
+    void raise(std::size_t k);
+
+    Splines& s_;
+    const Material& wood_;
+    const double most_sag_;
+    const std::size_t branch_, first_, last_;
+    std::vector<double> arc_;
+    double mass_ = 0, floor_ = 0;
+    Vec3 moment_ = Vec3::Zero();
+};
+
+Carrier::Carrier(Splines& s, const Material& wood, double most_sag, std::size_t b)
+    : s_(s), wood_(wood), most_sag_(most_sag), branch_(b), first_(std::size_t(s.first_point[b])),
+      last_(std::size_t(s.first_point[b + 1]) - 1), arc_{0} {
+    for (std::size_t k = first_; k < last_; ++k) arc_.push_back(arc_.back() + (s.point[k + 1] - s.point[k]).norm());
+}
+
+void Carrier::add(const Load& load) {
+    mass_ += load.mass;
+    moment_ += load.first_moment;
+}
+
+void Carrier::raise(std::size_t k) {
+    const double length = arc_.back(), left = length - arc_[k - first_];
+    if (!(length > 0)) return;
+    const Vec3 chord = s_.point[std::min(k + 1, last_)] - s_.point[k > first_ ? k - 1 : k];
+    const Vec3 tangent = chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitY());
+    const Vec3 torque = gravity * (moment_ - mass_ * s_.point[k]).cross(Vec3::UnitY());
+    const double twist = torque.dot(tangent) / (2 * wood_.shear_modulus);
+    const double bend = (torque - torque.dot(tangent) * tangent).norm() / wood_.youngs_modulus;
+    const double upward = std::max(0.0, tangent.y());
+    const double section =
+        std::max(std::hypot(bend, twist) * length / most_sag_,
+                 safety * mass_ * gravity * upward * 4 * left * left / (pi * pi * wood_.youngs_modulus));
+    const double needed = std::max(std::pow(4 * section / pi, 0.25), floor_);
+    if (needed > s_.radius[k]) {
+        s_.radius[k] = needed;
+        floor_ = needed;
+    }
+}
+
+void Carrier::bear(std::vector<Load>& loads) {
+    std::sort(loads.begin(), loads.end(), [](const Load& x, const Load& y) { return x.at > y.at; });
+    std::size_t next = 0;
+    for (std::size_t k = last_ + 1; k-- > first_;) {
+        if (k < last_) {
+            const Vec3 along = s_.point[k + 1] - s_.point[k];
+            const double length = along.norm();
+            if (length > 0) {
+                const MassProperties piece = frustum(length, s_.radius[k], s_.radius[k + 1], wood_.density);
+                add({0, piece.mass, piece.mass * (s_.point[k] + along / length * piece.com.z()), 0});
+            }
+        }
+        // What hangs between two points is borne by both.
+        const double inner = k > first_ && arc_.back() > 0 ? arc_[k - 1 - first_] / arc_.back() : -1;
+        for (; next < loads.size() && loads[next].at > inner; ++next) {
+            add(loads[next]);
+            if (loads[next].radius > s_.radius[k]) floor_ = std::max(floor_, loads[next].radius);
+        }
+        raise(k);
+    }
+}
+
+void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<Load>>& loads) {
+    for (std::size_t i = 0; i < s.leaves(); ++i) {
+        const double thickness = s.is_petal(i) ? wood.petal_thickness : wood.leaf_thickness;
+        const MassProperties leaf = leaf_prism(s.leaf_length[i], s.leaf_width[i], thickness, wood.leaf_density);
+        loads[std::size_t(s.leaf_branch[i])].push_back(
+            {s.leaf_at[i], leaf.mass, leaf.mass * (s.leaf_position[i] + s.leaf_rotation[i] * leaf.com), 0});
+    }
+    for (std::size_t i = 0; i < s.fruits(); ++i) {
+        const double mass = wood.fruit_density * 4 / 3 * pi * std::pow(s.fruit_radius[i], 3);
+        loads[std::size_t(s.fruit_branch[i])].push_back({s.fruit_at[i], mass, mass * s.fruit_center[i], 0});
+    }
+}
+
+} // namespace
+
+void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
+    std::vector<std::vector<Load>> loads(s.branches());
+    hang_items(s, wood, loads);
+    for (std::size_t b = s.branches(); b-- > 0;) {
+        Carrier carrier(s, wood, most_sag, b);
+        carrier.bear(loads[b]);
+        if (s.parent[b] >= 0) loads[std::size_t(s.parent[b])].push_back(carrier.whole());
+        loads[b] = {};
+    }
+}
+
+} // namespace bough

@@ -1,0 +1,23 @@
+// carry.h: radii that carry what grows on them without sagging much: adaptive growth, after the observation that trees
+// keep their strains about even by growing thicker where they are loaded (Mattheck's axiom of uniform stress, taken here
+// as uniform sag).
+//
+// With W the weight of all wood, leaves, petals and fruit further out than a point of a branch of length L, M the moment
+// of that weight about the point (M_b across the tangent, M_t along it), l the arc length from there to the tip and c
+// the tangent's upward part, a radius r (I = pi r^4 / 4, J = 2 I) is raised until
+//   bending and twist   sqrt((M_b / E I)^2 + (M_t / G J)^2) <= most_sag / L     so that no branch is turned more than
+//                       most_sag by its load between its base and its tip;
+//   buckling            E I pi^2 / (4 l^2) >= 2 W c                             a column, twice as strong as it must be.
+// A radius is also at least the next one out, where that was raised, and those of the branches that begin there.
+// Wood that has been raised is weighed as such: one sweep from the tips to the ground. Radii only grow.
+// Reads Splines whose branches stand parents before children; writes its radius. most_sag [rad] > 0. Cost O(points +
+// items log items) a tree. Errors none.
+#pragma once
+#include "../model/splines.h"
+#include "../model/wood.h"
+
+namespace bough {
+
+void thicken_to_carry(Splines&, const Material&, double most_sag);
+
+} // namespace bough
