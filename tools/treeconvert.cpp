@@ -8,6 +8,7 @@
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
 #include "lib/model/split.h"
+#include "lib/model/sway.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -161,6 +162,8 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
          << "mass        " << mass << " kg\n"
          << "height      " << top << " m\n"
          << "stiffness   " << softest << " to " << stiffest << " N m/rad\n"
+         << "sway        " << sway_frequency(tree, Vec3::UnitX()) << " and " << sway_frequency(tree, Vec3::UnitZ())
+         << " Hz along x and z (Rayleigh's estimate, articulated)\n"
          << "longest     " << report.segment_length << " m of branch in one body\n"
          << "merged      " << report.merged_points << " points; dropped " << report.dropped_branches
          << " branches; radii raised " << report.thin_points << "\n";

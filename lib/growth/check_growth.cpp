@@ -47,6 +47,7 @@ void check_level(const std::string& at, const LevelParameters& l, bool trunk, Gr
     positive(at + "length", l.length, 1e3);
     below(at + "length_v", l.length_v, 0, l.length);
     within(at + "taper", l.taper, 0, 3);
+    within(at + "taper_power", l.taper_power, 0.1, 10);
     within(at + "curve_res", l.curve_res, 1, 1000);
     within(at + "seg_splits", l.seg_splits, 0, 100);
     within(at + "base_splits", l.base_splits, 0, 100);
@@ -125,6 +126,7 @@ void check_growth(const GrowthParameters& p) {
     positive("leaf_scale_x", p.leaf_scale_x, 1e3);
     within("leaf_bend", p.leaf_bend, 0, 1);
     positive("fruit_radius", p.fruit_radius, 1e3);
+    if (p.split_exponent != 0) within("split_exponent", p.split_exponent, 1, 4);
     within("least_radius", p.least_radius, 0, 10);
     within("most_slender", p.most_slender, 0, 1e6);
     if (p.most_sag != 0) within("most_sag", p.most_sag, 0.01, 3);

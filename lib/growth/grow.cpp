@@ -172,7 +172,8 @@ void Grower::draw_points(const Stem& stem, const std::vector<double>& marks, int
     const auto add = [&](double z) {
         const double flare = stem.level == 0 ? flare_factor(p_.flare, z) : 1;
         out_.point.push_back(s.position + s.frame * Vec3(0, 0, (z - from) * stem.length));
-        out_.radius.push_back(std::max(flare * s.share * shaped(z), p_.least_radius));
+        out_.radius.push_back(
+            std::max(flare * s.share * shaped(z), p_.least_radius));
     };
     if (segment == stem.first_segment) add(from);
     const double apart = 1e-3 * (to - from);

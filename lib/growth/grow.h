@@ -15,7 +15,7 @@
 //     (the part of the paper's error diffusion, but one stem's number does not depend on another's).
 //   Places. Child i of n sits at (i + 1/2) / n of the stem's length above its base_size. The part of a stem that is split
 //     off is a branch of the same level whose parent is the stem it leaves, as thick as that
-//     stem, and bears the children of its own part.
+//     stem unless split_exponent says otherwise, and bears the children of its own part.
 //   Rotation. Negative rotate: children at 180 + rotate on alternating sides.
 //   Base splits. They replace the seg_splits of the first segment and spread evenly about the vertical.
 //   Leaves. Their angles are leaf_angles or, where that is empty, those of level `levels` (of level 3 where levels is 4).
@@ -54,6 +54,7 @@ struct LevelParameters {
                             // tree_gen: 0..100, 0 alternate, 1 opposite, more: whorls of branch_dist + 1
     double length = 0, length_v = 0; // > 0 and 0 <= V < length, fraction of the parent's (level 0: of scale)
     double taper = 1;                // 0..3; 0 cylinder, 1 cone, 2 cylinder with a rounded tip, 3 periodic
+    double taper_power = 1; // 0.1..10, our own: the stem's taper to this power; 0.5 makes a cone a paraboloid
     double seg_splits = 0, split_angle = 0, split_angle_v = 0; // 0..100; [deg] -360..360
     double base_splits = 0;                                    // 0..100
     int curve_res = 1;                                         // 1..1000 segments; 2 or more where splits are
@@ -98,6 +99,8 @@ struct GrowthParameters {
     double petal_scale = 0.014, petal_scale_x = 0.9;
     double fruits = 0, fruit_radius = 0.03; // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
     double fruit_stalk = 1;                 // 0.01..1000, our own: length of its stalk over its radius
+    double split_exponent =
+        0;                    // 0 or 1..4, our own: k parts of a split stem each have k^(-1/this) of its radius; 0: all
     double least_radius = 0;  // [m] 0..10, our own: no stem is thinner anywhere; wood carries its leaves down to 0.5 mm
     double most_slender = 0;  // 0 (off)..1e6, our own: no child is longer than this times its radius at the base
     double pipe_exponent = 0; // 0 (off) or 1..4, our own: radii are raised to carry their side branches (pipe.h)

@@ -10,7 +10,7 @@ namespace {
 // How much more a level's numbers follow the factor than those of the level above it: a tree of few bodies keeps its
 // boughs and loses its twigs.
 constexpr std::array<double, 4> kWeight = {0, 1, 1.6, 2.4};
-constexpr double kLeafWeight = 0.4;
+constexpr double kLeafWeight = 0.2;
 constexpr double kLeafChange = 4;
 constexpr double kNear = 0.05;  // share of the bodies wanted at which the search ends
 constexpr double kWithin = 0.1; // and that the contract allows

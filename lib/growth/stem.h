@@ -49,6 +49,7 @@ struct Stem {
     double length = 0, radius = 0; // [m] of the whole stem, also for a clone; radius at the base, without flare
     double place = 0;              // offset / length of the parent; of the whole stem, also for a clone
     double crown = 1;              // crown_ratio at the place (level 1)
+    double share = 1;              // of the radius, left by splits before its first segment
     int first_segment = 0;         // a clone starts at this segment's start
     double unbend = 0;             // [rad] turned back in each segment after splits
 };
@@ -56,6 +57,7 @@ struct Stem {
 struct Segment {
     Vec3 position; // of its start
     Quat frame;
+    double share = 1; // of the stem's radius, left by splits
 };
 
 // A stem that has been drawn: segment i of `segment` is the stem's number first_segment + i.

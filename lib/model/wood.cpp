@@ -12,12 +12,15 @@ double green_density(double basic) {
     return 1000 * (basic + 0.6 * (1 - basic / 1.53));
 }
 
+constexpr double needle = 0.6e-3; // [m] as thick as it is wide
+
 const char* const handbook =
     "basic density and E green: USDA Forest Service, Wood Handbook, mechanical properties of woods grown in the United "
     "States; density with water: 60 % of the space left by cell walls filled; G = E/15; damping, leaf and fruit "
     "figures: typical orders of magnitude";
 
-Material wood(const char* name, double basic, double youngs_gpa, const char* source = handbook) {
+Material wood(const char* name, double basic, double youngs_gpa, const char* source = handbook,
+              double leaf_thickness = 0.25e-3) {
     Material m;
     m.name = name;
     m.density = std::round(green_density(basic));
@@ -25,7 +28,7 @@ Material wood(const char* name, double basic, double youngs_gpa, const char* sou
     m.shear_modulus = m.youngs_modulus / 15;
     m.damping_ratio = 0.03; // within the wood, without leaves or air: Moore & Maguire (2004) found less than 0.05
     m.leaf_density = 800;
-    m.leaf_thickness = 0.25e-3;
+    m.leaf_thickness = leaf_thickness;
     m.petal_thickness = 0.15e-3;
     m.leaf_modulus = 0.5e9;
     m.leaf_damping_ratio = 0.05;
@@ -56,15 +59,16 @@ const std::vector<Material>& wood_presets() {
              "basic density 0.61, E dry 8.76 GPa: common wood tables; E green taken as 0.85 of it, as in cherry and "
              "maple; the rest as the other presets: 60 % of the space left by cell walls filled with water; G = E/15; "
              "damping, leaf and fruit figures: typical orders of magnitude"),
-        wood("douglas-fir", 0.45, 10.8),
-        wood("eastern-white-pine", 0.34, 6.8),
-        wood("loblolly-pine", 0.47, 9.7),
+        wood("douglas-fir", 0.45, 10.8, handbook, needle),
+        wood("eastern-white-pine", 0.34, 6.8, handbook, needle),
+        wood("loblolly-pine", 0.47, 9.7, handbook, needle),
         wood(
             "coconut-palm", 0.50, 6.0,
             "basic density 0.5, E 6 GPa: the stem as a whole, denser and stiffer at its rim (0.6 and 8 to 11 GPa) than "
             "in its middle, after common figures for coconut wood; the rest as the other presets: 60 % of the space "
             "left "
-            "by cell walls filled with water; G = E/15; damping, leaf and fruit figures: typical orders of magnitude"),
+            "by cell walls filled with water; G = E/15; damping, leaf and fruit figures: typical orders of magnitude",
+            0.4e-3),
     };
     return presets;
 }
