@@ -104,6 +104,16 @@ std::array<double, 4> ParameterTable::four(const std::string& name, const std::a
     return result;
 }
 
+std::vector<double> ParameterTable::three(const std::string& name, const std::array<double, 3>& fallback, double least,
+                                          double most) {
+    const ParameterValue* value = find(name);
+    if (!value) return {fallback.begin(), fallback.end()};
+    if (value->kind != ParameterValue::Kind::list || value->numbers.size() != 3) refuse(name, "a list of 3 numbers");
+    for (const double v : value->numbers)
+        if (!(v >= least && v <= most)) refuse(name, "numbers " + range(least, most));
+    return value->numbers;
+}
+
 std::string ParameterTable::known(std::initializer_list<const char*> names) {
     std::string there;
     for (const char* name : names)

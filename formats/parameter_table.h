@@ -39,6 +39,9 @@ public:
     std::array<double, 4> four(const std::string& name, const std::array<double, 4>& fallback, double least,
                                double most, int grown, bool whole = false);
 
+    std::vector<double> three(const std::string& name, const std::array<double, 3>& fallback, double least,
+                              double most);
+
     // Names that are known, and those of them that the file has, for a note.
     std::string known(std::initializer_list<const char*> names);
     // As known(); what is there and not 0, off or empty is put into `notes` as "NAMES (reason)".
