@@ -1,8 +1,10 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
+#include "formats/growth_params.h"
 #include "formats/import.h"
 #include "formats/species.h"
 #include "formats/splines.h"
+#include "lib/growth/carry.h"
 #include <algorithm>
 #include <iostream>
 
@@ -13,7 +15,7 @@ using namespace bough;
 struct Options {
     CommonOptions common;
     ImportChoice choice;
-    std::string species, import;
+    std::string species, params, import;
     std::optional<std::int64_t> bodies;
     std::optional<std::uint64_t> seed;
     std::optional<double> age;
@@ -35,6 +37,7 @@ const ToolInfo info = {
     "Makes a tree as splines: grown by Weber and Penn's recursion, or imported (--import).\n"
     "Usage: treegen [--species NAME] [--age YEARS] [--season NAME] [--bodies N] [--seed N] [--leaves] [--petals] "
     "[--fruit]\n"
+    "       treegen --params FILE [--bodies N] [--seed N] [--leaves] [--petals] [-o FILE]\n"
     "       treegen --import FILE [--units UNIT] [--up AXIS] [--leaves] [--fruit] [-o FILE]",
     "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, and bough splines; which one a\n"
     "file is, its content decides. The result goes to treeconvert:\n"
@@ -46,6 +49,11 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--species", o.species, "Which tree to grow (see --list-species)")
         ->option_text("NAME")
         ->check(CLI::IsMember(species_names()));
+    app.add_option(
+           "--params", o.params,
+           "Grow by this file's parameters: Arbaro XML, tree-gen, Blender Sapling, or a bough-species document; "
+           "- for stdin")
+        ->option_text("FILE");
     app.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
     app.add_option("--import", o.import, "Import this file instead of growing; - for stdin")->option_text("FILE");
     app.add_option("--bodies", o.bodies,
@@ -69,6 +77,8 @@ void declare(CLI::App& app, Options& o) {
 }
 
 void refuse_contradictions(const Options& o) {
+    if (!o.params.empty() && !o.species.empty())
+        throw UsageError("--species: not with --params, which is another tree");
     if (o.import.empty()) {
         if (!o.choice.units.empty()) throw UsageError("--units: only with --import");
         if (!o.choice.up.empty()) throw UsageError("--up: only with --import");
@@ -76,6 +86,7 @@ void refuse_contradictions(const Options& o) {
     }
     const char* reason = ": not with --import, whose file says what the tree is";
     if (!o.species.empty()) throw UsageError(std::string("--species") + reason);
+    if (!o.params.empty()) throw UsageError(std::string("--params") + reason);
     if (o.bodies) throw UsageError(std::string("--bodies") + reason);
     if (o.age) throw UsageError(std::string("--age") + reason);
     if (!o.season.empty()) throw UsageError(std::string("--season") + reason);
@@ -121,7 +132,42 @@ Splines imported(Options& o) {
     return splines;
 }
 
-Species chosen_species(const Options& o) {
+// The growth that --params names; what it cannot honour is said. Other programs' files know of no age and no season.
+Species species_of_params(Options& o) {
+    const std::string content = read_input(o.params), name = input_name(o.params);
+    if (is_species(content)) return read_species(content, name);
+    const char* reason = ": not with the parameters of another program, which say nothing of it";
+    if (o.age) throw UsageError(std::string("--age") + reason);
+    if (!o.season.empty()) throw UsageError(std::string("--season") + reason);
+    ParameterNotes notes;
+    Species species = default_species();
+    species.growth = read_growth_parameters(content, name, notes);
+    species.name = species.growth.name;
+    for (const std::string& line : notes.lines()) o.common.notes.push_back(name + ": " + line);
+    return species;
+}
+
+// Says how many branches of a tree made for pictures would not hold their shape.
+void note_sagging(const Splines& splines, const Species& species, std::vector<std::string>& notes) {
+    constexpr double most_sag = 0.5; // [rad]
+    const Material* wood = find_wood(species.material);
+    Splines carried = splines;
+    thicken_to_carry(carried, wood ? *wood : wood_presets().front(), most_sag);
+    std::size_t weak = 0;
+    for (std::size_t b = 0; b < splines.branches(); ++b) {
+        bool raised = false;
+        for (auto i = splines.first_point[b]; i < splines.first_point[b + 1]; ++i)
+            raised = raised || carried.radius[std::size_t(i)] > 1.01 * splines.radius[std::size_t(i)];
+        weak += raised;
+    }
+    if (weak > 0)
+        notes.push_back(std::to_string(weak) + " of " + std::to_string(splines.branches()) +
+                        " branches are thinner than wood must be to carry what is on them without bending by half a "
+                        "radian; they hang as strings do");
+}
+
+Species chosen_species(Options& o) {
+    if (!o.params.empty()) return species_of_params(o);
     for (const SpeciesFile& file : species_files())
         if (file.name == o.species) return read_species(file.content, o.species);
     return default_species();
@@ -147,9 +193,10 @@ Splines grown(Options& o) {
                                          (o.season.empty() ? "" : " in " + o.season));
         };
         note_none(o.leaves, growth.leaves, "leaves");
-        note_none(o.petals, growth.blossoms, "petals");
+        note_none(o.petals, growth.blossoms + growth.blossom_rate, "petals");
         note_none(o.fruit, growth.fruits, "fruit");
         Splines splines = o.bodies ? grow_bodies(growth, seed, items, *o.bodies) : grow(growth, seed, items);
+        if (growth.rules != GrowthRules::bough) note_sagging(splines, species, o.common.notes);
         splines.material = species.material;
         splines.color = color;
         return splines;

@@ -28,6 +28,7 @@ public:
 
 private:
     void add(const Load& load);
+    void add_piece(std::size_t k);
     void raise(std::size_t k);
 
     Splines& s_;
@@ -48,6 +49,16 @@ Carrier::Carrier(Splines& s, const Material& wood, double most_sag, std::size_t 
 void Carrier::add(const Load& load) {
     mass_ += load.mass;
     moment_ += load.first_moment;
+}
+
+// The wood between point k and the next one out.
+void Carrier::add_piece(std::size_t k) {
+    if (k == last_) return;
+    const Vec3 along = s_.point[k + 1] - s_.point[k];
+    const double length = along.norm();
+    if (!(length > 0)) return;
+    const MassProperties piece = frustum(length, s_.radius[k], s_.radius[k + 1], wood_.density);
+    add({0, piece.mass, piece.mass * (s_.point[k] + along / length * piece.com.z()), 0});
 }
 
 void Carrier::raise(std::size_t k) {
@@ -73,21 +84,23 @@ void Carrier::bear(std::vector<Load>& loads) {
     std::sort(loads.begin(), loads.end(), [](const Load& x, const Load& y) { return x.at > y.at; });
     std::size_t next = 0;
     for (std::size_t k = last_ + 1; k-- > first_;) {
-        if (k < last_) {
-            const Vec3 along = s_.point[k + 1] - s_.point[k];
-            const double length = along.norm();
-            if (length > 0) {
-                const MassProperties piece = frustum(length, s_.radius[k], s_.radius[k + 1], wood_.density);
-                add({0, piece.mass, piece.mass * (s_.point[k] + along / length * piece.com.z()), 0});
-            }
-        }
         // What hangs between two points is borne by both.
         const double inner = k > first_ && arc_.back() > 0 ? arc_[k - 1 - first_] / arc_.back() : -1;
         for (; next < loads.size() && loads[next].at > inner; ++next) {
             add(loads[next]);
             if (loads[next].radius > s_.radius[k]) floor_ = std::max(floor_, loads[next].radius);
         }
-        raise(k);
+        const double outer_mass = mass_;
+        const Vec3 outer_moment = moment_;
+        // The piece out to the next point grows heavier with the radius here, by its square, which the fourth power soon
+        // outgrows.
+        for (double before = -1; before < s_.radius[k] * (1 - 1e-3);) {
+            before = s_.radius[k];
+            mass_ = outer_mass;
+            moment_ = outer_moment;
+            add_piece(k);
+            raise(k);
+        }
     }
 }
 

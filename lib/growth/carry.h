@@ -8,6 +8,7 @@
 //   bending and twist   sqrt((M_b / E I)^2 + (M_t / G J)^2) <= most_sag / L     so that no branch is turned more than
 //                       most_sag by its load between its base and its tip;
 //   buckling            E I pi^2 / (4 l^2) >= 2 W c                             a column, twice as strong as it must be.
+// at every point; between points radii are linear, so that few points leave up to a fifth more sag under a load at the tip.
 // A radius is also at least the next one out, where that was raised, and those of the branches that begin there.
 // Wood that has been raised is weighed as such: one sweep from the tips to the ground. Radii only grow.
 // Reads Splines whose branches stand parents before children; writes its radius. most_sag [rad] > 0. Cost O(points +

@@ -172,8 +172,7 @@ void Grower::draw_points(const Stem& stem, const std::vector<double>& marks, int
     const auto add = [&](double z) {
         const double flare = stem.level == 0 ? flare_factor(p_.flare, z) : 1;
         out_.point.push_back(s.position + s.frame * Vec3(0, 0, (z - from) * stem.length));
-        out_.radius.push_back(
-            std::max(flare * s.share * shaped(z), p_.least_radius));
+        out_.radius.push_back(std::max(flare * s.share * shaped(z), p_.least_radius));
     };
     if (segment == stem.first_segment) add(from);
     const double apart = 1e-3 * (to - from);
@@ -327,10 +326,12 @@ bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const It
                        : parameters.rules == GrowthRules::sapling ? grow_sapling(parameters, seed, items, most, out)
                                                                   : grow_segments(parameters, seed, items, most, out);
     if (!items.petals) out.leaf_kind.clear();
-    if (whole && parameters.pipe_exponent > 0)
-        thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
-    if (whole && parameters.most_sag > 0) thicken_to_carry(out, parameters.wood, parameters.most_sag);
-    return whole;
+    if (!whole) return false;
+    const std::vector<double> drawn = out.radius;
+    if (parameters.pipe_exponent > 0) thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
+    if (parameters.most_sag > 0) thicken_to_carry(out, parameters.wood, parameters.most_sag);
+    if (parameters.pipe_exponent > 0 || parameters.most_sag > 0) seat_on_bark(out, drawn);
+    return true;
 }
 
 Splines grow(const GrowthParameters& parameters, std::uint64_t seed, const Items& items) {

@@ -54,7 +54,7 @@ struct LevelParameters {
                             // tree_gen: 0..100, 0 alternate, 1 opposite, more: whorls of branch_dist + 1
     double length = 0, length_v = 0; // > 0 and 0 <= V < length, fraction of the parent's (level 0: of scale)
     double taper = 1;                // 0..3; 0 cylinder, 1 cone, 2 cylinder with a rounded tip, 3 periodic
-    double taper_power = 1; // 0.1..10, our own: the stem's taper to this power; 0.5 makes a cone a paraboloid
+    double taper_power = 1;          // 0.1..10, our own: the stem's taper to this power; 0.5 makes a cone a paraboloid
     double seg_splits = 0, split_angle = 0, split_angle_v = 0; // 0..100; [deg] -360..360
     double base_splits = 0;                                    // 0..100
     int curve_res = 1;                                         // 1..1000 segments; 2 or more where splits are
@@ -129,6 +129,7 @@ Splines grow(const GrowthParameters&, std::uint64_t seed, const Items&);
 // bough more is too wide a step, those of the last level by a second factor; leaves and petals change in length by the
 // square root of their number's inverse, at most fourfold either way, so that the tree keeps its leaf area; where the deepest level would come to less
 // than one stem a parent it is left out, leaves then growing on the level above. Lengths, and so the height, stay.
+// Where that still misses, leaves of the next larger tree are left out one by one.
 // Neighbouring numbers give similar trees. Cost: some five to ten growths of up to that size. Throws
 // std::invalid_argument where the parameters cannot reach the number, or it exceeds 2e7.
 Splines grow_bodies(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t bodies);

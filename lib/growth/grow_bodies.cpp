@@ -1,6 +1,8 @@
 #include "segment.h"
+#include "stem.h"
 #include "weber_penn.h"
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 namespace bough {
@@ -25,7 +27,9 @@ struct Search {
     Splines best;
     std::int64_t best_count = -1;
 
-    double nominal_leaves; // most_leaves of the parameters as given
+    Splines above; // the smallest tree met of more bodies than wanted
+    std::int64_t above_count = -1;
+    double nominal_leaves = 1; // most_leaves of the parameters as given
     bool has_foliage() const {
         return (items.leaves && parameters.leaves != 0) || (items.petals && parameters.blossoms != 0) ||
                (items.fruit && parameters.fruits != 0);
@@ -72,6 +76,10 @@ double miss(Search& search, const Dial& dial) {
     std::int64_t count = enough;
     if (grow_up_to(scaled(search, dial), search.seed, search.items, enough, tree)) {
         count = count_bodies(tree, SegmentOptions());
+        if (count > search.bodies && (search.above_count < 0 || count < search.above_count)) {
+            search.above = tree;
+            search.above_count = count;
+        }
         if (search.best_count < 0 || std::abs(count - search.bodies) < std::abs(search.best_count - search.bodies)) {
             search.best = std::move(tree);
             search.best_count = count;
@@ -121,6 +129,35 @@ double deepest_children(const Search& search, const Dial& dial) {
     return scaled(search, dial).level[search.parameters.levels - 1].branches;
 }
 
+template <class T> void keep(std::vector<T>& values, const std::vector<std::uint8_t>& kept) {
+    if (values.empty()) return;
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        if (kept[i]) values[to++] = values[i];
+    values.resize(to);
+}
+
+// Leaves out `surplus` leaves and petals, spread over the tree by the seed, as one leaf is one body. False if it has
+// fewer.
+bool pluck(Splines& s, std::uint64_t seed, std::int64_t surplus) {
+    if (surplus > static_cast<std::int64_t>(s.leaves())) return false;
+    std::vector<std::size_t> order(s.leaves());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto key = [seed](std::size_t leaf) { return random_key(seed, Draw::leaf, leaf); };
+    std::nth_element(order.begin(), order.begin() + surplus, order.end(),
+                     [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    std::vector<std::uint8_t> kept(s.leaves(), 1);
+    for (std::int64_t i = 0; i < surplus; ++i) kept[order[std::size_t(i)]] = 0;
+    keep(s.leaf_at, kept);
+    keep(s.leaf_position, kept);
+    keep(s.leaf_rotation, kept);
+    keep(s.leaf_length, kept);
+    keep(s.leaf_width, kept);
+    keep(s.leaf_kind, kept);
+    keep(s.leaf_branch, kept);
+    return true;
+}
+
 } // namespace
 
 Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t bodies) {
@@ -128,7 +165,7 @@ Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, cons
     if (bodies < 1 || bodies > kMostBodies)
         throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " +
                                     std::to_string(kMostBodies));
-    Search search{parameters, seed, items, bodies, {}, -1, most_leaves(parameters)};
+    Search search{parameters, seed, items, bodies, {}, -1, {}, -1, most_leaves(parameters)};
     while (true) {
         Dial dial;
         turn(search, dial, &Dial::main);
@@ -137,10 +174,12 @@ Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, cons
         if (search.parameters.levels <= 2 || deepest_children(search, dial) >= 1) break;
         const int levels = search.parameters.levels;
         // Leaves take their angles from the level that is left out, as they would from the one below the last.
-        search = Search{search.parameters, seed, items, bodies, {}, -1, search.nominal_leaves};
+        search = Search{search.parameters, seed, items, bodies, {}, -1, {}, -1, search.nominal_leaves};
         search.parameters.levels = levels - 1;
     }
     if (near(search, kWithin)) return std::move(search.best);
+    if (search.above_count >= 0 && pluck(search.above, seed, search.above_count - bodies))
+        return std::move(search.above);
     throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", but the nearest that \"" + parameters.name +
                                 "\" grows to is " + std::to_string(search.best_count));
 }

@@ -95,6 +95,9 @@ bool grow_sapling(const GrowthParameters&, std::uint64_t seed, const Items&, std
 // Rotation by an angle [rad] about an axis of length 1.
 Quat about(const Vec3& axis, double angle);
 
+// Moves leaves, flowers and fruit out to the bark where radii have grown from `drawn`. O(items * points of a branch).
+void seat_on_bark(Splines&, const std::vector<double>& drawn);
+
 // Leaves, flowers and fruit of a stem of the last level, appended to `out`.
 void grow_leaves(const GrowthParameters&, const GrownStem&, Splines& out);
 void grow_blossoms(const GrowthParameters&, const GrownStem&, Splines& out);

@@ -19,6 +19,32 @@ refused 1 "one argument too many" treegen --seed 1 tree.json
 # Every listed name grows; the same seed gives the same bytes, another seed does not.
 expect 0 treegen --list-species
 while read -r name; do expect 0 treegen --species "$name" --bodies 200 -o "$name.json"; done < <(treegen --list-species)
+expect 0 treegen --species willow --bodies 500 --seed 7 --no-source --threads 1 -o a.json
+expect 0 treegen --species willow --bodies 500 --seed 7 --no-source --threads 3 -o b.json
+same a.json b.json
+
+# Ages and seasons: a young tree is lower, winter is bare, an item that the season lacks is said.
+top() { treeconvert "$1" --stats -q -o /dev/null 2>&1 | awk '$1 == "height" { print $2 }'; }
+expect 0 treegen --species oak --age 10 -o young.json
+expect 0 treegen --species oak --age 100 -o old.json
+awk -v young="$(top young.json)" -v old="$(top old.json)" 'BEGIN { exit !(young < old / 2) }' || fail "an oak of 10 years is not lower"
+expect 0 treegen --species cherry --season spring --bodies 2000 -o spring.json
+grep -q '"leaf_kind"' spring.json || fail "a cherry without petals in spring"
+expect 0 treegen --species cherry --season winter --leaves --bodies 500 -o winter.json
+grep -q 'cherry has no leaves in winter' err || fail "no word on the leaves that winter lacks"
+refused 1 "--season" treegen --species cherry --season monsoon
+refused 1 "--age" treegen --species cherry --age 0
+refused 1 "--age" treegen --import "$maple" --age 5
+refused 1 "--season" treegen --import "$maple" --season winter
+refused 1 "--petals" treegen --import "$maple" --petals
+# The species' wood goes on to the tree, unless told otherwise; a wood nobody knows is refused.
+treeconvert a.json -o wood.json
+grep -q '"black-willow"' wood.json || fail "a willow of other wood"
+treeconvert a.json --material apple -o wood.json
+grep -q '"apple"' wood.json || fail "--material was not taken"
+sed 's/black-willow/plywood/' a.json >plywood.json
+refused 2 "plywood" treeconvert plywood.json
+
 expect 0 treegen --bodies 500 --seed 7 --no-source -o a.json
 expect 0 treegen --bodies 500 --seed 7 --no-source --threads 3 -o b.json
 expect 0 treegen --bodies 500 --seed 8 --no-source -o c.json
