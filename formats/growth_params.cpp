@@ -76,6 +76,7 @@ GrowthParameters read_growth_parameters(std::string_view content, const std::str
     GrowthParameters p = content[at] == '<' ? read_arbaro(content, file, notes) : read_dict(content, file, notes);
     if (p.name.empty() || p.rules != GrowthRules::arbaro) p.name = stem_of(file);
     p.pipe_exponent = 0; // radii are the file's own
+    p.least_radius = std::max(p.least_radius, least_foreign_radius);
     try {
         check_growth(p);
     } catch (const std::invalid_argument& error) {

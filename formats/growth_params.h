@@ -12,6 +12,9 @@
 
 namespace bough {
 
+// [m] Programs that draw pictures let stems end in points; here no radius is less.
+constexpr double least_foreign_radius = 1e-4;
+
 struct ParameterNotes {
     std::vector<std::string> differs;      // honoured in another way, with how
     std::vector<std::string> not_honoured; // "NAMES (reason)"

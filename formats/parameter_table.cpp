@@ -129,7 +129,7 @@ void ParameterTable::not_honoured(std::initializer_list<const char*> names, cons
         if (!value) continue;
         const bool nothing =
             value->kind == ParameterValue::Kind::text
-                ? value->text.empty() || value->text == "0"
+                ? value->text.empty() || parse_number(trimmed(value->text)) == 0.0
                 : std::all_of(value->numbers.begin(), value->numbers.end(), [](double v) { return v == 0; });
         if (!nothing) there += (there.empty() ? "" : ", ") + std::string(name);
     }
