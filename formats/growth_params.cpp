@@ -70,9 +70,6 @@ GrowthParameters read_growth_parameters(std::string_view content, const std::str
     if (at == content.size()) throw InputError(file, std::string("is empty, expected ") + readable);
     if (content.find('\0') != std::string_view::npos)
         throw InputError(file, std::string("is not text, expected ") + readable);
-    if (content[at] == '{' && content.find("\"branch\"") != std::string_view::npos &&
-        (content.find("\"trellis\"") != std::string_view::npos || content.find("\"bark\"") != std::string_view::npos))
-        throw InputError(file, "is an ez-tree preset, which another reader is for");
     GrowthParameters p = content[at] == '<' ? read_arbaro(content, file, notes) : read_dict(content, file, notes);
     if (p.name.empty() || p.rules != GrowthRules::arbaro) p.name = stem_of(file);
     p.pipe_exponent = 0; // radii are the file's own

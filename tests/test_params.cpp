@@ -181,7 +181,6 @@ TEST_CASE("Parameter files that are broken are refused in one line that names th
     holds(refusal(json.substr(0, json.size() / 2), "x.json"), "expected");
     holds(refusal("<tree/>", "x.xml"), "x.xml:1: <tree>, expected Arbaro's <arbaro>");
     holds(refusal("{}", "x.json"), "has no parameter of a known program");
-    holds(refusal("{\"branch\": {}, \"bark\": {}}", "x.json"), "ez-tree");
     holds(refusal(replaced(xml, "\"Ratio\" value=\"0.02\"", "\"Ratio\" value=\"0,02\""), "x.xml"),
           "x.xml:10: Ratio: is \"0,02\", expected a number, 1e-06 to 1, with a decimal point");
     holds(refusal(replaced(xml, "\"Ratio\"", "\"Rato\""), "x.xml"),

@@ -1,6 +1,7 @@
-// frame_sink.h: where treesim's frames go: a motion document, or an OBJ sequence.
+// frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, or an animated glTF file.
 #pragma once
 #include "common.h"
+#include "formats/gltf.h"
 #include "lib/model/motion.h"
 #include "lib/model/tree.h"
 #include <memory>
@@ -19,5 +20,22 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 
 // One OBJ a frame, each whole or absent, and one mtl. Keeps references to the tree.
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, int sides);
+
+// --max-joints and --key-tolerance, which treesim and treeconvert share.
+struct GltfChoice {
+    std::string max_joints;              // a number or "all"; empty: 1000
+    std::optional<double> key_tolerance; // [deg]
+    bool given() const { return !max_joints.empty() || key_tolerance; }
+};
+void add_max_joints(CLI::App&, GltfChoice&);
+void add_key_tolerance(CLI::App&, GltfChoice&);
+// The groups that --max-joints asks for. Throws UsageError: fewer than roots, more than a .glb can number.
+JointGroups chosen_joints(const Tree&, const GltfChoice&);
+GltfOptions gltf_options(const GltfChoice&, const std::string& source);
+
+// One .glb, written by finish(), which also notes what merging joints and leaving out keys cost. Keeps a reference to
+// the tree and the notes.
+std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int sides, double fps, const GltfChoice&,
+                                     const std::string& source, std::vector<std::string>& notes);
 
 } // namespace bough

@@ -5,6 +5,7 @@
 #include "formats/obj.h"
 #include "formats/splines.h"
 #include "formats/tree.h"
+#include "frame_sink.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
 #include "lib/model/split.h"
@@ -23,6 +24,7 @@ struct Options {
     CommonOptions common;
     ImportChoice choice;
     std::string input, mesh, material;
+    GltfChoice gltf;
     std::optional<double> segment_length, max_bend;
     std::optional<std::int64_t> max_bodies;
     std::optional<int> sides;
@@ -31,7 +33,7 @@ struct Options {
 
 const ToolInfo info = {"treeconvert",
                        "Turns splines, or any file that treegen --import takes, into a tree of jointed rigid bodies.\n"
-                       "Usage: treeconvert INPUT [-o FILE] [--mesh FILE.obj] [--material NAME|FILE] ...",
+                       "Usage: treeconvert INPUT [-o FILE] [--mesh FILE.obj|FILE.glb] [--material NAME|FILE] ...",
                        "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json "
                        "gives trunk_0.json,\n"
                        "trunk_1.json ... in the order of the roots.\n"
@@ -50,12 +52,15 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--max-bodies", o.max_bodies, "Lengthen bodies until there are at most N")
         ->option_text("N")
         ->check(whole_number(1));
-    app.add_option("--mesh", o.mesh, "Also write the skin mesh in the drawn pose, and FILE.mtl beside it")
-        ->option_text("FILE.obj")
+    app.add_option(
+           "--mesh", o.mesh,
+           "Also write the skin mesh in the drawn pose: FILE.obj with FILE.mtl beside it, or FILE.glb with its joints")
+        ->option_text("FILE")
         ->check(file_name());
     app.add_option("--sides", o.sides, "Corners of the thickest branch's rings, with --mesh (8)")
         ->option_text("N")
         ->check(whole_number(3, 256));
+    add_max_joints(app, o.gltf);
     app.add_option("--material", o.material,
                    "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
         ->option_text("NAME|FILE");
@@ -73,9 +78,10 @@ std::string ending(const std::string& path) {
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
     if (o.sides && o.mesh.empty()) throw UsageError("--sides: only with --mesh");
-    if (o.mesh == "-") throw UsageError("--mesh is '-', expected a file name (its materials go beside it)");
-    if (!o.mesh.empty() && ending(o.mesh) != ".obj")
-        throw UsageError("--mesh is '" + o.mesh + "', expected a name that ends in .obj");
+    if (o.mesh == "-") throw UsageError("--mesh is '-', expected a file name");
+    if (!o.mesh.empty() && ending(o.mesh) != ".obj" && ending(o.mesh) != ".glb")
+        throw UsageError("--mesh is '" + o.mesh + "', expected a name that ends in .obj or .glb");
+    if (o.gltf.given() && ending(o.mesh) != ".glb") throw UsageError("--max-joints: only with --mesh FILE.glb");
     if (!o.mesh.empty() && o.mesh == o.common.output) throw UsageError("--mesh and -o name the same file");
     if (!o.split) return;
     for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh)}) {
@@ -170,25 +176,38 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
     return text.str();
 }
 
-// A tree and the mesh that goes with it: all is written before anything appears under its name.
-void write_one(const Tree& tree, const Options& o, const std::string& file, const std::string& mesh) {
-    std::vector<std::unique_ptr<Output>> outputs;
-    if (!mesh.empty()) {
-        SkinOptions skin_options;
-        if (o.sides) skin_options.sides = *o.sides;
-        const Skin skin = build_skin(tree, skin_options);
-        const std::string mtl = std::filesystem::path(mesh).replace_extension(".mtl").string();
-        outputs.push_back(std::make_unique<Output>(mtl));
-        write_mtl(*outputs.back(), skin);
+using Outputs = std::vector<std::unique_ptr<Output>>;
+
+void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::string& mesh) {
+    SkinOptions skin_options;
+    if (o.sides) skin_options.sides = *o.sides;
+    const Skin skin = build_skin(tree, skin_options);
+    if (ending(mesh) == ".glb") {
+        const JointGroups groups = chosen_joints(tree, o.gltf);
         outputs.push_back(std::make_unique<Output>(mesh));
-        write_obj(*outputs.back(), skin, skin.position, skin.normal, std::filesystem::path(mtl).filename().string());
+        GltfWriter(*outputs.back(), skin, tree, groups, gltf_options(o.gltf, tree.source)).finish();
+        if (groups.size() < tree.size_bodies())
+            o.common.notes.push_back(mesh + ": " + std::to_string(tree.size_bodies()) + " bodies merged to " +
+                                     std::to_string(groups.size()) + " joints (--max-joints)");
+        return;
     }
+    const std::string mtl = std::filesystem::path(mesh).replace_extension(".mtl").string();
+    outputs.push_back(std::make_unique<Output>(mtl));
+    write_mtl(*outputs.back(), skin);
+    outputs.push_back(std::make_unique<Output>(mesh));
+    write_obj(*outputs.back(), skin, skin.position, skin.normal, std::filesystem::path(mtl).filename().string());
+}
+
+// A tree and the mesh that goes with it: all is written before anything appears under its name.
+void write_one(const Tree& tree, Options& o, const std::string& file, const std::string& mesh) {
+    Outputs outputs;
+    if (!mesh.empty()) write_mesh(outputs, tree, o, mesh);
     outputs.push_back(std::make_unique<Output>(file));
     write_tree(*outputs.back(), tree, chosen_form(o.common));
     for (auto& output : outputs) output->finish();
 }
 
-void write_each(const std::vector<Tree>& trees, const Options& o) {
+void write_each(const std::vector<Tree>& trees, Options& o) {
     for (std::size_t k = 0; k < trees.size(); ++k) {
         const std::string mesh = o.mesh.empty() ? "" : sequence_name(o.mesh, std::int64_t(k));
         try {

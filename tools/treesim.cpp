@@ -20,6 +20,7 @@ struct Options {
     CommonOptions common;
     RunOptions run;
     std::string fields, save_state, resume;
+    GltfChoice gltf;
     std::optional<int> sides;
     bool explain = false, hash = false, no_output = false;
 };
@@ -29,19 +30,22 @@ const ToolInfo info = {
     "Moves a tree or a scene in time and writes its frames.\n"
     "Usage: treesim TREE|SCENE [--wind NAME|FILE] [--seconds S|--frames N] [-o FILE] ...",
     "Frames go to stdout as JSON lines: a header line, then a frame a line. -o frames/oak_%04d.obj writes a mesh a\n"
-    "frame and frames/oak.mtl. --resume goes on after the saved frame with the same tree and scene; --seconds and\n"
+    "frame and frames/oak.mtl, -o oak.glb one skinned and animated mesh. --resume goes on after the saved frame with "
+    "the same tree and scene; --seconds and\n"
     "--frames then say how many frames are added.\n"
     "  treesim tree.json --wind gusty --seconds 10 > motion.jsonl\n"
     "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite, 4 output not written, 130 interrupted (frames so far stay).",
-    {"jsonl", "json", "safetensors", "obj"}};
+    {"jsonl", "json", "safetensors", "obj", "glb"}};
 
 void declare(CLI::App& app, Options& o) {
     add_run_options(app, o.run, seconds_default);
     app.add_option("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
         ->option_text("LIST");
-    app.add_option("--sides", o.sides, "Corners of the thickest branch's rings in OBJ frames (8)")
+    app.add_option("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
         ->option_text("N")
         ->check(whole_number(3, 256));
+    add_max_joints(app, o.gltf);
+    add_key_tolerance(app, o.gltf);
     app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
     app.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
     app.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
@@ -69,11 +73,11 @@ MotionFields chosen_fields(const Options& o) {
 std::string chosen_format(const CommonOptions& common) {
     if (!common.format.empty()) return common.format;
     std::string ending = std::filesystem::path(common.output).extension().string();
-    if (ending == ".json" || ending == ".safetensors" || ending == ".obj") return ending.substr(1);
-    for (const char* known : {".glb", ".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
+    if (ending == ".json" || ending == ".safetensors" || ending == ".obj" || ending == ".glb") return ending.substr(1);
+    for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
         if (ending == known)
             throw UsageError("-o is '" + common.output + "', but " + known +
-                             " is not written; there are .jsonl, .json, .safetensors, .obj");
+                             " is not written; there are .jsonl, .json, .safetensors, .obj, .glb");
     return "jsonl";
 }
 
@@ -83,10 +87,12 @@ void refuse_contradictions(const Options& o, const std::string& format) {
         if (!o.common.format.empty()) throw UsageError("--no-output: not with --format");
         if (!o.fields.empty()) throw UsageError("--no-output: not with --fields");
     }
-    if (format != "obj" || o.no_output) {
-        if (o.sides) throw UsageError("--sides: only with OBJ frames");
-    } else {
-        if (!o.fields.empty()) throw UsageError("--fields: not with OBJ frames, which hold a mesh");
+    const bool mesh = format == "obj" || format == "glb";
+    if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb)");
+    if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
+    if (o.gltf.given() && format != "glb")
+        throw UsageError(std::string(o.gltf.key_tolerance ? "--key-tolerance" : "--max-joints") + ": only with .glb");
+    if (format == "obj") {
         const std::string wrong = o.common.output == "-" ? "a pattern such as frames/oak_%04d.obj is needed"
                                                          : valid_sequence(o.common.output);
         if (!wrong.empty()) throw UsageError("-o is '" + o.common.output + "': " + wrong);
@@ -155,16 +161,19 @@ template <class T> void save(const Options& o, const Setting& setting, const Sta
     output.finish();
 }
 
-std::unique_ptr<FrameSink> open_sink(const Options& o, const Setting& setting, const std::string& format,
+std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, const std::string& format,
                                      const MotionFields& fields) {
     if (o.no_output) return nullptr;
     if (format == "obj") return obj_sink(o.common.output, setting.tree, o.sides.value_or(8));
+    const std::string source = with_command_line(setting.source, o.common);
+    if (format == "glb")
+        return gltf_sink(o.common.output, setting.tree, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
     MotionHeader header;
     header.fps = o.run.fps;
     header.bodies = std::int64_t(setting.tree.size_bodies());
     header.fields = fields;
     header.name = setting.tree.name;
-    header.source = with_command_line(setting.source, o.common);
+    header.source = source;
     return motion_sink(o.common.output, format, header);
 }
 

@@ -34,6 +34,13 @@ assert [f["frame"] for f in frames] == list(range(len(frames))) and frames' || f
 stop '.bough-*' treesim tree.json --frames 1000000 -o cut.json
 python3 -c 'import json; assert json.load(open("cut.json"))' || fail "the JSON is not whole"
 
+stop '.bough-*' treesim tree.json --frames 1000000 -o cut.glb
+python3 -c '
+import json, struct
+data = open("cut.glb", "rb").read()
+size, length = struct.unpack("<II", data[8:16])
+assert size == len(data) and json.loads(data[20:20 + length])["animations"]' || fail "the .glb is not whole"
+
 mkdir frames
 stop 'frames/m_0003.obj' treesim tree.json --frames 1000000 -o frames/m_%04d.obj --save-state state.json
 [[ $(for f in frames/m_*.obj; do grep -c '^f ' "$f"; done | sort -u | wc -l) -eq 1 ]] || fail "a mesh is not whole"

@@ -51,6 +51,15 @@ grep -q '^mtllib rest.mtl' rest.obj && grep -q '^newmtl' rest.mtl || fail "the m
 refused 4 "missing/rest" treeconvert splines.json --mesh missing/rest.obj -o other.json
 absent other.json
 
+expect 0 treeconvert splines.json --mesh rest.glb --max-joints 50 -o tree2.json --no-source
+grep -q "merged to 50 joints" err || fail "nothing is said of merging: $(cat err)"
+head -c 4 rest.glb | grep -q glTF && grep -aq '"skins"' rest.glb && ! grep -aq '"animations"' rest.glb ||
+    fail "the .glb is no skinned mesh at rest"
+refused 1 "--max-joints" treeconvert splines.json --mesh x.obj --max-joints 50
+refused 1 "--max-joints" treeconvert splines.json --mesh x.glb --max-joints -5
+refused 4 "missing/rest" treeconvert splines.json --mesh missing/rest.glb -o other.json
+absent other.json x.glb
+
 # One file a root.
 roots=$top/data/fixtures/two_trunks_spines.xml
 expect 0 treeconvert "$roots" -q --split -o trunk_%d.json --mesh trunk_%d.obj

@@ -18,7 +18,13 @@ refused 1 "--gravity" treesim tree.json --gravity 1,2
 refused 1 "--fields" treesim tree.json --fields pose,colour
 refused 1 "--seed" treesim tree.json --seed 4
 refused 1 "--sides" treesim tree.json --sides 5
-refused 1 ".glb" treesim tree.json -o x.glb
+refused 1 ".gltf" treesim tree.json -o x.gltf
+refused 1 "--max-joints" treesim tree.json --max-joints 20
+refused 1 "--key-tolerance" treesim tree.json --key-tolerance 1 -o x.json
+refused 1 "--max-joints" treesim tree.json -o x.glb --max-joints 0
+refused 1 "--max-joints" treesim tree.json -o x.glb --max-joints some
+refused 1 "--key-tolerance" treesim tree.json -o x.glb --key-tolerance -1
+refused 1 "--fields" treesim tree.json -o x.glb --fields pose
 refused 1 "-o" treesim tree.json -o frames.obj
 refused 1 "-o" treesim tree.json --format obj
 refused 1 "--no-output" treesim tree.json --no-output -o x.json
@@ -59,6 +65,49 @@ for option in "--wind storm" "--seed 5" "--gravity 0,-3,0" "--precision float" "
     [[ $(hash tree.json --wind gusty --frames 20 $option) != "$one" ]] || fail "$option changes nothing"
 done
 
+# One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
+cat >glb.py <<'END'
+import json, struct, sys
+data = sys.stdin.buffer.read()
+magic, version, size, length = struct.unpack("<4sIII", data[:16])
+assert magic == b"glTF" and version == 2 and size == len(data), (magic, version, size, len(data))
+doc = json.loads(data[20:20 + length])
+channels = doc.get("animations", [{"channels": []}])[0]["channels"]
+times = [doc["accessors"][s["input"]] for a in doc.get("animations", []) for s in a["samplers"]]
+print(len(doc["skins"][0]["joints"]), len(channels), sum(t["count"] for t in times),
+      max([round(t["max"][0], 4) for t in times], default="none"), "treesim" in doc["asset"]["extras"]["source"])
+END
+bodies=$(treesim tree.json --frames 1 -o one.jsonl && head -n 1 one.jsonl | python3 -c 'import json, sys; print(json.load(sys.stdin)["bodies"])')
+[[ $(hash tree.json --wind gusty --frames 20 -q -o m.glb) == "$one" ]] || fail "an animated mesh changes the hash"
+read -r joints channels keys last source < <(python3 glb.py <m.glb)
+[[ $joints -eq $bodies && $channels -le $bodies && $channels -gt 1 && $last == 0.6333 && $source == True ]] ||
+    fail "20 frames of $bodies bodies gave $(python3 glb.py <m.glb)"
+treesim tree.json --wind gusty --frames 20 -q --no-source --format glb >stdout.glb
+treesim tree.json --wind gusty --frames 20 -q --no-source -o file.glb --threads 1
+same stdout.glb file.glb
+[[ $(python3 glb.py <file.glb) == *False ]] || fail "--no-source leaves the command line"
+[[ $(treesim tree.json --wind gusty --frames 20 --format glb --key-tolerance 0 | python3 glb.py) == \
+    "$bodies $bodies $((20 * bodies)) 0.6333 True" ]] || fail "--key-tolerance 0 leaves out keys"
+[[ $(treesim tree.json --wind gusty --frames 20 --format glb --key-tolerance 5 -q | python3 glb.py | cut -d' ' -f3) -lt $keys ]] ||
+    fail "a larger --key-tolerance keeps as many keys"
+expect 0 treesim tree.json --wind gusty --frames 20 -o few.glb --max-joints 40
+read -r joints _ < <(python3 glb.py <few.glb)
+[[ $joints -le 40 && $joints -gt 20 ]] || fail "--max-joints 40 gave $joints"
+grep -q "merged to $joints joints (--max-joints): .* off by .* m RMS, .* m at most" err || fail "no error of merging: $(cat err)"
+[[ $(treesim tree.json --frames 1 --format glb -q --max-joints all | python3 glb.py | cut -d' ' -f1) -eq $bodies ]] ||
+    fail "--max-joints all merges"
+closed_stdout treesim tree.json --frames 20 --format glb
+refused 4 "No such file" treesim tree.json --frames 3 -o missing/x.glb
+if mkdir -p small && mount -t tmpfs -o size=16k tmpfs small 2>/dev/null; then
+    code=0
+    treesim tree.json --frames 20 -o small/m.glb >out 2>err || code=$?
+    left=$(ls -A small)
+    umount small
+    [[ $code -eq 4 && -z $left ]] || fail "an animated mesh on a full disk: exit $code, left: $left"
+    one_line "space" treesim
+fi
+
+
 # A scene beside its tree, run from elsewhere.
 mkdir -p place/trees
 cp tree.json place/trees/oak.json
@@ -81,7 +130,7 @@ grep -q 'wind_field left out' still && grep -q 'wind_field on' windy || fail "--
 grep -q '^calls wind_field 0$' still && grep -q '^calls wind_field 2$' windy || fail "calls are not as explained"
 
 # Sequences keep their finished frames; a full disk ends them with a count.
-if mkdir small && mount -t tmpfs -o size=1m tmpfs small 2>/dev/null; then
+if mkdir -p small && mount -t tmpfs -o size=1m tmpfs small 2>/dev/null; then
     code=0
     treesim tree.json --frames 200 -o small/m_%03d.obj >out 2>err || code=$?
     whole=$(find small -name '*.obj' | wc -l)

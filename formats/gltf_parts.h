@@ -1,0 +1,66 @@
+// gltf_parts.h: what the writers of a .glb share (private to gltf*.cpp): the JSON chunk as growing text, and the binary
+// chunk as a list of what will be written, so that no array is held for it.
+#pragma once
+#include "gltf.h"
+#include <functional>
+
+namespace bough {
+
+enum class GltfType : int { u8 = 5121, u16 = 5123, u32 = 5125, f32 = 5126 };
+enum class GltfTarget : int { none = 0, vertices = 34962, indices = 34963 };
+
+// Numbers gathered in a block and handed on when it is full.
+class GltfBytes {
+public:
+    explicit GltfBytes(Output& output) : output_(output) { block_.reserve(block_size); }
+    template <class Number> void add(Number value) {
+        static_assert(std::is_arithmetic_v<Number>);
+        block_.append(reinterpret_cast<const char*>(&value), sizeof value);
+        if (block_.size() >= block_size) hand_on();
+    }
+    template <class... Numbers> void add_all(Numbers... values) { (add(values), ...); }
+    void hand_on();
+    std::uint64_t written() const { return written_ + block_.size(); }
+
+private:
+    static constexpr std::size_t block_size = std::size_t(1) << 16;
+    Output& output_;
+    std::string block_;
+    std::uint64_t written_ = 0;
+};
+
+// Views and accessors numbered as they are added; views are laid out in that order, each from a multiple of 4.
+class GltfFile {
+public:
+    using Write = std::function<void(GltfBytes&)>;
+    // `write` adds exactly `bytes` bytes. stride 0: none stated.
+    int add_view(std::uint64_t bytes, GltfTarget, int stride, Write write);
+    // bounds: "" or ", \"min\": [...], \"max\": [...]".
+    int add_accessor(int view, std::uint64_t offset, GltfType, std::uint64_t count, const char* type,
+                     const std::string& bounds = "");
+    // `rest`: what the JSON holds beside accessors, views and the buffer, without the outer braces.
+    void write(Output&, const std::string& rest);
+
+private:
+    struct View {
+        std::uint64_t bytes;
+        Write write;
+    };
+    std::vector<View> views_;
+    int accessor_count_ = 0;
+    std::uint64_t bytes_ = 0;
+    std::string view_text_, accessor_text_;
+};
+
+// "[1, 2.5, 3]" with the shortest decimals that give the same number.
+template <class Numbers> std::string gltf_list(const Numbers& numbers);
+std::string gltf_bounds(const Eigen::Vector3f& low, const Eigen::Vector3f& high);
+
+// ---- gltf_mesh.cpp ---- the mesh's primitives and "materials" as JSON; positions are written less `origin`.
+std::string gltf_primitives(GltfFile&, const Skin&, const JointGroups&, const Vec3& origin);
+std::string gltf_materials(const Skin&);
+
+// ---- gltf_animation.cpp ---- the JSON of "animations", "" where there are no frames; joint j is node first_node + j.
+std::string gltf_animation(GltfFile&, const JointKeys&, double fps, int first_node);
+
+} // namespace bough

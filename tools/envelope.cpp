@@ -1,0 +1,171 @@
+#include "envelope.h"
+#include "formats/envelope_mesh.h"
+#include "formats/plain_text.h"
+#include "lib/growth/colonize.h"
+
+namespace bough {
+namespace {
+
+constexpr double kBare = 0.3; // default height of a closed form's lower end over its own height
+
+std::optional<EnvelopeShape> shape_named(const std::string& name) {
+    if (name == "sphere") return EnvelopeShape::sphere;
+    if (name == "cone") return EnvelopeShape::cone;
+    if (name == "box") return EnvelopeShape::box;
+    return {};
+}
+
+Vec3 default_size(EnvelopeShape shape) {
+    if (shape == EnvelopeShape::cone) return {4.5, 8, 4.5};
+    return shape == EnvelopeShape::box ? Vec3(5, 5, 5) : Vec3(6, 6, 6);
+}
+
+Vec3 vector_of(const std::string& option, const std::string& text) {
+    const std::vector<double> v = number_list(option, text, 3);
+    return {v[0], v[1], v[2]};
+}
+
+Vec3 size_of(const std::string& text) {
+    const Vec3 size = vector_of("--envelope-size", text);
+    if (!(size.minCoeff() > 0)) throw UsageError("--envelope-size is '" + text + "', expected three lengths above 0 m");
+    return size;
+}
+
+// The file's mesh, scaled to --envelope-size about the middle of its lower face, that face put at --crown-base.
+void place_mesh(EnvelopeMesh& mesh, const EnvelopeOptions& o, const std::string& name) {
+    Vec3 lower = mesh.vertex[static_cast<std::size_t>(mesh.triangle[0][0])], upper = lower;
+    for (const Triangle& t : mesh.triangle)
+        for (const std::int32_t c : t) {
+            lower = lower.cwiseMin(mesh.vertex[static_cast<std::size_t>(c)]);
+            upper = upper.cwiseMax(mesh.vertex[static_cast<std::size_t>(c)]);
+        }
+    const Vec3 base((lower.x() + upper.x()) / 2, lower.y(), (lower.z() + upper.z()) / 2);
+    if (!((upper - lower).minCoeff() > 0))
+        throw InputError(name, "is flat and encloses no volume, expected a closed mesh");
+    const Vec3 scale = o.size.empty() ? Vec3(1, 1, 1) : Vec3(size_of(o.size).cwiseQuotient(upper - lower));
+    const Vec3 at(base.x(), o.crown_base.value_or(base.y()), base.z());
+    for (Vec3& p : mesh.vertex) p = at + (p - base).cwiseProduct(scale);
+}
+
+Envelope mesh_envelope(const EnvelopeOptions& o, const ImportChoice& choice, CommonOptions& common) {
+    ImportOptions options;
+    options.unit = unit_in_metres(choice.units);
+    if (!choice.up.empty()) options.up = char(std::tolower(choice.up[0]));
+    options.name = input_name(o.envelope);
+    ImportNotes notes;
+    const std::string content = read_input(o.envelope);
+    EnvelopeMesh mesh = read_envelope_mesh(content, o.envelope, options, notes);
+    place_mesh(mesh, o, options.name);
+    Envelope e;
+    e.shape = EnvelopeShape::mesh;
+    try {
+        e.mesh = std::make_shared<MeshInterior>(mesh.vertex, mesh.triangle);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(options.name, error.what());
+    }
+    if (!(volume(e) > 0)) throw InputError(options.name, "encloses no volume, expected a closed mesh");
+    const MeshClosure& c = e.mesh->closure();
+    if (c.open_edges > 0)
+        notes.lines.push_back("warning: the mesh is not closed (" + std::to_string(c.open_edges) +
+                              " open edges); a point counts as inside where four of six rays along the axes cross it "
+                              "an odd number of times");
+    else if (!c.alike)
+        notes.lines.push_back("warning: the mesh's faces do not all face alike; a point counts as inside where rays "
+                              "along the axes cross it an odd number of times, so that overlapping parts are outside");
+    for (const std::string& line : notes.lines) common.notes.push_back(options.name + ": " + line);
+    return e;
+}
+
+Envelope closed_form(EnvelopeShape shape, const EnvelopeOptions& o, const ImportChoice& choice) {
+    if (!choice.units.empty()) throw UsageError("--units: only with --import or a mesh file as --envelope");
+    if (!choice.up.empty()) throw UsageError("--up: only with --import or a mesh file as --envelope");
+    Envelope e;
+    e.shape = shape;
+    e.size = o.size.empty() ? default_size(shape) : size_of(o.size);
+    e.base = Vec3(0, o.crown_base.value_or(kBare * e.size.y()), 0);
+    return e;
+}
+
+ColonizeParameters parameters(const EnvelopeOptions& o, const ImportChoice& choice, CommonOptions& common) {
+    ColonizeParameters p;
+    const auto shape = shape_named(o.envelope);
+    p.envelope = shape ? closed_form(*shape, o, choice) : mesh_envelope(o, choice, common);
+    p.name = shape ? o.envelope : "envelope";
+    p.points = o.attractors.value_or(p.points);
+    p.influence = o.influence.value_or(0);
+    p.kill = o.kill.value_or(0);
+    p.step = o.step.value_or(0);
+    p.leader = o.leader.value_or(-1);
+    p.tip_radius = o.tip_radius.value_or(0);
+    if (!o.tropism.empty()) p.tropism = vector_of("--tropism", o.tropism);
+    return p;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, bool>> EnvelopeOptions::given() const {
+    return {{"--envelope-size", !size.empty()},
+            {"--crown-base", crown_base.has_value()},
+            {"--attractors", attractors.has_value()},
+            {"--influence", influence.has_value()},
+            {"--kill", kill.has_value()},
+            {"--step", step.has_value()},
+            {"--tropism", !tropism.empty()},
+            {"--leader", leader.has_value()},
+            {"--tip-radius", tip_radius.has_value()}};
+}
+
+void add_envelope_options(CLI::App& app, EnvelopeOptions& o) {
+    app.add_option(
+           "--envelope", o.envelope,
+           "Grow a tree that fills this volume (space colonization): sphere, cone, box, or a closed mesh from an "
+           "OBJ, FBX, glTF or COLLADA file (- for stdin)")
+        ->option_text("SHAPE|FILE");
+    app.add_option("--envelope-size", o.size, "Its width, height and depth in m (sphere 6,6,6; a file's own)")
+        ->option_text("X,Y,Z");
+    app.add_option("--crown-base", o.crown_base, "Height of its lower end in m (0.3 of its height; a file's own)")
+        ->option_text("M")
+        ->check(not_negative_number());
+    app.add_option("--attractors", o.attractors, "Number of attraction points in it (8000)")
+        ->option_text("N")
+        ->check(whole_number(1, 20'000'000));
+    app.add_option("--influence", o.influence, "Distance in m at which they pull (6 of their mean spacings)")
+        ->option_text("M")
+        ->check(positive_number());
+    app.add_option("--kill", o.kill, "Distance in m at which they count as reached (0.8 of their mean spacing)")
+        ->option_text("M")
+        ->check(positive_number());
+    app.add_option("--step", o.step, "Length in m that a branch grows at a time (half the kill distance)")
+        ->option_text("M")
+        ->check(positive_number());
+    app.add_option("--tropism", o.tropism, "Added to the unit direction of growth (0,0.1,0)")->option_text("X,Y,Z");
+    app.add_option("--leader", o.leader,
+                   "Share of the envelope's height that the trunk rises straight through (0.25; cone 0.8)")
+        ->option_text("F")
+        ->check(not_negative_number());
+    app.add_option("--tip-radius", o.tip_radius, "Radius of twigs in m (such that the trunk's is 1/60 of the height)")
+        ->option_text("M")
+        ->check(positive_number());
+}
+
+Splines grow_in_envelope(const EnvelopeOptions& o, const ImportChoice& choice, const EnvelopeRun& run,
+                         CommonOptions& common) {
+    if (run.bodies && o.attractors) throw UsageError("--attractors: not with --bodies, which chooses their number");
+    const ColonizeParameters p = parameters(o, choice, common);
+    ColonizeReport report;
+    Splines tree;
+    try {
+        tree = run.bodies ? colonize_bodies(p, run.seed, run.leaves, run.fruit, *run.bodies, &report)
+                          : colonize(p, run.seed, run.leaves, run.fruit, &report);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--" + std::string(error.what()));
+    }
+    if (const std::int64_t missed = report.blocked + report.out_of_reach; missed > 0)
+        common.notes.push_back(std::to_string(missed) + " of " + std::to_string(report.points) +
+                               " attraction points were not reached: " + std::to_string(report.out_of_reach) +
+                               " out of the influence distance, " + std::to_string(report.blocked) +
+                               " behind the envelope's surface");
+    return tree;
+}
+
+} // namespace bough

@@ -1,0 +1,116 @@
+#include "frame_sink.h"
+#include "lib/growth/skin.h"
+#include <algorithm>
+#include <numbers>
+#include <sstream>
+
+namespace bough {
+namespace {
+
+constexpr std::size_t joints_default = 1000; // some viewers fail beyond about 1100
+constexpr std::size_t joints_most = 65536;   // what JOINTS_0 can number
+constexpr double tolerance_default = 0.1;    // [deg]
+
+class GltfSink : public FrameSink {
+public:
+    GltfSink(const std::string& file, const Tree& tree, int sides, const GltfChoice& choice, const GltfOptions& options,
+             std::vector<std::string>& notes)
+        : output_(file), tree_(tree), notes_(notes), skin_(build_skin(tree, {sides})),
+          groups_(chosen_joints(tree, choice)), writer_(output_, skin_, tree, groups_, options) {
+        if (groups_.size() < tree.size_bodies()) error_.emplace(tree, groups_);
+    }
+    void write(const MotionFrame& frame) override {
+        writer_.write(frame);
+        if (error_) error_->add(frame.rotation, frame.position);
+    }
+    void finish() override {
+        writer_.finish();
+        output_.finish();
+        note();
+    }
+
+private:
+    void note() {
+        std::ostringstream text;
+        text.precision(3);
+        if (error_) {
+            double low = INFINITY, high = -INFINITY;
+            for (const Vec3& p : skin_.position) low = std::min(low, p.y()), high = std::max(high, p.y());
+            text << tree_.size_bodies() << " bodies merged to " << groups_.size() << " joints (--max-joints): ends of "
+                 << "bodies are off by " << error_->rms() << " m RMS, " << error_->largest() << " m at most ("
+                 << 100 * error_->rms() / (high - low) << " and " << 100 * error_->largest() / (high - low)
+                 << " % of the height)";
+            notes_.push_back(text.str());
+            text.str("");
+        }
+        const std::size_t all = writer_.keys().joints() * writer_.keys().frames(), kept = writer_.keys().count();
+        if (kept == all) return;
+        text << kept << " of " << all << " keys written (--key-tolerance)";
+        notes_.push_back(text.str());
+    }
+
+    Output output_;
+    const Tree& tree_;
+    std::vector<std::string>& notes_;
+    Skin skin_;
+    JointGroups groups_;
+    GltfWriter writer_;
+    std::optional<MergeError> error_;
+};
+
+} // namespace
+
+void add_max_joints(CLI::App& app, GltfChoice& choice) {
+    const CLI::Validator number = whole_number(1, joints_most);
+    app.add_option(
+           "--max-joints", choice.max_joints,
+           "Joints of a .glb: deepest levels are merged first until at most N are left (1000); all: none merged")
+        ->option_text("N|all")
+        ->check(CLI::Validator(
+            [number](std::string text) {
+                const std::string wrong = number(text);
+                return text == "all" || wrong.empty() ? std::string() : wrong + ", or all";
+            },
+            "", ""));
+}
+
+void add_key_tolerance(CLI::App& app, GltfChoice& choice) {
+    app.add_option(
+           "--key-tolerance", choice.key_tolerance,
+           "Keys of a .glb are left out while no joint's world direction is off by more [deg] (0.1); 0: keep all")
+        ->option_text("DEG")
+        ->check(not_negative_number());
+}
+
+JointGroups chosen_joints(const Tree& tree, const GltfChoice& choice) {
+    const bool all = choice.max_joints == "all";
+    if (all && tree.size_bodies() > joints_most)
+        throw UsageError("--max-joints is 'all', which are " + std::to_string(tree.size_bodies()) +
+                         " here, but a .glb can number " + std::to_string(joints_most));
+    const std::size_t most = all                         ? tree.size_bodies()
+                             : choice.max_joints.empty() ? joints_default
+                                                         : std::stoull(choice.max_joints);
+    try {
+        return merge_joints(tree, most);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--max-joints " + std::string(error.what()));
+    }
+}
+
+GltfOptions gltf_options(const GltfChoice& choice, const std::string& source) {
+    GltfOptions options;
+    options.key_tolerance = choice.key_tolerance.value_or(tolerance_default) * std::numbers::pi / 180;
+    options.generator = std::string("bough ") + bough_version();
+    options.source = source;
+    return options;
+}
+
+std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree& tree, int sides, double fps,
+                                     const GltfChoice& choice, const std::string& source,
+                                     std::vector<std::string>& notes) {
+    GltfOptions options = gltf_options(choice, source);
+    options.fps = fps;
+    return std::make_unique<GltfSink>(file, tree, sides, choice, options, notes);
+}
+
+} // namespace bough
