@@ -17,7 +17,6 @@ struct Options {
     ImportChoice choice;
     std::string species, params, import;
     EnvelopeOptions envelope;
-    std::string species, import;
     std::optional<std::int64_t> bodies;
     std::optional<std::uint64_t> seed;
     std::optional<double> age;
