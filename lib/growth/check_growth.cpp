@@ -89,10 +89,10 @@ void check_growth(const GrowthParameters& p) {
     positive("scale", p.scale, 1e4);
     ours ? below("scale_v", p.scale_v, 0, p.scale) : within("scale_v", p.scale_v, 0, p.scale);
     positive("ratio", p.ratio, 1);
-    within("ratio_power", p.ratio_power, -10, 10);
+    within("ratio_power", p.ratio_power, ours ? 0 : -10, 10);
     positive("radius_scale", p.radius_scale, 1e3);
     below("radius_scale_v", p.radius_scale_v, 0, p.radius_scale);
-    within("flare", p.flare, -1, 100);
+    within("flare", p.flare, ours ? 0 : -1, 100);
     within("trunk_spread", p.trunk_spread, 0, 1e4);
     for (const double part : {p.tropism.x(), p.tropism.y(), p.tropism.z()}) within("tropism", part, -1000, 1000);
     below("prune_base", p.prune_base, -1, 1);

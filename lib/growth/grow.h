@@ -68,10 +68,11 @@ struct GrowthParameters {
     int shape = 0;  // 0 conical, 1 spherical, 2 hemispherical, 3 cylindrical, 4 tapered cylindrical, 5 flame,
                     // 6 inverse conical, 7 tend flame, 8 the pruning envelope
     int levels = 3; // 1..4
-    double scale = 10, scale_v = 0;              // [m] height; > 0 and 0 <= V < scale (V = scale but for bough)
-    double ratio = 0.02, ratio_power = 1.2;      // 0..1 without 0, radius / length of the trunk; -10..10
+    double scale = 10, scale_v = 0; // [m] height; > 0 and 0 <= V < scale (V = scale but for bough)
+    double ratio = 0.02,
+           ratio_power = 1.2; // 0..1 without 0, radius / length of the trunk; 0..10 (from -10 but for bough)
     double radius_scale = 1, radius_scale_v = 0; // > 0 and 0 <= V < scale, of the trunk (Arbaro's 0Scale, 0ScaleV)
-    double flare = 0;                            // -1..100
+    double flare = 0;                            // 0..100 (from -1 but for bough)
     double trunk_spread = 0;                     // [m] 0..1e4, arbaro: how far trunks stand from the middle
     Vec3 tropism = Vec3::Zero();   // +-1000, tree_gen: segments turn 10 degrees times the sine toward it; level 0 and 1
                                    // toward its level part
