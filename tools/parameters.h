@@ -11,7 +11,4 @@ namespace bough {
 // an ez-tree preset. What cannot be honoured is added to the notes. Throws InputError.
 std::variant<Species, EzTreeParameters> read_parameter_file(const std::string& path, CommonOptions&);
 
-// Adds a note on how many branches of a tree made for pictures would not hold their shape as wood.
-void note_sagging(const Splines&, const std::string& material, CommonOptions&);
-
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "carry.h"
 #include "../model/body_shape.h"
+#include "bark.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -123,6 +124,7 @@ void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<
 } // namespace
 
 void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
+    const std::vector<double> drawn = s.radius;
     std::vector<std::vector<Load>> loads(s.branches());
     hang_items(s, wood, loads);
     for (std::size_t b = s.branches(); b-- > 0;) {
@@ -131,6 +133,7 @@ void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
         if (s.parent[b] >= 0) loads[std::size_t(s.parent[b])].push_back(carrier.whole());
         loads[b] = {};
     }
+    seat_on_bark(s, drawn);
 }
 
 } // namespace bough

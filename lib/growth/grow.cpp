@@ -327,10 +327,8 @@ bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const It
                                                                   : grow_segments(parameters, seed, items, most, out);
     if (!items.petals) out.leaf_kind.clear();
     if (!whole) return false;
-    const std::vector<double> drawn = out.radius;
     if (parameters.pipe_exponent > 0) thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
     if (parameters.most_sag > 0) thicken_to_carry(out, parameters.wood, parameters.most_sag);
-    if (parameters.pipe_exponent > 0 || parameters.most_sag > 0) seat_on_bark(out, drawn);
     return true;
 }
 

@@ -1,4 +1,5 @@
 #include "pipe.h"
+#include "bark.h"
 #include <algorithm>
 #include <cmath>
 
@@ -30,12 +31,14 @@ double thicken(Splines& s, std::size_t b, double exponent, std::vector<Load>& lo
 } // namespace
 
 void thicken_by_pipe_model(Splines& s, double exponent) {
+    const std::vector<double> drawn = s.radius;
     std::vector<std::vector<Load>> loads(s.branches());
     for (std::size_t b = s.branches(); b-- > 0;) {
         const double power = thicken(s, b, exponent, loads[b]);
         if (s.parent[b] >= 0) loads[std::size_t(s.parent[b])].push_back({s.parent_at[b], power});
         loads[b] = {};
     }
+    seat_on_bark(s, drawn);
 }
 
 double exponent_for_trunk(const Splines& s, double least) {

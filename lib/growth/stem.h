@@ -2,6 +2,7 @@
 //
 // Private to growth. A stem's own frame has z along it and x about which it curves and its children bend down.
 #pragma once
+#include "bark.h"
 #include "random.h"
 #include "weber_penn.h"
 #include <span>
@@ -73,10 +74,6 @@ struct GrownStem {
     Vec3 point_at(double offset) const;
 };
 
-// Radius [m] at fraction `at` of branch's arc length, linear between its points, whose fractions are even only within
-// segments. O(points of the branch).
-double radius_at(const Splines&, std::int32_t branch, double at);
-
 // One leaf that grows at `offset` [m] of the stem, `turned`: z its length, y its normal.
 void add_leaf(const GrowthParameters&, const GrownStem&, double offset, const Quat& turned, double length,
               Splines& out);
@@ -94,9 +91,6 @@ bool grow_sapling(const GrowthParameters&, std::uint64_t seed, const Items&, std
 
 // Rotation by an angle [rad] about an axis of length 1.
 Quat about(const Vec3& axis, double angle);
-
-// Moves leaves, flowers and fruit out to the bark where radii have grown from `drawn`. O(items * points of a branch).
-void seat_on_bark(Splines&, const std::vector<double>& drawn);
 
 // Leaves, flowers and fruit of a stem of the last level, appended to `out`.
 void grow_leaves(const GrowthParameters&, const GrownStem&, Splines& out);

@@ -1,0 +1,182 @@
+#include "growth.h"
+#include "formats/species.h"
+#include "lib/growth/carry.h"
+#include "parameters.h"
+#include <algorithm>
+
+namespace bough {
+namespace {
+
+const std::vector<std::string> season_names = {"spring", "summer", "autumn", "winter"};
+constexpr double foreign_sag = 0.5; // [rad] of branches drawn by other programs' rules, which are for pictures
+
+Species chosen_species(const GrowthOptions& o) {
+    for (const SpeciesFile& file : species_files())
+        if (file.name == o.species) return read_species(file.content, o.species);
+    return default_species();
+}
+
+Items chosen_items(const GrowthOptions& o) {
+    if (!o.season.empty() && !o.leaves && !o.petals && !o.fruit) return {true, true, true};
+    return {o.leaves, o.petals, o.fruit};
+}
+
+// What wood makes of a tree that was drawn for pictures, said in one line.
+std::string raised(std::size_t branches, std::size_t all) {
+    return std::to_string(branches) + " of " + std::to_string(all) +
+           " branches made thicker than the file says, as wood must be to carry them (--radii file keeps its radii)";
+}
+
+std::size_t count_raised(const Splines& before, const Splines& after) {
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < before.branches(); ++b) {
+        bool thicker = false;
+        for (auto i = std::size_t(before.first_point[b]); i < std::size_t(before.first_point[b + 1]); ++i)
+            thicker = thicker || after.radius[i] > before.radius[i];
+        count += thicker;
+    }
+    return count;
+}
+
+Splines grow_preset(const GrowthOptions& o, EzTreeParameters preset, CommonOptions& common) {
+    if (o.bodies) throw UsageError("--bodies: not with an ez-tree preset, whose numbers are its own");
+    if (o.petals) common.notes.push_back(preset.name + " has no petals");
+    if (o.fruit) common.notes.push_back(preset.name + " has no fruit");
+    if (o.seed) preset.seed = std::int64_t(*o.seed);
+    Splines splines = grow_eztree(preset, o.leaves);
+    if (o.radii == "file") return splines;
+    const Splines drawn = splines;
+    thicken_to_carry(splines, wood_presets().front(), foreign_sag);
+    if (const std::size_t count = count_raised(drawn, splines)) common.notes.push_back(raised(count, drawn.branches()));
+    return splines;
+}
+
+void note_what_is_not_borne(const GrowthOptions& o, const Species& species, const GrowthParameters& growth,
+                            CommonOptions& common) {
+    const auto note = [&](bool wanted, double number, const char* what) {
+        if (wanted && number == 0)
+            common.notes.push_back(species.name + " has no " + what + (o.season.empty() ? "" : " in " + o.season));
+    };
+    note(o.leaves, growth.leaves, "leaves");
+    note(o.petals, growth.blossoms + growth.blossom_rate, "petals");
+    note(o.fruit, growth.fruits, "fruit");
+}
+
+Splines grow_species(const GrowthOptions& o, const Species& species, CommonOptions& common) {
+    const bool foreign = species.growth.rules != GrowthRules::bough;
+    GrowthParameters growth = o.age ? at_age(species, *o.age) : species.growth;
+    std::vector<Vec3> color = species.color;
+    if (!o.season.empty()) {
+        const auto season =
+            Season(std::find(season_names.begin(), season_names.end(), o.season) - season_names.begin());
+        growth = in_season(species, growth, season);
+        color = colors_in_season(species, season);
+    }
+    note_what_is_not_borne(o, species, growth, common);
+    if (foreign && o.radii != "file") {
+        growth.most_sag = foreign_sag;
+        common.notes.push_back(
+            "branches are made thicker where wood must be to carry them (--radii file keeps the file's radii)");
+    }
+    const std::uint64_t seed = o.seed.value_or(0);
+    const Items items = chosen_items(o);
+    Splines splines = o.bodies ? grow_bodies(growth, seed, items, *o.bodies) : grow(growth, seed, items);
+    splines.material = species.material;
+    splines.color = color;
+    return splines;
+}
+
+void refuse_what_is_foreign(const GrowthOptions& o, bool foreign) {
+    const char* reason = ": not with the parameters of another program, which know of none";
+    if (foreign && o.age) throw UsageError(std::string("--age") + reason);
+    if (foreign && !o.season.empty()) throw UsageError(std::string("--season") + reason);
+    if (!foreign && !o.radii.empty())
+        throw UsageError("--radii: only with --params of another program; a species says itself what its radii carry");
+}
+
+} // namespace
+
+std::vector<std::string> species_names() {
+    std::vector<std::string> names = {default_species().name};
+    for (const SpeciesFile& file : species_files()) names.emplace_back(file.name);
+    return names;
+}
+
+void add_growth_options(CLI::App& app, GrowthOptions& o) {
+    app.add_option("--species", o.species, "Which tree to grow (see --list-species)")
+        ->option_text("NAME")
+        ->check(CLI::IsMember(species_names()));
+    app.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
+    app.add_option(
+           "--params", o.params,
+           "Grow by this file's parameters: Arbaro XML, tree-gen, Blender Sapling, ez-tree, or a bough-species\n"
+           "document; - for stdin")
+        ->option_text("FILE");
+    app.add_option(
+           "--radii", o.radii,
+           "With --params of another program: carry (default), thicker than the file says where wood must be to\n"
+           "carry the tree, or file, as it says")
+        ->option_text("carry|file")
+        ->check(CLI::IsMember({"carry", "file"}));
+    app.add_option("--bodies", o.bodies,
+                   "Grow a tree that treeconvert makes N bodies of by default (within 10 %; leaves and fruit count)")
+        ->option_text("N")
+        ->check(whole_number(1));
+    app.add_option("--age", o.age, "Years; the mature tree unless given")
+        ->option_text("YEARS")
+        ->check(positive_number());
+    app.add_option(
+           "--season", o.season,
+           "spring, summer, autumn or winter: leaves, petals and fruit as the species then has them, and leaves'\n"
+           "colour; with --leaves, --petals, --fruit only those asked for")
+        ->option_text("NAME")
+        ->check(CLI::IsMember(season_names));
+    app.add_flag("--leaves", o.leaves, "With leaves or needles; else none unless --season");
+    app.add_flag("--petals", o.petals, "With blossoms");
+    app.add_flag("--fruit", o.fruit, "With fruit");
+    app.add_option("--seed", o.seed, "Seed of every random draw (0)")->option_text("N")->check(whole_number(0));
+    add_envelope_options(app, o.envelope);
+}
+
+void refuse_contradictions(const GrowthOptions& o, bool import) {
+    const std::pair<const char*, bool> given[] = {{"--envelope", !o.envelope.envelope.empty()},
+                                                  {"--species", !o.species.empty()},
+                                                  {"--params", !o.params.empty()},
+                                                  {"--radii", !o.radii.empty()},
+                                                  {"--age", o.age.has_value()},
+                                                  {"--season", !o.season.empty()},
+                                                  {"--petals", o.petals},
+                                                  {"--bodies", o.bodies.has_value()},
+                                                  {"--seed", o.seed.has_value()}};
+    const auto refuse = [&](std::size_t first, std::size_t count, const std::string& reason) {
+        for (std::size_t i = first; i < first + count; ++i)
+            if (given[i].second) throw UsageError(given[i].first + reason);
+    };
+    if (import) refuse(0, std::size(given), ": not with --import, whose file says what the tree is");
+    if (given[0].second) refuse(1, 6, ": not with --envelope, which has no species and grows in its own way");
+    if (given[2].second) refuse(1, 1, ": not with --params, which is another tree");
+    if (!given[2].second) refuse(3, 1, ": only with --params");
+    if (given[0].second) return;
+    for (const auto& [option, is_given] : o.envelope.given())
+        if (is_given) throw UsageError(option + ": only with --envelope");
+}
+
+Splines grow_tree(const GrowthOptions& o, const ImportChoice& choice, CommonOptions& common) {
+    if (!o.envelope.envelope.empty())
+        return grow_in_envelope(o.envelope, choice, {o.seed.value_or(0), o.bodies, o.leaves, o.fruit}, common);
+    std::variant<Species, EzTreeParameters> chosen;
+    if (o.params.empty())
+        chosen = chosen_species(o);
+    else
+        chosen = read_parameter_file(o.params, common);
+    const auto* preset = std::get_if<EzTreeParameters>(&chosen);
+    refuse_what_is_foreign(o, preset || std::get<Species>(chosen).growth.rules != GrowthRules::bough);
+    try {
+        return preset ? grow_preset(o, *preset, common) : grow_species(o, std::get<Species>(chosen), common);
+    } catch (const std::invalid_argument& error) {
+        if (!o.params.empty() && !o.bodies) throw InputError(input_name(o.params), error.what());
+        throw UsageError(error.what());
+    }
+}
+
+} // namespace bough
