@@ -102,7 +102,8 @@ TEST_CASE("rules between fields are named with their place") {
     CHECK_THAT(changed("[-1, 0]", "[-1, 1]"), StartsWith("t.json: /parent/1: is 1, expected -1 or less than 1"));
     CHECK_THAT(changed("[-1, 0]", "[1, 0]"), StartsWith("t.json: /parent/0: is 1, expected -1"));
     CHECK_THAT(changed("[-1, 0]", "[-1, -2]"), StartsWith("t.json: /parent/1: is -2, expected -1 or"));
-    CHECK(changed("[0, 1]", "[0, 3]") == "t.json: /kind/1: is 3, expected 0 (branch), 1 (leaf) or 2 (fruit)");
+    CHECK(changed("[0, 1]", "[0, 4]") ==
+          "t.json: /kind/1: is 4, expected 0 (branch), 1 (leaf), 2 (fruit) or 3 (petal)");
     CHECK(changed("[2, 3]", "[2, 0]") == "t.json: /mass/1: is 0, expected more than 0");
     CHECK_THAT(changed("1, 0, 0, 0, 1]", "1, 0, 0, 0, 2]"),
                Equals("t.json: /joint_rotation/4: body 1 has length 2, expected a unit quaternion"));

@@ -3,6 +3,7 @@
 #include "formats/material.h"
 #include "formats/motion.h"
 #include "formats/scene.h"
+#include "formats/species.h"
 #include "formats/splines.h"
 #include "formats/tree.h"
 #include "random_documents.h"
@@ -274,8 +275,10 @@ TEST_CASE("the examples of formats/README.md are documents") {
             CHECK_NOTHROW(read_state(text, "README.md"));
         else if (document_format(text) == "bough-material")
             CHECK_NOTHROW(read_material(text, "README.md"));
+        else if (is_species(text))
+            CHECK_NOTHROW(grow(read_species(text, "README.md").growth, 1, {true, true, true}));
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 7);
+    CHECK(examples == 8);
 }

@@ -4,6 +4,7 @@
 #include "formats/import.h"
 #include "formats/species.h"
 #include "formats/splines.h"
+#include "parameters.h"
 #include <algorithm>
 #include <iostream>
 
@@ -14,8 +15,8 @@ using namespace bough;
 struct Options {
     CommonOptions common;
     ImportChoice choice;
+    std::string species, params, import;
     EnvelopeOptions envelope;
-    std::string species, import;
     std::optional<std::int64_t> bodies;
     std::optional<std::uint64_t> seed;
     std::optional<double> age;
@@ -37,9 +38,11 @@ const ToolInfo info = {
     "Makes a tree as splines: grown by Weber and Penn's recursion, grown into a volume (--envelope), or imported.\n"
     "Usage: treegen [--species NAME] [--age YEARS] [--season NAME] [--bodies N] [--seed N] [--leaves] [--petals] "
     "[--fruit]\n"
+    "       treegen --params FILE [--bodies N] [--seed N] [--leaves] [--petals] [-o FILE]\n"
     "       treegen --envelope sphere|cone|box|FILE [--envelope-size X,Y,Z] [--attractors N] ... [-o FILE]\n"
     "       treegen --import FILE [--units UNIT] [--up AXIS] [--leaves] [--fruit] [-o FILE]",
-    "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, and bough splines; which one a\n"
+    "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, and bough splines; which "
+    "one a\n"
     "file is, its content decides. The result goes to treeconvert:\n"
     "  treegen --bodies 2000 --seed 7 | treeconvert - -o tree.json\n"
     "Exit: 0 done, 1 usage, 2 bad input, 4 output not written, 130 interrupted.",
@@ -49,6 +52,11 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--species", o.species, "Which tree to grow (see --list-species)")
         ->option_text("NAME")
         ->check(CLI::IsMember(species_names()));
+    app.add_option("--params", o.params,
+                   "Grow by this file's parameters: Arbaro XML, tree-gen, Blender Sapling, ez-tree, or a "
+                   "bough-species document; "
+                   "- for stdin")
+        ->option_text("FILE");
     app.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
     app.add_option("--import", o.import, "Import this file instead of growing; - for stdin")->option_text("FILE");
     app.add_option("--bodies", o.bodies,
@@ -73,9 +81,12 @@ void declare(CLI::App& app, Options& o) {
 }
 
 void refuse_contradictions(const Options& o) {
+    if (!o.params.empty() && !o.species.empty())
+        throw UsageError("--species: not with --params, which is another tree");
     if (!o.envelope.envelope.empty()) {
         if (!o.import.empty()) throw UsageError("--envelope: not with --import");
         if (!o.species.empty()) throw UsageError("--envelope: not with --species, which grows in its own way");
+        if (!o.params.empty()) throw UsageError("--envelope: not with --params, which grow in their own way");
         if (o.age) throw UsageError("--age: not with --envelope, whose size says how big the tree is");
         if (!o.season.empty()) throw UsageError("--season: not with --envelope, which has no species");
         if (o.petals) throw UsageError("--petals: not with --envelope, which has no species");
@@ -90,6 +101,7 @@ void refuse_contradictions(const Options& o) {
     }
     const char* reason = ": not with --import, whose file says what the tree is";
     if (!o.species.empty()) throw UsageError(std::string("--species") + reason);
+    if (!o.params.empty()) throw UsageError(std::string("--params") + reason);
     if (o.bodies) throw UsageError(std::string("--bodies") + reason);
     if (o.age) throw UsageError(std::string("--age") + reason);
     if (!o.season.empty()) throw UsageError(std::string("--season") + reason);
@@ -135,6 +147,14 @@ Splines imported(Options& o) {
     return splines;
 }
 
+Splines grown_by_eztree(Options& o, EzTreeParameters preset) {
+    if (o.bodies) throw UsageError("--bodies: not with an ez-tree preset, whose numbers are its own");
+    if (o.petals) o.common.notes.push_back(preset.name + " has no petals");
+    if (o.fruit) o.common.notes.push_back(preset.name + " has no fruit");
+    if (o.seed) preset.seed = std::int64_t(*o.seed);
+    return grow_eztree(preset, o.leaves);
+}
+
 Species chosen_species(const Options& o) {
     for (const SpeciesFile& file : species_files())
         if (file.name == o.species) return read_species(file.content, o.species);
@@ -145,10 +165,25 @@ Splines grown(Options& o) {
     const std::uint64_t seed = o.seed.value_or(0);
     if (!o.envelope.envelope.empty())
         return grow_in_envelope(o.envelope, o.choice, {seed, o.bodies, o.leaves, o.fruit}, o.common);
-    const Species species = chosen_species(o);
+    std::variant<Species, EzTreeParameters> chosen;
+    if (o.params.empty())
+        chosen = chosen_species(o);
+    else
+        chosen = read_parameter_file(o.params, o.common);
+    const auto* preset = std::get_if<EzTreeParameters>(&chosen);
+    const bool foreign = preset || std::get<Species>(chosen).growth.rules != GrowthRules::bough;
+    if (foreign && o.age) throw UsageError("--age: not with the parameters of another program, which know of none");
+    if (foreign && !o.season.empty())
+        throw UsageError("--season: not with the parameters of another program, which know of none");
+    const Species species = preset ? default_species() : std::get<Species>(chosen);
     Items items{o.leaves, o.petals, o.fruit};
     if (!o.season.empty() && !o.leaves && !o.petals && !o.fruit) items = {true, true, true};
     try {
+        if (preset) {
+            Splines splines = grown_by_eztree(o, *preset);
+            note_sagging(splines, splines.material, o.common);
+            return splines;
+        }
         GrowthParameters growth = o.age ? at_age(species, *o.age) : species.growth;
         std::vector<Vec3> color = species.color;
         if (!o.season.empty()) {
@@ -163,13 +198,15 @@ Splines grown(Options& o) {
                                          (o.season.empty() ? "" : " in " + o.season));
         };
         note_none(o.leaves, growth.leaves, "leaves");
-        note_none(o.petals, growth.blossoms, "petals");
+        note_none(o.petals, growth.blossoms + growth.blossom_rate, "petals");
         note_none(o.fruit, growth.fruits, "fruit");
         Splines splines = o.bodies ? grow_bodies(growth, seed, items, *o.bodies) : grow(growth, seed, items);
+        if (foreign) note_sagging(splines, species.material, o.common);
         splines.material = species.material;
         splines.color = color;
         return splines;
     } catch (const std::invalid_argument& error) {
+        if (!o.params.empty() && !o.bodies) throw InputError(input_name(o.params), error.what());
         throw UsageError(error.what());
     }
 }

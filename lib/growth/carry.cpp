@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double gravity = 9.81;
-constexpr double safety = 2; // against buckling
+constexpr double safety = 4; // against toppling
 
 struct Load {
     double at;         // fraction of the bearing branch's arc length
@@ -62,17 +62,20 @@ void Carrier::add_piece(std::size_t k) {
 }
 
 void Carrier::raise(std::size_t k) {
-    const double length = arc_.back(), left = length - arc_[k - first_];
+    const double length = arc_.back();
     if (!(length > 0)) return;
     const Vec3 chord = s_.point[std::min(k + 1, last_)] - s_.point[k > first_ ? k - 1 : k];
     const Vec3 tangent = chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitY());
-    const Vec3 torque = gravity * (moment_ - mass_ * s_.point[k]).cross(Vec3::UnitY());
-    const double twist = torque.dot(tangent) / (2 * wood_.shear_modulus);
-    const double bend = (torque - torque.dot(tangent) * tangent).norm() / wood_.youngs_modulus;
-    const double upward = std::max(0.0, tangent.y());
-    const double section =
-        std::max(std::hypot(bend, twist) * length / most_sag_,
-                 safety * mass_ * gravity * upward * 4 * left * left / (pi * pi * wood_.youngs_modulus));
+    const Vec3 arm = mass_ > 0 ? Vec3(moment_ / mass_ - s_.point[k]) : Vec3(Vec3::Zero());
+    const double weight = gravity * mass_;
+    const Vec3 torque = weight * arm.cross(Vec3::UnitY());
+    const double along = torque.dot(tangent);
+    const double E = wood_.youngs_modulus, twice_G = 2 * wood_.shear_modulus;
+    const double sag = std::hypot((torque - along * tangent).norm() / E, along / twice_G) / most_sag_;
+    // What the load, tilting over with the wood that bears it, takes from its stiffness.
+    const double topples = std::max(0.0, arm.y()) / E;
+    const double rolls = std::max(0.0, arm.y() - arm.dot(tangent) * tangent.y()) / twice_G;
+    const double section = length * std::max(sag, safety * weight * std::max(topples, rolls));
     const double needed = std::max(std::pow(4 * section / pi, 0.25), floor_);
     if (needed > s_.radius[k]) {
         s_.radius[k] = needed;

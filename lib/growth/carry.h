@@ -2,12 +2,13 @@
 // keep their strains about even by growing thicker where they are loaded (Mattheck's axiom of uniform stress, taken here
 // as uniform sag).
 //
-// With W the weight of all wood, leaves, petals and fruit further out than a point of a branch of length L, M the moment
-// of that weight about the point (M_b across the tangent, M_t along it), l the arc length from there to the tip and c
-// the tangent's upward part, a radius r (I = pi r^4 / 4, J = 2 I) is raised until
-//   bending and twist   sqrt((M_b / E I)^2 + (M_t / G J)^2) <= most_sag / L     so that no branch is turned more than
-//                       most_sag by its load between its base and its tip;
-//   buckling            E I pi^2 / (4 l^2) >= 2 W c                             a column, twice as strong as it must be.
+// With W the weight of all wood, leaves, petals and fruit further out than a point of a branch of length L, d its centre's
+// place from the point, t the tangent, M = W d x up its moment (M_b across the tangent, M_t along it), a radius r
+// (I = pi r^4 / 4, J = 2 I) is raised until
+//   sag      sqrt((M_b / E I)^2 + (M_t / G J)^2) <= most_sag / L: no branch is turned more than most_sag by its load
+//            between its base and its tip;
+//   topple   E I / L >= 4 W d_up, and G J / L >= 4 W (d - t (t.d))_up: what stands above a branch does not bend or roll it
+//            over, four times as stiff as it must be, since all branches below give way too;
 // at every point; between points radii are linear, so that few points leave up to a fifth more sag under a load at the tip.
 // A radius is also at least the next one out, where that was raised, and those of the branches that begin there.
 // Wood that has been raised is weighed as such: one sweep from the tips to the ground. Radii only grow.

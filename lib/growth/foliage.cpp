@@ -8,10 +8,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-Quat about(const Vec3& axis, double angle) {
-    return quaternion_from_vector<double>(axis * angle);
-}
-
 // The paper's light bend: the normal turns toward the outside of the tree, then up, by `bend` of the way each.
 Quat bent(Quat leaf, const Vec3& position, double bend) {
     Vec3 normal = leaf * Vec3::UnitY();
@@ -41,18 +37,6 @@ void add_flat(Splines& out, std::int32_t branch, double at, const Vec3& position
     out.leaf_kind.push_back(kind);
 }
 
-void add_leaf(const GrowthParameters& p, const GrownStem& grown, double offset, const Quat& turned, double length,
-              Splines& out) {
-    const double at = grown.fraction(offset);
-    const Vec3 axis = grown.segment_at(offset).frame * Vec3::UnitZ();
-    const Vec3 outward = turned * Vec3::UnitZ();
-    const Vec3 aside = outward - axis * axis.dot(outward);
-    Vec3 position = grown.point_at(offset);
-    if (aside.norm() > 1e-9) position += radius_at(out, grown.branch, at) * aside.normalized();
-    const Quat leaf = p.leaf_bend > 0 ? bent(upright(turned), position, p.leaf_bend) : turned;
-    add_flat(out, grown.branch, at, position, upright(leaf), length, length * p.leaf_scale_x, 0);
-}
-
 // Number on this stem of things of which there are at most `most`, by the stem's place on its parent.
 int number_on(const GrowthParameters& p, const Stem& stem, double most, Draw draw) {
     const double share = p.leaf_distrib == 8 ? envelope_ratio(p, stem.place) : shape_ratio(p.leaf_distrib, stem.place);
@@ -61,6 +45,35 @@ int number_on(const GrowthParameters& p, const Stem& stem, double most, Draw dra
 }
 
 } // namespace
+
+Quat about(const Vec3& axis, double angle) {
+    return quaternion_from_vector<double>(axis * angle);
+}
+
+void add_leaf(const GrowthParameters& p, const GrownStem& grown, double offset, const Quat& turned, double length,
+              Splines& out) {
+    const double at = grown.fraction(offset);
+    const Vec3 axis = grown.segment_at(offset).frame * Vec3::UnitZ();
+    const Vec3 outward = turned * Vec3::UnitZ();
+    const Vec3 aside = outward - axis * axis.dot(outward);
+    Vec3 position = grown.point_at(offset);
+    if (aside.norm() > 1e-9) position += radius_at(out, grown.branch, at) * aside.normalized();
+    position += p.leaf_stem * length * outward;
+    const Quat leaf = p.leaf_bend > 0 ? bent(upright(turned), position, p.leaf_bend) : turned;
+    add_flat(out, grown.branch, at, position, upright(leaf), length, length * p.leaf_scale_x, 0);
+}
+
+void add_flower(const GrowthParameters& p, std::int32_t branch, double at, const Vec3& center, const Vec3& axis,
+                double size, Splines& out) {
+    constexpr double lean = 35 * kDegree; // of a petal off the flower's plane
+    // The flower's axis is z of its frame; x of a petal is its width, so that it leans about x.
+    const Quat flower = Quat::FromTwoVectors(Vec3::UnitZ(), axis);
+    for (int k = 0; k < p.petals; ++k) {
+        const Quat petal = flower * about(Vec3::UnitZ(), 2 * std::numbers::pi * k / p.petals) *
+                           about(Vec3::UnitX(), std::numbers::pi / 2 - lean);
+        add_flat(out, branch, at, center, petal, size * p.petal_scale, size * p.petal_scale * p.petal_scale_x, 1);
+    }
+}
 
 const Segment& GrownStem::segment_at(double offset) const {
     const double number = std::floor(offset / stem.length * curve_res) - stem.first_segment;
@@ -156,7 +169,6 @@ void grow_leaves(const GrowthParameters& p, const GrownStem& grown, Splines& out
 }
 
 void grow_blossoms(const GrowthParameters& p, const GrownStem& grown, Splines& out) {
-    constexpr double lean = 35 * kDegree; // of a petal off the flower's plane
     const Stem& stem = grown.stem;
     const int count = number_on(p, stem, p.blossoms, Draw::blossoms);
     for (int i = 0; i < count; ++i) {
@@ -168,14 +180,8 @@ void grow_blossoms(const GrowthParameters& p, const GrownStem& grown, Splines& o
         const double round = 2 * std::numbers::pi * random_unit(key, Draw::rotate);
         const Vec3 away = frame * Vec3(std::cos(round), std::sin(round), 0);
         const Vec3 center = grown.point_at(offset) + (radius_at(out, grown.branch, at) + 0.5 * p.petal_scale) * away;
-        // The flower's axis is z of its frame; x of a petal is its width, so that it leans about x.
         const Vec3 axis = (away + Vec3::UnitY()).norm() > 1e-6 ? Vec3((away + Vec3::UnitY()).normalized()) : away;
-        const Quat flower = Quat::FromTwoVectors(Vec3::UnitZ(), axis);
-        for (int k = 0; k < p.petals; ++k) {
-            const Quat petal = flower * about(Vec3::UnitZ(), 2 * std::numbers::pi * k / p.petals) *
-                               about(Vec3::UnitX(), std::numbers::pi / 2 - lean);
-            add_flat(out, grown.branch, at, center, petal, p.petal_scale, p.petal_scale * p.petal_scale_x, 1);
-        }
+        add_flower(p, grown.branch, at, center, axis, 1, out);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "grow.h"
 #include "carry.h"
 #include "pipe.h"
+#include "segment_line.h"
 #include "stem.h"
 #include <algorithm>
 #include <numbers>
@@ -14,19 +15,11 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kMostItems = 50'000'000;     // branches, leaves and fruit
 constexpr std::size_t kMostPoints = 1'000'000'000; // what Splines::first_point can hold, and some room
 
-Quat about(const Vec3& axis, double angle) {
-    return quaternion_from_vector<double>(axis * angle);
-}
 Quat about_x(double angle) {
     return about(Vec3::UnitX(), angle);
 }
 Quat about_z(double angle) {
     return about(Vec3::UnitZ(), angle);
-}
-
-// Angle between the stem and the vertical.
-double declination(const Quat& frame) {
-    return std::acos(std::clamp((frame * Vec3::UnitZ()).y(), -1.0, 1.0));
 }
 
 double varied(double value, double v, RandomKey key, Draw draw, std::uint64_t index = 0) {
@@ -94,9 +87,7 @@ bool Grower::run(std::uint64_t seed, const Items& items, std::int64_t most) {
         stack_.insert(stack_.end(), born_.rbegin(), born_.rend());
         const std::size_t made = out_.branches() + stack_.size() + out_.leaves() + out_.fruits();
         if (made > static_cast<std::size_t>(most)) return false;
-        if (made > kMostItems || out_.points() > kMostPoints)
-            throw std::invalid_argument("branches, seg_splits, leaves: make more than 5e7 branches and leaves or 1e9 "
-                                        "points, expected fewer");
+        check_size(out_, stack_.size());
     }
     return true;
 }
@@ -320,12 +311,20 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
 
 } // namespace
 
+void check_size(const Splines& out, std::size_t waiting) {
+    if (out.branches() + waiting + out.leaves() + out.fruits() > kMostItems || out.points() > kMostPoints)
+        throw std::invalid_argument("branches, seg_splits, leaves: make more than 5e7 branches and leaves or 1e9 "
+                                    "points, expected fewer");
+}
+
 bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t most,
                 Splines& out) {
     check_growth(parameters);
     out = Splines();
     out.name = parameters.name;
-    const bool whole = Grower(parameters, out).run(seed, items, most);
+    const bool whole = parameters.rules == GrowthRules::bough     ? Grower(parameters, out).run(seed, items, most)
+                       : parameters.rules == GrowthRules::sapling ? grow_sapling(parameters, seed, items, most, out)
+                                                                  : grow_segments(parameters, seed, items, most, out);
     if (!items.petals) out.leaf_kind.clear();
     if (!whole) return false;
     const std::vector<double> drawn = out.radius;

@@ -32,7 +32,11 @@ enum class Draw : std::uint8_t {
     fruits,
     leaf_scale,
     blossom,
-    blossoms
+    blossoms,
+    place, // of children, jitter
+    bend,
+    split_share, // whether a stem splits where it could
+    trunk_place
 };
 
 struct Stem {
@@ -72,6 +76,24 @@ struct GrownStem {
 // Radius [m] at fraction `at` of branch's arc length, linear between its points, whose fractions are even only within
 // segments. O(points of the branch).
 double radius_at(const Splines&, std::int32_t branch, double at);
+
+// One leaf that grows at `offset` [m] of the stem, `turned`: z its length, y its normal.
+void add_leaf(const GrowthParameters&, const GrownStem&, double offset, const Quat& turned, double length,
+              Splines& out);
+
+// The petals of one flower at `center`, which faces along `axis`, `size` times as large as usual.
+void add_flower(const GrowthParameters&, std::int32_t branch, double at, const Vec3& center, const Vec3& axis,
+                double size, Splines& out);
+
+// Throws std::invalid_argument where a tree with `waiting` more stems is larger than grow() allows.
+void check_size(const Splines&, std::size_t waiting);
+
+// grow_up_to() by the rules of other programs (rules.h); the trunks' bark and all else is left to it.
+bool grow_segments(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
+bool grow_sapling(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
+
+// Rotation by an angle [rad] about an axis of length 1.
+Quat about(const Vec3& axis, double angle);
 
 // Moves leaves, flowers and fruit out to the bark where radii have grown from `drawn`. O(items * points of a branch).
 void seat_on_bark(Splines&, const std::vector<double>& drawn);

@@ -39,7 +39,7 @@ double crown_ratio(const GrowthParameters& p, double trunk, double base, double 
     return p.shape == 8 ? envelope_ratio(p, ratio) : shape_ratio(p.shape, ratio);
 }
 
-double taper_radius(double taper, double radius, double length, double z) {
+double exact_taper_radius(double taper, double radius, double length, double z) {
     const double unit = taper < 1 ? taper : taper < 2 ? 2 - taper : 0;
     const double cone = radius * (1 - unit * z); // the paper's taper_z
     double result = cone;
@@ -51,7 +51,11 @@ double taper_radius(double taper, double radius, double length, double z) {
         if (taper >= 2 || bump < cone)
             result = (1 - depth) * cone + depth * std::sqrt(std::max(0.0, cone * cone - (bump - cone) * (bump - cone)));
     }
-    return std::max(result, kLeastTaper * radius);
+    return result;
+}
+
+double taper_radius(double taper, double radius, double length, double z) {
+    return std::max(exact_taper_radius(taper, radius, length, z), kLeastTaper * radius);
 }
 
 double flare_factor(double flare, double z) {
@@ -61,7 +65,7 @@ double flare_factor(double flare, double z) {
 
 std::vector<double> taper_marks(double taper, double flare, double radius, double length) {
     std::vector<double> marks;
-    if (flare > 0) marks = {1.0 / 64, 1.0 / 32, 3.0 / 64, 1.0 / 16, 1.0 / 8};
+    if (flare != 0) marks = {1.0 / 64, 1.0 / 32, 3.0 / 64, 1.0 / 16, 1.0 / 8};
     if (taper > 1 && length > radius) {
         // The rounding starts where what is left of the stem is as long as it is thick.
         const double unit = taper < 2 ? 2 - taper : 0;

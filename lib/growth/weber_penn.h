@@ -15,11 +15,18 @@ double shape_ratio(int shape, double ratio);
 // ShapeRatio of shape 8, the pruning envelope: 0 at the crown's top and bottom, 1 at its peak.
 double envelope_ratio(const GrowthParameters&, double ratio);
 
+// Either of them as the program of p.rules has it: Arbaro's cone comes to a point, Sapling's nearly, it has shapes of its
+// own (8 custom, 9 the envelope, 10 inverse tapered); Arbaro's and tree-gen's envelope is the paper's, which jumps at its
+// peak unless that is half way up.
+double shape_ratio(const GrowthParameters& p, int shape, double ratio);
+
 // Length over `length_max` times the trunk's, of a child at `offset` on a trunk of length `trunk`, bare up to `base`.
 double crown_ratio(const GrowthParameters&, double trunk, double base, double offset);
 
 // Radius at z (0 base .. 1 tip) of a stem of base radius `radius`, length `length`: section "Stem radius", without flare,
 // at least kLeastTaper * radius.
+// The exact one may be 0 at the tip.
+double exact_taper_radius(double taper, double radius, double length, double z);
 double taper_radius(double taper, double radius, double length, double z);
 
 // Factor on the trunk's radius at z: flare (100^y - 1) / 100 + 1 with y = 1 - 8 z, not below 1.

@@ -17,7 +17,7 @@ cat >program/program.cpp <<'END'
 #include <bough/stages/step.h>
 #include <cstdio>
 int main() {
-    const bough::Tree tree = bough::segment(bough::grow(bough::default_growth(), 1, false, false), bough::wood_presets().front(), {});
+    const bough::Tree tree = bough::segment(bough::grow(bough::default_growth(), 1, {}), bough::wood_presets().front(), {});
     const auto plan = bough::make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, {}, {}, 1.0 / 30);
     auto state = bough::make_state(plan);
     for (int i = 0; i < 30; ++i) bough::step(plan, state);

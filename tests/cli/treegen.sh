@@ -73,6 +73,29 @@ expect 0 treegen --import "$maple" -q -o bare.json
 expect 0 treegen --import "$maple" --leaves -q -o leafy.json
 [[ $(wc -c <leafy.json) -gt $(wc -c <bare.json) ]] || fail "--leaves kept none"
 
+# Other programs' parameters: by file or stdin, with what is not honoured said; their own numbers, or --bodies.
+fixtures=$(dirname "$maple")/fixtures
+refused 1 "--species" treegen --params "$fixtures/arbaro_small.xml" --species oak
+refused 1 "--params" treegen --import "$maple" --params "$fixtures/arbaro_small.xml"
+refused 1 "--age" treegen --params "$fixtures/arbaro_small.xml" --age 20
+refused 1 "--season" treegen --params "$fixtures/tree_gen_small.py" --season winter
+refused 2 "nosuch.xml" treegen --params nosuch.xml
+printf '{"g_scale": 5, "ratio": "thick"}' >thick.json
+refused 2 'ratio: is "thick", expected a number' treegen --params thick.json
+for file in arbaro_small.xml tree_gen_small.py sapling_old.json; do
+    expect 0 treegen --params "$fixtures/$file" --leaves --seed 3 --no-source -o params.json
+    expect 0 treegen --params "$fixtures/$file" --leaves --seed 3 --no-source --threads 2 -o again.json
+    same params.json again.json
+    expect 0 treegen --params "$fixtures/$file" --leaves --bodies 2000 -q -o params.json
+    expect 0 treeconvert params.json -q -o params.tree.json
+done
+expect 0 treegen --params "$fixtures/arbaro_small.xml" -o params.json
+grep -q 'not honoured: Lobes, LobeDepth' err || fail "lobes left out in silence"
+treegen --params "$fixtures/arbaro_small.xml" --seed 3 --no-source -q -o file.json
+treegen --params - --seed 3 --no-source -q <"$fixtures/arbaro_small.xml" >stdin.json
+same file.json stdin.json
+[[ -f $(dirname "$maple")/species/oak.json ]] && expect 0 treegen --params "$(dirname "$maple")/species/oak.json" --bodies 500 -o oak.json
+
 # Its own input may be its output.
 cp leafy.json own.json
 expect 0 treegen --import own.json --leaves -o own.json
