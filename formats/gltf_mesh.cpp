@@ -84,7 +84,7 @@ VertexViews add_vertex_views(GltfFile& file, const Skin& skin, const JointGroups
         for (const Vec3& normal : skin.normal) to.add_all(float(normal.x()), float(normal.y()), float(normal.z()));
     });
     views.texture = file.add_view(8 * n, GltfTarget::vertices, 8, [&skin](GltfBytes& to) {
-        for (const auto& [u, v] : skin.texture) to.add_all(u, v);
+        for (const auto& [u, v] : skin.texture) to.add_all(u, 1 - v); // counted from the top of an image
     });
     views.joint =
         file.add_view((small ? 4 : 8) * n, GltfTarget::vertices, small ? 4 : 8, [&skin, &groups, small](GltfBytes& to) {

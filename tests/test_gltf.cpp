@@ -182,6 +182,7 @@ TEST_CASE("attributes: limits, weights, joints, indices, targets") {
         const Json& json = w.glb.json;
         const Json& primitives = json["meshes"][0]["primitives"];
         REQUIRE(primitives.size() == w.skin.part.size());
+        std::size_t seen = 0;
         for (std::size_t m = 0; m < primitives.size(); ++m) {
             const Json& attributes = primitives[m]["attributes"];
             const Json& accessor = json["accessors"][std::size_t(attributes["POSITION"])];
@@ -193,6 +194,11 @@ TEST_CASE("attributes: limits, weights, joints, indices, targets") {
                 CHECK(double(accessor["min"][k]) == low);
                 CHECK(double(accessor["max"][k]) == high);
             }
+            // A program that counts v from the bottom, as OBJ does, reads back the skin's.
+            const std::vector<double> texture = gltf_reader::numbers(w.glb, attributes["TEXCOORD_0"]);
+            for (std::size_t k = 0; k < 2; ++k)
+                CHECK(std::abs((k == 0 ? texture[0] : 1 - texture[1]) - double(w.skin.texture[seen][k])) < 1e-6);
+            seen += position.size() / 3;
             const std::vector<double> joint = gltf_reader::numbers(w.glb, attributes["JOINTS_0"]);
             const std::vector<double> weight = gltf_reader::numbers(w.glb, attributes["WEIGHTS_0"]);
             CHECK(json["accessors"][std::size_t(attributes["JOINTS_0"])]["componentType"] ==
