@@ -15,7 +15,7 @@ constexpr int kLevels = 256;     // at which the envelope is looked for above th
 class Colonizer {
 public:
     Colonizer(const ColonizeParameters& p, Colony& colony)
-        : p_(p), c_(colony), grid_(colony.point, std::max(p.kill, p.influence / 3)), nearest_(colony.point.size(), -1),
+        : p_(p), c_(colony), grid_(colony.point, std::max(p.kill, p.influence / 4)), nearest_(colony.point.size(), -1),
           square_(colony.point.size(), std::numeric_limits<double>::infinity()), waits_(colony.point.size(), 0),
           next_(colony.point.size(), -1), alive_(colony.point.size()), radius_(p.influence) {
         for (std::size_t i = 0; i < alive_.size(); ++i) alive_[i] = static_cast<std::int32_t>(i);
@@ -59,15 +59,17 @@ void Colonizer::add(const Vec3& at, std::int32_t parent) {
 void Colonizer::notice(std::size_t node) {
     const double kill = p_.kill * p_.kill;
     reached_.clear();
-    grid_.each_within(c_.node[node], radius_, [&](std::int32_t point, double square) {
+    const double most = radius_ * radius_;
+    grid_.each_nearer(c_.node[node], radius_, [&](std::int32_t point, double square) {
         const auto i = static_cast<std::size_t>(point);
         if (square <= kill)
             reached_.push_back(point);
-        else if (square < square_[i]) {
+        else if (square < square_[i] && square <= most) {
             square_[i] = square;
             nearest_[i] = static_cast<std::int32_t>(node);
             waits_[i] = 0;
         }
+        return square_[i];
     });
     for (const std::int32_t point : reached_) {
         grid_.remove(point);

@@ -1,12 +1,13 @@
 #include "point_grid.h"
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace bough {
 
 PointGrid::PointGrid(const std::vector<Vec3>& points, double cell) : cell_(cell) {
     if (points.empty()) {
-        first_ = {0, 0}, left_ = {0};
+        first_ = {0, 0}, left_ = {0}, reach_ = {0};
         return;
     }
     Vec3 upper = lower_ = points[0];
@@ -25,6 +26,7 @@ PointGrid::PointGrid(const std::vector<Vec3>& points, double cell) : cell_(cell)
     }
     left_.assign(first_.begin() + 1, first_.end());
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    reach_.assign(cells, std::numeric_limits<double>::infinity());
     place_.resize(points.size());
     index_.resize(points.size());
     slot_.resize(points.size());
