@@ -89,6 +89,14 @@ for file in arbaro_small.xml tree_gen_small.py sapling_old.json; do
     expect 0 treegen --params "$fixtures/$file" --leaves --bodies 2000 -q -o params.json
     expect 0 treeconvert params.json -q -o params.tree.json
 done
+# What a preset draws too thin is made thick enough to move, unless its own radii are asked for.
+treegen --params "$fixtures/arbaro_small.xml" --leaves -q -o params.json
+treeconvert params.json -q -o params.tree.json
+expect 0 treesim params.tree.json --frames 3 --no-output
+treegen --params "$fixtures/arbaro_small.xml" --leaves --radii file -q -o thin.json
+! cmp -s params.json thin.json || fail "--radii file changed nothing"
+refused 1 "--radii" treegen --species oak --radii file
+refused 1 "--radii" treegen --params "$(dirname "$maple")/species/oak.json" --radii file
 expect 0 treegen --params "$fixtures/arbaro_small.xml" -o params.json
 grep -q 'not honoured: Lobes, LobeDepth' err || fail "lobes left out in silence"
 treegen --params "$fixtures/arbaro_small.xml" --seed 3 --no-source -q -o file.json
