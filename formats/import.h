@@ -9,9 +9,10 @@
 namespace bough {
 
 struct ImportOptions {
-    std::optional<double> unit;  // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
-    char up = 0;                 // 'y' or 'z' for the file's up axis; 0: as above
-    std::string name;            // how the file is called in messages
+    std::optional<double>
+        unit;         // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
+    char up = 0;      // 'y' or 'z' for the file's up axis; 0: as above
+    std::string name; // how the file is called in messages
 };
 
 // What a reader wants the user to know: guesses made (units, up) with the reason, things left out, with counts.
@@ -20,14 +21,14 @@ struct ImportNotes {
 };
 
 struct SplineFormat {
-    const char* name;                                     // "SpeedTree raw XML"
-    bool (*recognizes)(std::string_view content);         // cheap: the head of the file
-    Splines (*read)(std::string_view content, const ImportOptions&, ImportNotes&);  // throws InputError
+    const char* name;                                                              // "SpeedTree raw XML"
+    bool (*recognizes)(std::string_view content);                                  // cheap: the head of the file
+    Splines (*read)(std::string_view content, const ImportOptions&, ImportNotes&); // throws InputError
 };
 
-extern const SplineFormat speedtree_format;   // speedtree.cpp
-extern const SplineFormat treetools_format;   // treetools.cpp
-extern const SplineFormat swc_format;         // swc.cpp
+extern const SplineFormat speedtree_format; // speedtree.cpp
+extern const SplineFormat treetools_format; // treetools.cpp
+extern const SplineFormat swc_format;       // swc.cpp
 
 // Our own splines document, or the first format that recognizes the content. Throws InputError that lists what could
 // be read, with advice for well-known files that cannot (SpeedTree .srt/.spm, Alembic, USD ...).

@@ -6,8 +6,9 @@
 namespace bough {
 
 bool is_scene(std::string_view content);
-Scene read_scene(std::string_view content, const std::string& name);  // paths in it as written, relative to the scene
-Wind read_wind(std::string_view content, const std::string& name);  // {"format": "bough-wind", "version": 1, fields of the scene's "wind"}
+Scene read_scene(std::string_view content, const std::string& name); // paths in it as written, relative to the scene
+Wind read_wind(std::string_view content,
+               const std::string& name); // {"format": "bough-wind", "version": 1, fields of the scene's "wind"}
 void write_scene(Output&, const Scene&, Form);
 
 } // namespace bough

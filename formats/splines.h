@@ -5,8 +5,8 @@
 
 namespace bough {
 
-bool is_splines(std::string_view content);  // looks at the head only
-Splines read_splines(std::string_view content, const std::string& name);  // checked; throws InputError
+bool is_splines(std::string_view content);                               // looks at the head only
+Splines read_splines(std::string_view content, const std::string& name); // checked; throws InputError
 void write_splines(Output&, const Splines&, Form);
 
 } // namespace bough

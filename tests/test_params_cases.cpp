@@ -9,7 +9,6 @@ using Catch::Detail::Approx;
 
 namespace {
 
-
 std::optional<GrowthParameters> preset(const std::string& name) {
     const auto content = foreign_case("params/" + name);
     if (!content) return {};

@@ -43,7 +43,7 @@ expect 0 treeconvert bodies.json --stats -o bodies.tree.json
 n=$(sed -n 's/.*bodies *\([0-9]*\):.*/\1/p' err | head -1)
 [[ $n -ge 1350 && $n -le 1650 ]] || fail "$n bodies, expected 1500 within a tenth"
 
-refused 1 "--envelope: not with --species" treegen --envelope sphere --species broadleaf
+refused 1 "--species: not with --envelope" treegen --envelope sphere --species broadleaf
 refused 1 "--envelope: not with --import" treegen --envelope sphere --import x.swc
 refused 1 "--kill: only with --envelope" treegen --kill 1
 refused 1 "--attractors: not with --bodies" treegen --envelope box --bodies 100 --attractors 5
