@@ -36,15 +36,27 @@ constexpr LevelColumn level_columns[] = {
     {"curve_back", &LevelParameters::curve_back},
     {"curve_v", &LevelParameters::curve_v},
     {"attraction_up", &LevelParameters::attraction_up},
+    {"bend_v", &LevelParameters::bend_v},
 };
 constexpr std::size_t columns = std::size(level_columns);
 
-struct Levels {
+// What the document says in another form than GrowthParameters.
+struct Forms {
     std::vector<double> column[columns];
     std::vector<std::int32_t> curve_res;
+    std::string rules = "bough";
+    std::vector<Vec3> tropism; // none or one
+    double leaf_quality = 1;
 };
 
-std::vector<Field> fields_of(Species& s, Levels& levels) {
+GrowthRules rules_named(const std::string& rules, const std::string& file) {
+    if (rules == "bough") return GrowthRules::bough;
+    if (rules == "arbaro") return GrowthRules::arbaro;
+    if (rules == "tree-gen") return GrowthRules::tree_gen;
+    throw InputError(file + ": /rules", "is \"" + rules + "\", expected bough, arbaro or tree-gen");
+}
+
+std::vector<Field> fields_of(Species& s, Forms& forms) {
     GrowthParameters& p = s.growth;
     const Per level{"level in /levels", [&p] { return std::size_t(p.levels); }};
     std::vector<Field> fields = {
@@ -61,6 +73,7 @@ std::vector<Field> fields_of(Species& s, Levels& levels) {
         optional({"height_power", &s.height_power}),
         optional({"diameter_power", &s.diameter_power}),
         optional({"branches_power", &s.branches_power}),
+        optional({"rules", &forms.rules}),
         {"shape", &p.shape},
         {"levels", &p.levels},
         {"scale", &p.scale},
@@ -70,12 +83,17 @@ std::vector<Field> fields_of(Species& s, Levels& levels) {
         optional({"radius_scale", &p.radius_scale}),
         optional({"radius_scale_v", &p.radius_scale_v}),
         optional({"flare", &p.flare}),
+        optional({"trunk_spread", &p.trunk_spread}),
+        optional(array("tropism", forms.tropism, {})),
         optional({"prune_ratio", &p.prune_ratio}),
+        optional({"prune_base", &p.prune_base}),
         optional({"prune_width", &p.prune_width}),
         optional({"prune_width_peak", &p.prune_width_peak}),
         optional({"prune_power_low", &p.prune_power_low}),
         optional({"prune_power_high", &p.prune_power_high}),
         optional({"leaves", &p.leaves}),
+        optional({"leaf_quality", &forms.leaf_quality}),
+        optional({"leaf_stem", &p.leaf_stem}),
         optional({"leaf_shape", &p.leaf_shape}),
         optional({"leaf_distrib", &p.leaf_distrib}),
         optional(array("leaf_angles", p.leaf_angles, {})),
@@ -84,6 +102,7 @@ std::vector<Field> fields_of(Species& s, Levels& levels) {
         optional({"leaf_scale_x", &p.leaf_scale_x}),
         optional({"leaf_bend", &p.leaf_bend}),
         optional({"blossoms", &p.blossoms}),
+        optional({"blossom_rate", &p.blossom_rate}),
         optional({"petals", &p.petals}),
         optional({"petal_scale", &p.petal_scale}),
         optional({"petal_scale_x", &p.petal_scale_x}),
@@ -95,11 +114,11 @@ std::vector<Field> fields_of(Species& s, Levels& levels) {
         optional({"most_slender", &p.most_slender}),
         optional({"pipe_exponent", &p.pipe_exponent}),
         optional({"most_sag", &p.most_sag}),
-        array("curve_res", levels.curve_res, level),
+        array("curve_res", forms.curve_res, level),
     };
     for (std::size_t k = 0; k < columns; ++k)
         fields.push_back(
-            array(level_columns[k].name, levels.column[k], level, LevelParameters{}.*level_columns[k].value));
+            array(level_columns[k].name, forms.column[k], level, LevelParameters{}.*level_columns[k].value));
     return fields;
 }
 
@@ -111,14 +130,22 @@ bool is_species(std::string_view content) {
 
 Species read_species(std::string_view content, const std::string& name) {
     Species s;
-    Levels levels;
-    read_document(content, name, type, fields_of(s, levels));
+    Forms forms;
+    read_document(content, name, type, fields_of(s, forms));
+    s.growth.rules = rules_named(forms.rules, name);
+    if (forms.tropism.size() > 1) throw InputError(name + ": /tropism", "holds several vectors, expected one");
+    if (!forms.tropism.empty()) s.growth.tropism = forms.tropism.front();
+    if (!(forms.leaf_quality > 0 && forms.leaf_quality <= 1))
+        throw InputError(name + ": /leaf_quality", "is out of range, expected more than 0 and at most 1");
+    s.growth.leaves *= forms.leaf_quality;
+    s.growth.leaf_scale /= std::sqrt(forms.leaf_quality);
+    s.growth.leaf_scale_v /= std::sqrt(forms.leaf_quality);
     if (s.growth.levels < 1 || s.growth.levels > 4)
         throw InputError(name + ": /levels", "is " + std::to_string(s.growth.levels) + ", expected 1 to 4");
     for (std::size_t n = 0; n < std::size_t(s.growth.levels); ++n) {
         for (std::size_t k = 0; k < columns; ++k)
-            if (!levels.column[k].empty()) s.growth.level[n].*level_columns[k].value = levels.column[k][n];
-        s.growth.level[n].curve_res = levels.curve_res[n];
+            if (!forms.column[k].empty()) s.growth.level[n].*level_columns[k].value = forms.column[k][n];
+        s.growth.level[n].curve_res = forms.curve_res[n];
     }
     s.growth.name = s.name;
     const Material* wood = find_wood(s.material);

@@ -325,6 +325,10 @@ TEST_CASE("Parameters out of range are refused by name") {
     refused("leaf_angles", [](GrowthParameters& p) { p.leaf_angles = {1, 2}; });
     refused("prune_width_peak", [](GrowthParameters& p) { p.prune_width_peak = 1; });
     refused("pipe_exponent", [](GrowthParameters& p) { p.pipe_exponent = 0.5; });
+    refused("level[1].bend_v", [](GrowthParameters& p) { p.level[1].bend_v = 5; });
+    refused("blossom_rate", [](GrowthParameters& p) { p.blossom_rate = 0.5; });
+    refused("trunk_spread", [](GrowthParameters& p) { p.trunk_spread = 1; });
+    refused("split_exponent", [](GrowthParameters& p) { p.rules = GrowthRules::arbaro, p.split_exponent = 2; });
     refused("petals", [](GrowthParameters& p) { p.petals = 0; });
     refused("leaf_bend", [](GrowthParameters& p) { p.leaf_bend = 1.5; });
     refused("fruits", [](GrowthParameters& p) { p.fruits = -1; });

@@ -80,6 +80,32 @@ void check_sapling(const SaplingRules& s) {
     within("sapling.leaf_angle", s.leaf_angle, -360, 360);
 }
 
+// A parameter that the rules do not look at keeps the value that means nothing.
+void untouched(const std::string& name, double value, double none) {
+    if (value != none) refuse(name, value, text(none) + ": rules without it");
+}
+
+void check_rules(const GrowthParameters& p) {
+    const bool ours = p.rules == GrowthRules::bough, bends = p.rules == GrowthRules::tree_gen;
+    for (std::size_t n = 0; n < std::size_t(p.levels); ++n) {
+        const std::string at = "level[" + std::to_string(n) + "].";
+        if (!bends) untouched(at + "bend_v", p.level[n].bend_v, 0);
+        if (!ours) untouched(at + "taper_power", p.level[n].taper_power, 1);
+    }
+    if (!bends) {
+        untouched("tropism", p.tropism.norm(), 0);
+        untouched("blossom_rate", p.blossom_rate, 0);
+    }
+    if (ours) {
+        untouched("trunk_spread", p.trunk_spread, 0);
+    } else {
+        untouched("split_exponent", p.split_exponent, 0);
+        untouched("most_slender", p.most_slender, 0);
+        untouched("blossoms", p.blossoms, 0);
+        untouched("fruits", p.fruits, 0);
+    }
+}
+
 } // namespace
 
 void check_growth(const GrowthParameters& p) {
@@ -106,6 +132,7 @@ void check_growth(const GrowthParameters& p) {
     within("prune_power_low", p.prune_power_low, 0, 10);
     within("prune_power_high", p.prune_power_high, 0, 10);
     for (int n = 0; n < p.levels; ++n) check_level("level[" + std::to_string(n) + "].", p.level[n], n == 0, p.rules);
+    check_rules(p);
     within("leaves", p.leaves, -1e6, 1e6);
     within("fruits", p.fruits, 0, 1e6);
     within("leaf_distrib", p.leaf_distrib, 0, sapling ? 10 : 8);

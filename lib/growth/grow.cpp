@@ -113,7 +113,7 @@ void Grower::draw_pruned(Stem& stem, std::int32_t branch) {
 }
 
 bool Grower::inside_envelope(std::int32_t branch) const {
-    const double bare = p_.level[0].base_size;
+    const double bare = p_.prune_base >= 0 ? p_.prune_base : p_.level[0].base_size;
     for (auto i = std::size_t(out_.first_point[std::size_t(branch)]); i < out_.points(); ++i) {
         const Vec3& at = out_.point[i];
         const double ratio = (height_ - at.y()) / (height_ * (1 - bare));
