@@ -1,4 +1,5 @@
 #include "colony.h"
+#include "turn.h"
 #include "weber_penn.h"
 #include <algorithm>
 #include <numbers>
@@ -8,7 +9,6 @@ namespace {
 
 enum class Draw : std::uint8_t { foliage, leaves, fruits, start, lean, turn, place };
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kGolden = 137.5 * kDegree; // from one leaf to the next
 constexpr double kTurnV = 20 * kDegree, kLeanV = 10 * kDegree;
 

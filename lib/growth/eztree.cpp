@@ -1,6 +1,7 @@
 #include "eztree.h"
 #include "eztree_check.h"
 #include "eztree_rotation.h"
+#include "turn.h"
 #include <algorithm>
 #include <deque>
 #include <numbers>
@@ -8,7 +9,6 @@
 namespace bough {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTip = 0.001; // [unit] radius at the end of the last branches
 
 // George Marsaglia's multiply with carry, two of 16 bits, in the 32-bit signed arithmetic that ez-tree does it in.

@@ -6,8 +6,6 @@ namespace bough {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 // The paper's light bend: the normal turns toward the outside of the tree, then up, by `bend` of the way each.
 Quat bent(Quat leaf, const Vec3& position, double bend) {
     Vec3 normal = leaf * Vec3::UnitY();
@@ -45,10 +43,6 @@ int number_on(const GrowthParameters& p, const Stem& stem, double most, Draw dra
 }
 
 } // namespace
-
-Quat about(const Vec3& axis, double angle) {
-    return quaternion_from_vector<double>(axis * angle);
-}
 
 void add_leaf(const GrowthParameters& p, const GrownStem& grown, double offset, const Quat& turned, double length,
               Splines& out) {

@@ -1,6 +1,7 @@
 // Sapling's growth (rules.h), in Sapling's axes until points are written. Reference: add_curve_sapling/utils.py of
 // Blender 3.4: the rules are its, the code is not.
 #include "sapling_family.h"
+#include "turn.h"
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -9,12 +10,7 @@ namespace bough {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTurn = 2 * std::numbers::pi;
-
-Quat about_z(double angle) {
-    return about(Vec3::UnitZ(), angle);
-}
 
 // Where a child or leaf grows.
 struct ChildPoint {

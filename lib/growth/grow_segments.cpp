@@ -1,6 +1,7 @@
 // Arbaro's and tree-gen's growth (rules.h). References: StemImpl.java and LeafImpl.java of Arbaro 1.9.9,
 // parametric/gen.py of tree-gen: the rules are theirs, the code is not.
 #include "segment_places.h"
+#include "turn.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -9,20 +10,8 @@ namespace bough {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kThinnestParent = 1e-4; // [m] tree-gen makes no stems where their parent is thinner,
 constexpr double kThinnestBase = 0.005;  // [m] nor any that are thinner than this at their base
-
-Quat about_x(double angle) {
-    return about(Vec3::UnitX(), angle);
-}
-Quat about_z(double angle) {
-    return about(Vec3::UnitZ(), angle);
-}
-
-double varied(double value, double v, RandomKey key, Draw draw, std::uint64_t index = 0) {
-    return value + v * random_sign(key, draw, index);
-}
 
 class SegmentGrower {
 public:

@@ -1,22 +1,11 @@
 #include "sapling_family.h"
+#include "turn.h"
 #include <algorithm>
 #include <numbers>
 
 namespace bough {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-Quat about_x(double angle) {
-    return about(Vec3::UnitX(), angle);
-}
-Quat about_y(double angle) {
-    return about(Vec3::UnitY(), angle);
-}
-Quat about_z(double angle) {
-    return about(Vec3::UnitZ(), angle);
-}
 
 double declination_of(const Vec3& direction) {
     return std::acos(std::clamp(direction.z(), -1.0, 1.0));

@@ -1,11 +1,10 @@
 #include "segment_places.h"
+#include "turn.h"
 #include <numbers>
 
 namespace bough {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 bool arbaro(const GrowthParameters& p) {
     return p.rules == GrowthRules::arbaro;

@@ -5,19 +5,6 @@ namespace bough {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
-Quat about_x(double angle) {
-    return about(Vec3::UnitX(), angle);
-}
-Quat about_y(double angle) {
-    return about(Vec3::UnitY(), angle);
-}
-
-double varied(double value, double v, RandomKey key, Draw draw, std::uint64_t index = 0) {
-    return value + v * random_sign(key, draw, index);
-}
-
 class Tracer {
 public:
     Tracer(const GrowthParameters& p, const SegmentStem& stem)
@@ -189,10 +176,6 @@ Quat Tracer::split_tree_gen(const Segment& end, int next, int clones) {
 }
 
 } // namespace
-
-double declination(const Quat& frame) {
-    return std::acos(std::clamp((frame * Vec3::UnitZ()).y(), -1.0, 1.0));
-}
 
 SegmentLine trace_line(const GrowthParameters& p, const SegmentStem& stem) {
     return Tracer(p, stem).run();

@@ -28,7 +28,4 @@ struct SegmentLine {
 
 SegmentLine trace_line(const GrowthParameters&, const SegmentStem&);
 
-// Angle between a stem and the vertical, [rad].
-double declination(const Quat& frame);
-
 } // namespace bough

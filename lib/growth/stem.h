@@ -3,7 +3,7 @@
 // Private to growth. A stem's own frame has z along it and x about which it curves and its children bend down.
 #pragma once
 #include "bark.h"
-#include "random.h"
+#include "turn.h"
 #include "weber_penn.h"
 #include <span>
 
@@ -85,12 +85,10 @@ void add_flower(const GrowthParameters&, std::int32_t branch, double at, const V
 // Throws std::invalid_argument where a tree with `waiting` more stems is larger than grow() allows.
 void check_size(const Splines&, std::size_t waiting);
 
-// grow_up_to() by the rules of other programs (rules.h); the trunks' bark and all else is left to it.
+// grow_up_to() by bough's rules, by Arbaro's and tree-gen's, by Sapling's (rules.h); thickening is left to it.
+bool grow_stems(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
 bool grow_segments(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
 bool grow_sapling(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
-
-// Rotation by an angle [rad] about an axis of length 1.
-Quat about(const Vec3& axis, double angle);
 
 // Leaves, flowers and fruit of a stem of the last level, appended to `out`.
 void grow_leaves(const GrowthParameters&, const GrownStem&, Splines& out);
