@@ -192,6 +192,25 @@ TEST_CASE("Points that pull a node two ways do not keep it for ever") {
     }
 }
 
+TEST_CASE("What lies behind the envelope's surface is counted as blocked, and growth ends") {
+    // Two balls with a gap of 0.5 between them: the trunk stands in the first, the second is within its influence.
+    ColonizeParameters p = in_mesh(solids::together(solids::moved(solids::icosphere(3), 2, {0, 3, 0}),
+                                                    solids::moved(solids::icosphere(3), 0.5, {3, 3, 0})),
+                                   2000);
+    p.influence = 2;
+    p = with_defaults(p);
+    const Colony c = colonize_nodes(p, 2);
+    std::int64_t second = 0;
+    for (std::size_t i = 0; i < c.point.size(); ++i) {
+        const bool behind = c.point[i].x() > 2.25;
+        CHECK(c.reached[i] == !behind);
+        second += behind;
+    }
+    CHECK(second > 10);
+    CHECK(c.blocked == second);
+    for (const Vec3& q : c.node) CHECK(q.x() <= 2);
+}
+
 TEST_CASE("Points out of reach are counted; a trunk without any is refused") {
     ColonizeParameters p = in_shape(EnvelopeShape::box, 40);
     p.kill = 0.05;
