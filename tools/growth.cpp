@@ -38,10 +38,15 @@ std::size_t count_raised(const Splines& before, const Splines& after) {
     return count;
 }
 
-Splines grow_preset(const GrowthOptions& o, EzTreeParameters preset, CommonOptions& common) {
+Splines grow_preset(const GrowthOptions& o, const ImportChoice& choice, EzTreeParameters preset,
+                    CommonOptions& common) {
     if (o.bodies) throw UsageError("--bodies: not with an ez-tree preset, whose numbers are its own");
     if (o.petals) common.notes.push_back(preset.name + " has no petals");
     if (o.fruit) common.notes.push_back(preset.name + " has no fruit");
+    if (const auto unit = unit_in_metres(choice.units))
+        preset.unit = *unit;
+    else
+        common.notes.push_back(preset.name + ": one unit taken as 1 m, as ez-tree has none (--units)");
     if (o.seed) preset.seed = std::int64_t(*o.seed);
     Splines splines = grow_eztree(preset, o.leaves);
     if (o.radii == "file") return splines;
@@ -86,7 +91,9 @@ Splines grow_species(const GrowthOptions& o, const Species& species, CommonOptio
     return splines;
 }
 
-void refuse_what_is_foreign(const GrowthOptions& o, bool foreign) {
+void refuse_what_is_foreign(const GrowthOptions& o, const ImportChoice& choice, bool foreign, bool unitless) {
+    if (!unitless && !choice.units.empty())
+        throw UsageError("--units: only with --import, --envelope FILE or the preset of ez-tree, which has none");
     const char* reason = ": not with the parameters of another program, which know of none";
     if (foreign && o.age) throw UsageError(std::string("--age") + reason);
     if (foreign && !o.season.empty()) throw UsageError(std::string("--season") + reason);
@@ -170,9 +177,9 @@ Splines grow_tree(const GrowthOptions& o, const ImportChoice& choice, CommonOpti
     else
         chosen = read_parameter_file(o.params, common);
     const auto* preset = std::get_if<EzTreeParameters>(&chosen);
-    refuse_what_is_foreign(o, preset || std::get<Species>(chosen).growth.rules != GrowthRules::bough);
+    refuse_what_is_foreign(o, choice, preset || std::get<Species>(chosen).growth.rules != GrowthRules::bough, preset);
     try {
-        return preset ? grow_preset(o, *preset, common) : grow_species(o, std::get<Species>(chosen), common);
+        return preset ? grow_preset(o, choice, *preset, common) : grow_species(o, std::get<Species>(chosen), common);
     } catch (const std::invalid_argument& error) {
         if (!o.params.empty() && !o.bodies) throw InputError(input_name(o.params), error.what());
         throw UsageError(error.what());

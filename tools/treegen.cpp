@@ -39,7 +39,8 @@ void declare(CLI::App& app, Options& o) {
 void refuse_contradictions(const Options& o) {
     bough::refuse_contradictions(o.growth, !o.import.empty());
     if (!o.import.empty() || !o.growth.envelope.envelope.empty()) return;
-    if (!o.choice.units.empty()) throw UsageError("--units: only with --import or --envelope FILE");
+    if (!o.choice.units.empty() && o.growth.params.empty())
+        throw UsageError("--units: only with --import, --envelope FILE or the preset of ez-tree, which has none");
     if (!o.choice.up.empty()) throw UsageError("--up: only with --import or --envelope FILE");
 }
 
