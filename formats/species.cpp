@@ -94,7 +94,6 @@ std::vector<Field> fields_of(Species& s, Forms& forms) {
         optional({"leaves", &p.leaves}),
         optional({"leaf_quality", &forms.leaf_quality}),
         optional({"leaf_stem", &p.leaf_stem}),
-        optional({"leaf_shape", &p.leaf_shape}),
         optional({"leaf_distrib", &p.leaf_distrib}),
         optional(array("leaf_angles", p.leaf_angles, {})),
         optional({"leaf_scale", &p.leaf_scale}),
@@ -147,6 +146,9 @@ Species read_species(std::string_view content, const std::string& name) {
             if (!forms.column[k].empty()) s.growth.level[n].*level_columns[k].value = forms.column[k][n];
         s.growth.level[n].curve_res = forms.curve_res[n];
     }
+    // The next level's angles, which the paper takes, are not in a document of `levels` levels.
+    if (s.growth.leaves != 0 && s.growth.leaf_angles.empty())
+        throw InputError(name + ": /leaf_angles", "is missing, expected four angles, as the tree has leaves");
     s.growth.name = s.name;
     const Material* wood = find_wood(s.material);
     if (!wood)

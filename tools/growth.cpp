@@ -27,12 +27,12 @@ std::string raised(std::size_t branches, std::size_t all) {
            " branches made thicker than the file says, as wood must be to carry them (--radii file keeps its radii)";
 }
 
-std::size_t count_raised(const Splines& before, const Splines& after) {
+std::size_t count_raised(const std::vector<double>& before, const Splines& after) {
     std::size_t count = 0;
-    for (std::size_t b = 0; b < before.branches(); ++b) {
+    for (std::size_t b = 0; b < after.branches(); ++b) {
         bool thicker = false;
-        for (auto i = std::size_t(before.first_point[b]); i < std::size_t(before.first_point[b + 1]); ++i)
-            thicker = thicker || after.radius[i] > before.radius[i];
+        for (auto i = std::size_t(after.first_point[b]); i < std::size_t(after.first_point[b + 1]); ++i)
+            thicker = thicker || after.radius[i] > before[i];
         count += thicker;
     }
     return count;
@@ -50,9 +50,10 @@ Splines grow_preset(const GrowthOptions& o, const ImportChoice& choice, EzTreePa
     if (o.seed) preset.seed = std::int64_t(*o.seed);
     Splines splines = grow_eztree(preset, o.leaves);
     if (o.radii == "file") return splines;
-    const Splines drawn = splines;
+    const std::vector<double> drawn = splines.radius;
     thicken_to_carry(splines, wood_presets().front(), foreign_sag);
-    if (const std::size_t count = count_raised(drawn, splines)) common.notes.push_back(raised(count, drawn.branches()));
+    if (const std::size_t count = count_raised(drawn, splines))
+        common.notes.push_back(raised(count, splines.branches()));
     return splines;
 }
 

@@ -147,7 +147,6 @@ void check_growth(const GrowthParameters& p) {
     if (p.pipe_exponent != 0) within("pipe_exponent", p.pipe_exponent, 1, 4);
     if (p.levels < 4 && p.leaves != 0 && p.leaf_angles.empty())
         check_angles("level[" + std::to_string(p.levels) + "].", p.level[p.levels]);
-    if (p.leaf_shape < 0) refuse("leaf_shape", p.leaf_shape, "0 or more");
     positive("leaf_scale", p.leaf_scale, 1e3);
     below("leaf_scale_v", p.leaf_scale_v, 0, p.leaf_scale);
     positive("leaf_scale_x", p.leaf_scale_x, 1e3);

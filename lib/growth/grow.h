@@ -84,7 +84,6 @@ struct GrowthParameters {
     double prune_power_low = 0.5, prune_power_high = 0.5; // 0..10, of the envelope's curve below and above it
     std::array<LevelParameters, 4> level;
     double leaves = 0;    // -1e6..1e6, most leaves of one stem of the last level; negative: a fan (as in the paper)
-    int leaf_shape = 0;   // >= 0, kept for the skin; 0 oval
     int leaf_distrib = 4; // 0..8, how leaves' numbers depend on the stem's place on its parent (ShapeRatio)
     std::vector<double> leaf_angles; // [deg] down_angle, down_angle_v, rotate, rotate_v of leaves; empty: the level's
     double leaf_scale = 0.1, leaf_scale_v = 0; // [m] length; > 0 and 0 <= V < scale

@@ -27,18 +27,18 @@ struct Search {
     Splines best;
     std::int64_t best_count = -1;
 
-    Splines above; // the smallest tree met of more bodies than wanted
+    Splines above; // beside the best, the smallest tree met of more bodies than wanted
     std::int64_t above_count = -1;
-    double nominal_leaves = 1; // most_leaves of the parameters as given
+    double nominal_leaves = 1, nominal_petals = 1; // most_items of the parameters as given
     bool has_foliage() const {
         return (items.leaves && parameters.leaves != 0) || (items.petals && parameters.blossoms != 0) ||
                (items.fruit && parameters.fruits != 0);
     }
 };
 
-// Leaves on all stems, were each to bear the most children that it may; 1 for one without leaves, as only ratios count.
-double most_leaves(const GrowthParameters& p) {
-    double product = p.leaves != 0 ? std::abs(p.leaves) : 1;
+// Items on all stems, `most` on one, were each stem to bear the most children that it may; only ratios count.
+double most_items(const GrowthParameters& p, double most) {
+    double product = most != 0 ? std::abs(most) : 1;
     for (int n = 1; n < p.levels; ++n) product *= std::max(p.level[std::size_t(n)].branches, 1e-9);
     return product;
 }
@@ -61,11 +61,20 @@ GrowthParameters scaled(const Search& search, const Dial& dial) {
     p.leaves = std::clamp(p.leaves * factor(kLeafWeight), -kMost, kMost);
     p.blossoms = std::min(kMost, p.blossoms * factor(kLeafWeight));
     p.fruits = std::min(kMost, p.fruits * factor(kLeafWeight));
-    const double size = std::clamp(std::sqrt(search.nominal_leaves / most_leaves(p)), 1 / kLeafChange, kLeafChange);
-    p.leaf_scale *= size;
-    p.leaf_scale_v *= size;
-    p.petal_scale *= size;
+    const auto size = [](double nominal, double now) {
+        return std::clamp(std::sqrt(nominal / now), 1 / kLeafChange, kLeafChange);
+    };
+    const double leaf = size(search.nominal_leaves, most_items(p, p.leaves));
+    p.leaf_scale *= leaf;
+    p.leaf_scale_v *= leaf;
+    p.petal_scale *= size(search.nominal_petals, most_items(p, p.blossoms));
     return p;
+}
+
+void keep_above(Search& search, Splines& tree, std::int64_t count) {
+    if (count <= search.bodies || (search.above_count >= 0 && count >= search.above_count)) return;
+    search.above = std::move(tree);
+    search.above_count = count;
 }
 
 // Logarithm of bodies over those wanted, remembering the tree nearest to what is wanted; a tree of more than twice that
@@ -76,14 +85,12 @@ double miss(Search& search, const Dial& dial) {
     std::int64_t count = enough;
     if (grow_up_to(scaled(search, dial), search.seed, search.items, enough, tree)) {
         count = count_bodies(tree, SegmentOptions());
-        if (count > search.bodies && (search.above_count < 0 || count < search.above_count)) {
-            search.above = tree;
-            search.above_count = count;
-        }
+        std::int64_t count_kept = count; // of `tree`, which the best one before may become
         if (search.best_count < 0 || std::abs(count - search.bodies) < std::abs(search.best_count - search.bodies)) {
-            search.best = std::move(tree);
-            search.best_count = count;
+            std::swap(search.best, tree);
+            std::swap(search.best_count, count_kept);
         }
+        keep_above(search, tree, count_kept);
     }
     return std::log(static_cast<double>(count) / static_cast<double>(search.bodies));
 }
@@ -165,21 +172,34 @@ Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, cons
     if (bodies < 1 || bodies > kMostBodies)
         throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " +
                                     std::to_string(kMostBodies));
-    Search search{parameters, seed, items, bodies, {}, -1, {}, -1, most_leaves(parameters)};
+    Search search{parameters,
+                  seed,
+                  items,
+                  bodies,
+                  {},
+                  -1,
+                  {},
+                  -1,
+                  most_items(parameters, parameters.leaves),
+                  most_items(parameters, parameters.blossoms)};
+    Search deeper; // with one level more, if that was near already
     while (true) {
         Dial dial;
         turn(search, dial, &Dial::main);
         // One bough more or less can be a step too wide for a small tree.
         if (!near(search, kNear)) turn(search, dial, &Dial::fine);
         if (search.parameters.levels <= 2 || deepest_children(search, dial) >= 1) break;
-        const int levels = search.parameters.levels;
-        // Leaves take their angles from the level that is left out, as they would from the one below the last.
-        search = Search{search.parameters, seed, items, bodies, {}, -1, {}, -1, search.nominal_leaves};
-        search.parameters.levels = levels - 1;
+        Search shallower{search.parameters,    seed, items, bodies, {}, -1, {}, -1, search.nominal_leaves,
+                         search.nominal_petals};
+        --shallower.parameters.levels;
+        if (near(search, kWithin)) deeper = std::move(search);
+        search = std::move(shallower);
     }
     if (near(search, kWithin)) return std::move(search.best);
+    keep_above(search, search.best, search.best_count);
     if (search.above_count >= 0 && pluck(search.above, seed, search.above_count - bodies))
         return std::move(search.above);
+    if (near(deeper, kWithin)) return std::move(deeper.best);
     throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", but the nearest that \"" + parameters.name +
                                 "\" grows to is " + std::to_string(search.best_count));
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <numbers>
 #include <numeric>
 
 namespace bough {
@@ -14,7 +15,7 @@ using Rotations = std::vector<Vec4>; // unit quaternions x y z w over frames, ne
 struct Closeness {
     double most;
     explicit Closeness(double angle) {
-        const double s = std::sin(angle / 4);
+        const double s = std::sin(std::min(angle, std::numbers::pi) / 4); // turns are half a turn at most
         most = 2 * s * s;
     }
     bool operator()(const Vec4& a, const Vec4& b) const { return 1 - std::abs(a.dot(b)) <= most; }

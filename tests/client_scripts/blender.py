@@ -41,7 +41,7 @@ def mesh_now(mesh_object):
 
 
 def draw(mesh_object, low, high, picture):
-    """A quick drawing: the workbench engine with the materials' colours."""
+    """A quick drawing: Cycles, which needs no display, with few samples."""
     scene = bpy.context.scene
     middle, size = (low + high) / 2, (high - low).max()
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
