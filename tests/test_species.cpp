@@ -89,6 +89,16 @@ TEST_CASE("Each species has the number of bodies asked for, with and without lea
             }
 }
 
+TEST_CASE("An odd number of bodies is met by leaving out twigs") {
+    const Species oak = named("oak");
+    for (const std::uint64_t seed : {7, 8, 9}) {
+        const Splines s = grow_bodies(oak.growth, seed, {}, 137);
+        CHECK_FALSE(check(s).has_value());
+        CHECK(std::abs(double(count_bodies(s, {})) / 137 - 1) <= 0.1);
+        CHECK(s.branches() > 10);
+    }
+}
+
 TEST_CASE("Each species stands: height, diameter and buckling as in real trees") {
     for (const Species& species : all_species()) {
         INFO(species.name);

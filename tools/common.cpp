@@ -307,10 +307,21 @@ std::vector<double> number_list(const std::string& option, const std::string& te
     return values;
 }
 
+std::string ending(const std::string& path) {
+    std::string result = std::filesystem::path(path).extension().string();
+    for (char& c : result) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
 Form chosen_form(const CommonOptions& common) {
     if (common.format == "json") return Form::json;
     if (common.format == "safetensors") return Form::safetensors;
-    return form_of_name(common.output);
+    for (const char* other :
+         {".glb", ".gltf", ".fbx", ".obj", ".dae", ".ply", ".stl", ".abc", ".usd", ".jsonl", ".xml"})
+        if (ending(common.output) == other)
+            throw UsageError("-o is '" + common.output +
+                             "', but this tool writes a document there: .json or .safetensors");
+    return ending(common.output) == ".safetensors" ? Form::safetensors : form_of_name(common.output);
 }
 
 std::string with_command_line(const std::string& before, const CommonOptions& common) {

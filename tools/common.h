@@ -76,7 +76,11 @@ std::optional<double> unit_in_metres(const std::string& units);
 std::vector<double> number_list(const std::string& option, const std::string& text, std::size_t count);
 std::vector<std::string> split_list(const std::string& text);
 
-// The form of a document: --format, else the ending of the output's name.
+// The ending of a file's name in lower case, ".glb", or "".
+std::string ending(const std::string& path);
+
+// The form of a document: --format, else the ending of the output's name. Throws UsageError for the ending of a mesh or
+// motion, which the tool does not write there.
 Form chosen_form(const CommonOptions&);
 
 // `before` with this run's command line as one more line, or unchanged with --no-source.

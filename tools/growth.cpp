@@ -70,6 +70,7 @@ void note_what_is_not_borne(const GrowthOptions& o, const Species& species, cons
 
 Splines grow_species(const GrowthOptions& o, const Species& species, CommonOptions& common) {
     const bool foreign = species.growth.rules != GrowthRules::bough;
+    if (o.age && *o.age < 0.1) throw UsageError("--age: is " + std::to_string(*o.age) + ", expected 0.1 years or more");
     GrowthParameters growth = o.age ? at_age(species, *o.age) : species.growth;
     std::vector<Vec3> color = species.color;
     if (!o.season.empty()) {
@@ -182,8 +183,10 @@ Splines grow_tree(const GrowthOptions& o, const ImportChoice& choice, CommonOpti
     try {
         return preset ? grow_preset(o, choice, *preset, common) : grow_species(o, std::get<Species>(chosen), common);
     } catch (const std::invalid_argument& error) {
-        if (!o.params.empty() && !o.bodies) throw InputError(input_name(o.params), error.what());
-        throw UsageError(error.what());
+        const std::string what = error.what(), own = "bodies: ";
+        if (what.starts_with(own)) throw UsageError("--" + what);
+        if (!o.params.empty()) throw InputError(input_name(o.params), what);
+        throw UsageError(what);
     }
 }
 

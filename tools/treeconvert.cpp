@@ -71,10 +71,6 @@ void declare(CLI::App& app, Options& o) {
     add_import_options(app, o.choice);
 }
 
-std::string ending(const std::string& path) {
-    return std::filesystem::path(path).extension().string();
-}
-
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
     if (o.sides && o.mesh.empty()) throw UsageError("--sides: only with --mesh");

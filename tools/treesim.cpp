@@ -72,10 +72,15 @@ MotionFields chosen_fields(const Options& o) {
 
 std::string chosen_format(const CommonOptions& common) {
     if (!common.format.empty()) return common.format;
-    std::string ending = std::filesystem::path(common.output).extension().string();
-    if (ending == ".json" || ending == ".safetensors" || ending == ".obj" || ending == ".glb") return ending.substr(1);
+    const std::string kind = ending(common.output);
+    if (kind == ".json" || kind == ".safetensors" || kind == ".obj") return kind.substr(1);
+    if (kind == ".glb") {
+        if (common.output.find('%') != std::string::npos)
+            throw UsageError("-o is '" + common.output + "', but a .glb holds all frames, so its name takes no number");
+        return "glb";
+    }
     for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
-        if (ending == known)
+        if (kind == known)
             throw UsageError("-o is '" + common.output + "', but " + known +
                              " is not written; there are .jsonl, .json, .safetensors, .obj, .glb");
     return "jsonl";

@@ -25,8 +25,11 @@ void below(const std::string& name, double value, double least, double limit) {
         refuse(name, value, "at least " + text(least) + " and less than " + text(limit));
 }
 
+// Nothing that has a size is smaller than this, in metres or over another size: a body of it would have no mass in double.
+constexpr double kSmallest = 1e-6;
+
 void positive(const std::string& name, double value, double most) {
-    if (!(value > 0 && value <= most)) refuse(name, value, "more than 0 and at most " + text(most));
+    if (!(value >= kSmallest && value <= most)) refuse(name, value, text(kSmallest) + " to " + text(most));
 }
 
 void check_angles(const std::string& at, const LevelParameters& l) {

@@ -1,3 +1,4 @@
+#include "lop.h"
 #include "segment.h"
 #include "stem.h"
 #include "weber_penn.h"
@@ -165,6 +166,21 @@ bool pluck(Splines& s, std::uint64_t seed, std::int64_t surplus) {
     return true;
 }
 
+// Leaves twigs out of the next larger tree until it has the number wanted, halving into how many.
+bool lop(Search& search) {
+    std::int64_t few = 0, many = static_cast<std::int64_t>(search.above.branches());
+    while (many - few > 1 && !near(search, kNear)) {
+        const std::int64_t middle = few + (many - few) / 2;
+        Splines tree = without_twigs(search.above, search.seed, middle);
+        const std::int64_t count = count_bodies(tree, SegmentOptions());
+        (count > search.bodies ? few : many) = middle;
+        if (std::abs(count - search.bodies) >= std::abs(search.best_count - search.bodies)) continue;
+        search.best = std::move(tree);
+        search.best_count = count;
+    }
+    return near(search, kWithin);
+}
+
 } // namespace
 
 Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t bodies) {
@@ -200,6 +216,10 @@ Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, cons
     if (search.above_count >= 0 && pluck(search.above, seed, search.above_count - bodies))
         return std::move(search.above);
     if (near(deeper, kWithin)) return std::move(deeper.best);
+    if (search.above_count >= 0 && lop(search)) return std::move(search.best);
+    if (search.best_count < 0) // even the smallest numbers tried make more than twice as many
+        throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", but \"" + parameters.name +
+                                    "\" grows to more than twice that whatever its numbers of children, expected more");
     throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", but the nearest that \"" + parameters.name +
                                 "\" grows to is " + std::to_string(search.best_count));
 }

@@ -34,6 +34,9 @@ expect 0 treegen --species cherry --season winter --leaves --bodies 500 -o winte
 grep -q 'cherry has no leaves in winter' err || fail "no word on the leaves that winter lacks"
 refused 1 "--season" treegen --species cherry --season monsoon
 refused 1 "--age" treegen --species cherry --age 0
+refused 1 "--age" treegen --species cherry --age 1e-300
+refused 1 "-o is 'tree.GLB'" treegen --species cherry -o tree.GLB
+refused 1 "-o is 'tree.glb'" treeconvert "$maple" -o tree.glb
 refused 1 "--age" treegen --import "$maple" --age 5
 refused 1 "--season" treegen --import "$maple" --season winter
 refused 1 "--petals" treegen --import "$maple" --petals
