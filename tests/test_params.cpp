@@ -207,6 +207,24 @@ TEST_CASE("Parameter files that are broken are refused in one line that names th
     holds(refusal(replaced(json, "true", "maybe"), "x.json"), "expected a number, true or false");
 }
 
+TEST_CASE("A Sapling stem that would split into millions is refused by name, at once") {
+    const auto preset = [](int res, const std::string& splits, int base) {
+        return "{\"levels\": 2, \"curveRes\": [3, " + std::to_string(res) + ", 3, 1], \"segSplits\": [0, " + splits +
+               ", 0, 0], \"branches\": [0, 3, 1, 1], \"baseSplits\": " + std::to_string(base) + "}";
+    };
+    holds(refusal(preset(40, "2", 0), "x.json"),
+          "x.json:1: segSplits: is \"[0, 2, 0, 0]\", expected fewer, so that a stem");
+    holds(refusal(preset(1000, "0.1", 0), "x.json"), "level 1 splits into at most 1e6 over its curveRes");
+    GrowthParameters p = read_params(preset(12, "2", 3), "x.json").growth;
+    CHECK(grown(p, 1, false).branches() > 3 * 1024); // each of three or more, at ten places
+    p.level[1].curve_res = 40;
+    CHECK_THROWS_WITH(grow(p, 1, {}), Catch::StartsWith("level[1].seg_splits: is 2, expected fewer"));
+    p.level[1].curve_res = 12;
+    p.level[0].curve_res = 40;
+    p.level[0].seg_splits = 1;
+    CHECK_THROWS_WITH(grow(p, 1, {}), Catch::StartsWith("level[0].seg_splits: is 1, expected fewer"));
+}
+
 TEST_CASE("An XML entity bomb does not grow") {
     std::string bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY a \"aaaaaaaaaa\">";
     for (char c = 'b'; c <= 'j'; ++c) {
