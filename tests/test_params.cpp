@@ -225,6 +225,20 @@ TEST_CASE("A Sapling stem that would split into millions is refused by name, at 
     CHECK_THROWS_WITH(grow(p, 1, {}), Catch::StartsWith("level[0].seg_splits: is 1, expected fewer"));
 }
 
+TEST_CASE("A file of a million lines is read in one pass, its errors' lines are right") {
+    const std::string blank(20'000'000, '\n');
+    std::string list, params;
+    for (int i = 0; i < 2000; ++i) {
+        list += "\"made up " + std::to_string(i) + "\": 1,\n";
+        params += "<param name=\"made up " + std::to_string(i) + "\" value=\"1\"/>\n";
+    }
+    holds(refusal("{" + blank + list + "\"levels\": x}", "x.json"), "x.json:20002001: \"x}\", expected a number");
+    holds(refusal(replaced(fixture("arbaro_small.xml"), "<species name=\"small\">",
+                           "<species name=\"small\">" + blank + params + "<parm/>"),
+                  "x.xml"),
+          "<parm>, expected <param");
+}
+
 TEST_CASE("An XML entity bomb does not grow") {
     std::string bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY a \"aaaaaaaaaa\">";
     for (char c = 'b'; c <= 'j'; ++c) {
