@@ -239,6 +239,30 @@ TEST_CASE("A file of a million lines is read in one pass, its errors' lines are 
           "<parm>, expected <param");
 }
 
+TEST_CASE("Ten thousand trunks find their places, as far apart as there is room") {
+    GrowthParameters p = read_params(fixture("tree_gen_small.py"), "small.py").growth;
+    p.levels = 1;
+    p.leaves = 0;
+    p.scale_v = 0;
+    p.level[0].branches = 10000;
+    p.level[0].length = 0.1; // there is room for all of them
+    const Splines s = grown(p, 4, false);
+    REQUIRE(s.branches() == 10000);
+    const double apart = 2.5 * p.scale * p.level[0].length * p.ratio * p.level[0].radius_mod;
+    const double far = std::sqrt(10000 / 2.5 * p.scale * p.ratio);
+    double nearest = far, farthest = 0;
+    for (std::size_t a = 0; a < s.branches(); ++a) {
+        const Vec3 here = s.point[std::size_t(s.first_point[a])];
+        farthest = std::max(farthest, here.norm());
+        for (std::size_t b = 0; b < a; ++b)
+            nearest = std::min(nearest, (s.point[std::size_t(s.first_point[b])] - here).norm());
+    }
+    CHECK(nearest >= apart);
+    CHECK(nearest < 1.1 * apart);
+    CHECK(farthest <= far);
+    CHECK(farthest > 0.99 * far);
+}
+
 TEST_CASE("An XML entity bomb does not grow") {
     std::string bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY a \"aaaaaaaaaa\">";
     for (char c = 'b'; c <= 'j'; ++c) {
