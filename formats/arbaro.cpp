@@ -30,15 +30,16 @@ ParameterTable parse(std::string_view content, const std::string& file, std::str
         throw InputError(line_at(content, file, second.offset_debug()), "a second <species>, expected one");
     species = valid_utf8(tree.attribute("name").value());
     ParameterTable table(file);
+    LineCounter lines(content);
     for (const pugi::xml_node param : tree.children()) {
         if (param.type() != pugi::node_element) continue;
-        const std::string place = line_at(content, file, param.offset_debug());
-        if (std::string_view(param.name()) != "param" || !param.attribute("name") || !param.attribute("value"))
-            throw InputError(place, "<" + valid_utf8(param.name()) + ">, expected <param name=\"...\" value=\"...\"/>");
         ParameterValue value;
+        value.line = lines.line_of(static_cast<std::size_t>(std::max<std::ptrdiff_t>(param.offset_debug(), 0)));
+        if (std::string_view(param.name()) != "param" || !param.attribute("name") || !param.attribute("value"))
+            throw InputError(file_line(file, value.line),
+                             "<" + valid_utf8(param.name()) + ">, expected <param name=\"...\" value=\"...\"/>");
         value.kind = ParameterValue::Kind::text;
         value.text = param.attribute("value").value();
-        value.line = line_of(content, static_cast<std::size_t>(std::max<std::ptrdiff_t>(param.offset_debug(), 0)));
         table.add(param.attribute("name").value(), value);
     }
     return table;

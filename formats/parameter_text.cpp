@@ -8,7 +8,7 @@ namespace {
 
 class Parser {
 public:
-    Parser(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+    Parser(std::string_view text, const std::string& file) : text_(text), file_(file), lines_(text) {}
     ParameterTable run();
 
 private:
@@ -24,6 +24,7 @@ private:
     std::string_view text_;
     const std::string& file_;
     std::size_t at_ = 0;
+    LineCounter lines_; // of values
 };
 
 void Parser::refuse(const std::string& expected) const {
@@ -100,7 +101,7 @@ double Parser::number() {
 ParameterValue Parser::value() {
     skip();
     ParameterValue result;
-    result.line = line_of(text_, at_);
+    result.line = lines_.line_of(at_);
     const std::size_t start = at_;
     const char c = at_ < text_.size() ? text_[at_] : '\0';
     if (c == '"' || c == '\'') {

@@ -58,6 +58,14 @@ std::size_t line_of(std::string_view content, std::size_t offset) {
     return 1 + std::size_t(std::count(content.begin(), end, '\n'));
 }
 
+std::size_t LineCounter::line_of(std::size_t offset) {
+    offset = std::min(offset, content_.size());
+    if (offset <= at_) return line_;
+    line_ += bough::line_of(content_.substr(at_, offset - at_), offset - at_) - 1;
+    at_ = offset;
+    return line_;
+}
+
 std::string file_line(const std::string& name, std::size_t line) {
     return name + ":" + std::to_string(line);
 }

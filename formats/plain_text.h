@@ -28,6 +28,16 @@ std::optional<std::int64_t> parse_integer(std::string_view token);
 
 // 1-based line of an offset. O(offset).
 std::size_t line_of(std::string_view content, std::size_t offset);
+// The same for offsets that never fall, O(content) in all.
+class LineCounter {
+public:
+    explicit LineCounter(std::string_view content) : content_(content) {}
+    std::size_t line_of(std::size_t offset);
+
+private:
+    std::string_view content_;
+    std::size_t at_ = 0, line_ = 1;
+};
 // "FILE:LINE", how InputError names a place.
 std::string file_line(const std::string& name, std::size_t line);
 

@@ -1,6 +1,7 @@
 // sapling.cpp: presets of Blender's add_curve_sapling, defaults of its operator in Blender 3.4. Presets of older
 // versions lack leaf angles of their own and have one attractUp.
 #include "growth_params.h"
+#include "lib/growth/sapling_family.h"
 #include "lib/growth/weber_penn.h"
 #include <algorithm>
 #include <numeric>
@@ -70,6 +71,10 @@ void read_levels(ParameterTable& t, GrowthParameters& p) {
     const double further = t.number("baseSize_s", 0.25, 0, 1);
     for (std::size_t n = 0; n < 4; ++n, bare *= further) p.level[n].base_size = bare;
     p.level[0].base_splits = t.whole("baseSplits", 0, 0, 100);
+    for (int n = 0; n < p.levels; ++n)
+        if (sapling_pieces(p, n) > kMostPieces)
+            t.refuse("segSplits", "fewer, so that a stem of level " + std::to_string(n) +
+                                      " splits into at most 1e6 over its curveRes");
 }
 
 void read_rules(ParameterTable& t, GrowthParameters& p) {

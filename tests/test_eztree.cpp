@@ -147,6 +147,18 @@ TEST_CASE("Force turns branches up or down, twist turns their children, gnarline
     CHECK(last(grow_eztree(p, false), 0).z() < -0.2);
 }
 
+TEST_CASE("Any whole number is a seed; its lower 32 bits count") {
+    EzTreeParameters p = straight(), same = p;
+    for (const auto& [seed, low] :
+         std::vector<std::pair<std::int64_t, std::int64_t>>{{std::numeric_limits<std::int64_t>::max(), 4294967295},
+                                                            {std::numeric_limits<std::int64_t>::min(), 0},
+                                                            {-1, 4294967295}}) {
+        p.seed = seed;
+        same.seed = low;
+        CHECK(grow_eztree(p, true).point == grow_eztree(same, true).point);
+    }
+}
+
 TEST_CASE("Units scale the result alone") {
     EzTreeParameters p = straight();
     p.gnarliness = {0.1, 0.1, 0, 0};

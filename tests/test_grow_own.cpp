@@ -99,6 +99,37 @@ TEST_CASE("What hangs straight down needs no thickness, what stands needs to sta
     CHECK_FALSE(stands(standing, 20)); // and it is no pillar
 }
 
+TEST_CASE("A load that stands above a level branch does not roll it, one that stands on a pole does not topple it") {
+    Material wood = wood_presets().front();
+    wood.density = 1e-6; // what is borne is the load alone
+    const double load = 0.05, length = 2;
+    const double weight = 9.81 * wood.fruit_density * 4 / 3 * pi * load * load * load;
+    const auto thickened = [&](const Vec3& direction, double above) {
+        Splines s = beam(direction, length, 1e-4, 10);
+        hang_fruit(s, 1, s.point.back(), load);
+        s.fruit_center.back() = s.point.back() + Vec3(0, above, 0);
+        thicken_to_carry(s, wood, 0.3);
+        return s.radius;
+    };
+    const auto radius = [](double area_moment) { return std::pow(4 * area_moment / pi, 0.25); };
+    for (const double above : {1.0, 3.0}) {
+        // G J / L = 4 W h with J = 2 I, at every point: more than the sag asks for.
+        const double rolls = radius(4 * weight * above * length / (2 * wood.shear_modulus));
+        REQUIRE(rolls > radius(weight * length * length / (wood.youngs_modulus * 0.3)));
+        for (const double r : thickened(Vec3::UnitX(), above)) CHECK(r == Approx(rolls).epsilon(1e-3));
+        // On a pole E I / L = 4 W (h + what is left of the pole), and nothing to roll.
+        const std::vector<double> pole = thickened(Vec3::UnitY(), above);
+        for (std::size_t k = 0; k < pole.size(); ++k) {
+            const double arm = above + length * (1 - double(k) / double(pole.size() - 1));
+            CHECK(pole[k] == Approx(radius(4 * weight * arm * length / wood.youngs_modulus)).epsilon(1e-3));
+        }
+    }
+    // What hangs as far below asks for the sag alone.
+    const std::vector<double> below = thickened(Vec3::UnitX(), -3);
+    CHECK(below.front() == Approx(radius(weight * length * length / (wood.youngs_modulus * 0.3))).epsilon(1e-3));
+    CHECK(below.back() == 1e-4);
+}
+
 TEST_CASE("The pipe model's exponent rises until the tips make no thicker a trunk") {
     // A trunk of radius 0.1 with n twigs of 1 mm: at exponent e the twigs need n^(1/e) mm.
     for (const int n : {100, 20000, 200000}) {

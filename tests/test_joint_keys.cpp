@@ -1,6 +1,9 @@
 #include "lib/growth/joint_keys.h"
 #include "tests/make_tree.h"
 #include <catch2/catch.hpp>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 using namespace bough;
 using make_tree::Dice;
@@ -153,3 +156,28 @@ TEST_CASE("one frame, no frame, no motion at all") {
     CHECK(keys_of(motion, 0.1 * degree).count() == 0);
     CHECK(keys_of(motion, 0).count() == 0);
 }
+
+#ifdef _OPENMP
+TEST_CASE("keys do not depend on the number of threads") {
+    const Motion motion = swinging(400, 40, 4, 0.4);
+    const int before = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const JointKeys one = keys_of(motion, 0.2 * degree);
+    CHECK(one.count() < 400 * 40);
+    for (const int threads : {2, 3, 8}) {
+        omp_set_num_threads(threads);
+        const JointKeys many = keys_of(motion, 0.2 * degree);
+        std::size_t differing = 0;
+        for (std::size_t j = 0; j < one.joints(); ++j) {
+            if (one.key_bits(j) != many.key_bits(j)) {
+                ++differing;
+                continue;
+            }
+            for (std::size_t f = 0; f < one.frames(); ++f)
+                if (one.has_key(j, f)) differing += one.key(j, f).coeffs() != many.key(j, f).coeffs();
+        }
+        CHECK(differing == 0);
+    }
+    omp_set_num_threads(before);
+}
+#endif

@@ -207,6 +207,62 @@ TEST_CASE("Parameter files that are broken are refused in one line that names th
     holds(refusal(replaced(json, "true", "maybe"), "x.json"), "expected a number, true or false");
 }
 
+TEST_CASE("A Sapling stem that would split into millions is refused by name, at once") {
+    const auto preset = [](int res, const std::string& splits, int base) {
+        return "{\"levels\": 2, \"curveRes\": [3, " + std::to_string(res) + ", 3, 1], \"segSplits\": [0, " + splits +
+               ", 0, 0], \"branches\": [0, 3, 1, 1], \"baseSplits\": " + std::to_string(base) + "}";
+    };
+    holds(refusal(preset(40, "2", 0), "x.json"),
+          "x.json:1: segSplits: is \"[0, 2, 0, 0]\", expected fewer, so that a stem");
+    holds(refusal(preset(1000, "0.1", 0), "x.json"), "level 1 splits into at most 1e6 over its curveRes");
+    GrowthParameters p = read_params(preset(12, "2", 3), "x.json").growth;
+    CHECK(grown(p, 1, false).branches() > 3 * 1024); // each of three or more, at ten places
+    p.level[1].curve_res = 40;
+    CHECK_THROWS_WITH(grow(p, 1, {}), Catch::StartsWith("level[1].seg_splits: is 2, expected fewer"));
+    p.level[1].curve_res = 12;
+    p.level[0].curve_res = 40;
+    p.level[0].seg_splits = 1;
+    CHECK_THROWS_WITH(grow(p, 1, {}), Catch::StartsWith("level[0].seg_splits: is 1, expected fewer"));
+}
+
+TEST_CASE("A file of a million lines is read in one pass, its errors' lines are right") {
+    const std::string blank(20'000'000, '\n');
+    std::string list, params;
+    for (int i = 0; i < 2000; ++i) {
+        list += "\"made up " + std::to_string(i) + "\": 1,\n";
+        params += "<param name=\"made up " + std::to_string(i) + "\" value=\"1\"/>\n";
+    }
+    holds(refusal("{" + blank + list + "\"levels\": x}", "x.json"), "x.json:20002001: \"x}\", expected a number");
+    holds(refusal(replaced(fixture("arbaro_small.xml"), "<species name=\"small\">",
+                           "<species name=\"small\">" + blank + params + "<parm/>"),
+                  "x.xml"),
+          "<parm>, expected <param");
+}
+
+TEST_CASE("Ten thousand trunks find their places, as far apart as there is room") {
+    GrowthParameters p = read_params(fixture("tree_gen_small.py"), "small.py").growth;
+    p.levels = 1;
+    p.leaves = 0;
+    p.scale_v = 0;
+    p.level[0].branches = 10000;
+    p.level[0].length = 0.1; // there is room for all of them
+    const Splines s = grown(p, 4, false);
+    REQUIRE(s.branches() == 10000);
+    const double apart = 2.5 * p.scale * p.level[0].length * p.ratio * p.level[0].radius_mod;
+    const double far = std::sqrt(10000 / 2.5 * p.scale * p.ratio);
+    double nearest = far, farthest = 0;
+    for (std::size_t a = 0; a < s.branches(); ++a) {
+        const Vec3 here = s.point[std::size_t(s.first_point[a])];
+        farthest = std::max(farthest, here.norm());
+        for (std::size_t b = 0; b < a; ++b)
+            nearest = std::min(nearest, (s.point[std::size_t(s.first_point[b])] - here).norm());
+    }
+    CHECK(nearest >= apart);
+    CHECK(nearest < 1.1 * apart);
+    CHECK(farthest <= far);
+    CHECK(farthest > 0.99 * far);
+}
+
 TEST_CASE("An XML entity bomb does not grow") {
     std::string bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY a \"aaaaaaaaaa\">";
     for (char c = 'b'; c <= 'j'; ++c) {

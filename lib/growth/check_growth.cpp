@@ -1,4 +1,4 @@
-#include "weber_penn.h"
+#include "sapling_family.h"
 #include <charconv>
 #include <stdexcept>
 
@@ -135,6 +135,10 @@ void check_growth(const GrowthParameters& p) {
     within("prune_power_low", p.prune_power_low, 0, 10);
     within("prune_power_high", p.prune_power_high, 0, 10);
     for (int n = 0; n < p.levels; ++n) check_level("level[" + std::to_string(n) + "].", p.level[n], n == 0, p.rules);
+    for (int n = 0; n < p.levels && sapling; ++n)
+        if (sapling_pieces(p, n) > kMostPieces)
+            refuse("level[" + std::to_string(n) + "].seg_splits", p.level[std::size_t(n)].seg_splits,
+                   "fewer, so that a stem splits into at most 1e6 over its curve_res");
     check_rules(p);
     within("leaves", p.leaves, -1e6, 1e6);
     within("fruits", p.fruits, 0, 1e6);

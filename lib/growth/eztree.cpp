@@ -14,8 +14,10 @@ constexpr double kTip = 0.001; // [unit] radius at the end of the last branches
 // George Marsaglia's multiply with carry, two of 16 bits, in the 32-bit signed arithmetic that ez-tree does it in.
 class Draws {
 public:
+    // Only the seed's lower 32 bits count.
     explicit Draws(std::int64_t seed)
-        : w_(static_cast<std::int32_t>(123456789 + seed)), z_(static_cast<std::int32_t>(987654321 - seed)) {}
+        : w_(static_cast<std::int32_t>(123456789 + static_cast<std::uint32_t>(seed))),
+          z_(static_cast<std::int32_t>(987654321 - static_cast<std::uint32_t>(seed))) {}
     double unit() {
         z_ = static_cast<std::int32_t>(36969 * std::int64_t{z_ & 65535} + (z_ >> 16));
         w_ = static_cast<std::int32_t>(18000 * std::int64_t{w_ & 65535} + (w_ >> 16));

@@ -193,6 +193,7 @@ std::vector<ChildPoint> SaplingGrower::points(const SaplingStem& stem, const std
         const std::int32_t own = branch + std::int32_t(i);
         for (const double t : at) {
             if (t < low || t > high || t >= 1) continue;
+            check_size(out_, stack_.size() + result.size());
             const double along = std::min((t - low) / (high - low), 1.0) * double(segments);
             const std::size_t k = std::min(static_cast<std::size_t>(along), segments - 1);
             const double part = along - double(k);
@@ -316,6 +317,7 @@ void SaplingGrower::leaves(const SaplingStem& stem, const std::vector<ChildPoint
             turn = next;
             continue;
         }
+        check_size(out_, 0);
         const auto count = static_cast<int>(std::round(-p_.leaves));
         for (int k = 0; k < count; ++k) {
             const double fan = count == 1 ? 0 : rotate * (double(k) / (count - 1) - 0.5);

@@ -13,6 +13,35 @@ namespace {
 constexpr double kThinnestParent = 1e-4; // [m] tree-gen makes no stems where their parent is thinner,
 constexpr double kThinnestBase = 0.005;  // [m] nor any that are thinner than this at their base
 
+// Trunks' places within a circle about the origin, in square cells as wide as trunks stand apart, or wider.
+class TrunkPlaces {
+public:
+    TrunkPlaces(double radius, double apart, int count) : radius_(radius), apart_(apart) {
+        // A little wider, so that rounding leaves what is nearer than `apart` in neighbouring cells.
+        across_ = static_cast<int>(std::max(1.0, std::min(std::ceil(std::sqrt(count)), 2 * radius / (1.001 * apart))));
+        cell_.resize(std::size_t(across_) * std::size_t(across_));
+    }
+    bool free(const Vec3& place) const {
+        const int i = number(place.x()), k = number(place.z());
+        for (int z = std::max(k - 1, 0); z <= std::min(k + 1, across_ - 1); ++z)
+            for (int x = std::max(i - 1, 0); x <= std::min(i + 1, across_ - 1); ++x)
+                for (const Vec3& other : cell_[index(x, z)])
+                    if ((other - place).norm() < apart_) return false;
+        return true;
+    }
+    void add(const Vec3& place) { cell_[index(number(place.x()), number(place.z()))].push_back(place); }
+
+private:
+    int number(double at) const {
+        return static_cast<int>(std::max(0.0, std::min(across_ - 1.0, (at + radius_) / (2 * radius_) * across_)));
+    }
+    std::size_t index(int x, int z) const { return std::size_t(z) * std::size_t(across_) + std::size_t(x); }
+
+    double radius_, apart_;
+    int across_;
+    std::vector<std::vector<Vec3>> cell_;
+};
+
 class SegmentGrower {
 public:
     SegmentGrower(const GrowthParameters& p, Splines& out)
@@ -53,7 +82,9 @@ void SegmentGrower::plant(std::uint64_t seed) {
     const RandomKey first = random_key(RandomKey{0}, Draw::trunk, seed);
     const double scale = varied(p_.scale, p_.scale_v, first, Draw::scale);
     const auto count = static_cast<int>(std::max(1.0, l.branches));
-    std::vector<Vec3> placed;
+    // Apart from each other by what a trunk of the tallest tree would need, where a thousand tries find room.
+    const double apart = 2.5 * (p_.scale + p_.scale_v) * l.length * p_.ratio * l.radius_mod;
+    TrunkPlaces placed(std::sqrt(count / 2.5 * p_.scale * p_.ratio), apart, count);
     double turned = 0;
     for (int i = 0; i < count; ++i) {
         const RandomKey key = i == 0 ? first : random_key(first, Draw::trunk, std::uint64_t(i));
@@ -69,17 +100,13 @@ void SegmentGrower::plant(std::uint64_t seed) {
             const double far = p_.trunk_spread * random_sign(key, Draw::trunk_place, 1);
             place = far * Vec3(std::sin(round), 0, std::cos(round));
         } else if (count > 1) {
-            // Apart from each other by what a trunk of the tallest tree would need, where a thousand tries find room.
-            const double apart = 2.5 * (p_.scale + p_.scale_v) * l.length * p_.ratio * l.radius_mod;
             for (std::uint64_t k = 0; k < 1000; ++k) {
                 round = 2 * std::numbers::pi * random_unit(key, Draw::trunk_place, 2 * k);
                 const double u = random_unit(key, Draw::trunk_place, 2 * k + 1);
                 place = std::sqrt(u * count / 2.5 * p_.scale * p_.ratio) * Vec3(std::cos(round), 0, -std::sin(round));
-                if (std::none_of(placed.begin(), placed.end(),
-                                 [&](const Vec3& o) { return (o - place).norm() < apart; }))
-                    break;
+                if (placed.free(place)) break;
             }
-            placed.push_back(place);
+            placed.add(place);
             roll = round - std::numbers::pi / 2;
         }
         trunk.position = place;

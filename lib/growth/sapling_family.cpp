@@ -1,7 +1,9 @@
 #include "sapling_family.h"
 #include "turn.h"
 #include <algorithm>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace bough {
 
@@ -16,6 +18,30 @@ Quat trunk_frame(const Vec3& d) {
     const double y = std::atan2(d.x(), d.z());
     const Vec3 back = about_y(-y) * d;
     return about_y(y) * about_x(-std::atan2(back.y(), back.z()));
+}
+
+// Of the stem at the start of its segment k; the first is 0.
+double along(const LevelParameters& l, int k) {
+    return l.curve_res > 1 ? double(k) / (l.curve_res - 1) : 1;
+}
+
+// How many parts split off a piece at the start of segment k >= 1: `count` of them with probability `chance`.
+struct Splitting {
+    double count, chance;
+};
+
+Splitting splitting(const GrowthParameters& p, int level, int k, bool split_last, double longer) {
+    const LevelParameters& l = p.level[std::size_t(level)];
+    const bool trunk = level == 0;
+    double chance = l.seg_splits;
+    if (trunk) chance = std::max(0.0, (2 * p.sapling.split_bias * (along(l, k) - 0.5) + 1) * chance);
+    chance = split_last ? chance * chance : 1.33 * chance;
+    const double low = (l.curve_res - 1) * p.sapling.split_height;
+    if (trunk && k != 1 && k < low) return {0, 0};
+    if (trunk && k == 1) return {std::floor(l.base_splits), 1};
+    if (trunk && k == static_cast<int>(low) + 1 && chance > 0) return {1, 1};
+    if (!trunk && p.sapling.split_by_length) chance *= longer;
+    return {1, chance};
 }
 
 class Family {
@@ -33,7 +59,6 @@ private:
     double length_factor(RandomKey key, std::uint64_t index) const {
         return 1 + l_.length_v / l_.length * random_sign(key, Draw::length, index);
     }
-    double along(int k) const { return l_.curve_res > 1 ? double(k) / (l_.curve_res - 1) : 1; }
 
     const GrowthParameters& p_;
     const SaplingRules& s_;
@@ -61,26 +86,22 @@ std::vector<SaplingPiece> Family::run() {
             if (k == static_cast<int>(l_.curve_res / 2.0 + 0.5))
                 pieces_[i].curve += 2 * l_.curve_back / l_.curve_res * kDegree;
             grow(i, k);
+            if (double(pieces_.size()) > kMostPieces)
+                throw std::invalid_argument("level[" + std::to_string(stem_.level) +
+                                            "].seg_splits: a stem splits into more than 1e6 over its curve_res, "
+                                            "expected fewer");
         }
     }
     return std::move(pieces_);
 }
 
 int Family::splits(const SaplingPiece& piece, int k) const {
-    double chance = l_.seg_splits;
-    if (trunk_) chance = std::max(0.0, (2 * s_.split_bias * (along(k) - 0.5) + 1) * chance);
-    chance = piece.split_last == 1 ? chance * chance : 1.33 * chance;
     if (k == 0) return 0;
-    const double low = (l_.curve_res - 1) * s_.split_height;
-    if (trunk_ && k != 1 && k < low) return 0;
-    if (trunk_ && k == 1) return static_cast<int>(l_.base_splits);
-    if (trunk_ && k == static_cast<int>(low) + 1 && chance > 0) return 1;
-    if (!trunk_ && s_.split_by_length) {
-        double longest = stem_.scale;
-        for (int n = 0; n <= stem_.level; ++n) longest *= p_.level[std::size_t(n)].length;
-        chance *= piece.segment_length * l_.curve_res / longest;
-    }
-    return random_unit(piece.key, Draw::splits, std::uint64_t(k)) < chance ? 1 : 0;
+    double longest = stem_.scale;
+    for (int n = 0; n <= stem_.level; ++n) longest *= p_.level[std::size_t(n)].length;
+    const Splitting s =
+        splitting(p_, stem_.level, k, piece.split_last == 1, piece.segment_length * l_.curve_res / longest);
+    return random_unit(piece.key, Draw::splits, std::uint64_t(k)) < s.chance ? static_cast<int>(s.count) : 0;
 }
 
 // Turned up (or down) by attraction, never past the vertical.
@@ -94,7 +115,7 @@ Vec3 Family::lifted(const Vec3& direction) const {
 Quat Family::frame_of(const SaplingPiece& piece) const {
     Vec3 d = piece.heading;
     const Vec3& at = piece.point.back();
-    const double k = along(piece.made), out = p_.sapling.attract_out[std::size_t(stem_.level)];
+    const double k = along(l_, piece.made), out = p_.sapling.attract_out[std::size_t(stem_.level)];
     const double level = std::hypot(d.x(), d.y());
     if (!trunk_ && k > 0 && out > 0 && level > 1e-9 && std::hypot(at.x(), at.y()) > 1e-9) {
         // The mean of the two headings as Sapling takes it, of unit vectors.
@@ -116,8 +137,8 @@ void Family::extend(SaplingPiece& piece, const Vec3& direction, double length) c
 void Family::grow(std::size_t number, int k) {
     SaplingPiece piece = std::move(pieces_[number]);
     const auto draw = static_cast<std::uint64_t>(k);
-    const bool straight = trunk_ && along(k) <= s_.split_height; // the trunk's foot does not curve
-    const double vary = l_.curve_v / l_.curve_res * kDegree * along(k) * piece.sign;
+    const bool straight = trunk_ && along(l_, k) <= s_.split_height; // the trunk's foot does not curve
+    const double vary = l_.curve_v / l_.curve_res * kDegree * along(l_, k) * piece.sign;
     const double curve = (straight ? 0 : piece.curve) + vary * random_unit(piece.key, Draw::curve, draw);
     const double aside = vary * random_unit(piece.key, Draw::curve_axis, draw);
     piece.sign = -piece.sign;
@@ -182,6 +203,23 @@ Quat level_frame(const Vec3& direction) {
     Mat3 axes;
     axes << x, direction.cross(x), direction;
     return Quat(axes).normalized();
+}
+
+double sapling_pieces(const GrowthParameters& p, int level) {
+    // Those that did not split a segment ago, and those that did.
+    double whole = 1, parts = 0;
+    for (int k = 1; k < p.level[std::size_t(level)].curve_res; ++k) {
+        double stay = 0, split = 0;
+        for (const bool last : {false, true}) {
+            const auto [count, chance] = splitting(p, level, k, last, 1);
+            const double now = last ? parts : whole, often = count > 0 ? std::min(chance, 1.0) : 0;
+            stay += (1 - often) * now;
+            split += often * (1 + count) * now;
+        }
+        whole = stay, parts = split;
+        if (whole + parts > kMostPieces) return std::numeric_limits<double>::infinity();
+    }
+    return whole + parts;
 }
 
 std::vector<SaplingPiece> sapling_family(const GrowthParameters& p, const SaplingStem& stem) {

@@ -39,6 +39,13 @@ struct SaplingPiece {
 // The frame whose z is a direction and whose x is level, y as far up as can be.
 Quat level_frame(const Vec3& direction);
 
+// Throws std::invalid_argument where a stem splits into more than kMostPieces.
 std::vector<SaplingPiece> sapling_family(const GrowthParameters&, const SaplingStem&);
+
+constexpr double kMostPieces = 1e6;
+
+// The number of pieces that a stem of this level is expected to split into; more than kMostPieces is infinite. As for
+// splits by length, the stem is as long as its level's stems get.
+double sapling_pieces(const GrowthParameters&, int level);
 
 } // namespace bough

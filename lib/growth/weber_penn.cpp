@@ -1,6 +1,7 @@
 #include "weber_penn.h"
 #include <algorithm>
 #include <numbers>
+#include <stdexcept>
 
 namespace bough {
 
@@ -72,8 +73,13 @@ std::vector<double> taper_marks(double taper, double flare, double radius, doubl
         const double thick = radius * (1 - unit * (length - radius) / (length - unit * radius));
         for (double part : {1.0, 0.5, 0.134}) marks.push_back(1 - part * thick / length);
     }
-    if (taper > 2)
+    if (taper > 2) {
+        // A mark every half radius.
+        if (!(length <= 1e5 * radius))
+            throw std::invalid_argument("taper: is over 2 where ratio, ratio_power, radius_scale and radius_mod make a "
+                                        "stem over 1e5 times as long as its radius, expected at most 2");
         for (int k = 3; 0.5 * k * radius < length; ++k) marks.push_back(1 - 0.5 * k * radius / length);
+    }
     std::erase_if(marks, [](double z) { return !(z > 0 && z < 1); });
     std::sort(marks.begin(), marks.end());
     return marks;

@@ -33,6 +33,7 @@ double taper_radius(double taper, double radius, double length, double z);
 double flare_factor(double flare, double z);
 
 // Rising z in 0..1 (without both) where the radius bends between segments' ends: points are needed there.
+// Throws std::invalid_argument for taper > 2 of a stem longer than 1e5 radii, which would need too many.
 std::vector<double> taper_marks(double taper, double flare, double radius, double length);
 
 // Number of whole things for a number `count` >= 0: its floor, plus one as often as the fraction says (unit in 0..1).
