@@ -211,6 +211,53 @@ TEST_CASE("What lies behind the envelope's surface is counted as blocked, and gr
     for (const Vec3& q : c.node) CHECK(q.x() <= 2);
 }
 
+TEST_CASE("No way between two nodes has its middle outside") {
+    // Two boxes with a gap of 0.3 between them; a step is 0.5.
+    ColonizeParameters p = in_mesh(solids::together(solids::moved(solids::unit_box(), 3, {0, 0, 0}),
+                                                    solids::moved(solids::unit_box(), 3, {3.3, 0, 0})),
+                                   300);
+    p.kill = p.step = 0.5;
+    p = with_defaults(p);
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        const Colony c = colonize_nodes(p, seed);
+        for (std::size_t i = static_cast<std::size_t>(c.crown) + 1; i < c.node.size(); ++i) {
+            const Vec3 from = c.node[static_cast<std::size_t>(c.parent[i])];
+            REQUIRE(contains(p.envelope, (from + c.node[i]) / 2));
+            REQUIRE((from.x() < 3.15) == (c.node[i].x() < 3.15));
+        }
+    }
+}
+
+TEST_CASE("Smoothing moves no point out of a concave envelope") {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const ColonizeParameters p = with_defaults(in_mesh(solids::l_prism(), 300));
+        const Colony c = colonize_nodes(p, seed);
+        const Splines s = colony_splines(c, p, seed, false, false);
+        const double entry = c.node[static_cast<std::size_t>(c.crown)].y();
+        for (std::size_t b = 0; b < s.branches(); ++b)
+            for (auto k = static_cast<std::size_t>(s.first_point[b]);
+                 k < static_cast<std::size_t>(s.first_point[b + 1]); ++k)
+                if (b > 0 || s.point[k].y() >= entry) REQUIRE(contains(p.envelope, s.point[k]));
+    }
+}
+
+TEST_CASE("A tree of one point is a branch, also where the point is at the foot of the trunk") {
+    for (const Vec3& size : {Vec3(1, 1, 1), Vec3(5, 0.2, 5), Vec3(0.1, 9, 0.1)})
+        for (const EnvelopeShape shape : {EnvelopeShape::sphere, EnvelopeShape::cone, EnvelopeShape::box})
+            for (const double leader : {0.0, 0.25})
+                for (std::uint64_t seed = 0; seed < 20; ++seed) {
+                    ColonizeParameters p = in_shape(shape, 1);
+                    p.envelope.size = size;
+                    p.envelope.base = Vec3::Zero();
+                    p.leader = leader;
+                    const Splines s = colonize(p, seed, true, true);
+                    REQUIRE_FALSE(check(s));
+                    for (std::size_t b = 0; b < s.branches(); ++b)
+                        REQUIRE(s.first_point[b + 1] - s.first_point[b] >= 2);
+                    REQUIRE(count_bodies(s, SegmentOptions()) >= 1);
+                }
+}
+
 TEST_CASE("Points out of reach are counted; a trunk without any is refused") {
     ColonizeParameters p = in_shape(EnvelopeShape::box, 40);
     p.kill = 0.05;
@@ -313,6 +360,25 @@ TEST_CASE("The number of bodies asked for, within a tenth") {
                 CHECK(found == Approx(static_cast<double>(bodies)).epsilon(0.1));
             }
     CHECK_THROWS_WITH(colonize_bodies(in_shape(EnvelopeShape::box, 1), 5, true, true, 1), Catch::Contains("nearest"));
+    // A branch alone is a body at least.
+    CHECK_THROWS_WITH(colonize_bodies(in_shape(EnvelopeShape::box, 1), 5, false, false, 1),
+                      !Catch::Contains("grows to is 0"));
+}
+
+TEST_CASE("A number of bodies that the given lengths leave no room for is refused, in few growths") {
+    ColonizeParameters p = in_shape(EnvelopeShape::sphere, 1);
+    p.kill = 1;
+    // Nodes no nearer than a kill distance to what is reached: the most that any number of points gives.
+    double most = 0;
+    for (const std::int64_t points : {2000, 20000}) {
+        p.points = points;
+        most = std::max(most, static_cast<double>(count_bodies(colonize(p, 5, false, false), SegmentOptions())));
+    }
+    CHECK_THROWS_WITH(colonize_bodies(p, 5, false, false, static_cast<std::int64_t>(10 * most)),
+                      Catch::Contains("grows to with this kill is"));
+    const auto half = static_cast<std::int64_t>(most / 2);
+    CHECK(static_cast<double>(count_bodies(colonize_bodies(p, 5, false, false, half), SegmentOptions())) ==
+          Approx(static_cast<double>(half)).epsilon(0.1));
 }
 
 TEST_CASE("Parameters out of their range are named") {
@@ -322,6 +388,8 @@ TEST_CASE("Parameters out of their range are named") {
         with_defaults(p);
     };
     CHECK_THROWS_WITH(wrong([](auto& p) { p.points = 0; }), Catch::Contains("attractors: is 0, expected 1 to"));
+    CHECK_THROWS_WITH(wrong([](auto& p) { p.kill = 0.5, p.step = 1e-10; }),
+                      Catch::Contains("step: is 1e-10, expected at least 1e-7 of the height, 7.8e-07 m"));
     CHECK_THROWS_WITH(wrong([](auto& p) { p.kill = 1, p.step = 2; }), Catch::Contains("kill: is 1, expected at least"));
     CHECK_THROWS_WITH(wrong([](auto& p) { p.kill = 1, p.influence = 0.5; }), Catch::Contains("influence: is 0.5"));
     CHECK_THROWS_WITH(wrong([](auto& p) { p.leader = 2; }), Catch::Contains("leader: is 2, expected 0 to 1"));

@@ -2,6 +2,7 @@
 #include "formats/envelope_mesh.h"
 #include "formats/plain_text.h"
 #include "lib/growth/colonize.h"
+#include <algorithm>
 
 namespace bough {
 namespace {
@@ -101,6 +102,17 @@ ColonizeParameters parameters(const EnvelopeOptions& o, const ImportChoice& choi
     return p;
 }
 
+// The library's complaint, "name: ...", by the option of that name where there is one ("tip radius": --tip-radius).
+std::string by_option(const std::string& error, const EnvelopeOptions& o) {
+    std::string option = "--" + error.substr(0, error.find(':'));
+    std::replace(option.begin(), option.end(), ' ', '-');
+    std::vector<std::pair<std::string, bool>> options = o.given();
+    options.insert(options.end(), {{"--envelope", true}, {"--bodies", true}});
+    for (const auto& [name, is_given] : options)
+        if (name == option) return option + error.substr(option.size() - 2);
+    return error;
+}
+
 } // namespace
 
 std::vector<std::pair<std::string, bool>> EnvelopeOptions::given() const {
@@ -158,7 +170,7 @@ Splines grow_in_envelope(const EnvelopeOptions& o, const ImportChoice& choice, c
         tree = run.bodies ? colonize_bodies(p, run.seed, run.leaves, run.fruit, *run.bodies, &report)
                           : colonize(p, run.seed, run.leaves, run.fruit, &report);
     } catch (const std::invalid_argument& error) {
-        throw UsageError("--" + std::string(error.what()));
+        throw UsageError(by_option(error.what(), o));
     }
     if (const std::int64_t missed = report.blocked + report.out_of_reach; missed > 0)
         common.notes.push_back(std::to_string(missed) + " of " + std::to_string(report.points) +

@@ -24,6 +24,7 @@ public:
 
 private:
     Vec3 entry() const;
+    Vec3 risen(const Vec3&) const;
     void raise_trunk();
     void gather();
     void grow(std::int32_t node);
@@ -43,6 +44,7 @@ private:
     std::vector<std::int32_t> alive_;            // points not reached, rising
     std::vector<std::int32_t> head_;             // per node: the first point that pulls at it
     std::vector<std::int32_t> pulled_, reached_; // nodes of this round; points to be taken out
+    bool felt_ = false;                          // a point has come within the influence of a node
     double
         radius_; // [m] in which a new node looks for points: none left is farther from its nearest node, or influence
 };
@@ -68,12 +70,14 @@ void Colonizer::notice(std::size_t node) {
             square_[i] = square;
             nearest_[i] = static_cast<std::int32_t>(node);
             waits_[i] = 0;
+            felt_ = true;
         }
         return square_[i];
     });
     for (const std::int32_t point : reached_) {
         grid_.remove(point);
         c_.reached[static_cast<std::size_t>(point)] = 1;
+        felt_ = true;
     }
 }
 
@@ -103,6 +107,19 @@ Vec3 Colonizer::entry() const {
     return lowest(near.x(), near.z(), near.y()).value_or(near);
 }
 
+// A step up from a point of the envelope, or as far as the envelope goes.
+Vec3 Colonizer::risen(const Vec3& from) const {
+    const Vec3 up = from + Vec3(0, p_.step, 0);
+    if (contains(p_.envelope, up)) return up;
+    double inside = from.y(), outside = up.y();
+    for (int k = 0; k < 40; ++k) {
+        const double middle = (outside + inside) / 2;
+        (contains(p_.envelope, {from.x(), middle, from.z()}) ? inside : outside) = middle;
+    }
+    if (!(inside > from.y())) throw std::invalid_argument("step: the trunk cannot rise, expected a shorter one");
+    return {from.x(), inside, from.z()};
+}
+
 void Colonizer::raise_trunk() {
     const Vec3 in = entry();
     const double bottom = lower_corner(p_.envelope).y(), top = upper_corner(p_.envelope).y();
@@ -112,14 +129,16 @@ void Colonizer::raise_trunk() {
         add({in.x(), i == below ? in.y() : foot + (in.y() - foot) * i / below, in.z()}, i - 1);
     c_.crown = below;
     notice(c_.node.size() - 1);
+    if (in.y() - foot < p_.step / 2) { // else a tree whose points are all near the foot would be one node, no branch
+        add(risen(in), below);
+        notice(c_.node.size() - 1);
+    }
     const double leader = bottom + p_.leader * (top - bottom);
     while (true) {
         const Vec3 up = c_.node.back() + Vec3(0, p_.step, 0);
-        const bool felt = std::any_of(nearest_.begin(), nearest_.end(), [](std::int32_t n) { return n >= 0; }) ||
-                          std::any_of(c_.reached.begin(), c_.reached.end(), [](std::uint8_t r) { return r != 0; });
-        if (up.y() > leader && felt) return;
+        if (up.y() > leader && felt_) return;
         if (!contains(p_.envelope, up)) {
-            if (felt) return;
+            if (felt_) return;
             throw std::invalid_argument(
                 "influence: no attraction point comes within it of the trunk, expected a longer "
                 "one, or more points");
@@ -152,8 +171,8 @@ void Colonizer::gather() {
 
 // Adds the child if it may stand there and, where asked for, comes nearer to one of the points that pull.
 bool Colonizer::try_child(const Vec3& direction, std::int32_t node, bool nearer) {
-    const Vec3 child = c_.node[static_cast<std::size_t>(node)] + p_.step * direction;
-    if (!contains(p_.envelope, child)) return false;
+    const Vec3 &from = c_.node[static_cast<std::size_t>(node)], child = from + p_.step * direction;
+    if (!contains(p_.envelope, child) || !contains(p_.envelope, (from + child) / 2)) return false;
     for (std::int32_t i = head_[static_cast<std::size_t>(node)]; nearer && i >= 0;
          i = next_[static_cast<std::size_t>(i)])
         if ((c_.point[static_cast<std::size_t>(i)] - child).norm() <=

@@ -11,16 +11,17 @@
 //     ends). Here a child counts only if it comes nearer, by a quarter of a step, to one of the points that pulled; else
 //     the node steps straight toward the nearest of them alone. So every round brings a point nearer by step / 4, and
 //     growth ends after at most points * (4 influence / step + 1) nodes.
-//   Inside. A child outside the envelope is not grown; the node tries the straight step likewise. Where that too leaves
+//   Inside. A child outside the envelope, or one whose way there has its middle outside, is not grown; the node tries the straight step likewise. Where that too leaves
 //     the envelope (across the notch of a concave one), the point waits until another node is the nearest to it; points
 //     that still wait at the end are counted as blocked, those never within the influence radius as out of reach.
 //   Trunk. It stands below the middle of the attraction points (where that line misses the envelope, below the point
 //     nearest to it), rises straight from the ground (or the envelope's lowest level where that is deeper) and through
-//     `leader` of the crown's height, on until a point is within the influence radius, never out of the envelope. Only
-//     its nodes inside the envelope bear branches.
+//     `leader` of the crown's height, on until a point is within the influence radius, never out of the envelope, and
+//     half a step at least unless the envelope ends before. Only its nodes inside the envelope bear branches.
 //   Branches. At a fork the child goes on that bears most, weighted by how straight it goes: tips (1 + cos) / 2. The
-//     others begin branches one level deeper. Kinks between steps are smoothed (twice 1/4, 1/2, 1/4), and points that
-//     the curve does without, within step / 20, are left out.
+//     others begin branches one level deeper. Kinks between steps are smoothed (twice 1/4, 1/2, 1/4; a node
+//     that this would move out of the envelope stays), and points that the curve does without, within step / 20, are
+//     left out. So the branches' points lie inside; between two of them a branch may cross a corner that juts in.
 //   Radii. By the pipe model with exponent 2 (pipe.h) from `tip_radius`; leaves and fruit grow on the last
 //     stretch, `leafy` long, of each branch.
 #pragma once
@@ -37,7 +38,7 @@ struct ColonizeParameters {
     std::int64_t points = 8000;  // attraction points, 1..2e7
     double influence = 0;        // [m] > kill; default 6 s
     double kill = 0;             // [m] >= step; default 0.8 s
-    double step = 0;             // [m] between nodes; default half the kill distance
+    double step = 0;             // [m] between nodes, >= h / 1e7; default half the kill distance
     Vec3 tropism = {0, 0.1, 0};  // added to the unit direction; 0 none, y > 0 upward
     double leader = -1;          // 0..1, of the envelope's height; negative: 0.8 in a cone, else 0.25
     double tip_radius = 0;       // [m]; default such that the trunk's is h / 60 at its foot, but at least 0.5 mm
@@ -66,7 +67,9 @@ struct Colony {
 };
 
 // Parameters as with_defaults() gives them. Throws std::invalid_argument where the trunk comes within the influence of no
-// point. O(points + nodes (influence / s)^3).
+// point. Each round goes
+// over the points left, and there are about as many rounds as the longest branch has steps: O(points * rounds + nodes
+// (influence / s)^3).
 Colony colonize_nodes(const ColonizeParameters&, std::uint64_t seed);
 
 // The colony as branches with radii, and leaves and fruit where wanted. O(nodes log nodes).
@@ -81,8 +84,10 @@ Splines colonize(const ColonizeParameters&, std::uint64_t seed, bool with_leaves
                  ColonizeReport* report = nullptr);
 
 // The tree that segment() with default options makes `bodies` bodies of, within 10 %: the number of points is searched
-// (and with it all lengths left at their defaults), then, for the rest, the number of leaves. Some ten growths. Throws
-// std::invalid_argument where no number gives that many.
+// (and with it all lengths left at their defaults), then, where that misses and the tree is small (at most 30 000
+// points), its neighbours and the number of leaves. At most 12 growths, and 48 small ones. Where the lengths given leave no
+// room for more nodes, more points are not tried: a growth whose bodies rose by less than a tenth of what the points
+// did ends the search. Throws std::invalid_argument where no number gives that many.
 Splines colonize_bodies(const ColonizeParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit,
                         std::int64_t bodies, ColonizeReport* report = nullptr);
 

@@ -8,7 +8,10 @@ namespace {
 
 constexpr double kNear = 0.05, kWithin = 0.1; // share of the bodies wanted: the search ends; the contract allows
 constexpr std::int64_t kMostBodies = 20'000'000, kMostPoints = 20'000'000;
-constexpr double kPilot = 30'000; // points of the first tree tried, at most
+constexpr double kPilot = 30'000;  // points of the first tree tried, and of those tried many times, at most
+constexpr int kGrowths = 12;       // with different numbers of points
+constexpr double kFull = 0.1;      // of the bodies that more points should have given: the volume holds no more nodes
+constexpr double kFewPoints = 100; // below, a tree's count says little about that of a larger one
 
 struct Search {
     ColonizeParameters parameters;
@@ -20,6 +23,9 @@ struct Search {
     double best_count = -1;
     std::int64_t best_points = 0;
 
+    // Lengths given stay as they are while points come closer, so that their number may cease to matter.
+    bool lengths_given() const { return parameters.kill > 0 || parameters.step > 0; }
+    bool small() const { return static_cast<double>(best_points) <= kPilot; }
     bool near(double share) const { return best_count >= 0 && std::abs(best_count - bodies) <= share * bodies; }
 
     // Bodies that so many points give; remembers the nearest.
@@ -40,19 +46,28 @@ struct Search {
 };
 
 // A count is nearly proportional to the number of points: goes on by the factor missed, between the bounds known. A large
-// tree's first number is that of a small one scaled up, so that few large ones are grown.
-void search_points(Search& s) {
+// tree's first number is that of a small one scaled up, so that few large ones are grown. Returns whether more points
+// would help no more.
+bool search_points(Search& s) {
     std::int64_t low = 0, high = kMostPoints + 1;
+    double low_found = 0;
     auto points = static_cast<std::int64_t>(std::clamp(s.bodies / 4, 1.0, kPilot));
-    while (true) {
+    for (int i = 0; i < kGrowths; ++i) {
         const double found = s.count(points);
-        if (s.near(kNear)) return;
+        if (s.near(kNear)) return false;
+        const double ratio = static_cast<double>(points) / static_cast<double>(std::max<std::int64_t>(low, 1));
+        if (found < s.bodies && static_cast<double>(low) >= kFewPoints && ratio >= 1.5 &&
+            found - low_found < kFull * std::min(s.bodies - low_found, low_found * (ratio - 1)))
+            return true;
+        if (found < s.bodies) low_found = found;
         (found < s.bodies ? low : high) = points;
-        if (high - low <= 1) return;
-        const double factor = std::clamp(s.bodies / std::max(found, 1.0), 0.01, 1e4);
+        if (high - low <= 1) return false;
+        const double most = s.lengths_given() ? 4 : 1e4;
+        const double factor = std::clamp(s.bodies / std::max(found, 1.0), 0.01, most);
         points = std::clamp(static_cast<std::int64_t>(std::llround(static_cast<double>(points) * factor)), low + 1,
                             high - 1);
     }
+    return false;
 }
 
 // The count is not monotonic: a neighbouring number may do.
@@ -73,6 +88,14 @@ void search_leaves(Search& s) {
     }
 }
 
+std::string given_lengths(const ColonizeParameters& p) {
+    std::string names;
+    for (const auto& [name, value] :
+         {std::pair{"kill", p.kill}, std::pair{"step", p.step}, std::pair{"influence", p.influence}})
+        if (value > 0) names += (names.empty() ? " with this " : " and ") + std::string(name);
+    return names;
+}
+
 } // namespace
 
 Splines colonize_bodies(const ColonizeParameters& parameters, std::uint64_t seed, bool with_leaves, bool with_fruit,
@@ -81,13 +104,13 @@ Splines colonize_bodies(const ColonizeParameters& parameters, std::uint64_t seed
         throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " +
                                     std::to_string(kMostBodies));
     Search s{parameters, seed, with_leaves, with_fruit, static_cast<double>(bodies), {}, {}, -1, 0};
-    search_points(s);
-    if (!s.near(kWithin)) search_nearby(s);
-    if (!s.near(kWithin) && with_leaves && parameters.leaves > 0) search_leaves(s);
+    const bool full = search_points(s);
+    if (!s.near(kWithin) && !full && s.small()) search_nearby(s);
+    if (!s.near(kWithin) && s.small() && with_leaves && parameters.leaves > 0) search_leaves(s);
     if (!s.near(kWithin))
         throw std::invalid_argument("bodies: is " + std::to_string(bodies) +
-                                    ", but the nearest that the envelope's tree grows to is " +
-                                    std::to_string(static_cast<std::int64_t>(s.best_count)));
+                                    ", but the nearest that the envelope's tree grows to" + given_lengths(parameters) +
+                                    " is " + std::to_string(static_cast<std::int64_t>(s.best_count)));
     if (report) *report = s.report;
     return std::move(s.best);
 }

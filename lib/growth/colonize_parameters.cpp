@@ -6,6 +6,8 @@
 namespace bough {
 namespace {
 
+constexpr double kMostRise = 1e7; // steps from the trunk's foot to the envelope's top
+
 std::string text(double value) {
     char buffer[32];
     return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6).ptr);
@@ -42,6 +44,9 @@ ColonizeParameters with_defaults(const ColonizeParameters& given) {
     if (p.leafy == 0) p.leafy = 1.5 * s;
     if (p.leader < 0) p.leader = p.envelope.shape == EnvelopeShape::cone ? 0.8 : 0.25;
     require(p.step > 0 && p.step < 1e6, "step", p.step, "more than 0 m");
+    const double height = upper_corner(p.envelope).y() - std::min(0.0, lower_corner(p.envelope).y());
+    require(height / p.step <= kMostRise, "step", p.step,
+            "at least 1e-7 of the height, " + text(height / kMostRise) + " m");
     require(p.kill >= p.step && p.kill < 1e6, "kill", p.kill, "at least the step, " + text(p.step) + " m");
     require(p.influence > p.kill && p.influence < 1e9, "influence", p.influence,
             "more than the kill distance, " + text(p.kill) + " m");

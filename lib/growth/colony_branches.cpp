@@ -92,7 +92,8 @@ void thin(const std::vector<Vec3>& line, std::size_t first, std::size_t last, do
 
 class Tracer {
 public:
-    Tracer(const Colony& c, double step) : place_(c.node), arc_(c.node.size()), fork_(c.node.size(), 0), step_(step) {}
+    Tracer(const Colony& c, const ColonizeParameters& p)
+        : p_(p), crown_(c.crown), place_(c.node), arc_(c.node.size()), fork_(c.node.size(), 0) {}
 
     Splines run(const std::vector<Chain>& all) {
         for (const Chain& chain : all)
@@ -105,11 +106,12 @@ public:
 private:
     void trace(const Chain&);
 
+    const ColonizeParameters& p_;
+    std::int32_t crown_;
     std::vector<Vec3> place_;        // of each node, after smoothing
     std::vector<double> arc_;        // [m] of each fork along its chain
     std::vector<std::uint8_t> fork_; // bears another chain
-    double step_;
-    std::vector<double> length_; // of each branch
+    std::vector<double> length_;     // of each branch
     Splines out_;
 };
 
@@ -124,12 +126,15 @@ void Tracer::trace(const Chain& chain) {
     }
     smooth(line);
     keep.front() = keep.back() = 1;
-    for (std::size_t k = 0; k < chain.node.size(); ++k)
-        place_[static_cast<std::size_t>(chain.node[k])] = line[k + lead];
+    for (std::size_t k = 0; k < chain.node.size(); ++k) {
+        Vec3& place = place_[static_cast<std::size_t>(chain.node[k])];
+        if (chain.node[k] >= crown_ && !contains(p_.envelope, line[k + lead])) line[k + lead] = place;
+        place = line[k + lead];
+    }
     for (std::size_t k = 0; k + 1 < line.size();) {
         std::size_t end = k + 1;
         while (!keep[end]) ++end;
-        thin(line, k, end, kThin * step_, keep);
+        thin(line, k, end, kThin * p_.step, keep);
         k = end;
     }
     double arc = 0;
@@ -150,13 +155,13 @@ void Tracer::trace(const Chain& chain) {
 
 } // namespace
 
-Splines trace_branches(const Colony& c, double step) {
-    return Tracer(c, step).run(chains(c));
+Splines trace_branches(const Colony& c, const ColonizeParameters& p) {
+    return Tracer(c, p).run(chains(c));
 }
 
 Splines colony_splines(const Colony& c, const ColonizeParameters& p, std::uint64_t seed, bool with_leaves,
                        bool with_fruit) {
-    Splines s = trace_branches(c, p.step);
+    Splines s = trace_branches(c, p);
     s.name = p.name;
     const double height = upper_corner(p.envelope).y() - c.node[0].y();
     const double tips = static_cast<double>(s.branches());
