@@ -124,11 +124,12 @@ TEST_CASE("Taper follows the paper: cylinder, cone, rounded tip, bumps; radii ar
 TEST_CASE("Bumps on a stem too slender for them are refused, of the trunk or of its children") {
     GrowthParameters p = default_growth();
     p.level[0].taper = 3;
-    p.ratio = 1e-9;
+    p.ratio = 1e-6;
     CHECK_THROWS_WITH(grow(p, 1, {}), Catch::StartsWith("taper: is over 2 where ratio"));
     p = default_growth();
     p.level[1].taper = 2.5;
-    p.level[1].radius_mod = 1e-7;
+    p.level[1].radius_mod = 1e-6;
+    p.least_radius = 0;
     CHECK_THROWS_WITH(grow(p, 1, {}), Catch::StartsWith("taper: is over 2 where ratio"));
     CHECK(taper_marks(3, 0, 1, 1e5).size() > 199'000);
     CHECK_THROWS_AS(taper_marks(3, 0, 0, 1), std::invalid_argument);
