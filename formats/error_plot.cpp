@@ -105,17 +105,20 @@ std::string block(const std::string& name, const Line& line, int which) {
     return text + "END\n";
 }
 
+// Steps a frame beside the points of one step, which are ringed, and at both ends of a line (of the solid one of a
+// method: the dashed one runs beside it).
 std::string labels(const Line& line) {
     std::string text;
     for (const Point& p : line.points) {
-        const bool one = p.run->steps_per_frame == 1;
-        const bool end = &p == &line.points.front() || &p == &line.points.back();
+        const bool one = p.run->steps_per_frame == 1, first = &p == &line.points.front();
+        const bool end = line.style.dash == 1 && (first || &p == &line.points.back());
         if (!one && !end) continue;
-        text += "set label " + gnuplot_text(steps_text(p.run->steps_per_frame)) + " at " + number(p.time) + "," +
-                number(p.error) + " left offset 0.8,0.5 font ',11' textcolor rgb '" + line.style.colour + "' front\n";
-        if (one)
-            text += "set label '' at " + number(p.time) + "," + number(p.error) + " point pt 6 ps 2.2 lw 1.5 lc rgb '" +
-                    line.style.colour + "' front\n";
+        const std::string at = " at " + number(p.time) + "," + number(p.error) + " ";
+        const std::string colour = std::string("rgb '") + line.style.colour + "' front\n";
+        const char* place = one ? "center offset 0,1.1" : first ? "center offset 0,0.8" : "left offset 1,0";
+        text += "set label " + gnuplot_text(steps_text(p.run->steps_per_frame)) + at + place +
+                " font ',11' textcolor " + colour;
+        if (one) text += "set label ''" + at + "point pt 6 ps 2.2 lw 1.5 lc " + colour;
     }
     return text;
 }
@@ -133,8 +136,6 @@ std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines
         for (const Point& p : line.points) times.push_back(p.time), errors.push_back(p.error);
     const Range x = decades(times, {1e-4, 1}), y = decades(errors, {1e-4, 1});
     const bool reference = drawable(report.reference_error);
-    // The legend stands under the axis, a line a series.
-    const double key = double(key_line) * double(lines.size() + 1 + (reference ? 1 : 0)) + 10;
     const auto at = [&](double from_top) { return number(1 - from_top / height); };
     std::string text;
     for (std::size_t k = 0; k < lines.size(); ++k)
@@ -143,12 +144,12 @@ std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines
                     (which == 0 ? labels(lines[k]) : "");
     text += "set title \"" + title(report) + "\"\n";
     text += "set lmargin at screen 0.09\nset rmargin at screen 0.965\nset tmargin at screen " + at(66) +
-            "\nset bmargin at screen " + at(plot_height - 60) + "\n";
+            "\nset bmargin at screen " + at(plot_height - 76) + "\n";
     text += "set logscale xy\nset format xy '%g'\nset xrange " + range_text(x) + "\nset yrange " + range_text(y) + "\n";
     text += "set xlabel 'run time [s] of one simulated second'\nset ylabel 'RMS error of tips / RMS tip deflection'\n";
-    text += "set grid xtics ytics lc rgb '#c8c8c8' lw 0.6\nset border 3 lc rgb '#707070'\nset tics nomirror\n";
+    text += "set grid xtics ytics lc rgb '#c8c8c8' lw 0.6\nset border 3 lc rgb '#707070'\nset tics nomirror textcolor "
+            "rgb 'black'\n";
     text += "set key at screen 0.09,screen " + at(plot_height - 8) + " left top Left reverse samplen 4 spacing 1.25\n";
-    (void)key;
     std::vector<std::string> plots;
     if (reference)
         plots.push_back(number(report.reference_error) + " with lines lw 2 dt 3 lc rgb '#707070' title " +
@@ -197,7 +198,8 @@ std::string split_panel(const std::vector<Line>& lines, int height, int top) {
     x.low /= 3; // so that the least bar is seen
     std::string text =
         "unset label\nunset logscale y\nset logscale x\nset format x '%g'\nset format y '%g'\nunset ylabel\n";
-    text += "set title 'The error at 1 step a frame, in its parts'\nset key default\nset key at screen 0.965,screen " +
+    text += "unset title\nset label 'The error at 1 step a frame, in its parts' at screen 0.09,screen " +
+            number(1 - double(top + 24) / height) + " left\nset key default\nset key at screen 0.965,screen " +
             number(1 - double(top + 16) / height) + " right top horizontal Left reverse samplen 1.5\n";
     text += "set lmargin at screen 0.33\nset tmargin at screen " + number(1 - double(top + 48) / height) +
             "\nset bmargin at screen " + number(58.0 / height) + "\n";
@@ -208,7 +210,7 @@ std::string split_panel(const std::vector<Line>& lines, int height, int top) {
     for (std::size_t k = 0; k < runs.size(); ++k)
         tics += (k ? ", " : "") + gnuplot_text(names[k] + (runs[k]->finite ? "" : " (non-finite)")) + " " +
                 std::to_string(k);
-    if (!tics.empty()) text += "set ytics (" + tics + ") nomirror\n";
+    if (!tics.empty()) text += "set ytics (" + tics + ") nomirror textcolor rgb 'black'\n";
     constexpr std::array<const char*, 3> part_names = {"time step", "model", "arithmetic"};
     std::string plots;
     for (std::size_t part = 0; part < 3; ++part) {

@@ -120,7 +120,7 @@ std::string gnuplot_svg(const std::string& script, int width, int height, const 
             if (c == '\n') c = ' ';
         throw OutputError(name, "gnuplot failed: " + (why.empty() ? "no picture" : valid_utf8(why.substr(0, 400))));
     }
-    return result.out;
+    return result.out.substr(start);
 }
 
 void require_gnuplot(const std::string& name) {
@@ -128,9 +128,34 @@ void require_gnuplot(const std::string& name) {
 }
 
 std::string gnuplot_text(std::string_view raw) {
-    std::string text = "'";
-    for (const char c : valid_utf8(std::string(raw))) text += c == '\'' ? std::string("''") : std::string(1, c);
-    return text + "'";
+    // What means something to gnuplot stands as its octal code: a doubled quote at the start of a string, and backquotes
+    // in any, are not taken literally.
+    std::string text = "\"";
+    for (const char c : valid_utf8(std::string(raw))) {
+        switch (c) {
+        case '"':
+            text += "\\042";
+            break;
+        case '$':
+            text += "\\044";
+            break;
+        case '\'':
+            text += "\\047";
+            break;
+        case '@':
+            text += "\\100";
+            break;
+        case '\\':
+            text += "\\134";
+            break;
+        case '`':
+            text += "\\140";
+            break;
+        default:
+            text += c;
+        }
+    }
+    return text + "\"";
 }
 
 } // namespace bough

@@ -5,7 +5,7 @@
 
 namespace bough {
 
-// The SVG document that gnuplot makes of a script (without `set terminal` and `set output`), width x height in pixels,
+// The <svg> element, fit for a page, that gnuplot makes of a script (without `set terminal` and `set output`), width x height in pixels,
 // UTF-8, without the user's own gnuplot settings. `name` is the file the picture is for: throws OutputError for it where
 // gnuplot is not installed or refuses the script.
 std::string gnuplot_svg(const std::string& script, int width, int height, const std::string& name);

@@ -4,11 +4,11 @@ namespace bough {
 namespace {
 
 constexpr const char* style = R"(
-:root { color-scheme: light dark; --paper: #ffffff; --ink: #1c2024; --soft: #5c6670; --line: #d9dee3; --band: #f4f6f8;
+:root { color-scheme: light dark; --paper: #ffffff; --ink: #1c2024; --soft: #5c6670; --line: #d9dee3; --frame: #1b1b1b; --band: #f4f6f8;
   --held: #8fd1b9; --outside: #f2c14e; --failed: #e0704a; --not-run: #c9c9c9; }
-@media (prefers-color-scheme: dark) { :root { --paper: #15181b; --ink: #e6e9ec; --soft: #9aa5af; --line: #343b42;
+@media (prefers-color-scheme: dark) { :root { --paper: #15181b; --ink: #e6e9ec; --soft: #9aa5af; --line: #343b42; --frame: #ffffff;
   --band: #1d2125; } }
-body { margin: 0 auto; padding: 2rem 1.5rem 4rem; max-width: 1180px; background: var(--paper); color: var(--ink);
+body { margin: 0 auto; padding: 2rem 1.5rem 4rem; max-width: 1320px; background: var(--paper); color: var(--ink);
   font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Helvetica, Arial, sans-serif; }
 h1 { font-size: 1.55rem; margin: 0 0 1rem; } h2 { font-size: 1.1rem; margin: 2.2rem 0 .6rem; }
 dl { display: grid; grid-template-columns: repeat(auto-fill, minmax(165px, 1fr)); gap: .8rem 1.2rem; margin: 0 0 1.5rem; }
@@ -18,13 +18,14 @@ figure { margin: 0; border: 1px solid var(--line); border-radius: 6px; padding: 
 figure svg { display: block; max-width: 100%; height: auto; }
 figure svg rect[fill="#ffffff"] { fill: var(--paper); }
 figure svg g[color="black"] { color: var(--ink); }
-figure svg g[fill="black"] { fill: var(--ink); }
+figure svg g[fill="black"], figure svg g[fill="rgb(0,0,0)"] { fill: var(--ink); }
+figure svg path[stroke="rgb( 27,  27,  27)"] { stroke: var(--frame); }
 p { margin: .5rem 0; color: var(--soft); }
 .scroll { overflow-x: auto; border: 1px solid var(--line); border-radius: 6px; }
 table { border-collapse: collapse; width: 100%; font-size: .82rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .28rem .6rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
+th, td { padding: .28rem .5rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 thead th { background: var(--band); font-weight: 600; } th.text, td.text { text-align: left; }
-td.note { text-align: left; white-space: normal; min-width: 14rem; }
+td.note { text-align: left; white-space: normal; min-width: 16rem; }
 th.head { text-align: left; background: var(--band); }
 td.held, td.outside, td.failed, td.not-run { text-align: left; color: #1b1b1b; }
 td.held { background: var(--held); } td.outside { background: var(--outside); }

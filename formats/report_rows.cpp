@@ -81,7 +81,10 @@ void write_rows_csv(Output& output, const ReportRow& names, const std::vector<Re
 std::string figure(double value) {
     if (!std::isfinite(value)) return "non-finite";
     std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 3);
+    char* const last = digits.data() + digits.size();
+    const bool whole = std::abs(value) >= 100 && std::abs(value) < 1e6; // 1020, not 1.02e+03
+    const auto end = whole ? std::to_chars(digits.data(), last, value, std::chars_format::fixed, 0)
+                           : std::to_chars(digits.data(), last, value, std::chars_format::general, 3);
     return {digits.data(), end.ptr};
 }
 

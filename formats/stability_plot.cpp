@@ -71,7 +71,7 @@ struct Canvas {
 
 std::string words_of(const StabilityCell& c) {
     std::string text = cell_verdict(c);
-    if (c.guards > 0) text += ", " + std::to_string(c.guards) + (c.guards == 1 ? " guard" : " guards");
+    if (c.guards > 0 && c.frames > 0) text += ", " + std::to_string(c.guards) + (c.guards == 1 ? " guard" : " guards");
     return text;
 }
 
@@ -117,7 +117,7 @@ std::string stability_svg(const StabilityReport& report, const std::string& name
     int y = top_margin;
     for (const Row& row : rows) {
         canvas.text(row.heading ? 16 : 26, y + row_height / 2, row.name,
-                    row.heading ? "left font 'Helvetica,Arial,sans-serif:Bold,12'" : "left font ',12'");
+                    row.heading ? "left font ',13'" : "left font ',12'");
         for (std::size_t k = 0; k < row.cells.size(); ++k) {
             const StabilityCell* cell = row.cells[k];
             const int x = left + cell_width * int(k);
