@@ -3,7 +3,7 @@
 namespace bough {
 namespace {
 
-constexpr const char* style = R"(
+constexpr const char* style = R"css(
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1c2024; --soft: #5c6670; --line: #d9dee3; --frame: #1b1b1b; --band: #f4f6f8;
   --held: #8fd1b9; --outside: #f2c14e; --failed: #e0704a; --not-run: #c9c9c9; }
 @media (prefers-color-scheme: dark) { :root { --paper: #15181b; --ink: #e6e9ec; --soft: #9aa5af; --line: #343b42; --frame: #ffffff;
@@ -22,8 +22,8 @@ figure svg g[fill="black"], figure svg g[fill="rgb(0,0,0)"] { fill: var(--ink); 
 figure svg path[stroke="rgb( 27,  27,  27)"] { stroke: var(--frame); }
 p { margin: .5rem 0; color: var(--soft); }
 .scroll { overflow-x: auto; border: 1px solid var(--line); border-radius: 6px; }
-table { border-collapse: collapse; width: 100%; font-size: .82rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .28rem .5rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
+table { border-collapse: collapse; width: 100%; font-size: .79rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .28rem .45rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 thead th { background: var(--band); font-weight: 600; } th.text, td.text { text-align: left; }
 td.note { text-align: left; white-space: normal; min-width: 16rem; }
 th.head { text-align: left; background: var(--band); }
@@ -33,7 +33,7 @@ td.failed { background: var(--failed); } td.not-run { background: var(--not-run)
 pre { background: var(--band); border: 1px solid var(--line); border-radius: 6px; padding: .7rem .9rem; overflow-x: auto;
   font-size: .82rem; margin: .5rem 0; }
 @media print { body { max-width: none; padding: 0; } }
-)";
+)css";
 
 std::string table_text(const PageTable& table) {
     std::string text = "<div class=\"scroll\"><table>\n<thead><tr>";

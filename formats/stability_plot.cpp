@@ -89,7 +89,7 @@ void legend(Canvas& canvas, int left) {
         canvas.text(x + 22, 56, words, "left font ',11'");
         x += 42 + int(6.3 * double(std::string(words).size()));
     }
-    canvas.box(x, 48, x + 16, 64, "#ffffff", true);
+    canvas.box(x, 48, x + 16, 64, colour_of(CellState::held), true);
     canvas.text(x + 22, 56, "promised", "left font ',11'");
 }
 
