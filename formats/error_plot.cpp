@@ -2,6 +2,7 @@
 #include "gnuplot.h"
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 namespace bough {
@@ -74,19 +75,19 @@ std::vector<Line> make_lines(const std::vector<ErrorSeries>& all, double referen
     return lines;
 }
 
+// For gnuplot, which reads a decimal point.
 std::string number(double value) {
-
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    return {digits.data(), end};
 }
 
 struct Range {
     double low, high;
 };
 
-// Whole decades and a bit around the values.
-Range decades(std::vector<double> values, Range empty) {
+// Around the values, with a margin.
+Range around(std::vector<double> values, Range empty) {
     values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !drawable(v); }), values.end());
     if (values.empty()) return empty;
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -134,7 +135,7 @@ std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines
     std::vector<double> times, errors = {report.reference_error};
     for (const Line& line : lines)
         for (const Point& p : line.points) times.push_back(p.time), errors.push_back(p.error);
-    const Range x = decades(times, {1e-4, 1}), y = decades(errors, {1e-4, 1});
+    const Range x = around(times, {1e-4, 1}), y = around(errors, {1e-4, 1});
     const bool reference = drawable(report.reference_error);
     const auto at = [&](double from_top) { return number(1 - from_top / height); };
     std::string text;
@@ -194,7 +195,7 @@ std::string split_panel(const std::vector<Line>& lines, int height, int top) {
                 for (const double part : {run->error_step, run->error_model, run->error_arithmetic})
                     parts.push_back(part);
             }
-    Range x = decades(parts, {1e-4, 1});
+    Range x = around(parts, {1e-4, 1});
     x.low /= 3; // so that the least bar is seen
     std::string text =
         "unset label\nunset logscale y\nset logscale x\nset format x '%g'\nset format y '%g'\nunset ylabel\n";
