@@ -191,6 +191,8 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
     if (flags.half_turns > 0)
         notes.push_back(std::to_string(flags.half_turns) +
                         " times a joint turned past half a turn: the small angles that the method assumes are left");
+    if (flags.fast_turns > 0)
+        notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
     if (flags.unresolved > 0)
         notes.push_back(std::to_string(flags.unresolved) + " of " + std::to_string(flags.inner_steps) +
                         " inner steps missed the tolerance: this is no reference solution");

@@ -20,6 +20,8 @@ void articulated_euler(const Plan<double>& plan, State<double>& state, double ti
         explicit_euler(plan, pass, time, plan.dt);
     else
         implicit_euler(plan, pass, time, plan.dt);
+    state.flags.fast_turns += pass.fast;
+    pass.fast = 0;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         state.theta[i] = pass.body[i].theta;
         state.scaled_rate[i] = pass.body[i].rate;

@@ -13,8 +13,17 @@ Mat3 cross_left(const Vec3& r, const Mat3& X) {
     return m;
 }
 
+// Angular velocity as the terms quadratic in it take it: at most a radian a step.
+Vec3 bounded(const Vec3& omega, double h, std::uint64_t& count) {
+    const double turn = h * omega.norm();
+    if (!(turn > 1)) return omega;
+    ++count;
+    return omega / turn;
+}
+
 // Kinematics and biases from the parent (the ground where there is none).
-void place(const Plan<double>& plan, const ArticulatedBody* parent, ArticulatedBody& b, std::size_t i) {
+void place(const Plan<double>& plan, const ArticulatedBody* parent, ArticulatedBody& b, std::size_t i, double h,
+           std::uint64_t& fast) {
     const Mat3 turn = rotation_from_vector(b.theta);
     if (!parent) {
         b.R_wb = plan.R_pj[i] * turn;
@@ -26,11 +35,12 @@ void place(const Plan<double>& plan, const ArticulatedBody* parent, ArticulatedB
     b.R_wb = parent->R_wb * plan.R_pj[i] * turn;
     b.r_w = parent->R_wb * plan.joint_position[i];
     b.x_w = parent->x_w + b.r_w;
-    const Vec3 own = b.R_wb * b.rate, swing = parent->omega_w.cross(b.r_w);
+    const Vec3 own = b.R_wb * b.rate;
     b.omega_w = parent->omega_w + own;
-    b.v_w = parent->v_w + swing;
-    b.alpha_bias = parent->alpha_bias + parent->omega_w.cross(own);
-    b.a_bias = parent->a_bias + parent->alpha_bias.cross(b.r_w) + parent->omega_w.cross(swing);
+    b.v_w = parent->v_w + parent->omega_w.cross(b.r_w);
+    const Vec3 spin = bounded(parent->omega_w, h, fast);
+    b.alpha_bias = parent->alpha_bias + spin.cross(bounded(own, h, fast));
+    b.a_bias = parent->a_bias + parent->alpha_bias.cross(b.r_w) + spin.cross(spin.cross(b.r_w));
 }
 
 void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, const Vec3& c,
@@ -55,17 +65,19 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
 }
 
 // The body's own inertia, bias wrench and spring.
-void load(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, double h) {
+void load(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, double h,
+          std::uint64_t& fast) {
     const Mat3 J = b.R_wb * plan.inertia_joint[i] * b.R_wb.transpose();
     const Vec3 c = b.R_wb * plan.com[i];
     const double m = plan.mass[i];
-    const Vec3 a_com = b.a_bias + b.alpha_bias.cross(c) + b.omega_w.cross(b.omega_w.cross(c));
+    const Vec3 spin = bounded(b.omega_w, h, fast);
+    const Vec3 a_com = b.a_bias + b.alpha_bias.cross(c) + spin.cross(spin.cross(c));
     b.A = J;
     b.A.diagonal().array() += 4 * std::numeric_limits<double>::epsilon() * J.trace();
     b.B = m * cross_matrix(c);
     b.M = m * Mat3::Identity();
     b.F = m * (a_com - plan.scene.gravity);
-    b.N = J * b.alpha_bias + b.omega_w.cross(J * b.omega_w) + m * c.cross(b.a_bias - plan.scene.gravity);
+    b.N = J * b.alpha_bias + spin.cross(J * spin) + m * c.cross(b.a_bias - plan.scene.gravity);
     if (plan.wind) add_air(plan, pass, b, i, c, a_com, h);
 
     const Mat3 rates = body_rate_jacobian_inverse(b.theta) * b.R_wb.transpose(); // theta_dot from omega_w
@@ -124,8 +136,8 @@ void articulated_pass(const Plan<double>& plan, ArticulatedPass& pass, double ti
         return plan.parent[i] < 0 ? nullptr : &body[std::size_t(plan.parent[i])];
     };
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        place(plan, parent(i), body[i], i);
-        load(plan, pass, body[i], i, h);
+        place(plan, parent(i), body[i], i, h, pass.fast);
+        load(plan, pass, body[i], i, h, pass.fast);
     }
     add_pulls(plan, pass, time);
     for (std::size_t i = plan.bodies; i-- > 0;) eliminate(body[i], parent(i));

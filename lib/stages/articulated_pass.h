@@ -30,6 +30,7 @@ struct ArticulatedBody {
 struct ArticulatedPass {
     std::vector<ArticulatedBody> body;
     WindTable<double> wind;
+    std::uint64_t fast = 0; // angular velocities that were bounded in quadratic terms, since the counter was read
 };
 
 } // namespace bough
