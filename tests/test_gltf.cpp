@@ -343,16 +343,10 @@ TEST_CASE("far from the origin the mesh keeps its digits") {
     }
 }
 
-TEST_CASE("a root that leaves its place is refused, and more joints than a file can number") {
-    const Tree tree = branched();
-    const Skin skin = build_skin(tree, {});
-    const JointGroups groups = merge_joints(tree, 100);
+TEST_CASE("more joints than a file can number are refused") {
+    const Skin skin = build_skin(branched(), {});
     const File file;
     Output output(file.path);
-    GltfWriter writer(output, skin, tree, groups, {});
-    MotionFrame frame = as_frame(swinging(tree, 0), 0);
-    frame.position[0].x() += 0.01;
-    CHECK_THROWS_AS(writer.write(frame), std::invalid_argument);
     const Tree long_chain = make_tree::chain(65537, 100, 0.1, 0.1);
     const JointGroups many = merge_joints(long_chain, 100000);
     CHECK_THROWS_AS(GltfWriter(output, skin, long_chain, many, {}), std::length_error);

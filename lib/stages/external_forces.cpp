@@ -1,4 +1,5 @@
 #include "external_forces.h"
+#include "root_term.h"
 #include <algorithm>
 
 namespace bough {
@@ -36,9 +37,15 @@ template <class T> Drag<T> drag(Kind kind, const Matrix3<T>& R, const Vector3<T>
 template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::size_t i) {
     const Matrix3<T>& R = state.R_wb[i];
     const Vector3<T> arm = R * plan.com[i];
-    const Vector3<T> wind = state.wind.at(state.x_w[i].y() + arm.y());
+    const Vector3<T> place = state.x_w[i] + arm;
+    Vector3<T> wind = state.wind.at(place.y()), v = state.v_w[i];
+    if (const Ground* ground = plan.root_motion ? ground_of(plan, state, i) : nullptr) {
+        const Vec3 carried = ground->v + ground->omega.cross(place.template cast<double>() - ground->x);
+        wind -= carried.template cast<T>();
+        v -= carried.template cast<T>();
+    }
     const Drag<T> still = drag(plan.kind[i], R, wind);
-    const Drag<T> moving = drag(plan.kind[i], R, Vector3<T>(wind - state.v_w[i]));
+    const Drag<T> moving = drag(plan.kind[i], R, Vector3<T>(wind - v));
     const T scale = plan.drag_area[i];
     state.f_w[i] = scale * still.force;
     state.tau_w[i] = arm.cross(state.f_w[i]);

@@ -21,6 +21,9 @@
 // at least as much energy as it gives gravity (to second order of the step's rotation). gamma is constant, zero for a single
 // joint, and small beside K in wood; where it is not, it damps (as what stands is damped by lag in any case).
 //
+// A moving ground. Where the tree's root is moved, g is the apparent gravity at the joint, and the ground's turning adds
+// to tau and G: root_term.h.
+//
 // Air. With wind, the bounds d' and gamma of drag.h join the damping and G; drag.h says why.
 //
 // Carrying. S changes with the pose of what is outboard, and a rate carried through a changing inertia gains or loses
@@ -34,8 +37,8 @@
 // q'' + b q' + lambda q = r with b = beta (U^T K_b U)_ii, v = X^T w (oscillator.h). Where G is not 0, U^T K_b U has small
 // terms off its diagonal: they are dropped, which leaves the damping positive. lambda < 0 is buckling: it grows as it does,
 // and is counted. lambda is bounded where its square would overflow (oscillator.h), counted.
-// Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb. Writes theta, theta_dot, scaled_rate.
-// After   composite, drag. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
+// Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb, root_load. Writes theta, theta_dot, scaled_rate.
+// After   composite, drag, root_loads. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
 #pragma once
 #include "plan.h"
 #include "state.h"

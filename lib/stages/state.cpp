@@ -1,4 +1,5 @@
 #include "state.h"
+#include "root_term.h"
 #include "spring.h"
 #include "state_arrays.h"
 #include "state_update.h"
@@ -27,6 +28,9 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     });
     state.theta = plan.theta_start;
     if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
+    state.ground.resize(plan.splines.size());
+    state.root_load.resize(plan.splines.size());
+    move_ground(plan, state, 0);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
     return state;
