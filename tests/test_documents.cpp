@@ -287,5 +287,5 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 8);
+    CHECK(examples == 9);
 }
