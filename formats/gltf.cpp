@@ -107,7 +107,7 @@ void GltfWriter::write(const MotionFrame& frame) {
     for (RootPath& path : paths_) {
         const Vec3 &is = frame.position[std::size_t(groups_.first[path.joint])], &drawn = drawn_.x_w[path.joint];
         path.place.push_back(is);
-        path.leaves |= !((is - drawn).norm() <= 1e-6 * (1 + drawn.norm()));
+        path.leaves |= is != path.place.front() || !((is - drawn).norm() <= 1e-6 * (1 + drawn.norm()));
     }
     keys_.add(rotation_);
 }

@@ -34,7 +34,7 @@ struct GltfOptions {
 struct RootPath {
     std::size_t joint;
     std::vector<Vec3> place; // [m] world
-    bool leaves = false;     // its drawn place, by more than 1e-6 of its distance
+    bool leaves = false;     // its first place at all, or the drawn one by more than 1e-6 of its distance
 };
 
 class GltfWriter {
