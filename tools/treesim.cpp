@@ -2,6 +2,7 @@
 #include "formats/motion.h"
 #include "formats/obj.h"
 #include "frame_sink.h"
+#include "lib/stages/root_term.h"
 #include "lib/stages/spring.h"
 #include "lib/stages/state_update.h"
 #include "simulation.h"
@@ -143,6 +144,7 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
         state.scaled_rate[i] = saved.scaled_rate[i].template cast<T>();
     }
     state.step = saved.frame * o.run.substeps;
+    move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
 }

@@ -1,4 +1,5 @@
 #include "advance.h"
+#include "../stages/root_term.h"
 #include "../stages/spring.h"
 #include "../stages/state_update.h"
 #include "articulated_step.h"
@@ -53,7 +54,10 @@ template <class T> void advance(const Plan<T>& plan, State<T>& state, StageClock
             if (clock) clock->seconds[std::size_t(stage)] += std::chrono::duration<double>(Time::now() - start).count();
         };
         timed(Stage::articulated, [&] { articulated(plan, state); });
-        timed(Stage::state_update, [&] { state_update(plan, state); });
+        timed(Stage::state_update, [&] {
+            move_ground(plan, state, double(state.step + 1) * plan.dt);
+            state_update(plan, state);
+        });
         if (plan.torque) spring_torque(plan, state);
         ++state.step;
     } else {

@@ -31,7 +31,8 @@
 
 namespace bough {
 
-// The pass at pass.body[i].theta, rate at `time` [s] (of the wind and the pulls); h = 0: the plain accelerations.
+// The pass at pass.body[i].theta, rate at `time` [s]; h = 0: the plain accelerations, else the mean ones of a step of h from
+// there: wind and pulls are those at its end, the moving ground's acceleration (root_motion.h) is its mean.
 void articulated_pass(const Plan<double>&, ArticulatedPass& pass, double time, double h);
 
 // d rate / dt [rad/s^2, body axes] of every joint at theta, rate, time.

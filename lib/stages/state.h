@@ -21,6 +21,13 @@ struct StepFlags {
     std::uint64_t unresolved = 0;  // of those, how many missed the tolerance at the smallest length (extrapolation.h)
 };
 
+// What a moving ground does to the joints on it in one step (root_term.h), world as at the step's start.
+template <class T> struct RootLoad {
+    Vector3<T> x;            // [m] where the world's origin has gone
+    Vector3<T> g;            // [m/s^2] gravity less that point's acceleration
+    Vector3<T> omega, alpha; // [rad/s], [rad/s^2]
+};
+
 template <class T> struct State {
     std::int64_t step = 0; // steps taken; the time is step * dt
 
@@ -53,6 +60,10 @@ template <class T> struct State {
     std::vector<T> c_drag, c_drag_row; // [N s/m], [N s] sums of the row-sum bounds (drag.h)
     std::vector<T> c_wind, c_wind_row;
     std::vector<T> c_turn, c_turn_row; // [N rad/m], [N rad]
+
+    // root motion, one each for the plan's splines
+    std::vector<Ground> ground;         // present
+    std::vector<RootLoad<T>> root_load; // of the last step
 
     // spring
     std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for
