@@ -9,8 +9,8 @@
 //   MuJoCo   a ball joint's qpos (w, x, y, z) and qvel are just these; qacc is the acceleration.
 //   Simbody  Ball with F = joint frame, M = body frame: q (w, x, y, z) is turn, u is the rate in F's axes, u = R(turn) rate.
 //            du/dt = R(turn) (d rate/dt + rate x rate), so the acceleration is R(turn)^T du/dt. A torque on the mobility is in F's axes.
-//   dense    the mass matrix summed up body by body from Jacobians and solved by Cholesky, in long double: slow, plain, with
-//            digits to spare; it says which of the others is wrong where they differ.
+//   dense    no engine: the mass matrix written out and solved by elimination with 113 bits. Slow and plain, with digits to spare:
+//            it says which of the others is wrong where they differ.
 #pragma once
 #include "lib/model/tree.h"
 #include <memory>
@@ -30,11 +30,13 @@ struct Motion {
 
 // Where the engine finds the bodies: its own kinematics.
 struct Bodies {
+    explicit Bodies(std::size_t n) : R_wb(n), joint(n), com(n), com_velocity(n) {}
     std::vector<Mat3> R_wb;                     // world from body
     std::vector<Vec3> joint, com, com_velocity; // [m], [m], [m/s] world
 };
 
 struct Loads {
+    explicit Loads(std::size_t n) : torque(n), force(n), moment(n) {}
     std::vector<Vec3> torque; // [N m] on the body at its joint, body axes; its opposite acts on the parent
     std::vector<Vec3> force;  // [N] at the centre of mass, world
     std::vector<Vec3> moment; // [N m] on the body, world

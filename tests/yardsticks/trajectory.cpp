@@ -16,10 +16,8 @@ struct Slope {
 class Integrator {
 public:
     Integrator(Engine& used, const Tree& of, const bough::Scene& in)
-        : engine(used), tree(of), scene(in), n(of.size_bodies()), bodies{std::vector<Mat3>(n), std::vector<Vec3>(n),
-                                                                         std::vector<Vec3>(n), std::vector<Vec3>(n)},
-          loads{std::vector<Vec3>(n), std::vector<Vec3>(n), std::vector<Vec3>(n)},
-          motion{std::vector<Quat>(n, Quat(1, 0, 0, 0)), std::vector<Vec3>(n, Vec3::Zero())}, stage(motion) {
+        : engine(used), tree(of), scene(in), n(of.size_bodies()), bodies(n),
+          loads(n), motion{std::vector<Quat>(n, Quat(1, 0, 0, 0)), std::vector<Vec3>(n, Vec3::Zero())}, stage(motion) {
         for (Slope& s : k) s = {std::vector<Eigen::Vector4d>(n), std::vector<Vec3>(n)};
     }
 
