@@ -55,6 +55,12 @@ void read_scene_trees(Setting& setting, const std::string& scene_file) {
     }
 }
 
+Solver chosen_solver(const RunOptions& o) {
+    for (const Solver solver : all_solvers)
+        if (o.solver == solver_name(solver)) return solver;
+    throw UsageError("--solver is '" + o.solver + "', which is unknown");
+}
+
 // FNV-1a over little-endian bytes, fields and lengths in a fixed order.
 struct Fingerprint {
     std::uint64_t hash = 0xcbf29ce484222325u;
@@ -163,9 +169,18 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
         ->option_text("NAME|FILE");
     app.add_option("--seed", o.seed, "Seed of the wind's turbulence")->option_text("N")->check(whole_number(0));
     app.add_option("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)")->option_text("X,Y,Z");
-    app.add_option("--solver", o.solver, "How a step is made: analytic")
+    std::vector<std::string> solvers;
+    for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
+    app.add_option(
+           "--solver", o.solver,
+           "How a step is made: analytic (default), or the full articulated dynamics by articulated-explicit (Euler; "
+           "unstable but at tiny steps), articulated-implicit (linearly implicit Euler), articulated-reference (high "
+           "order, adaptive)")
         ->option_text("NAME")
-        ->check(CLI::IsMember({"analytic"}));
+        ->check(CLI::IsMember(solvers));
+    app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
+        ->option_text("RAD")
+        ->check(positive_number());
     app.add_option("--precision", o.precision, "float or double (double)")
         ->option_text("NAME")
         ->check(CLI::IsMember({"float", "double"}));
@@ -196,6 +211,13 @@ std::int64_t frames_of(const RunOptions& o, double seconds_default) {
 
 Setting read_setting(const RunOptions& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
+    const Solver solver = chosen_solver(o);
+    if (is_articulated(solver) && o.precision == "float")
+        throw UsageError("--precision float: not with --solver " + o.solver + ", which runs in double");
+    if (is_articulated(solver) && !o.joint_inertia.empty())
+        throw UsageError("--joint-inertia: only with --solver analytic");
+    if (o.tolerance && solver != Solver::articulated_reference)
+        throw UsageError("--tolerance: only with --solver articulated-reference");
     Setting setting;
     const std::string content = read_input(o.input), name = input_name(o.input);
     if (is_scene(content)) {
@@ -220,7 +242,10 @@ std::uint64_t fingerprint(const Setting& setting) {
 
 template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
-        return make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps));
+        Plan<T> plan = make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
+                                    chosen_solver(o));
+        if (o.tolerance) plan.tolerance = *o.tolerance;
+        return plan;
     } catch (const std::out_of_range& error) {
         throw InputError(input_name(o.input), error.what());
     } catch (const std::domain_error& error) {
@@ -232,7 +257,7 @@ template <class T>
 void advance_frame(const Plan<T>& plan, State<T>& state, const Tree& tree, std::int64_t frame, int substeps,
                    StageClock* clock) {
     for (int k = 0; k < substeps; ++k) {
-        step(plan, state, clock);
+        advance(plan, state, clock);
         require_finite(state, tree, frame);
     }
 }

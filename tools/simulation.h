@@ -3,9 +3,9 @@
 #include "common.h"
 #include "lib/model/motion.h"
 #include "lib/model/scene.h"
+#include "lib/reference/advance.h"
 #include "lib/stages/plan.h"
 #include "lib/stages/state.h"
-#include "lib/stages/step.h"
 
 namespace bough {
 
@@ -16,7 +16,7 @@ struct RunOptions {
     double fps = 30;
     int substeps = 1;
     std::string wind, gravity, solver = "analytic", precision = "double", pose, joint_inertia;
-    std::optional<double> stiffness_scale, damping_scale;
+    std::optional<double> stiffness_scale, damping_scale, tolerance;
     std::optional<std::uint64_t> seed;
 };
 

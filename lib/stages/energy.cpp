@@ -21,11 +21,12 @@ template <class T> Energy energy(const Plan<T>& plan, const State<T>& given) {
         const double m = double(plan.mass[i]);
         const Mat3 c = cross_matrix(com);
         const Mat3 I = plan.inertia_joint[i].template cast<double>() + m * c * c;
-        e.kinetic += s.scaled_rate[i].template cast<double>().squaredNorm() / 2;
+        if (plan.solver == Solver::analytic) e.kinetic += s.scaled_rate[i].template cast<double>().squaredNorm() / 2;
         e.elastic += theta.dot(plan.K[i].template cast<double>().cwiseProduct(theta)) / 2;
         e.bodies += m * v.squaredNorm() / 2 + omega.dot(I * omega) / 2;
         e.potential -= m * plan.scene.gravity.dot(s.x_w[i].template cast<double>() + R * com);
     }
+    if (plan.solver != Solver::analytic) e.kinetic = e.bodies;
     return e;
 }
 

@@ -1,4 +1,5 @@
 #include "external_forces.h"
+#include "air.h"
 #include <algorithm>
 
 namespace bough {
@@ -14,31 +15,12 @@ Vec3 pull_force(const Pull& pull, double t) {
 
 namespace {
 
-template <class T> struct Drag {
-    Vector3<T> force;
-    T speed; // the speed that scales it
-};
-
-// Force over kappa rho A.
-template <class T> Drag<T> drag(Kind kind, const Matrix3<T>& R, const Vector3<T>& u) {
-    if (kind == Kind::branch) {
-        const Vector3<T> t = R.col(2);
-        const Vector3<T> across = u - u.dot(t) * t;
-        const T speed = across.norm();
-        return {speed * across, speed};
-    }
-    const T speed = u.norm();
-    if (kind == Kind::fruit) return {speed * u, speed};
-    const Vector3<T> normal = R.col(1);
-    return {speed * u.dot(normal) * normal, speed};
-}
-
 template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::size_t i) {
     const Matrix3<T>& R = state.R_wb[i];
     const Vector3<T> arm = R * plan.com[i];
     const Vector3<T> wind = state.wind.at(state.x_w[i].y() + arm.y());
-    const Drag<T> still = drag(plan.kind[i], R, wind);
-    const Drag<T> moving = drag(plan.kind[i], R, Vector3<T>(wind - state.v_w[i]));
+    const AirForce<T> still = air_force(plan.kind[i], R, wind);
+    const AirForce<T> moving = air_force(plan.kind[i], R, Vector3<T>(wind - state.v_w[i]));
     const T scale = plan.drag_area[i];
     state.f_w[i] = scale * still.force;
     state.tau_w[i] = arm.cross(state.f_w[i]);

@@ -1,10 +1,7 @@
 // external_forces.h: forces on each body from outside but gravity (§4, §7): pulls and the wind.
 //
 // Gravity has no array here: its torque about a joint is h x g with the composite's first moment h (composite.h).
-// The wind's force on a body, with u the wind's velocity less the body's, both at its centre of mass:
-//   branch  kappa rho A_c |u_n| u_n, u_n = u - (u.t) t        (21), kappa = 1.2 / 2
-//   fruit   kappa rho A_s |u| u                               (22), kappa = 0.47 / 2
-//   leaf    kappa rho A_t |u| (u.n) n                         (23), first term, kappa = 1.2 / 2
+// The wind's force on a body is air.h's (21)-(23) times kappa rho A, kappa = C_d / 2, C_d = 1.2 (branch, leaf), 0.47 (fruit).
 // It is written in two parts: what it would be on a body that stands still, which goes to the springs, and the rest,
 // which is the drag on the body's own motion and goes to drag.h; their sum is the force. The rest is at most
 // drag_bound |v| with drag_bound = kappa rho A (|u| + |u at rest|) (|u_n| for branches), since || u|u - w|w| || <= (|u| + |w|) |u - w|.

@@ -8,9 +8,15 @@
 namespace bough {
 
 const char* stage_name(Stage stage) {
-    static constexpr const char* names[stage_count] = {"wind_field", "external_forces", "composite",
-                                                       "drag",       "spring",          "state_update"};
+    static constexpr const char* names[stage_count] = {"wind_field", "external_forces", "composite",   "drag",
+                                                       "spring",     "articulated",     "state_update"};
     return names[std::size_t(stage)];
+}
+
+const char* solver_name(Solver solver) {
+    static constexpr const char* names[] = {"analytic", "articulated-explicit", "articulated-implicit",
+                                            "articulated-reference"};
+    return names[std::size_t(solver)];
 }
 
 namespace {
@@ -52,9 +58,13 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, const Scene
     }
 }
 
-// Drag's constants. A side branch's weight is twice its parent's again (drag.h), up to 2^16.
-template <class T>
-void plan_air(Plan<T>& plan, const Tree& tree, const Scene& scene, const std::vector<double>& weight) {
+template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree, const Scene& scene) {
+    plan.kind = tree.kind;
+    for (std::size_t i = 0; i < plan.bodies; ++i) plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
+}
+
+// Drag's bounds. A side branch's weight is twice its parent's again (drag.h), up to 2^16.
+template <class T> void plan_air_bounds(Plan<T>& plan, const Tree& tree, const std::vector<double>& weight) {
     const std::size_t n = plan.bodies;
     std::vector<int> depth(n, 0);         // side branches left on the way from the root
     std::vector<double> sum(n), moved(n); // over the path: of u, and what it moves the body's joint by
@@ -66,8 +76,6 @@ void plan_air(Plan<T>& plan, const Tree& tree, const Scene& scene, const std::ve
         const double r = root ? 0 : tree.joint_position[i].norm();
         sum[i] = u + (root ? 0 : sum[p]);
         moved[i] = root ? 0 : moved[p] + sum[p] * r;
-        plan.kind.push_back(tree.kind[i]);
-        plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
         plan.path_weight.push_back(T(sum[i]));
         plan.sway.push_back(T(moved[i] + sum[i] * tree.com[i].norm()));
         plan.joint_distance.push_back(T(r));
@@ -107,7 +115,7 @@ template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene&
         for (std::size_t i = 0; i < n; ++i)
             plan.gravity_row.push_back(T(std::max(0.0, weighed[i] / modes.weight[i] - plain[i])));
     }
-    if (plan.wind) plan_air(plan, tree, scene, modes.weight);
+    if (plan.wind) plan_air_bounds(plan, tree, modes.weight);
 }
 
 // Highest point that a body could reach by standing straight up from the ground: the wind's table covers it.
@@ -124,36 +132,46 @@ double highest_reach(const Tree& tree) {
 
 template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const auto add = [&plan](Stage stage, bool on, const char* reason) { plan.stages.push_back({stage, on, reason}); };
-    add(Stage::wind_field, plan.wind, plan.wind ? "/wind" : "no wind");
-    add(Stage::external_forces, plan.forces,
-        plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
-        : plan.wind                      ? "/wind"
-        : plan.forces                    ? "/pulls"
-                                         : "no wind, no pulls");
-    add(Stage::composite, true, "every scene");
-    add(Stage::drag, plan.wind, plan.wind ? "/wind" : "no wind");
-    add(Stage::spring, true, "every scene");
+    const bool analytic = plan.solver == Solver::analytic;
+    const char* const other = "another solver than analytic (articulated evaluates them in its own pass)";
+    add(Stage::wind_field, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : other);
+    add(Stage::external_forces, analytic && plan.forces,
+        !plan.forces                       ? "no wind, no pulls"
+        : !analytic                        ? other
+        : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
+        : plan.wind                        ? "/wind"
+                                           : "/pulls");
+    add(Stage::composite, analytic, analytic ? "every scene" : "another solver than analytic");
+    add(Stage::drag, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : other);
+    add(Stage::spring, analytic, analytic ? "every scene" : "another solver than analytic");
+    add(Stage::articulated, !analytic, analytic ? "solver analytic" : solver_name(plan.solver));
     add(Stage::state_update, true,
-        !plan.velocity    ? "every scene (poses; no wind, no output field velocity: no velocities)"
+        !plan.velocity    ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
+                                       : "every scene (poses; no wind, no output field velocity: no velocities)")
         : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
                           : "every scene (poses; velocities for /wind)");
     State<T> empty;
     visit_arrays(plan, empty, [&](const char* name, auto& array, bool on, const std::string& reason) {
         plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
     });
+    plan.arrays.push_back(
+        {"articulated", !analytic,
+         plan.bodies * sizeof(ArticulatedBody) * std::max<std::size_t>(1, articulated_passes(plan.solver)),
+         analytic ? "solver analytic" : solver_name(plan.solver)});
 }
 
 } // namespace
 
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt) {
+                  double dt, Solver solver) {
     Tree tree = drawn;
     for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
     for (double& beta : tree.damping) beta *= scene.damping_scale;
     Plan<T> plan;
     plan.bodies = tree.size_bodies();
     plan.dt = dt;
+    plan.solver = solver;
     plan.scene = scene;
     plan.gravity = !scene.gravity.isZero();
     plan.wind = scene.wind.has_value(); // a wind of no velocity is still air, which drags
@@ -161,16 +179,18 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
         for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
             plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
     plan.forces = plan.wind || !plan.pulls.empty();
-    plan.velocity = plan.wind || wishes.velocity;
+    plan.velocity = (plan.wind && solver == Solver::analytic) || wishes.velocity;
     plan.torque = wishes.torque;
     plan.top = plan.wind ? highest_reach(tree) : 0;
     plan_bodies(plan, tree, scene);
-    plan_modes(plan, tree, scene);
+    if (plan.wind) plan_surfaces(plan, tree, scene);
+    if (solver == Solver::analytic) plan_modes(plan, tree, scene);
     explain(plan, wishes);
     return plan;
 }
 
-template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double);
-template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double);
+template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver);
+template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double,
+                                Solver);
 
 } // namespace bough

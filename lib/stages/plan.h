@@ -11,9 +11,18 @@
 
 namespace bough {
 
-enum class Stage : std::uint8_t { wind_field, external_forces, composite, drag, spring, state_update };
-constexpr std::size_t stage_count = 6;
+enum class Stage : std::uint8_t { wind_field, external_forces, composite, drag, spring, articulated, state_update };
+constexpr std::size_t stage_count = 7;
 const char* stage_name(Stage);
+
+// How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
+enum class Solver : std::uint8_t { analytic, articulated_explicit, articulated_implicit, articulated_reference };
+constexpr std::array<Solver, 4> all_solvers{Solver::analytic, Solver::articulated_explicit,
+                                            Solver::articulated_implicit, Solver::articulated_reference};
+const char* solver_name(Solver); // as in --solver: analytic, articulated-explicit ...
+constexpr bool is_articulated(Solver solver) {
+    return solver != Solver::analytic;
+}
 
 // What the caller will read besides poses: arrays for it exist only then.
 struct Wishes {
@@ -44,7 +53,9 @@ template <class T> struct PlannedPull {
 template <class T> struct Plan {
     std::size_t bodies = 0;
     double dt = 0; // [s] one step
-    Scene scene;   // as given, for times and forces
+    Solver solver = Solver::analytic;
+    double tolerance = 1e-8; // [rad] error allowed in a step of articulated_reference (extrapolation.h)
+    Scene scene;             // as given, for times and forces
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     std::vector<PlannedStage> stages;
     std::vector<PlannedArray> arrays;
@@ -81,6 +92,7 @@ template <class T> struct Plan {
 // beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).
 // Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow.
 template <class T>
-Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt);
+Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
+                  Solver solver = Solver::analytic);
 
 } // namespace bough

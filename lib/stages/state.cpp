@@ -26,7 +26,12 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
         for (auto& value : array) set_zero(value);
     });
     state.theta = plan.theta_start;
-    if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
+    state.articulated.resize(articulated_passes(plan.solver));
+    for (ArticulatedPass& pass : state.articulated) {
+        pass.body.resize(plan.bodies);
+        if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top);
+    }
+    if (plan.wind && plan.solver == Solver::analytic) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
     return state;
@@ -37,6 +42,7 @@ template <class T> std::size_t State<T>::bytes() const {
     visit_arrays(Plan<T>(), *this, [&](const char*, const auto& array, bool, const std::string&) {
         sum += array.capacity() * sizeof(array[0]);
     });
+    for (const ArticulatedPass& pass : articulated) sum += pass.body.capacity() * sizeof(ArticulatedBody);
     return sum;
 }
 

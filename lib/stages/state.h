@@ -1,5 +1,6 @@
 // state.h: what a step changes, in arrays grouped by the stage that writes them. Empty where the plan leaves them out.
 #pragma once
+#include "articulated_pass.h"
 #include "plan.h"
 #include "wind.h"
 #include <array>
@@ -13,6 +14,8 @@ namespace bough {
 struct StepFlags {
     std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
     std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
+    std::uint64_t inner_steps = 0;    // steps that articulated_reference cut the plan's into, which is no guard
+    std::uint64_t unresolved = 0; // of those, how many missed the tolerance at the smallest length (extrapolation.h)
 };
 
 template <class T> struct State {
@@ -21,7 +24,8 @@ template <class T> struct State {
     std::vector<Vector3<T>> theta, theta_dot; // [rad], [rad/s] joint frame: the state proper; hashed, saved
 
     std::vector<Vector3<T>>
-        scaled_rate; // [sqrt(J)] L^T theta_dot, S = L L^T: what is carried from step to step (spring.h)
+        scaled_rate; // what is carried of the rates J theta_dot from step to step: analytic, [sqrt(J)] L^T times them,
+                     // S = L L^T (spring.h); articulated solvers, [rad/s] themselves
 
     // state_update
     std::vector<Matrix3<T>> R_wb;         // world from body
@@ -50,11 +54,20 @@ template <class T> struct State {
     // spring
     std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for
 
+    // articulated solvers: a pass each, or as many as rows of the extrapolation
+    std::vector<ArticulatedPass> articulated;
+    double articulated_step = 0; // [s] what articulated_reference proposes for its next inner step; 0: none yet
+
     std::array<std::uint64_t, stage_count> calls{}; // how often each stage ran
     StepFlags flags;
 
     std::size_t bytes() const; // allocated by all arrays
 };
+
+// Passes that a solver runs side by side.
+constexpr std::size_t articulated_passes(Solver solver) {
+    return solver == Solver::analytic ? 0 : solver == Solver::articulated_reference ? 8 : 1;
+}
 
 // At the plan's start pose, at rest, kinematics up to date.
 template <class T> State<T> make_state(const Plan<T>&);

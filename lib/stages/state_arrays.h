@@ -9,12 +9,16 @@ namespace bough {
 // visit(name, array, on, reason) for every array over bodies.
 template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>& plan, StateType& s, Visit&& visit) {
     const std::string always = "every scene";
-    const std::string wind = plan.wind ? "/wind" : "no wind";
-    const std::string forces = plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
-                               : plan.wind                      ? "/wind"
-                               : plan.forces                    ? "/pulls"
-                                                                : "no wind, no pulls";
-    const std::string velocity = plan.wind       ? "/wind (drag)"
+    const bool analytic = plan.solver == Solver::analytic;
+    const std::string composite = analytic ? always : std::string("solver ") + solver_name(plan.solver);
+    const bool air = analytic && plan.wind, loads = analytic && plan.forces;
+    const std::string wind = !plan.wind ? "no wind" : analytic ? "/wind" : composite;
+    const std::string forces = plan.forces && !analytic           ? composite
+                               : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
+                               : plan.wind                        ? "/wind"
+                               : plan.forces                      ? "/pulls"
+                                                                  : "no wind, no pulls";
+    const std::string velocity = air             ? "/wind (drag)"
                                  : plan.velocity ? "output field velocity"
                                                  : "no wind, no output field velocity";
     const std::string torque = plan.torque ? "output field torque" : "no output field torque";
@@ -25,25 +29,25 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("x_w", s.x_w, true, always);
     visit("omega_w", s.omega_w, plan.velocity, velocity);
     visit("v_w", s.v_w, plan.velocity, velocity);
-    visit("f_w", s.f_w, plan.forces, forces);
-    visit("tau_w", s.tau_w, plan.forces, forces);
-    visit("drag_f_w", s.drag_f_w, plan.wind, wind);
-    visit("drag_tau_w", s.drag_tau_w, plan.wind, wind);
-    visit("drag_bound", s.drag_bound, plan.wind, wind);
-    visit("wind_bound", s.wind_bound, plan.wind, wind);
-    visit("turn_bound", s.turn_bound, plan.wind, wind);
-    visit("c_h_w", s.c_h_w, true, always);
-    visit("c_J_w", s.c_J_w, true, always);
-    visit("c_f_w", s.c_f_w, plan.forces, forces);
-    visit("c_tau_w", s.c_tau_w, plan.forces, forces);
-    visit("c_drag_f_w", s.c_drag_f_w, plan.wind, wind);
-    visit("c_drag_tau_w", s.c_drag_tau_w, plan.wind, wind);
-    visit("c_drag", s.c_drag, plan.wind, wind);
-    visit("c_drag_row", s.c_drag_row, plan.wind, wind);
-    visit("c_wind", s.c_wind, plan.wind, wind);
-    visit("c_wind_row", s.c_wind_row, plan.wind, wind);
-    visit("c_turn", s.c_turn, plan.wind, wind);
-    visit("c_turn_row", s.c_turn_row, plan.wind, wind);
+    visit("f_w", s.f_w, loads, forces);
+    visit("tau_w", s.tau_w, loads, forces);
+    visit("drag_f_w", s.drag_f_w, air, wind);
+    visit("drag_tau_w", s.drag_tau_w, air, wind);
+    visit("drag_bound", s.drag_bound, air, wind);
+    visit("wind_bound", s.wind_bound, air, wind);
+    visit("turn_bound", s.turn_bound, air, wind);
+    visit("c_h_w", s.c_h_w, analytic, composite);
+    visit("c_J_w", s.c_J_w, analytic, composite);
+    visit("c_f_w", s.c_f_w, loads, forces);
+    visit("c_tau_w", s.c_tau_w, loads, forces);
+    visit("c_drag_f_w", s.c_drag_f_w, air, wind);
+    visit("c_drag_tau_w", s.c_drag_tau_w, air, wind);
+    visit("c_drag", s.c_drag, air, wind);
+    visit("c_drag_row", s.c_drag_row, air, wind);
+    visit("c_wind", s.c_wind, air, wind);
+    visit("c_wind_row", s.c_wind_row, air, wind);
+    visit("c_turn", s.c_turn, air, wind);
+    visit("c_turn_row", s.c_turn_row, air, wind);
     visit("torque_j", s.torque_j, plan.torque, torque);
 }
 

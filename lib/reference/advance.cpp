@@ -1,0 +1,68 @@
+#include "advance.h"
+#include "../stages/spring.h"
+#include "../stages/state_update.h"
+#include "articulated_step.h"
+#include "extrapolation.h"
+#include <cassert>
+#include <chrono>
+
+namespace bough {
+namespace {
+
+// The solvers' own arrays hold a joint's rotation vector and rate while the pass runs.
+void articulated_euler(const Plan<double>& plan, State<double>& state, double time) {
+    ArticulatedPass& pass = state.articulated[0];
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        pass.body[i].theta = state.theta[i];
+        pass.body[i].rate = state.scaled_rate[i];
+    }
+    if (plan.solver == Solver::articulated_explicit)
+        explicit_euler(plan, pass, time, plan.dt);
+    else
+        implicit_euler(plan, pass, time, plan.dt);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        state.theta[i] = pass.body[i].theta;
+        state.scaled_rate[i] = pass.body[i].rate;
+    }
+}
+
+void articulated(const Plan<double>& plan, State<double>& state) {
+    const double time = double(state.step) * plan.dt;
+    if (plan.solver == Solver::articulated_reference)
+        extrapolated_step(plan, state, time);
+    else
+        articulated_euler(plan, state, time);
+    constexpr double pi_squared = 9.869604401089358;
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        // A free joint has no rest to be turned from: its angle is kept in the chart's middle.
+        if (plan.K[i].isZero(0) && state.theta[i].squaredNorm() > pi_squared)
+            state.theta[i] = vector_from_quaternion(quaternion_from_vector(state.theta[i]));
+        state.theta_dot[i] = body_rate_jacobian_inverse(state.theta[i]) * state.scaled_rate[i];
+    }
+}
+
+} // namespace
+
+template <class T> void advance(const Plan<T>& plan, State<T>& state, StageClock* clock) {
+    if (plan.solver == Solver::analytic) return step(plan, state, clock);
+    if constexpr (std::is_same_v<T, double>) {
+        const auto timed = [&](Stage stage, auto&& body) {
+            using Time = std::chrono::steady_clock;
+            const Time::time_point start = clock ? Time::now() : Time::time_point{};
+            body();
+            ++state.calls[std::size_t(stage)];
+            if (clock) clock->seconds[std::size_t(stage)] += std::chrono::duration<double>(Time::now() - start).count();
+        };
+        timed(Stage::articulated, [&] { articulated(plan, state); });
+        timed(Stage::state_update, [&] { state_update(plan, state); });
+        if (plan.torque) spring_torque(plan, state);
+        ++state.step;
+    } else {
+        assert(false && "the articulated solvers exist in double alone");
+    }
+}
+
+template void advance(const Plan<float>&, State<float>&, StageClock*);
+template void advance(const Plan<double>&, State<double>&, StageClock*);
+
+} // namespace bough

@@ -1,0 +1,15 @@
+// advance.h: one step with the solver that the plan names.
+//
+// analytic              step.h: the paper's, one joint at a time
+// articulated_explicit  articulated_step.h, Euler forward
+// articulated_implicit  articulated_step.h, linearly implicit
+// articulated_reference extrapolation.h, to the plan's tolerance
+// Needs a state of this plan with kinematics up to date; leaves one. The articulated solvers exist in double alone.
+#pragma once
+#include "../stages/step.h"
+
+namespace bough {
+
+template <class T> void advance(const Plan<T>&, State<T>&, StageClock* clock = nullptr);
+
+} // namespace bough

@@ -1,0 +1,38 @@
+// articulated.h: the full dynamics of the articulated tree, one articulated-body pass in O(n) (Featherstone 2008, chapter 7).
+//
+// Equations. Joint i holds the rotation vector theta and the rate w = J theta_dot of its body against its parent, in the axes
+// of the body. In world axes, about each joint, with c the body's centre of mass, J_o its inertia about the joint:
+//   omega = omega_p + R w      alpha = alpha_p + R w' + omega_p x R w
+//   v     = v_p + omega_p x r  a     = a_p + alpha_p x r + omega_p x (omega_p x r)
+//   F = m (a - g + alpha x c + omega x (omega x c)) - f      N = J_o alpha + omega x J_o omega + m c x (a - g) - n
+// f, n external force and moment: pulls and the air (air.h). What the joint carries, summed over the outboard bodies, turns
+// about it by the spring's torque alone,
+//   tau = -R T^T K (theta + beta theta_dot),  theta_dot = T w,  T = J^-1:
+// the law of the energy theta^T K theta / 2 with dissipation beta theta_dot^T K theta_dot / 2 (design: it conserves for any K).
+//
+// h > 0 makes it linearly implicit: torque and air are those at the end of a step of h,
+//   theta_dot_1 = T (w + h w'), theta_1 = theta + h theta_dot_1, u_1 = u - h a_c,
+// with T, R, the air's damping D and its turning of plates (air.h) at the start. The joint then answers like an inertia Z = h (h + beta) R T^T K T R^T, and
+// each body has h D at its centre of mass more of mass. No step is then unstable for its springs, dampers or air's drag.
+//
+// Sweeps. Outward: kinematics, the biases (accelerations were no joint to accelerate) and each body's own inertia. Inward, with
+// E = (A + Z)^-1, u = tau - N:  A' = Z E A,  B' = Z E B,  M' = M - B^T E B,  N' = N + A E u,  F' = F + B^T E u, shifted by r to the
+// parent. Z E A is A - A E A without the subtraction: without a spring it is 0, not what rounding left, and with a stiff one
+// it keeps its digits. Outward: joint_w = E (u - A alpha_p - B a).
+// A body without extent about an axis (zero radius) would make A singular: four roundings of its trace are added to it.
+// Reads   plan constants, theta and rate in pass.body. Writes all of pass. O(n), about 0.4 us a body. Errors none; non-finite
+//         in, non-finite out.
+#pragma once
+#include "../stages/plan.h"
+#include "../stages/state.h"
+
+namespace bough {
+
+// The pass at pass.body[i].theta, rate at `time` [s] (of the wind and the pulls); h = 0: the plain accelerations.
+void articulated_pass(const Plan<double>&, ArticulatedPass& pass, double time, double h);
+
+// d rate / dt [rad/s^2, body axes] of every joint at theta, rate, time.
+void joint_accelerations(const Plan<double>&, const std::vector<Vec3>& theta, const std::vector<Vec3>& rate,
+                         double time, ArticulatedPass& work, std::vector<Vec3>& acceleration);
+
+} // namespace bough

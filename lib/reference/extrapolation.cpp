@@ -1,0 +1,85 @@
+#include "extrapolation.h"
+#include "articulated_step.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bough {
+namespace {
+
+constexpr int rows = extrapolation_rows;
+constexpr double smallest = 1e-9; // of the plan's step
+
+// Row j (from 0): j + 1 implicit steps over H from the state.
+void run_row(const Plan<double>& plan, const State<double>& state, ArticulatedPass& pass, int steps, double time,
+             double H) {
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        pass.body[i].theta = state.theta[i];
+        pass.body[i].rate = state.scaled_rate[i];
+    }
+    const double h = H / steps;
+    for (int k = 0; k < steps; ++k) implicit_euler(plan, pass, time + k * h, h);
+}
+
+// The table's last row for one quantity, in place; returns the last correction.
+Vec3 extrapolate(std::array<Vec3, rows>& T) {
+    Vec3 correction = Vec3::Zero();
+    for (int column = 1; column < rows; ++column)
+        for (int j = rows - 1; j >= column; --j) {
+            const double ratio = double(j + 1) / double(j + 1 - column);
+            const auto k = std::size_t(j);
+            correction = (T[k] - T[k - 1]) / (ratio - 1);
+            T[k] += correction;
+        }
+    return correction;
+}
+
+} // namespace
+
+void extrapolated_step(const Plan<double>& plan, State<double>& state, double time) {
+    const double dt = plan.dt, least = smallest * dt;
+    const auto n = std::int64_t(plan.bodies);
+    double done = 0, H = state.articulated_step > 0 ? state.articulated_step : dt;
+    while (done < dt) {
+        const double left = dt - done;
+        // The rest in one step or in two even ones: no sliver at the end.
+        const double taken = H >= left ? left : H > left / 2 ? left / 2 : H;
+        const double start = time + done;
+#pragma omp parallel for schedule(dynamic, 1) if (n > 20)
+        for (int j = rows; j >= 1; --j) run_row(plan, state, state.articulated[std::size_t(j - 1)], j, start, taken);
+        double error = 0;
+        bool finite = true;
+        for (std::size_t i = 0; i < plan.bodies; ++i) {
+            std::array<Vec3, rows> theta, rate;
+            for (std::size_t j = 0; j < rows; ++j) {
+                theta[j] = state.articulated[j].body[i].theta;
+                rate[j] = state.articulated[j].body[i].rate;
+            }
+            const double e = std::max(extrapolate(theta).norm(), taken * extrapolate(rate).norm());
+            finite = finite && std::isfinite(e);
+            error = std::max(error, e);
+            ArticulatedBody& result = state.articulated[0].body[i]; // the first row's end is spent
+            result.theta = theta[rows - 1];
+            result.rate = rate[rows - 1];
+        }
+        const double growth =
+            !finite ? 0.25
+                    : std::clamp(0.8 * std::pow(plan.tolerance / std::max(error, 1e-300), 1.0 / rows), 0.25, 2.5);
+        const bool accepted = finite && error <= plan.tolerance;
+        if (!accepted && taken > least) {
+            H = std::max(taken * std::min(growth, 0.8), least);
+            continue;
+        }
+        if (!accepted) ++state.flags.unresolved;
+        for (std::size_t i = 0; i < plan.bodies; ++i) {
+            state.theta[i] = state.articulated[0].body[i].theta;
+            state.scaled_rate[i] = state.articulated[0].body[i].rate;
+        }
+        ++state.flags.inner_steps;
+        done = taken == left ? dt : done + taken;
+        // A last step shortened by the frame says little about the length that would do.
+        H = taken < H ? std::max(H * std::min(growth, 1.0), taken * growth) : taken * growth;
+    }
+    state.articulated_step = std::min(H, 1e3 * dt);
+}
+
+} // namespace bough

@@ -1,0 +1,28 @@
+// extrapolation.h: solutions of the articulated dynamics of high order, with their own error estimate: what every other
+// solver is held against.
+//
+// Step. Over H the linearly implicit Euler step (articulated_step.h) is taken with h = H / j, j = 1..8. Its error has an
+// expansion in powers of h (a one-step method with smooth coefficients; Hairer, Norsett, Wanner, Solving Ordinary
+// Differential Equations I, II.8; stiff: II, IV.9), so Aitken and Neville's table
+//   T_j,k+1 = T_j,k + (T_j,k - T_j-1,k) / (j / (j - k) - 1)
+// cancels one power a column: T_8,8 is of order 8, and stiff components stay as stable as the implicit step makes them.
+// The sequences are independent of one another and run in parallel.
+// Error. e = largest |T_8,8 - T_8,7| over the joints, of theta [rad] and of rate times H; H is accepted where e <= tolerance,
+// and the next is H (tolerance / e)^(1/8), times 0.8, between 1/4 and 2.5 of it. It is the error of the column before the
+// last, so an overestimate where the table converges.
+// A step of the plan (its dt) is cut into as many H as that takes; the last is shortened to end with it. The proposal for
+// the next goes on in State::articulated_step, which a saved state keeps: a run cut in two is the same.
+// Reads   theta, rate in the state (State::theta, scaled_rate). Writes them. 36 passes an H. Allocates nothing.
+// Errors  where H falls below 1e-9 of the plan's step (non-finite, or not resolvable in doubles) it goes on with that H and
+//         counts it (StepFlags::unresolved): the result is then no reference, and users are told.
+#pragma once
+#include "articulated.h"
+
+namespace bough {
+
+constexpr int extrapolation_rows = int(articulated_passes(Solver::articulated_reference));
+
+// One step of plan.dt from time `time`.
+void extrapolated_step(const Plan<double>&, State<double>&, double time);
+
+} // namespace bough
