@@ -9,7 +9,7 @@ namespace {
 
 // MuJoCo refuses masses and pivots of the mass matrix below 1e-15. Motion does not change when all masses and forces are
 // multiplied by one number; a power of two costs no digit.
-constexpr double mass_scale = 0x1p30;
+constexpr double mass_scale = 0x1p60;
 
 void attribute(std::ostream& out, const char* name, std::initializer_list<double> values) {
     out << ' ' << name << "=\"";
