@@ -13,15 +13,16 @@ struct Case {
     std::vector<Target> targets; // of the scene's pulls
     double time = 0;             // [s] of wind and pulls
     Motion motion;
-    double engine_joint, engine_kinetic; // what MuJoCo and Simbody keep of it (Difference)
+    double joint_limit, kinetic_limit; // Difference from the truth that a solver in doubles is allowed
 };
 
 // Each tree under gravity, springs and dampers, oblique gusty wind and two pulls, in a random motion (angles up to 1 rad,
 // rates up to 5 rad/s); as they are, and with springs 1e-6 times as stiff, so that gravity, wind and the velocities' own
 // terms are of the springs' size and an error in them shows. Trees: the chain and the branched tree of paper_trees.h (E =
 // 2e9), make_tree's branched tree, it and a chain in one world, a grown tree of about 300 bodies with leaves and fruit, and
-// make_tree's random trees of 100 and 300. The random ones take digits from every double-precision solver (fruit on twigs of
-// a millionth of their mass), though the data determine their motion to 1e-12.
+// make_tree's random trees of 100 and 300. Allowed are 1e-9 or less of the kinetic norm, but for the last: fruit on twigs of
+// a millionth of their mass take ten digits and more from every double-precision solver, the engines' too (MuJoCo 1e-6,
+// Simbody 6e-5), though the data determine the motion to 1e-12. It is there so that a solver which fails altogether shows.
 std::vector<Case> acceleration_cases();
 
 // How far accelerations a are from the truth, by two scales that leave out neither twig nor trunk.

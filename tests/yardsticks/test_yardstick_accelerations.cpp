@@ -1,5 +1,6 @@
 // joint_accelerations (lib/reference/articulated.h) against MuJoCo, Simbody and the dense solve of 113 bits, on the trees and
-// motions of cases.h, by the two measures defined there.
+// motions of cases.h, by the two measures defined
+// there; two solvers may differ by twice what each may differ from the truth.
 #include "cases.h"
 #include "lib/reference/articulated.h"
 #include <catch2/catch.hpp>
@@ -26,13 +27,14 @@ TEST_CASE("Accelerations of articulated trees agree with MuJoCo, Simbody and a d
         const auto truth = accelerations(*make_dense(c.tree, c.scene.gravity), c);
         const Difference d = difference(c, found, truth);
         INFO(c.name << ": kinetic " << d.kinetic << ", joint " << d.joint << " at " << d.worst_joint);
-        CHECK(d.kinetic <= 1e-30);
+        CHECK(d.kinetic <= c.kinetic_limit);
+        CHECK(d.joint <= c.joint_limit);
         for (const auto make : {make_mujoco, make_simbody}) {
             const auto engine = make(c.tree, c.scene.gravity);
             const Difference e = difference(c, found, accelerations(*engine, c));
             INFO(engine->name() << ": kinetic " << e.kinetic << ", joint " << e.joint << " at " << e.worst_joint);
-            CHECK(e.kinetic <= 1e-9 + c.engine_kinetic);
-            CHECK(e.joint <= 1e-9 + c.engine_joint);
+            CHECK(e.kinetic <= 2 * c.kinetic_limit);
+            CHECK(e.joint <= 2 * c.joint_limit);
         }
     }
 }

@@ -86,7 +86,9 @@ double track_difference(const Track& a, const Track& b) {
     double worst = 0, squares = 0, count = 0;
     for (std::size_t f = 0; f < b.size(); ++f)
         for (std::size_t k = 0; k < b[f].size(); ++k) {
-            worst = std::max(worst, (a[f][k] - b[f][k]).norm());
+            const double off = (a[f][k] - b[f][k]).norm();
+            if (!(off <= worst)) worst = off; // a NaN stays
+            if (std::isnan(worst)) return worst;
             squares += (b[f][k] - b[0][k]).squaredNorm();
             count += 1;
         }
