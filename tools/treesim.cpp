@@ -188,6 +188,12 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
                         " times a joint was softer than gravity's pull on it (buckling)");
     if (flags.bounded_lambda > 0)
         notes.push_back(std::to_string(flags.bounded_lambda) + " times a joint's growth in a step was bounded");
+    if (flags.half_turns > 0)
+        notes.push_back(std::to_string(flags.half_turns) +
+                        " times a joint turned past half a turn: the small angles that the method assumes are left");
+    if (flags.unresolved > 0)
+        notes.push_back(std::to_string(flags.unresolved) + " of " + std::to_string(flags.inner_steps) +
+                        " inner steps missed the tolerance: this is no reference solution");
 }
 
 // Frames first..last into the sink; what ended the run early is thrown after the frames before it are safe.

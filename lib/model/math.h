@@ -54,6 +54,15 @@ template <class T> Vector3<T> vector_from_quaternion(const Quaternion<T>& q) {
     return (T(2) * std::atan2(n, sign * q.w()) / n) * v;
 }
 
+// The same rotation by a vector of at most half a turn: past pi it is the rotation the other way round. True where it was.
+template <class T> bool shorten_rotation(Vector3<T>& theta) {
+    constexpr T pi = T(3.14159265358979323846);
+    const T angle = theta.norm();
+    if (!(angle > pi) || !std::isfinite(angle)) return false;
+    theta *= std::remainder(angle, 2 * pi) / angle;
+    return true;
+}
+
 // J: body rates from the rates of a rotation vector, omega_b = J theta_dot for R_jb = exp(theta) (the right Jacobian of
 // SO(3); in the joint frame omega_j = J^T theta_dot). J = 1 - a theta* + c theta* theta*.
 template <class T> Matrix3<T> body_rate_jacobian(const Vector3<T>& theta) {

@@ -32,11 +32,8 @@ void articulated(const Plan<double>& plan, State<double>& state) {
         extrapolated_step(plan, state, time);
     else
         articulated_euler(plan, state, time);
-    constexpr double pi_squared = 9.869604401089358;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        // A free joint has no rest to be turned from: its angle is kept in the chart's middle.
-        if (plan.K[i].isZero(0) && state.theta[i].squaredNorm() > pi_squared)
-            state.theta[i] = vector_from_quaternion(quaternion_from_vector(state.theta[i]));
+        if (shorten_rotation(state.theta[i])) ++state.flags.half_turns; // as the analytic step does (spring.h)
         state.theta_dot[i] = body_rate_jacobian_inverse(state.theta[i]) * state.scaled_rate[i];
     }
 }

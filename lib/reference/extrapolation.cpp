@@ -73,6 +73,7 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             state.theta[i] = state.articulated[0].body[i].theta;
             state.scaled_rate[i] = state.articulated[0].body[i].rate;
+            if (shorten_rotation(state.theta[i])) ++state.flags.half_turns;
         }
         ++state.flags.inner_steps;
         done = taken == left ? dt : done + taken;

@@ -107,9 +107,7 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         v_new[k] = p.B * residual + p.C * v[k];
     }
     s.theta[i] += joint.T_tb * (U * dq);
-    // A free joint has no rest to be turned from: its angle is kept in the chart's middle, the rotation is the same.
-    if (plan.K[i].isZero(0) && s.theta[i].squaredNorm() > T(9.8696))
-        s.theta[i] = vector_from_quaternion(quaternion_from_vector(s.theta[i]));
+    if (shorten_rotation(s.theta[i])) ++flags.half_turns;
     s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * (U * v_new);
     s.scaled_rate[i] = X * v_new;
     return flags;
@@ -120,15 +118,17 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
 template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
     const auto n = std::int64_t(plan.bodies);
     const T h = T(plan.dt);
-    std::uint64_t buckling = 0, bounded = 0;
-#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded) if (n > 2000)
+    std::uint64_t buckling = 0, bounded = 0, half_turns = 0;
+#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns) if (n > 2000)
     for (std::int64_t i = 0; i < n; ++i) {
         const StepFlags flags = evolve(plan, state, std::size_t(i), h);
         buckling += flags.buckling;
         bounded += flags.bounded_lambda;
+        half_turns += flags.half_turns;
     }
     state.flags.buckling += buckling;
     state.flags.bounded_lambda += bounded;
+    state.flags.half_turns += half_turns;
 }
 
 template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {

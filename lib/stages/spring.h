@@ -34,6 +34,9 @@
 // q'' + b q' + lambda q = r with b = beta (U^T K_b U)_ii, v = X^T w (oscillator.h). Where G is not 0, U^T K_b U has small
 // terms off its diagonal: they are dropped, which leaves the damping positive. lambda < 0 is buckling: it grows as it does,
 // and is counted. lambda is bounded where its square would overflow (oscillator.h), counted.
+// Half turns. theta is the rotation vector "in the standard fashion" (§3), |theta| <= pi: a joint that turns past half a turn is as
+// far from rest the other way round, at the same elastic energy, and its spring pulls it on. Counted; the small angles
+// that the method assumes were left long before.
 // Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb. Writes theta, theta_dot, scaled_rate.
 // After   composite, drag. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
 #pragma once

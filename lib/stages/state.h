@@ -14,6 +14,7 @@ namespace bough {
 struct StepFlags {
     std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
     std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
+    std::uint64_t half_turns = 0;     // joint-steps in which a joint turned past half a turn (spring.h)
     std::uint64_t inner_steps = 0;    // steps that articulated_reference cut the plan's into, which is no guard
     std::uint64_t unresolved = 0; // of those, how many missed the tolerance at the smallest length (extrapolation.h)
 };

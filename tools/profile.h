@@ -1,0 +1,21 @@
+// profile.h: the subcommands of treeprofile. Each declares its own options and works; treeprofile.cpp only chooses one
+// by the first word. A subcommand keeps its options itself, so that this header need not know them.
+#pragma once
+#include "common.h"
+
+namespace bough {
+
+struct Subcommand {
+    const char* name; // first word of the command line
+    std::function<void(CLI::App&)> declare;
+    std::function<void()> work;
+    bool has_source = true; // --no-source
+};
+
+constexpr const char* profile_name = "treeprofile";
+
+// Each may refer to the common options until the program ends.
+Subcommand profile_stages(CommonOptions&);  // profile_stages.cpp: what each stage of a run costs
+Subcommand profile_compare(CommonOptions&); // profile_compare.cpp: what became slower between two of its reports
+
+} // namespace bough

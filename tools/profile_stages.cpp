@@ -1,0 +1,130 @@
+#include "formats/report.h"
+#include "formatted.h"
+#include "profile.h"
+#include "simulation.h"
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+namespace bough {
+namespace {
+
+constexpr double seconds_default = 2;
+
+struct StagesOptions {
+    CommonOptions& common;
+    RunOptions run;
+    std::string report;
+    int repeat = 3;
+};
+
+void declare_stages(CLI::App& app, StagesOptions& o) {
+    add_run_options(app, o.run, seconds_default);
+    app.add_option("--report", o.report, "Also write the figures, as JSON or (by its ending) CSV")
+        ->option_text("FILE")
+        ->check(file_name());
+    app.add_option("--repeat", o.repeat, "Runs, of which the fastest counts (3)")
+        ->option_text("N")
+        ->check(whole_number(1, 1000));
+}
+
+// One timed run. Times are of the steps alone, from the second frame on.
+template <class T>
+Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& plan, std::int64_t frames) {
+    using Time = std::chrono::steady_clock;
+    State<T> state = make_state(plan);
+    StageClock clock;
+    advance_frame(plan, state, setting.tree, 1, o.run.substeps);
+    const auto calls_before = state.calls;
+    double total = 0;
+    for (std::int64_t f = 2; f < frames; ++f) {
+        for (int k = 0; k < o.run.substeps; ++k) {
+            const Time::time_point start = Time::now();
+            step(plan, state, &clock);
+            total += std::chrono::duration<double>(Time::now() - start).count();
+        }
+        require_finite(state, setting.tree, f);
+    }
+    Report report;
+    report.bodies = std::int64_t(plan.bodies);
+    report.frames = frames - 2;
+    report.hash = hash_text(state_hash(state));
+    const double ns = 1e9 / double(report.bodies) / double(report.frames);
+    double inside = 0;
+    const auto add = [&](const char* name, std::uint64_t calls, double seconds) {
+        report.stages.push_back({name, std::int64_t(calls), seconds, seconds * ns, total > 0 ? seconds / total : 0});
+        inside += seconds;
+    };
+    for (std::size_t k = 0; k < stage_count; ++k)
+        if (state.calls[k] > 0) add(stage_name(Stage(k)), state.calls[k] - calls_before[k], clock.seconds[k]);
+    add("other", std::uint64_t(report.frames * o.run.substeps), std::max(0.0, total - inside));
+    report.total_ns_per_body_frame = total * ns;
+    return report;
+}
+
+template <class T> Report fastest(const StagesOptions& o, const Setting& setting, std::int64_t frames) {
+    const Plan<T> plan = plan_run<T>(setting, {}, o.run);
+    Progress progress(o.common, "run", o.repeat);
+    Report best;
+    for (int k = 0; k < o.repeat; ++k) {
+        progress.at(k);
+        const Report report = measure(o, setting, plan, frames);
+        if (k > 0 && report.hash != best.hash)
+            throw PromiseError("two runs of the same gave hash " + best.hash + " and " + report.hash);
+        if (k == 0 || report.total_ns_per_body_frame < best.total_ns_per_body_frame) best = report;
+    }
+    return best;
+}
+
+std::string table(const Report& r) {
+    std::string text = "stage                 calls   ns/body/frame   share\n";
+    for (const ReportStage& s : r.stages)
+        text += formatted("%-18s %8lld   %13.2f  %5.1f%%\n", s.name.c_str(), static_cast<long long>(s.calls),
+                          s.ns_per_body_frame, 100 * s.share);
+    text += formatted("%-18s %8s   %13.2f  %5.1f%%\n\n", "total", "", r.total_ns_per_body_frame, 100.0);
+    text += "bodies " + std::to_string(r.bodies) + ", frames " + std::to_string(r.frames) +
+            " (after one of warm-up), substeps " + std::to_string(r.substeps) + "\n";
+    text += "hash " + r.hash + "\nthreads " + std::to_string(r.threads) + ", simd " + r.simd + ", " + r.solver + ", " +
+            r.precision + "\ncompiler " + r.compiler + "\nflags " + r.flags + "\n";
+    return text;
+}
+
+void work_stages(StagesOptions& o) {
+    const std::int64_t frames = frames_of(o.run, seconds_default);
+    if (frames < 3) throw UsageError("--frames: at least 3 (the start, a warm-up, and one to measure)");
+    if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");
+    const Setting setting = read_setting(o.run);
+    Report report =
+        o.run.precision == "float" ? fastest<float>(o, setting, frames) : fastest<double>(o, setting, frames);
+    report.tool = profile_name;
+    report.version = bough_version();
+    report.compiler = compiler_name();
+    report.flags = compiler_flags();
+    report.simd = simd_target();
+    report.solver = o.run.solver;
+    report.precision = o.run.precision;
+    report.threads = o.common.threads;
+    report.substeps = o.run.substeps;
+    report.source = with_command_line("", o.common);
+    Output output(o.common.output);
+    output.write(table(report));
+    if (!o.report.empty()) {
+        Output file(o.report);
+        if (std::filesystem::path(o.report).extension() == ".csv")
+            write_report_csv(file, report);
+        else
+            write_report_json(file, report);
+        file.finish();
+    }
+    output.finish();
+}
+
+} // namespace
+
+Subcommand profile_stages(CommonOptions& common) {
+    const auto o = std::make_shared<StagesOptions>(StagesOptions{common, {}, {}});
+    return {"stages", [o](CLI::App& app) { declare_stages(app, *o); }, [o] { work_stages(*o); }};
+}
+
+} // namespace bough
