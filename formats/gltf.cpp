@@ -97,17 +97,17 @@ GltfWriter::GltfWriter(Output& output, const Skin& skin, const Tree& tree, const
     if (groups.size() > 65536)
         throw std::length_error("a skin of " + std::to_string(groups.size()) +
                                 " joints, but a .glb can number 65536; merge some");
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        if (groups.parent[g] < 0) paths_.push_back({g, {}});
 }
 
 void GltfWriter::write(const MotionFrame& frame) {
     assert(frame.rotation.size() == tree_.size_bodies());
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-        rotation_[g] = frame.rotation[std::size_t(groups_.lead[g])];
-        if (groups_.parent[g] >= 0) continue;
-        const Vec3& is = frame.position[std::size_t(groups_.first[g])];
-        if (!((is - drawn_.x_w[g]).norm() <= 1e-6 * (1 + drawn_.x_w[g].norm())))
-            throw std::invalid_argument("the joint of body " + std::to_string(groups_.first[g]) +
-                                        " leaves its place, which rotations alone cannot show");
+    for (std::size_t g = 0; g < groups_.size(); ++g) rotation_[g] = frame.rotation[std::size_t(groups_.lead[g])];
+    for (RootPath& path : paths_) {
+        const Vec3 &is = frame.position[std::size_t(groups_.first[path.joint])], &drawn = drawn_.x_w[path.joint];
+        path.place.push_back(is);
+        path.leaves |= is != path.place.front() || !((is - drawn).norm() <= 1e-6 * (1 + drawn.norm()));
     }
     keys_.add(rotation_);
 }
@@ -122,7 +122,7 @@ void GltfWriter::finish() {
             "],\n\"materials\":[\n" + gltf_materials(skin_) + "],\n\"meshes\":[{\"name\":\"skin\",\"primitives\":[\n";
     json += gltf_primitives(file, skin_, groups_, origin);
     json += "]}],\n\"skins\":[" + skin_of(file, drawn_, origin) + "]";
-    const std::string animation = gltf_animation(file, keys_, options_.fps, first_joint);
+    const std::string animation = gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint);
     if (!animation.empty()) json += ",\n\"animations\":[" + animation + "]";
     file.write(output_, json);
 }

@@ -3,8 +3,8 @@
 // The scene holds two nodes: the mesh (skinned, at the root as the validator wants it) and an armature under which the
 // joints stand as the tree's groups do (merge_joints.h), `body_N` after the group's first body. The joints' own
 // transforms are the drawn pose, which is also the bind pose. A joint turns about a fixed place in its parent, so the
-// animation `motion` holds rotations only; keys as joint_keys.h chooses them, linear (slerp) between, the first frame
-// at time 0. Without frames there is no animation. A material a part of the skin: metallic 0, colours linear from sRGB,
+// animation `motion` holds rotations; keys as joint_keys.h chooses them, linear (slerp) between, the first frame at time 0.
+// Only a root leaves its place (root motion): its translation then has a key in every frame. Without frames there is no animation. A material a part of the skin: metallic 0, colours linear from sRGB,
 // leaves and petals double-sided. Where the tree lies so far from the origin that a float is coarser than 1e-6 of its size
 // the armature stands at the tree's first joint and the mesh is relative to it.
 //
@@ -30,11 +30,18 @@ struct GltfOptions {
     std::string source;       // of asset.extras.source, left out when empty
 };
 
+// Where a root's joint is, frame after frame.
+struct RootPath {
+    std::size_t joint;
+    std::vector<Vec3> place; // [m] world
+    bool leaves = false;     // its first place at all, or the drawn one by more than 1e-6 of its distance
+};
+
 class GltfWriter {
 public:
     // Keeps references to all but the options.
     GltfWriter(Output&, const Skin&, const Tree&, const JointGroups&, const GltfOptions&);
-    // The next frame (its pose). Roots stay where they are drawn: std::invalid_argument where one does not.
+    // The next frame (its pose).
     void write(const MotionFrame&);
     // All of the file. Once; the caller finishes the Output.
     void finish();
@@ -49,6 +56,7 @@ private:
     GroupFrames drawn_;
     JointKeys keys_;
     std::vector<Quat> rotation_;
+    std::vector<RootPath> paths_; // of the roots, in order
 };
 
 } // namespace bough

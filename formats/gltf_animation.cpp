@@ -65,29 +65,61 @@ void write_rotations(GltfBytes& to, const JointKeys& keys) {
     }
 }
 
+// Times of all frames, for the roots that leave their places.
+int add_all_times(GltfFile& file, std::size_t frames, double fps) {
+    const int view = file.add_view(4 * frames, GltfTarget::none, 0, [frames, fps](GltfBytes& to) {
+        for (std::size_t f = 0; f < frames; ++f) to.add(time_of(f, fps));
+    });
+    std::string bounds = ",\"min\":[0],\"max\":[";
+    append_number(bounds, double(time_of(frames - 1, fps)));
+    return file.add_accessor(view, 0, GltfType::f32, frames, "SCALAR", bounds + "]");
+}
+
+int add_places(GltfFile& file, const RootPath& path, const Vec3& origin) {
+    const int view = file.add_view(12 * path.place.size(), GltfTarget::none, 0, [&path, origin](GltfBytes& to) {
+        for (const Vec3& p : path.place)
+            to.add_all(float(p.x() - origin.x()), float(p.y() - origin.y()), float(p.z() - origin.z()));
+    });
+    return file.add_accessor(view, 0, GltfType::f32, path.place.size(), "VEC3");
+}
+
+// Samplers and channels as they are added.
+struct Channels {
+    std::string samplers, channels;
+    int count = 0;
+    void add(int input, int output, int node, const char* path) {
+        const char* const separator = count == 0 ? "" : ",\n";
+        samplers += separator + ("{\"input\":" + std::to_string(input)) + ",\"output\":" + std::to_string(output) + "}";
+        channels += separator + ("{\"sampler\":" + std::to_string(count)) +
+                    ",\"target\":{\"node\":" + std::to_string(node) + ",\"path\":\"" + path + "\"}}";
+        ++count;
+    }
+};
+
 } // namespace
 
-std::string gltf_animation(GltfFile& file, const JointKeys& keys, double fps, int first_node) {
+std::string gltf_animation(GltfFile& file, const JointKeys& keys, const std::vector<RootPath>& paths,
+                           const Vec3& origin, double fps, int first_node) {
     if (keys.frames() == 0) return "";
     const KeyTimes times = add_times(file, keys, fps);
     const int view =
         file.add_view(16 * keys.count(), GltfTarget::none, 0, [&keys](GltfBytes& to) { write_rotations(to, keys); });
-    std::string channels, samplers;
+    Channels motion;
     std::uint64_t offset = 0;
-    int sampler = 0;
     for (std::size_t j = 0; j < keys.joints(); ++j) {
         const std::size_t count = keys.count(j);
         if (count == 0) continue;
         const int output = file.add_accessor(view, offset, GltfType::f32, count, "VEC4");
         offset += 16 * count;
-        const char* const separator = sampler == 0 ? "" : ",\n";
-        samplers += separator + ("{\"input\":" + std::to_string(times.accessor[times.kind.at(keys.key_bits(j))])) +
-                    ",\"output\":" + std::to_string(output) + "}";
-        channels += separator + ("{\"sampler\":" + std::to_string(sampler)) +
-                    ",\"target\":{\"node\":" + std::to_string(first_node + int(j)) + ",\"path\":\"rotation\"}}";
-        ++sampler;
+        motion.add(times.accessor[times.kind.at(keys.key_bits(j))], output, first_node + int(j), "rotation");
     }
-    return "{\"name\":\"motion\",\"channels\":[\n" + channels + "],\n\"samplers\":[\n" + samplers + "]}";
+    int all_times = -1;
+    for (const RootPath& path : paths) {
+        if (!path.leaves) continue;
+        if (all_times < 0) all_times = add_all_times(file, keys.frames(), fps);
+        motion.add(all_times, add_places(file, path, origin), first_node + int(path.joint), "translation");
+    }
+    return "{\"name\":\"motion\",\"channels\":[\n" + motion.channels + "],\n\"samplers\":[\n" + motion.samplers + "]}";
 }
 
 } // namespace bough

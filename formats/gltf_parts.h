@@ -61,6 +61,8 @@ std::string gltf_primitives(GltfFile&, const Skin&, const JointGroups&, const Ve
 std::string gltf_materials(const Skin&);
 
 // ---- gltf_animation.cpp ---- the JSON of "animations", "" where there are no frames; joint j is node first_node + j.
-std::string gltf_animation(GltfFile&, const JointKeys&, double fps, int first_node);
+// Places are written less `origin`.
+std::string gltf_animation(GltfFile&, const JointKeys&, const std::vector<RootPath>&, const Vec3& origin, double fps,
+                           int first_node);
 
 } // namespace bough

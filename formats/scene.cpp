@@ -114,6 +114,23 @@ Pull read_pull(const json& value, const std::string& name, const std::string& at
     return pull;
 }
 
+RootMotion read_root_motion(const json& value, const std::string& name, const std::string& at) {
+    RootMotion motion;
+    ObjectReader object(value, name, at);
+    object.read("tree", motion.tree);
+    object.need("time");
+    object.read("time", motion.time);
+    object.read("position", motion.position);
+    object.read("rotation", motion.rotation);
+    object.finish();
+    // A list that is there but empty is one key short for each time, not a list left out.
+    for (const auto& [key, empty] :
+         {std::pair{"position", motion.position.empty()}, {"rotation", motion.rotation.empty()}})
+        if (empty && object.has(key))
+            object.fail(key, "has 0 keys, expected " + std::to_string(motion.time.size()) + " (one for each time)");
+    return motion;
+}
+
 ordered_json numbers(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
@@ -142,6 +159,13 @@ ordered_json value_of(const Selector& on) {
     return {{"level", on.level}};
 }
 
+ordered_json value_of(const RootMotion& motion) {
+    ordered_json fields{{"tree", motion.tree}, {"time", motion.time}};
+    for (const Vec3& p : motion.position) fields["position"].push_back(numbers(p));
+    for (const Quat& q : motion.rotation) fields["rotation"].push_back(ordered_json{q.x(), q.y(), q.z(), q.w()});
+    return fields;
+}
+
 ordered_json value_of(const Scene& scene) {
     ordered_json fields{{"format", scene_type.format}, {"version", scene_type.version}};
     fields["trees"] = ordered_json::array();
@@ -156,6 +180,8 @@ ordered_json value_of(const Scene& scene) {
         for (const Vec3& f : pull.force) force.push_back(numbers(f));
         fields["pulls"].push_back({{"on", value_of(pull.on)}, {"time", pull.time}, {"force", force}});
     }
+    fields["root_motion"] = ordered_json::array();
+    for (const RootMotion& motion : scene.root_motion) fields["root_motion"].push_back(value_of(motion));
     fields["pose"] = poses[std::size_t(scene.pose)];
     fields["joint_inertia"] = inertias[std::size_t(scene.joint_inertia)];
     fields["stiffness_scale"] = scene.stiffness_scale;
@@ -185,6 +211,9 @@ Scene read_scene(std::string_view content, const std::string& name) {
     object.read("air_density", scene.air_density);
     for (const json& value : object.list("pulls"))
         scene.pulls.push_back(read_pull(value, name, "/pulls/" + std::to_string(scene.pulls.size())));
+    for (const json& value : object.list("root_motion"))
+        scene.root_motion.push_back(
+            read_root_motion(value, name, "/root_motion/" + std::to_string(scene.root_motion.size())));
     scene.pose = Pose(object.word("pose", poses, std::size_t(scene.pose)));
     scene.joint_inertia = JointInertia(object.word("joint_inertia", inertias, std::size_t(scene.joint_inertia)));
     object.read("stiffness_scale", scene.stiffness_scale);
@@ -222,7 +251,7 @@ void write_scene(Output& output, const Scene& scene, Form form) {
     std::string text = "{";
     for (const auto& [key, value] : fields.items()) {
         text += (text.size() > 1 ? ",\n" : "\n") + text_of(key) + ": ";
-        if (key == "trees" || key == "pulls") { // one a line
+        if (key == "trees" || key == "pulls" || key == "root_motion") { // one a line
             text += "[";
             for (const ordered_json& entry : value)
                 text += (&entry == &value.front() ? "\n  " : ",\n  ") + text_of(entry);

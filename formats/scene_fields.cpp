@@ -103,26 +103,50 @@ void ObjectReader::read(const std::string& key, std::vector<double>& to) {
     to = std::move(numbers);
 }
 
-void ObjectReader::read(const std::string& key, std::vector<Vec3>& to) {
+bool ObjectReader::read_rows(const std::string& key, const std::vector<std::string>& parts,
+                             std::vector<double>& numbers) {
     const json* value = find(key);
-    if (!value) return;
-    if (!value->is_array()) fail(key, "is " + described(*value) + ", expected an array of [x, y, z]");
-    to.clear();
+    if (!value) return false;
+    std::string names;
+    for (const std::string& part : parts) names += (names.empty() ? "" : ", ") + part;
+    const std::string width = std::to_string(parts.size());
+    if (!value->is_array()) fail(key, "is " + described(*value) + ", expected an array of [" + names + "]");
+    numbers.clear();
     if (!value->empty() && value->front().is_array()) {
+        std::size_t row = 0;
         for (const json& entry : *value) {
-            // Each triple as a field of its own, so that its errors have its place.
-            const json part{{std::to_string(to.size()), entry}};
-            Vec3 triple = Vec3::Zero();
-            ObjectReader(part, name_, at(key)).read(std::to_string(to.size()), triple);
-            to.push_back(triple);
+            // Each row as a field of its own, so that its errors have its place.
+            const std::string place = std::to_string(row++);
+            const json part{{place, entry}};
+            std::vector<double> found;
+            ObjectReader reader(part, name_, at(key));
+            reader.read(place, found);
+            if (found.size() != parts.size())
+                reader.fail(place,
+                            "has " + std::to_string(found.size()) + " numbers, expected " + width + " (" + names + ")");
+            numbers.insert(numbers.end(), found.begin(), found.end());
         }
-        return;
+        return true;
     }
-    std::vector<double> numbers;
     read(key, numbers);
-    if (numbers.size() % 3 != 0)
-        fail(key, "has " + std::to_string(numbers.size()) + " numbers, expected a multiple of 3 (x, y, z)");
-    for (std::size_t i = 0; i < numbers.size(); i += 3) to.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    if (numbers.size() % parts.size() != 0)
+        fail(key, "has " + std::to_string(numbers.size()) + " numbers, expected a multiple of " + width + " (" + names +
+                      ")");
+    return true;
+}
+
+void ObjectReader::read(const std::string& key, std::vector<Vec3>& to) {
+    std::vector<double> n;
+    if (!read_rows(key, {"x", "y", "z"}, n)) return;
+    to.clear();
+    for (std::size_t i = 0; i < n.size(); i += 3) to.emplace_back(n[i], n[i + 1], n[i + 2]);
+}
+
+void ObjectReader::read(const std::string& key, std::vector<Quat>& to) {
+    std::vector<double> n;
+    if (!read_rows(key, {"x", "y", "z", "w"}, n)) return;
+    to.clear();
+    for (std::size_t i = 0; i < n.size(); i += 4) to.emplace_back(n[i + 3], n[i], n[i + 1], n[i + 2]);
 }
 
 std::size_t ObjectReader::word(const std::string& key, const std::vector<std::string>& words, std::size_t fallback) {

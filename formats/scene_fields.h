@@ -22,6 +22,7 @@ public:
     void read(const std::string& key, Vec3&); // [x, y, z]
     void read(const std::string& key, std::vector<double>&);
     void read(const std::string& key, std::vector<Vec3>&); // [[x, y, z], ...] or flat
+    void read(const std::string& key, std::vector<Quat>&); // [[x, y, z, w], ...] or flat
     // One of the words, its place in the list.
     std::size_t word(const std::string& key, const std::vector<std::string>& words, std::size_t fallback);
 
@@ -34,6 +35,8 @@ public:
 private:
     const nlohmann::json* find(const std::string& key);
     double real(const nlohmann::json& value, const std::string& key) const;
+    // The numbers of rows that are `parts.size()` long each, nested or flat; false if the field is not there.
+    bool read_rows(const std::string& key, const std::vector<std::string>& parts, std::vector<double>&);
 
     const nlohmann::json& value_;
     std::string name_, at_;

@@ -111,8 +111,16 @@ inline std::vector<Matrix4d> node_matrices(const Glb& glb, double time) {
     if (time >= 0) {
         const Json& animation = glb.json["animations"][0];
         for (const Json& channel : animation["channels"]) {
-            REQUIRE(channel["target"]["path"] == "rotation");
             const Json& sampler = animation["samplers"][std::size_t(channel["sampler"])];
+            if (channel["target"]["path"] == "translation") { // at a frame: the nearest key
+                const std::vector<double> times = numbers(glb, sampler["input"]), at = numbers(glb, sampler["output"]);
+                REQUIRE(at.size() == 3 * times.size());
+                std::size_t key = 0;
+                while (key + 1 < times.size() && std::abs(times[key + 1] - time) < std::abs(times[key] - time)) ++key;
+                place[std::size_t(channel["target"]["node"])] = Vector3d(at[3 * key], at[3 * key + 1], at[3 * key + 2]);
+                continue;
+            }
+            REQUIRE(channel["target"]["path"] == "rotation");
             turn[std::size_t(channel["target"]["node"])] =
                 sample(numbers(glb, sampler["input"]), numbers(glb, sampler["output"]), time);
         }

@@ -152,6 +152,18 @@ inline Splines random_splines(std::size_t branches, Random& random) {
     return s;
 }
 
+inline RootMotion random_root_motion(std::int32_t tree, std::size_t keys, bool position, bool rotation,
+                                     Random& random) {
+    RootMotion m;
+    m.tree = tree;
+    for (std::size_t k = 0; k < keys; ++k) {
+        m.time.push_back(random.fraction() + double(k));
+        if (position) m.position.push_back(random.vector());
+        if (rotation) m.rotation.push_back(random.rotation());
+    }
+    return m;
+}
+
 inline Motion random_motion(const MotionFields& fields, std::int64_t bodies, std::int64_t frames, Random& random) {
     Motion motion;
     motion.header.bodies = bodies;
@@ -221,6 +233,10 @@ inline bool same(const Splines& a, const Splines& b) {
            same(a.fruit_position, b.fruit_position) && same(a.fruit_center, b.fruit_center) &&
            same(a.fruit_radius, b.fruit_radius) && same(a.leaf_kind, b.leaf_kind) && same(a.color, b.color) &&
            a.material == b.material && a.name == b.name && a.source == b.source;
+}
+
+inline bool same(const RootMotion& a, const RootMotion& b) {
+    return a.tree == b.tree && same(a.time, b.time) && same(a.position, b.position) && same(a.rotation, b.rotation);
 }
 
 inline bool same(const MotionFrame& a, const MotionFrame& b) {

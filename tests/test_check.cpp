@@ -114,9 +114,27 @@ TEST_CASE("each rule of a scene") {
     good.pulls.resize(1);
     good.pulls[0].time = {0, 1};
     good.pulls[0].force.resize(2, Vec3::Zero());
+    good.trees = {{"a", Vec3::Zero(), 0}, {"b", Vec3::Zero(), 0}};
+    good.root_motion.resize(2);
+    good.root_motion[0] = {1, {0, 1}, {Vec3::Zero(), Vec3::Zero()}, {}};
+    good.root_motion[1] = {0, {0, 1}, {}, {Quat::Identity(), Quat(-1, 0, 0, 0)}};
     CHECK(place(good) == "");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[1].tree = 1; }) == "root_motion/1/tree");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[1].tree = 2; }) == "root_motion/1/tree");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[1].tree = -1; }) == "root_motion/1/tree");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[0].time = {0}; }) == "root_motion/0/time");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[0].time = {0, 0}; }) == "root_motion/0/time/1");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[0].time[1] = not_a_number; }) == "root_motion/0/time/1");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[0].position.clear(); }) == "root_motion/0");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[0].position.pop_back(); }) == "root_motion/0/position");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[0].position[1].x() = not_a_number; }) ==
+          "root_motion/0/position/1");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[1].rotation.pop_back(); }) == "root_motion/1/rotation");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[1].rotation[1].w() = 0.99; }) == "root_motion/1/rotation/1");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[1].rotation[1].x() = not_a_number; }) ==
+          "root_motion/1/rotation/1");
     CHECK(broken(good, [](Scene& s) { s.gravity.x() = not_a_number; }) == "gravity");
-    CHECK(broken(good, [](Scene& s) { s.trees.resize(1); }) == "trees/0/file");
+    CHECK(broken(good, [](Scene& s) { s.trees[0].file.clear(); }) == "trees/0/file");
     CHECK(broken(good, [](Scene& s) { s.wind->velocity.x() = not_a_number; }) == "wind/velocity");
     CHECK(broken(good, [](Scene& s) { s.wind->reference_height = 0; }) == "wind/reference_height");
     CHECK(broken(good, [](Scene& s) { s.wind->gust_factor = 0.9; }) == "wind/gust_factor");
@@ -124,7 +142,7 @@ TEST_CASE("each rule of a scene") {
     CHECK(broken(good, [](Scene& s) { s.pulls[0].time = {1, 1}; }) == "pulls/0/time/1");
     CHECK(broken(good, [](Scene& s) { s.pulls[0].time = {1}; }) == "pulls/0/force");
     CHECK(broken(good, [](Scene& s) { s.pulls[0].force[1].y() = not_a_number; }) == "pulls/0/force/1");
-    CHECK(broken(good, [](Scene& s) { s.pulls[0].on.tree = 1; }) == "pulls/0/on/tree");
+    CHECK(broken(good, [](Scene& s) { s.pulls[0].on.tree = 2; }) == "pulls/0/on/tree");
     CHECK(broken(good, [](Scene& s) { s.stiffness_scale = -1; }) == "stiffness_scale");
 }
 

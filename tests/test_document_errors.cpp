@@ -231,6 +231,38 @@ TEST_CASE("scenes name the nested place") {
     CHECK(pull("{\"body\": 3}", "\"time\": [0]") == "s: /pulls/0/force: is missing");
 }
 
+TEST_CASE("root motion names the nested place") {
+    const auto moved = [](const std::string& fields) { return scene_error("\"root_motion\": [{" + fields + "}]"); };
+    const std::string time = "\"time\": [0, 1], ";
+    CHECK(moved(time + "\"position\": [[0, 0, 0], [1, 0, 0]]") == "");
+    CHECK(moved(time + "\"position\": [0, 0, 0, 1, 0, 0], \"rotation\": [0, 0, 0, 1, 0, 1, 0, 0]") == "");
+    CHECK(moved(time + "\"rotation\": [[0, 0, 0, 1], [0, 1, 0, 0]]") == "");
+    CHECK(moved("\"position\": [[0, 0, 0], [1, 0, 0]]") == "s: /root_motion/0/time: is missing");
+    CHECK(moved("\"time\": [0], \"position\": [[0, 0, 0]]") ==
+          "s: /root_motion/0/time: has 1 times, expected at least 2");
+    CHECK(moved("\"time\": [0, -1], \"position\": [[0, 0, 0], [1, 0, 0]]") ==
+          "s: /root_motion/0/time/1: is -1, expected more than 0 (times rise)");
+    CHECK(moved("\"time\": [0, 1]") == "s: /root_motion/0: moves nothing, expected position or rotation");
+    CHECK(moved(time + "\"position\": []") == "s: /root_motion/0/position: has 0 keys, expected 2 (one for each time)");
+    CHECK(moved(time + "\"position\": [[0, 0, 0]]") ==
+          "s: /root_motion/0/position: has 1 keys, expected 2 (one for each time)");
+    CHECK(moved(time + "\"position\": [[0, 0, 0], [1, 0]]") ==
+          "s: /root_motion/0/position/1: has 2 numbers, expected 3 (x, y, z)");
+    CHECK(moved(time + "\"rotation\": [[0, 0, 0, 1], [1, 0, 0]]") ==
+          "s: /root_motion/0/rotation/1: has 3 numbers, expected 4 (x, y, z, w)");
+    CHECK(moved(time + "\"rotation\": [[0, 0, 0, 1], [1, 0, \"x\", 0]]") ==
+          "s: /root_motion/0/rotation/1/2: is \"x\", expected a number");
+    CHECK(moved(time + "\"rotation\": [[0, 0, 0, 1], [1, 0, 0, 1]]") ==
+          "s: /root_motion/0/rotation/1: has length 1.4142135623730951, expected a unit quaternion");
+    CHECK(moved(time + "\"rotation\": [0, 0, 0, 1, 0, 0, 0]") ==
+          "s: /root_motion/0/rotation: has 7 numbers, expected a multiple of 4 (x, y, z, w)");
+    CHECK(moved(time + "\"tree\": 1, \"position\": [[0, 0, 0], [1, 0, 0]]") ==
+          "s: /root_motion/0/tree: is 1, expected a tree of the scene, 0 to less than 1");
+    const std::string good = time + "\"position\": [[0, 0, 0], [1, 0, 0]]";
+    CHECK(moved(good + "}, {" + good) == "s: /root_motion/1/tree: is 0, which /root_motion/0 moves already");
+    CHECK_THAT(moved(good + ", \"rotations\": []"), StartsWith("s: /root_motion/0/rotations: is an unknown field"));
+}
+
 TEST_CASE("a wind document has its own places") {
     const auto wrong = [](const std::string& fields) {
         return error_of([&] { read_wind(R"({"format": "bough-wind", "version": 1, )" + fields + "}", "w"); });
@@ -314,6 +346,7 @@ TEST_CASE("cut or with any byte changed, a document is read as it stands or refu
     scene.pulls.resize(1);
     scene.pulls[0].time = {0};
     scene.pulls[0].force = {{1, 2, 3}};
+    scene.root_motion = {random_root_motion(0, 2, true, true, random)};
     const Splines splines = random_splines(2, random);
     const Motion motion = random_motion({true, true, true, true}, 1, 2, random);
     SavedState state;

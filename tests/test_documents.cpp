@@ -144,6 +144,10 @@ TEST_CASE("scenes come back from both forms") {
     pull.on = {};
     pull.on.body = 57;
     scene.pulls.push_back(pull);
+    Random random;
+    scene.root_motion.resize(2);
+    scene.root_motion[0] = random_root_motion(1, 5, true, true, random);
+    scene.root_motion[1] = random_root_motion(0, 2, false, true, random);
 
     for (const Form form : {Form::json, Form::safetensors}) {
         const std::string text = scene_text(scene, form);
@@ -181,6 +185,8 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(read.pulls[2].on.level == 2);
         CHECK(read.pulls[3].on.by == Selector::By::body);
         CHECK(read.pulls[3].on.body == 57);
+        REQUIRE(read.root_motion.size() == 2);
+        for (std::size_t k = 0; k < 2; ++k) CHECK(same(read.root_motion[k], scene.root_motion[k]));
     }
 }
 
@@ -189,6 +195,7 @@ TEST_CASE("a scene of two lines has the defaults") {
     CHECK(read.trees.empty());
     CHECK_FALSE(read.wind);
     CHECK(read.pulls.empty());
+    CHECK(read.root_motion.empty());
     CHECK(read.gravity == defaults.gravity);
     CHECK(read.pose == Pose::drawn);
 
@@ -280,5 +287,5 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 8);
+    CHECK(examples == 9);
 }

@@ -343,16 +343,50 @@ TEST_CASE("far from the origin the mesh keeps its digits") {
     }
 }
 
-TEST_CASE("a root that leaves its place is refused, and more joints than a file can number") {
-    const Tree tree = branched();
-    const Skin skin = build_skin(tree, {});
-    const JointGroups groups = merge_joints(tree, 100);
+TEST_CASE("roots that leave their places are moved in every frame, the others not at all") {
+    const Tree one = branched();
+    Tree tree = make_tree::forest({one, one});
+    const Vec3 away = GENERATE(Vec3(0, 0, 0), Vec3(5e6, 0, 0));
+    const std::size_t second = one.size_bodies();
+    tree.joint_position[0] += away;
+    tree.joint_position[second] += away;
+    Written w{tree, build_skin(tree, {}), merge_joints(tree, 100), {}};
     const File file;
     Output output(file.path);
-    GltfWriter writer(output, skin, tree, groups, {});
-    MotionFrame frame = as_frame(swinging(tree, 0), 0);
-    frame.position[0].x() += 0.01;
-    CHECK_THROWS_AS(writer.write(frame), std::invalid_argument);
+    GltfOptions options;
+    options.fps = fps;
+    GltfWriter writer(output, w.skin, w.tree, w.groups, options);
+    std::vector<Pose> poses;
+    for (std::size_t f = 0; f < 5; ++f) {
+        poses.push_back(swinging(tree, f));
+        for (std::size_t i = second; i < tree.size_bodies(); ++i)
+            poses.back().x_w[i] += Vec3(0.3 * double(f), 1 - 0.1 * double(f), 0);
+        writer.write(as_frame(poses.back(), f));
+    }
+    writer.finish();
+    output.finish();
+    w.glb = gltf_reader::parse(read_input(file.path));
+    std::size_t translations = 0;
+    for (const auto& channel : w.glb.json["animations"][0]["channels"]) {
+        if (channel["target"]["path"] != "translation") continue;
+        ++translations;
+        const std::size_t node = channel["target"]["node"];
+        CHECK(w.glb.json["nodes"][node]["name"] == "body_" + std::to_string(second));
+    }
+    CHECK(translations == 1);
+    // What floats of 5000 km cannot say is compared in the armature's frame.
+    if (w.glb.json["nodes"][1].contains("translation")) w.glb.json["nodes"][1].erase("translation");
+    for (std::size_t f = 0; f < 5; ++f) {
+        std::vector<Vec3> wanted = deformed(w, poses[f]);
+        for (Vec3& p : wanted) p -= away;
+        CHECK(farthest(gltf_reader::skinned(w.glb, double(f) / fps), wanted) < 1e-5 * w.height());
+    }
+}
+
+TEST_CASE("more joints than a file can number are refused") {
+    const Skin skin = build_skin(branched(), {});
+    const File file;
+    Output output(file.path);
     const Tree long_chain = make_tree::chain(65537, 100, 0.1, 0.1);
     const JointGroups many = merge_joints(long_chain, 100000);
     CHECK_THROWS_AS(GltfWriter(output, skin, long_chain, many, {}), std::length_error);

@@ -87,6 +87,16 @@ std::vector<Case> cases() {
     Scene pulled;
     pulled.pulls.push_back({Selector{}, {0, 1}, {Vec3(1, 0, 0), Vec3(2, 0, 0)}});
     all.push_back({"pulls only", pulled, {}, {"external_forces"}, forces});
+    Scene moved;
+    moved.root_motion.push_back({0, {0, 1}, {Vec3::Zero(), Vec3(1, 0, 0)}, {}});
+    all.push_back({"root motion", moved, {}, {"root_motion"}, {}});
+    moved.gravity.setZero();
+    moved.wind = Wind{};
+    all.push_back({"root motion in still air, no gravity",
+                   moved,
+                   {},
+                   {"root_motion", "wind_field", "external_forces", "drag"},
+                   blown});
     all.push_back({"velocity wished", Scene{}, {true, false}, {}, velocities});
     all.push_back({"torque wished", Scene{}, {false, true}, {}, {"torque_j"}});
     windy.pulls = pulled.pulls;
@@ -139,6 +149,8 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
         CHECK(on == arrays);
         CHECK(plan.arrays.size() == held.size());
         CHECK(state.bytes() == sum);
+        CHECK(state.ground.size() == c.scene.root_motion.size());
+        CHECK(state.root_load.capacity() == c.scene.root_motion.size());
         CHECK(state.wind.velocity.empty() != c.scene.wind.has_value());
     }
 }

@@ -109,12 +109,23 @@ struct Fingerprint {
         for (const double t : pull.time) add(t);
         for (const Vec3& f : pull.force) add(f);
     }
+    void add(const RootMotion& motion) {
+        for (const std::int64_t value : {std::int64_t(motion.tree), std::int64_t(motion.time.size()),
+                                         std::int64_t(motion.position.size()), std::int64_t(motion.rotation.size())})
+            add(std::uint64_t(value));
+        for (const double t : motion.time) add(t);
+        for (const Vec3& p : motion.position) add(p);
+        for (const Quat& q : motion.rotation)
+            for (int k = 0; k < 4; ++k) add(q.coeffs()[k]);
+    }
     void add(const Scene& s) {
         add(s.gravity);
         add(std::uint64_t(s.wind.has_value()));
         if (s.wind) add(*s.wind);
         add(std::uint64_t(s.pulls.size()));
         for (const Pull& pull : s.pulls) add(pull);
+        add(std::uint64_t(s.root_motion.size()));
+        for (const RootMotion& motion : s.root_motion) add(motion);
         for (const double value : {s.air_density, s.stiffness_scale, s.damping_scale}) add(value);
         add(std::uint64_t(s.pose));
         add(std::uint64_t(s.joint_inertia));

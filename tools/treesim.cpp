@@ -2,6 +2,7 @@
 #include "formats/motion.h"
 #include "formats/obj.h"
 #include "frame_sink.h"
+#include "lib/stages/root_term.h"
 #include "lib/stages/spring.h"
 #include "lib/stages/state_update.h"
 #include "simulation.h"
@@ -143,6 +144,7 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
         state.scaled_rate[i] = saved.scaled_rate[i].template cast<T>();
     }
     state.step = saved.frame * o.run.substeps;
+    move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
 }
@@ -191,6 +193,8 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
     if (flags.half_turns > 0)
         notes.push_back(std::to_string(flags.half_turns) +
                         " times a joint turned past half a turn: the small angles that the method assumes are left");
+    if (flags.fast_turns > 0)
+        notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
     if (flags.unresolved > 0)
         notes.push_back(std::to_string(flags.unresolved) + " of " + std::to_string(flags.inner_steps) +
                         " inner steps missed the tolerance: this is no reference solution");

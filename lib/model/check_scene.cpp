@@ -88,6 +88,52 @@ std::optional<Defect> check(const Pull& pull, const std::string& at, std::size_t
     return std::nullopt;
 }
 
+std::optional<Defect> check_keys(const std::vector<double>& time, const std::string& at) {
+    if (time.size() < 2) return Defect{at, -1, "has " + std::to_string(time.size()) + " times, expected at least 2"};
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        if (!std::isfinite(time[i])) return Defect{at, std::int64_t(i), "is not finite, expected seconds"};
+        if (i > 0 && !(time[i] > time[i - 1]))
+            return Defect{at, std::int64_t(i),
+                          "is " + text(time[i]) + ", expected more than " + text(time[i - 1]) + " (times rise)"};
+    }
+    return std::nullopt;
+}
+
+// `which`: the entry's place in the list; an earlier one may have its tree already.
+std::optional<Defect> check(const std::vector<RootMotion>& motions, std::size_t which, std::size_t trees) {
+    const RootMotion& motion = motions[which];
+    const std::string at = "root_motion/" + std::to_string(which);
+    const std::size_t count = trees == 0 ? 1 : trees;
+    if (motion.tree < 0 || std::size_t(motion.tree) >= count)
+        return Defect{at + "/tree", -1,
+                      "is " + std::to_string(motion.tree) + ", expected a tree of the scene, 0 to less than " +
+                          std::to_string(count)};
+    for (std::size_t i = 0; i < which; ++i)
+        if (motions[i].tree == motion.tree)
+            return Defect{at + "/tree", -1,
+                          "is " + std::to_string(motion.tree) + ", which /root_motion/" + std::to_string(i) +
+                              " moves already"};
+    if (auto defect = check_keys(motion.time, at + "/time")) return defect;
+    if (motion.position.empty() && motion.rotation.empty())
+        return Defect{at, -1, "moves nothing, expected position or rotation"};
+    const auto count_defect = [&](const char* field, std::size_t found) -> std::optional<Defect> {
+        if (found == 0 || found == motion.time.size()) return std::nullopt;
+        return Defect{at + "/" + field, -1,
+                      "has " + std::to_string(found) + " keys, expected " + std::to_string(motion.time.size()) +
+                          " (one for each time)"};
+    };
+    if (auto defect = count_defect("position", motion.position.size())) return defect;
+    if (auto defect = count_defect("rotation", motion.rotation.size())) return defect;
+    for (std::size_t i = 0; i < motion.position.size(); ++i)
+        if (!motion.position[i].allFinite())
+            return Defect{at + "/position", std::int64_t(i), "is not finite, expected metres"};
+    for (std::size_t i = 0; i < motion.rotation.size(); ++i)
+        if (!(std::abs(motion.rotation[i].norm() - 1) <= 1e-6))
+            return Defect{at + "/rotation", std::int64_t(i),
+                          "has length " + text(motion.rotation[i].norm()) + ", expected a unit quaternion"};
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<Defect> check(const Scene& scene) {
@@ -99,6 +145,8 @@ std::optional<Defect> check(const Scene& scene) {
     if (auto defect = at_least("air_density", scene.air_density, 0)) return defect;
     for (std::size_t i = 0; i < scene.pulls.size(); ++i)
         if (auto defect = check(scene.pulls[i], "pulls/" + std::to_string(i), scene.trees.size())) return defect;
+    for (std::size_t i = 0; i < scene.root_motion.size(); ++i)
+        if (auto defect = check(scene.root_motion, i, scene.trees.size())) return defect;
     if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
     return at_least("damping_scale", scene.damping_scale, 0);
 }

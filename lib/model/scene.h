@@ -64,6 +64,15 @@ struct Pull {
     std::vector<Vec3> force;  // [N] world, one per time
 };
 
+// Moves a tree as a whole, the ground under it and all, by a smooth curve through keys (root_motion.h). At least two keys;
+// position or rotation may be left empty, not both.
+struct RootMotion {
+    std::int32_t tree = 0;      // which of the scene's trees
+    std::vector<double> time;   // [s] rising
+    std::vector<Vec3> position; // [m] displacement from where the tree stands, one per time
+    std::vector<Quat> rotation; // about the tree's own place (its Placement's position), one per time; unit length
+};
+
 enum class Pose : std::uint8_t {
     drawn,   // the drawn tree is the equilibrium under gravity
     settled, // the drawn tree is unloaded; the run starts at its sag
@@ -82,6 +91,7 @@ struct Scene {
     std::optional<Wind> wind;
     double air_density = 1.2; // [kg/m^3]
     std::vector<Pull> pulls;
+    std::vector<RootMotion> root_motion; // at most one for a tree
     Pose pose = Pose::drawn;
     JointInertia joint_inertia = JointInertia::branch;
     double stiffness_scale = 1; // [1] multiplies every K

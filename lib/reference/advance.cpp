@@ -1,4 +1,5 @@
 #include "advance.h"
+#include "../stages/root_term.h"
 #include "../stages/spring.h"
 #include "../stages/state_update.h"
 #include "articulated_step.h"
@@ -20,6 +21,8 @@ void articulated_euler(const Plan<double>& plan, State<double>& state, double ti
         explicit_euler(plan, pass, time, plan.dt);
     else
         implicit_euler(plan, pass, time, plan.dt);
+    state.flags.fast_turns += pass.fast;
+    pass.fast = 0;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         state.theta[i] = pass.body[i].theta;
         state.scaled_rate[i] = pass.body[i].rate;
@@ -51,7 +54,10 @@ template <class T> void advance(const Plan<T>& plan, State<T>& state, StageClock
             if (clock) clock->seconds[std::size_t(stage)] += std::chrono::duration<double>(Time::now() - start).count();
         };
         timed(Stage::articulated, [&] { articulated(plan, state); });
-        timed(Stage::state_update, [&] { state_update(plan, state); });
+        timed(Stage::state_update, [&] {
+            move_ground(plan, state, double(state.step + 1) * plan.dt);
+            state_update(plan, state);
+        });
         if (plan.torque) spring_torque(plan, state);
         ++state.step;
     } else {

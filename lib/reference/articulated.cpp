@@ -13,24 +13,52 @@ Mat3 cross_left(const Vec3& r, const Mat3& X) {
     return m;
 }
 
-// Kinematics and biases from the parent (the ground where there is none).
-void place(const Plan<double>& plan, const ArticulatedBody* parent, ArticulatedBody& b, std::size_t i) {
-    const Mat3 turn = rotation_from_vector(b.theta);
-    if (!parent) {
-        b.R_wb = plan.R_pj[i] * turn;
-        b.x_w = b.r_w = plan.joint_position[i];
-        b.omega_w = b.R_wb * b.rate;
-        b.v_w = b.alpha_bias = b.a_bias = Vec3::Zero();
-        return;
+// Angular velocity as the terms quadratic in it take it: at most a radian a step.
+Vec3 bounded(const Vec3& omega, double h, std::uint64_t& count) {
+    const double turn = h * omega.norm();
+    if (!(turn > 1)) return omega;
+    ++count;
+    return omega / turn;
+}
+
+// The ground as a body without mass, about the world's origin carried along.
+ArticulatedBody ground_body(const Plan<double>& plan, const ArticulatedPass& pass, std::size_t i) {
+    ArticulatedBody b;
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
+    const Ground ground = spline < 0 ? Ground() : pass.ground[std::size_t(spline)];
+    b.R_wb = ground.R;
+    b.x_w = ground.x;
+    b.omega_w = ground.omega;
+    b.v_w = ground.v;
+    b.alpha_bias = ground.alpha;
+    b.a_bias = ground.a;
+    return b;
+}
+
+// Ground at the start of a step, with its mean acceleration over it.
+void move_ground(const Plan<double>& plan, ArticulatedPass& pass, double time, double h) {
+    for (std::size_t k = 0; k < plan.splines.size(); ++k) {
+        Ground& ground = pass.ground[k];
+        ground = ground_at(plan.splines[k], time);
+        if (!(h > 0)) continue;
+        const Ground end = ground_at(plan.splines[k], time + h);
+        ground.a = (end.v - ground.v) / h;
+        ground.alpha = (end.omega - ground.omega) / h;
     }
-    b.R_wb = parent->R_wb * plan.R_pj[i] * turn;
+}
+
+// Kinematics and biases from the parent.
+void place(const Plan<double>& plan, const ArticulatedBody* parent, ArticulatedBody& b, std::size_t i, double h,
+           std::uint64_t& fast) {
+    b.R_wb = parent->R_wb * plan.R_pj[i] * rotation_from_vector(b.theta);
     b.r_w = parent->R_wb * plan.joint_position[i];
     b.x_w = parent->x_w + b.r_w;
-    const Vec3 own = b.R_wb * b.rate, swing = parent->omega_w.cross(b.r_w);
+    const Vec3 own = b.R_wb * b.rate;
     b.omega_w = parent->omega_w + own;
-    b.v_w = parent->v_w + swing;
-    b.alpha_bias = parent->alpha_bias + parent->omega_w.cross(own);
-    b.a_bias = parent->a_bias + parent->alpha_bias.cross(b.r_w) + parent->omega_w.cross(swing);
+    b.v_w = parent->v_w + parent->omega_w.cross(b.r_w);
+    const Vec3 spin = bounded(parent->omega_w, h, fast);
+    b.alpha_bias = parent->alpha_bias + spin.cross(bounded(own, h, fast));
+    b.a_bias = parent->a_bias + parent->alpha_bias.cross(b.r_w) + spin.cross(spin.cross(b.r_w));
 }
 
 void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, const Vec3& c,
@@ -55,17 +83,19 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
 }
 
 // The body's own inertia, bias wrench and spring.
-void load(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, double h) {
+void load(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, double h,
+          std::uint64_t& fast) {
     const Mat3 J = b.R_wb * plan.inertia_joint[i] * b.R_wb.transpose();
     const Vec3 c = b.R_wb * plan.com[i];
     const double m = plan.mass[i];
-    const Vec3 a_com = b.a_bias + b.alpha_bias.cross(c) + b.omega_w.cross(b.omega_w.cross(c));
+    const Vec3 spin = bounded(b.omega_w, h, fast);
+    const Vec3 a_com = b.a_bias + b.alpha_bias.cross(c) + spin.cross(spin.cross(c));
     b.A = J;
     b.A.diagonal().array() += 4 * std::numeric_limits<double>::epsilon() * J.trace();
     b.B = m * cross_matrix(c);
     b.M = m * Mat3::Identity();
     b.F = m * (a_com - plan.scene.gravity);
-    b.N = J * b.alpha_bias + b.omega_w.cross(J * b.omega_w) + m * c.cross(b.a_bias - plan.scene.gravity);
+    b.N = J * b.alpha_bias + spin.cross(J * spin) + m * c.cross(b.a_bias - plan.scene.gravity);
     if (plan.wind) add_air(plan, pass, b, i, c, a_com, h);
 
     const Mat3 rates = body_rate_jacobian_inverse(b.theta) * b.R_wb.transpose(); // theta_dot from omega_w
@@ -118,16 +148,22 @@ void accelerate(ArticulatedBody& b, const ArticulatedBody* parent) {
 } // namespace
 
 void articulated_pass(const Plan<double>& plan, ArticulatedPass& pass, double time, double h) {
-    if (plan.wind) evaluate_wind(*plan.scene.wind, time, pass.wind);
+    if (plan.wind) evaluate_wind(*plan.scene.wind, time + h, pass.wind);
+    move_ground(plan, pass, time, h);
     std::vector<ArticulatedBody>& body = pass.body;
     const auto parent = [&](std::size_t i) {
         return plan.parent[i] < 0 ? nullptr : &body[std::size_t(plan.parent[i])];
     };
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        place(plan, parent(i), body[i], i);
-        load(plan, pass, body[i], i, h);
+        if (plan.parent[i] < 0) {
+            const ArticulatedBody ground = ground_body(plan, pass, i);
+            place(plan, &ground, body[i], i, h, pass.fast);
+        } else {
+            place(plan, parent(i), body[i], i, h, pass.fast);
+        }
+        load(plan, pass, body[i], i, h, pass.fast);
     }
-    add_pulls(plan, pass, time);
+    add_pulls(plan, pass, time + h);
     for (std::size_t i = plan.bodies; i-- > 0;) eliminate(body[i], parent(i));
     for (std::size_t i = 0; i < plan.bodies; ++i) accelerate(body[i], parent(i));
 }

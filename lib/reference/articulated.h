@@ -12,8 +12,11 @@
 //
 // h > 0 makes it linearly implicit: torque and air are those at the end of a step of h,
 //   theta_dot_1 = T (w + h w'), theta_1 = theta + h theta_dot_1, u_1 = u - h a_c,
-// with T, R, the air's damping D and its turning of plates (air.h) at the start. The joint then answers like an inertia Z = h (h + beta) R T^T K T R^T, and
+// with T, R, the air's damping D and a bound on how it turns plates (air.h) at the start. The joint then answers like an inertia Z = h (h + beta) R T^T K T R^T, and
 // each body has h D at its centre of mass more of mass. No step is then unstable for its springs, dampers or air's drag.
+//
+// Terms quadratic in omega stay explicit. What turns by more than a radian in h is not resolved by it, and would be thrown out: there,
+// and in those terms alone, omega is taken as 1 / h (h > 0 only). Counted in pass.fast.
 //
 // Sweeps. Outward: kinematics, the biases (accelerations were no joint to accelerate) and each body's own inertia. Inward, with
 // E = (A + Z)^-1, u = tau - N:  A' = Z E A,  B' = Z E B,  M' = M - B^T E B,  N' = N + A E u,  F' = F + B^T E u, shifted by r to the
@@ -28,7 +31,8 @@
 
 namespace bough {
 
-// The pass at pass.body[i].theta, rate at `time` [s] (of the wind and the pulls); h = 0: the plain accelerations.
+// The pass at pass.body[i].theta, rate at `time` [s]; h = 0: the plain accelerations, else the mean ones of a step of h from
+// there: wind and pulls are those at its end, the moving ground's acceleration (root_motion.h) is its mean.
 void articulated_pass(const Plan<double>&, ArticulatedPass& pass, double time, double h);
 
 // d rate / dt [rad/s^2, body axes] of every joint at theta, rate, time.

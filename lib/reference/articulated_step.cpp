@@ -11,7 +11,7 @@ void explicit_euler(const Plan<double>& plan, ArticulatedPass& pass, double time
 }
 
 void implicit_euler(const Plan<double>& plan, ArticulatedPass& pass, double time, double h) {
-    articulated_pass(plan, pass, time + h, h);
+    articulated_pass(plan, pass, time, h);
     for (ArticulatedBody& b : pass.body) {
         b.rate += h * (b.R_wb.transpose() * b.joint_w);
         b.theta += h * (body_rate_jacobian_inverse(b.theta) * b.rate);

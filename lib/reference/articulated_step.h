@@ -4,7 +4,7 @@
 //             about 2 / (beta omega^2) of the fastest joint: nanoseconds for a stiff tree.
 // implicit    linearly implicit Euler: articulated.h with h, then rate += h rate', theta += h T rate_1. First order, stable
 //             for any stiffness and damping; it damps what it cannot resolve.
-// Both are made at the end's time for implicit, the start's for explicit.
+// time: of the start. Implicit takes the loads at the end.
 // Reads and writes theta, rate of pass.body. O(n), one pass. Errors none.
 #pragma once
 #include "articulated.h"

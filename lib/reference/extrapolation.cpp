@@ -44,6 +44,7 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
         // The rest in one step or in two even ones: no sliver at the end.
         const double taken = H >= left ? left : H > left / 2 ? left / 2 : H;
         const double start = time + done;
+        for (ArticulatedPass& pass : state.articulated) pass.fast = 0;
 #pragma omp parallel for schedule(dynamic, 1) if (n > 20)
         for (int j = rows; j >= 1; --j) run_row(plan, state, state.articulated[std::size_t(j - 1)], j, start, taken);
         double error = 0;
@@ -76,6 +77,7 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
             if (shorten_rotation(state.theta[i])) ++state.flags.half_turns;
         }
         ++state.flags.inner_steps;
+        for (ArticulatedPass& pass : state.articulated) state.flags.fast_turns += pass.fast;
         done = taken == left ? dt : done + taken;
         // A last step shortened by the frame says little about the length that would do.
         H = taken < H ? std::max(H * std::min(growth, 1.0), taken * growth) : taken * growth;

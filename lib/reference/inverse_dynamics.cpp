@@ -12,20 +12,30 @@ struct Moving {
     double moment = 0;             // size of the terms in N
 };
 
-Moving move(const Plan<double>& plan, const Moving* p, std::size_t i, const Vec3& theta, const Vec3& rate,
+Moving move(const Plan<double>& plan, const Moving& p, std::size_t i, const Vec3& theta, const Vec3& rate,
             const Vec3& acceleration) {
-    static const Moving ground{Mat3::Identity(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
-                               Vec3::Zero(),     Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    if (!p) p = &ground;
     Moving b;
-    b.R = p->R * plan.R_pj[i] * rotation_from_vector(theta);
-    b.r = p->R * plan.joint_position[i];
-    b.x = p->x + b.r;
+    b.R = p.R * plan.R_pj[i] * rotation_from_vector(theta);
+    b.r = p.R * plan.joint_position[i];
+    b.x = p.x + b.r;
     const Vec3 own = b.R * rate;
-    b.omega = p->omega + own;
-    b.alpha = p->alpha + b.R * acceleration + p->omega.cross(own);
-    b.v = p->v + p->omega.cross(b.r);
-    b.a = p->a + p->alpha.cross(b.r) + p->omega.cross(p->omega.cross(b.r));
+    b.omega = p.omega + own;
+    b.alpha = p.alpha + b.R * acceleration + p.omega.cross(own);
+    b.v = p.v + p.omega.cross(b.r);
+    b.a = p.a + p.alpha.cross(b.r) + p.omega.cross(p.omega.cross(b.r));
+    return b;
+}
+
+Moving ground_under(const Plan<double>& plan, std::size_t i, double time) {
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
+    const Ground g = spline < 0 ? Ground() : ground_at(plan.splines[std::size_t(spline)], time);
+    Moving b;
+    b.R = g.R;
+    b.x = g.x;
+    b.omega = g.omega;
+    b.v = g.v;
+    b.alpha = g.alpha;
+    b.a = g.a;
     return b;
 }
 
@@ -42,7 +52,8 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
     }
     std::vector<Moving> body(n);
     for (std::size_t i = 0; i < n; ++i) {
-        body[i] = move(plan, plan.parent[i] < 0 ? nullptr : &body[parent(i)], i, theta[i], rate[i], acceleration[i]);
+        const Moving ground = plan.parent[i] < 0 ? ground_under(plan, i, time) : Moving();
+        body[i] = move(plan, plan.parent[i] < 0 ? ground : body[parent(i)], i, theta[i], rate[i], acceleration[i]);
         Moving& b = body[i];
         const Mat3 J = b.R * plan.inertia_joint[i] * b.R.transpose();
         const Vec3 c = b.R * plan.com[i];

@@ -49,21 +49,13 @@ template <class T> Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, con
     return speed * plane + across * across.transpose() / speed;
 }
 
-// How a plate turns with the wind like a vane: minus the derivative of the moment about its joint with its rotation, over kappa
-// rho A and the distance of its centre of mass: [m^2/s^2]. The moment is -|u| (u.n) x (x the width's axis, c along z), so the
-// symmetric part is |u| sym(x (n x u)^T) = |u| [u_z, -u_x/2; -u_x/2, 0] in x, z, of eigenvalues (u_z +- |(u_x, u_z)|) / 2. The positive one,
-// which pulls a plate behind its joint, is returned, as an implicit step can take it; the other turns it over. Zero for
-// the rest, whose wood is stiffer than this.
+// How fast a plate's moment about its joint may change with its rotation, over kappa rho A and the distance of its centre of
+// mass: [m^2/s^2], symmetric, positive semidefinite. The moment is -|u| (u.n) x, x the width's axis, and changes by at most
+// |u|^2 a radian; twice that, so that a plate held broadside to the wind, which turns at up to |u| over that distance and
+// would spin round in a step, turns by half a radian at the most. Zero for the rest, whose wood is stiffer than this.
 template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u) {
     if (!is_flat(kind)) return Matrix3<T>::Zero();
-    const T ux = u.dot(R_wb.col(0)), uz = u.dot(R_wb.col(2));
-    const T in_plane = std::sqrt(ux * ux + uz * uz);
-    // (u_z + |.|) / 2 without the cancellation where the wind comes from ahead.
-    const T lambda = uz >= 0 ? (uz + in_plane) / 2 : ux * ux / (2 * (in_plane - uz));
-    const Vector3<T> v = 2 * lambda * R_wb.col(0) - ux * R_wb.col(2);
-    const T size = v.squaredNorm();
-    if (!(size > 0)) return Matrix3<T>::Zero();
-    return (u.norm() * lambda / size) * (v * v.transpose());
+    return 2 * u.squaredNorm() * (R_wb.col(0) * R_wb.col(0).transpose());
 }
 
 } // namespace bough

@@ -2,6 +2,7 @@
 // pass that its solver runs side by side.
 #pragma once
 #include "../model/math.h"
+#include "../model/root_motion.h"
 #include "wind.h"
 #include <vector>
 
@@ -30,6 +31,8 @@ struct ArticulatedBody {
 struct ArticulatedPass {
     std::vector<ArticulatedBody> body;
     WindTable<double> wind;
+    std::vector<Ground> ground; // of each spline of root motion
+    std::uint64_t fast = 0;     // angular velocities that were bounded in quadratic terms, since the counter was read
 };
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "external_forces.h"
 #include "air.h"
+#include "root_term.h"
 #include <algorithm>
 
 namespace bough {
@@ -18,9 +19,15 @@ namespace {
 template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::size_t i) {
     const Matrix3<T>& R = state.R_wb[i];
     const Vector3<T> arm = R * plan.com[i];
-    const Vector3<T> wind = state.wind.at(state.x_w[i].y() + arm.y());
+    const Vector3<T> place = state.x_w[i] + arm;
+    Vector3<T> wind = state.wind.at(place.y()), v = state.v_w[i];
+    if (const Ground* ground = plan.root_motion ? ground_of(plan, state, i) : nullptr) {
+        const Vec3 carried = ground->v + ground->omega.cross(place.template cast<double>() - ground->x);
+        wind -= carried.template cast<T>();
+        v -= carried.template cast<T>();
+    }
     const AirForce<T> still = air_force(plan.kind[i], R, wind);
-    const AirForce<T> moving = air_force(plan.kind[i], R, Vector3<T>(wind - state.v_w[i]));
+    const AirForce<T> moving = air_force(plan.kind[i], R, Vector3<T>(wind - v));
     const T scale = plan.drag_area[i];
     state.f_w[i] = scale * still.force;
     state.tau_w[i] = arm.cross(state.f_w[i]);

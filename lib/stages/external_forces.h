@@ -5,6 +5,8 @@
 // It is written in two parts: what it would be on a body that stands still, which goes to the springs, and the rest,
 // which is the drag on the body's own motion and goes to drag.h; their sum is the force. The rest is at most
 // drag_bound |v| with drag_bound = kappa rho A (|u| + |u at rest|) (|u_n| for branches), since || u|u - w|w| || <= (|u| + |w|) |u - w|.
+// A body "stands still" when it does on its tree's ground: where the root is moved, u at rest is the wind's velocity less that
+// of the ground carried to the body, so that a tree driven through still air is a tree that stands in the wind.
 // What the implicit step needs to know of the part at rest (drag.h): its derivative with velocity is at most wind_bound =
 // 2 kappa rho A |u at rest|, that with the body's direction (force and arm both turn with it) at most turn_bound =
 // 3, 2, 1 (branch, leaf, fruit) times kappa rho A |u at rest|^2 a radian.

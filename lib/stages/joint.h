@@ -11,11 +11,6 @@
 
 namespace bough {
 
-// World from joint frame.
-template <class T> Matrix3<T> joint_frame(const Plan<T>& plan, const State<T>& state, std::size_t i) {
-    return plan.parent[i] < 0 ? plan.R_pj[i] : Matrix3<T>(state.R_wb[std::size_t(plan.parent[i])] * plan.R_pj[i]);
-}
-
 // S [kg m^2], body axes. A body without extent about an axis (a thin rod about itself, in float) would make it singular:
 // a few rounding errors of the trace are added to the diagonal, far below any rod's real inertia in double.
 template <class T> Matrix3<T> joint_inertia(const Plan<T>& plan, const State<T>& state, std::size_t i) {

@@ -4,12 +4,13 @@
 #include "pose.h"
 #include "state_arrays.h"
 #include <algorithm>
+#include <stdexcept>
 
 namespace bough {
 
 const char* stage_name(Stage stage) {
-    static constexpr const char* names[stage_count] = {"wind_field", "external_forces", "composite",   "drag",
-                                                       "spring",     "articulated",     "state_update"};
+    static constexpr const char* names[stage_count] = {"wind_field",  "external_forces", "composite",   "drag",
+                                                       "root_motion", "spring",          "articulated", "state_update"};
     return names[std::size_t(stage)];
 }
 
@@ -96,15 +97,17 @@ template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene&
         const auto p = std::size_t(tree.parent[i]);
         sum[i] = modes.weight[i] + (tree.parent[i] < 0 ? 0 : sum[p]);
     }
-    if (plan.gravity) {
+    if (plan.gravity || plan.root_motion) {
         // P: the first moment that a body's own turning moves; sums over the subtree of |g| |P|, plain and times the path's u.
+        const double strength = plan.gravity ? scene.gravity.norm() : 1;
+        plan.row_gravity = plan.gravity ? scene.gravity.template cast<T>().norm() : T(1);
         std::vector<Vec3> P(n);
         std::vector<double> plain(n), weighed(n);
         for (std::size_t i = 0; i < n; ++i) P[i] = tree.mass[i] * tree.com[i];
         for (std::size_t i = 0; i < n; ++i)
             if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += double(plan.c_mass[i]) * tree.joint_position[i];
         for (std::size_t i = 0; i < n; ++i) {
-            plain[i] = scene.gravity.norm() * P[i].norm();
+            plain[i] = strength * P[i].norm();
             weighed[i] = plain[i] * sum[i];
         }
         for (std::size_t i = n; i-- > 0;) {
@@ -119,19 +122,42 @@ template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene&
 }
 
 // Highest point that a body could reach by standing straight up from the ground: the wind's table covers it.
-double highest_reach(const Tree& tree) {
+double highest_reach(const Tree& tree, const std::vector<RootSpline>& splines, const std::vector<MovedTree>& moved) {
+    const auto height = [&](std::size_t root) {
+        const std::int64_t spline = spline_under(moved, root);
+        const Vec3& drawn = tree.joint_position[root];
+        return spline < 0 ? drawn.y() : highest(splines[std::size_t(spline)], drawn);
+    };
     std::vector<double> reach(tree.size_bodies());
     double top = 0;
     for (std::size_t i = 0; i < reach.size(); ++i) {
-        reach[i] = tree.parent[i] < 0 ? std::max(0.0, tree.joint_position[i].y())
+        reach[i] = tree.parent[i] < 0 ? std::max(0.0, height(i))
                                       : reach[std::size_t(tree.parent[i])] + tree.joint_position[i].norm();
         top = std::max(top, reach[i] + tree.size[i][0]);
     }
     return top;
 }
 
+template <class T> void plan_root_motion(Plan<T>& plan, const std::vector<TreeRange>& ranges) {
+    const Scene& scene = plan.scene;
+    plan.root_motion = !scene.root_motion.empty();
+    for (const RootMotion& motion : scene.root_motion) {
+        if (motion.tree < 0 || std::size_t(motion.tree) >= ranges.size())
+            throw std::out_of_range("root_motion: tree " + std::to_string(motion.tree) +
+                                    " is not there, the scene has " + std::to_string(ranges.size()));
+        const auto k = std::size_t(motion.tree);
+        plan.moved.push_back({ranges[k].first_body, ranges[k].bodies, plan.splines.size()});
+        plan.splines.push_back(
+            make_root_spline(motion, k < scene.trees.size() ? scene.trees[k].position : Vec3::Zero()));
+    }
+    std::sort(plan.moved.begin(), plan.moved.end(),
+              [](const MovedTree& a, const MovedTree& b) { return a.first_body < b.first_body; });
+}
+
 template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
-    const auto add = [&plan](Stage stage, bool on, const char* reason) { plan.stages.push_back({stage, on, reason}); };
+    const auto add = [&plan](Stage stage, bool on, const std::string& reason) {
+        plan.stages.push_back({stage, on, reason});
+    };
     const bool analytic = plan.solver == Solver::analytic;
     const char* const other = "another solver than analytic (articulated evaluates them in its own pass)";
     add(Stage::wind_field, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : other);
@@ -143,13 +169,23 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                                            : "/pulls");
     add(Stage::composite, analytic, analytic ? "every scene" : "another solver than analytic");
     add(Stage::drag, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : other);
-    add(Stage::spring, analytic, analytic ? "every scene" : "another solver than analytic");
+    add(Stage::root_motion, analytic && plan.root_motion,
+        !plan.root_motion ? "no root motion"
+        : analytic        ? "/root_motion"
+                          : other);
+    const std::string moved = plan.root_motion ? "; roots moved by /root_motion" : "";
+    add(Stage::spring, analytic,
+        !analytic          ? "another solver than analytic"
+        : plan.root_motion ? "every scene; the root's term for /root_motion"
+                           : "every scene");
     add(Stage::articulated, !analytic, analytic ? "solver analytic" : solver_name(plan.solver));
     add(Stage::state_update, true,
-        !plan.velocity    ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
-                                       : "every scene (poses; no wind, no output field velocity: no velocities)")
-        : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
-                          : "every scene (poses; velocities for /wind)");
+        std::string(!plan.velocity
+                        ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
+                                     : "every scene (poses; no wind, no output field velocity: no velocities)")
+                    : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
+                                      : "every scene (poses; velocities for /wind)") +
+            moved);
     State<T> empty;
     visit_arrays(plan, empty, [&](const char* name, auto& array, bool on, const std::string& reason) {
         plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
@@ -181,7 +217,8 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     plan.forces = plan.wind || !plan.pulls.empty();
     plan.velocity = (plan.wind && solver == Solver::analytic) || wishes.velocity;
     plan.torque = wishes.torque;
-    plan.top = plan.wind ? highest_reach(tree) : 0;
+    plan_root_motion(plan, ranges);
+    plan.top = plan.wind ? highest_reach(tree, plan.splines, plan.moved) : 0;
     plan_bodies(plan, tree, scene);
     if (plan.wind) plan_surfaces(plan, tree, scene);
     if (solver == Solver::analytic) plan_modes(plan, tree, scene);

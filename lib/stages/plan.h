@@ -2,6 +2,7 @@
 // they read, in the precision of the run. A stage or array that nothing needs is not run and not allocated; why, is
 // said in `stages` and `arrays`, which `treesim --explain` prints and the tests hold against what really happened.
 #pragma once
+#include "../model/root_motion.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
 #include <array>
@@ -11,8 +12,17 @@
 
 namespace bough {
 
-enum class Stage : std::uint8_t { wind_field, external_forces, composite, drag, spring, articulated, state_update };
-constexpr std::size_t stage_count = 7;
+enum class Stage : std::uint8_t {
+    wind_field,
+    external_forces,
+    composite,
+    drag,
+    root_motion,
+    spring,
+    articulated,
+    state_update
+};
+constexpr std::size_t stage_count = 8;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
@@ -57,6 +67,7 @@ template <class T> struct Plan {
     double tolerance = 1e-8; // [rad] error allowed in a step of articulated_reference (extrapolation.h)
     Scene scene;             // as given, for times and forces
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
+    bool root_motion = false;
     std::vector<PlannedStage> stages;
     std::vector<PlannedArray> arrays;
 
@@ -75,6 +86,11 @@ template <class T> struct Plan {
 
     // Gravity's gradient (spring.h).
     std::vector<T> gravity_row; // [N m] bound on what the path's other joints change of gravity's moment
+    T row_gravity = 0; // [m/s^2] what the rows hold for: |g|, or 1 where the root's motion stands in (root_term.h)
+
+    // Root motion (root_term.h): a curve an entry of Scene::root_motion, and which trees it moves, rising.
+    std::vector<RootSpline> splines;
+    std::vector<MovedTree> moved;
 
     // Wind (drag.h, external_forces.h).
     std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)

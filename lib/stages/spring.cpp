@@ -1,6 +1,7 @@
 #include "spring.h"
 #include "joint.h"
 #include "oscillator.h"
+#include "root_term.h"
 #include <Eigen/Cholesky>
 
 namespace bough {
@@ -52,12 +53,21 @@ template <class T> Joint<T> load(const Plan<T>& plan, const State<T>& s, std::si
     joint.KG_b = joint.K_b;
     Vector3<T> tau_w = Vector3<T>::Zero();
     if (plan.forces) tau_w += s.c_tau_w[i];
-    if (plan.gravity) {
-        const Vector3<T> g_w = plan.scene.gravity.template cast<T>();
+    const RootLoad<T>* root = plan.root_motion ? root_load_of(plan, s, i) : nullptr;
+    if (plan.gravity || root) {
+        Vector3<T> g_w = plan.scene.gravity.template cast<T>();
+        T row = plan.gravity_row[i];
+        if (root) {
+            g_w = apparent_gravity(*root, s.x_w[i]);
+            row *= g_w.norm() / plan.row_gravity;
+            tau_w -= turning_moment(*root, s.c_J_w[i]);
+            const Matrix3<T> J_b = R_wb.transpose() * s.c_J_w[i] * R_wb;
+            joint.KG_b += turning_gradient<T>(J_b, R_wb.transpose() * root->omega, R_wb.transpose() * root->alpha);
+        }
         tau_w += s.c_h_w[i].cross(g_w);
         const Vector3<T> g = R_wb.transpose() * g_w, h = R_wb.transpose() * s.c_h_w[i];
         const Matrix3<T> hg = h * g.transpose();
-        joint.KG_b += (g.dot(h) + plan.gravity_row[i]) * Matrix3<T>::Identity() - T(0.5) * (hg + hg.transpose());
+        joint.KG_b += (g.dot(h) + row) * Matrix3<T>::Identity() - T(0.5) * (hg + hg.transpose());
     }
     joint.residual_b = R_wb.transpose() * tau_w - joint.T_tb.transpose() * plan.K[i].cwiseProduct(s.theta[i]);
     return joint;

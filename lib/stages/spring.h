@@ -21,6 +21,9 @@
 // at least as much energy as it gives gravity (to second order of the step's rotation). gamma is constant, zero for a single
 // joint, and small beside K in wood; where it is not, it damps (as what stands is damped by lag in any case).
 //
+// A moving ground. Where the tree's root is moved, g is the apparent gravity at the joint, and the ground's turning adds
+// to tau and G: root_term.h.
+//
 // Air. With wind, the bounds d' and gamma of drag.h join the damping and G; drag.h says why.
 //
 // Carrying. S changes with the pose of what is outboard, and a rate carried through a changing inertia gains or loses
@@ -37,8 +40,8 @@
 // Half turns. theta is the rotation vector "in the standard fashion" (§3), |theta| <= pi: a joint that turns past half a turn is as
 // far from rest the other way round, at the same elastic energy, and its spring pulls it on. Counted; the small angles
 // that the method assumes were left long before.
-// Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb. Writes theta, theta_dot, scaled_rate.
-// After   composite, drag. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
+// Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb, root_load. Writes theta, theta_dot, scaled_rate.
+// After   composite, drag, root_loads. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
 #pragma once
 #include "plan.h"
 #include "state.h"

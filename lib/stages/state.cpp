@@ -1,4 +1,5 @@
 #include "state.h"
+#include "root_term.h"
 #include "spring.h"
 #include "state_arrays.h"
 #include "state_update.h"
@@ -29,9 +30,13 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     state.articulated.resize(articulated_passes(plan.solver));
     for (ArticulatedPass& pass : state.articulated) {
         pass.body.resize(plan.bodies);
+        pass.ground.resize(plan.splines.size());
         if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top);
     }
     if (plan.wind && plan.solver == Solver::analytic) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
+    state.ground.resize(plan.splines.size());
+    state.root_load.resize(plan.splines.size());
+    move_ground(plan, state, 0);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
     return state;

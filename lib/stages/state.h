@@ -15,8 +15,17 @@ struct StepFlags {
     std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
     std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
     std::uint64_t half_turns = 0;     // joint-steps in which a joint turned past half a turn (spring.h)
-    std::uint64_t inner_steps = 0;    // steps that articulated_reference cut the plan's into, which is no guard
-    std::uint64_t unresolved = 0; // of those, how many missed the tolerance at the smallest length (extrapolation.h)
+    std::uint64_t fast_turns =
+        0; // bodies' turns of more than a radian a step, bounded in the implicit step (articulated.h)
+    std::uint64_t inner_steps = 0; // steps that articulated_reference cut the plan's into, which is no guard
+    std::uint64_t unresolved = 0;  // of those, how many missed the tolerance at the smallest length (extrapolation.h)
+};
+
+// What a moving ground does to the joints on it in one step (root_term.h), world as at the step's start.
+template <class T> struct RootLoad {
+    Vector3<T> x;            // [m] where the world's origin has gone
+    Vector3<T> g;            // [m/s^2] gravity less that point's acceleration
+    Vector3<T> omega, alpha; // [rad/s], [rad/s^2]
 };
 
 template <class T> struct State {
@@ -51,6 +60,10 @@ template <class T> struct State {
     std::vector<T> c_drag, c_drag_row; // [N s/m], [N s] sums of the row-sum bounds (drag.h)
     std::vector<T> c_wind, c_wind_row;
     std::vector<T> c_turn, c_turn_row; // [N rad/m], [N rad]
+
+    // root motion, one each for the plan's splines
+    std::vector<Ground> ground;         // present
+    std::vector<RootLoad<T>> root_load; // of the last step
 
     // spring
     std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for

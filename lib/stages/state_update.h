@@ -4,8 +4,9 @@
 // have their origin at their own joint here, so that (10)'s d_j^c is the centre of mass' negative. Velocities only where
 // the plan has a reader for them (wind, --fields velocity): omega_c = omega_p + R_wc J theta_dot, which is
 // (8) with the exact angular velocity of the joint for theta_dot (math.h); v_c = v_joint + omega_c x R_wc com (11). Accelerations (9), (12) have
-// no reader yet and do not exist.
-// Reads   theta, theta_dot. Writes R_wb, x_w; omega_w, v_w. After spring. Needs parent[i] < i. O(n). Errors none.
+// no reader yet and do not exist. Roots hang on the ground, which rests or moves (state.ground, root_motion.h): with it
+// go their joints' places, frames and velocities.
+// Reads   theta, theta_dot, ground. Writes R_wb, x_w; omega_w, v_w. After spring. Needs parent[i] < i. O(n). Errors none.
 #pragma once
 #include "plan.h"
 #include "state.h"

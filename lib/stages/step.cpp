@@ -2,6 +2,7 @@
 #include "composite.h"
 #include "drag.h"
 #include "external_forces.h"
+#include "root_term.h"
 #include "spring.h"
 #include "state_update.h"
 #include "wind.h"
@@ -27,8 +28,12 @@ template <class T> void step(const Plan<T>& plan, State<T>& state, StageClock* c
     if (plan.forces) run(Stage::external_forces, state, clock, [&] { external_forces(plan, state, middle); });
     run(Stage::composite, state, clock, [&] { composite_update(plan, state); });
     if (plan.wind) run(Stage::drag, state, clock, [&] { joint_drag(plan, state); });
+    if (plan.root_motion) run(Stage::root_motion, state, clock, [&] { root_loads(plan, state, middle); });
     run(Stage::spring, state, clock, [&] { spring_update(plan, state); });
-    run(Stage::state_update, state, clock, [&] { state_update(plan, state); });
+    run(Stage::state_update, state, clock, [&] {
+        move_ground(plan, state, double(state.step + 1) * plan.dt);
+        state_update(plan, state);
+    });
     if (plan.torque) spring_torque(plan, state);
     ++state.step;
 }
