@@ -1,6 +1,7 @@
 #include "articulated.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
+#include <Eigen/Cholesky>
 #include <limits>
 
 namespace bough {
@@ -118,12 +119,14 @@ void add_pulls(const Plan<double>& plan, ArticulatedPass& pass, double time) {
 void eliminate(ArticulatedBody& b, ArticulatedBody* parent) {
     const Mat3 sum = b.A + b.Z;
     const double scale = sum.trace();
-    b.E = (sum / scale).inverse() / scale;
+    const Mat3 L = (sum / scale).llt().matrixL();
+    const Mat3 Li = L.triangularView<Eigen::Lower>().solve(Mat3(Mat3::Identity())) / std::sqrt(scale);
+    b.E = Li.transpose() * Li;
     b.u -= b.N;
     if (!parent) return;
-    const Mat3 ZE = b.Z * b.E, EB = b.E * b.B;
+    const Mat3 ZE = b.Z * b.E, LB = Li * b.B;
     const Mat3 passed = ZE * b.A;
-    const Mat3 A = (passed + passed.transpose()) / 2, B = ZE * b.B, M = b.M - b.B.transpose() * EB;
+    const Mat3 A = (passed + passed.transpose()) / 2, B = ZE * b.B, M = b.M - LB.transpose() * LB;
     const Vec3 turn = b.E * b.u, F = b.F + b.B.transpose() * turn, N = b.N + b.A * turn;
     const Vec3& r = b.r_w;
     const Mat3 rM = cross_left(r, M), rB = cross_left(r, B.transpose()); // rB = [r] B^T
