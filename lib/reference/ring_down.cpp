@@ -1,15 +1,14 @@
 #include "ring_down.h"
-#include "../model/sway.h"
 #include "../stages/state_update.h"
 #include "advance.h"
 #include <Eigen/Cholesky>
 #include <numbers>
-#include <stdexcept>
 
 namespace bough {
 namespace {
 
 constexpr double periods = 3, least_samples = 8;
+constexpr double amplitude = 0.01; // [rad] of the joint that turns most
 
 // Sum of squared residuals of the best a, b for f, d.
 double misfit(const std::vector<double>& y, double dt, double f, double d) {
@@ -42,47 +41,63 @@ template <class Cost> double golden(double a, double b, const Cost& cost) {
     return (a + b) / 2;
 }
 
-// Turns every joint by what an acceleration along x makes of it, so that the mean tip moves by 1 % of the height.
-void deflect(const Plan<double>& plan, State<double>& state, const Tree& tree) {
+// M phi: the joints' moments [body axes] of unit-step accelerations phi of the joints, at the plan's start pose, without
+// velocities: outward the bodies' accelerations, inward the wrenches they need.
+std::vector<Vec3> inertia_times(const Plan<double>& plan, const State<double>& state, const std::vector<Vec3>& phi) {
     const std::size_t n = plan.bodies;
-    std::vector<Vec3> h(n); // first moments of the composites about their joints
+    std::vector<Vec3> alpha(n), a(n), F(n), N(n), result(n);
+    const auto arm = [&](std::size_t i) { return Vec3(state.x_w[i] - state.x_w[std::size_t(plan.parent[i])]); };
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool root = plan.parent[i] < 0;
+        const auto p = std::size_t(plan.parent[i]);
+        const Mat3& R = state.R_wb[i];
+        alpha[i] = R * phi[i] + (root ? Vec3(Vec3::Zero()) : alpha[p]);
+        a[i] = root ? Vec3(Vec3::Zero()) : Vec3(a[p] + alpha[p].cross(arm(i)));
+        const Vec3 c = R * plan.com[i];
+        F[i] = plan.mass[i] * (a[i] + alpha[i].cross(c));
+        N[i] = R * (plan.inertia_joint[i] * (R.transpose() * alpha[i])) + plan.mass[i] * c.cross(a[i]);
+    }
     for (std::size_t i = n; i-- > 0;) {
-        h[i] += plan.mass[i] * (state.R_wb[i] * plan.com[i]);
+        result[i] = state.R_wb[i].transpose() * N[i];
         if (plan.parent[i] < 0) continue;
         const auto p = std::size_t(plan.parent[i]);
-        h[p] += h[i] + plan.c_mass[i] * (state.x_w[i] - state.x_w[p]);
+        F[p] += F[i];
+        N[p] += N[i] + arm(i).cross(F[i]);
     }
-    const State<double> rest = state;
-    std::vector<Vec3> turn(n);
-    for (std::size_t i = 0; i < n; ++i)
-        turn[i] = (state.R_wb[i].transpose() * h[i].cross(Vec3::UnitX())).cwiseQuotient(plan.K[i]);
-    double height = 0, moved = 0, scale = 1e-6;
-    const std::vector<std::size_t> tips = tip_bodies(tree);
-    // Two rounds: a tiny deflection says how far the tips go, the second is scaled by it.
-    for (int round = 0; round < 2; ++round) {
-        for (std::size_t i = 0; i < n; ++i) state.theta[i] = rest.theta[i] + scale * turn[i];
-        state_update(plan, state);
-        moved = 0;
-        for (const std::size_t i : tips) moved += (state.x_w[i] - rest.x_w[i]).norm() / double(tips.size());
-        for (const std::size_t i : tips) height = std::max(height, rest.x_w[i].y());
-        if (round == 0 && moved > 0) scale *= 0.01 * height / moved;
-    }
+    return result;
 }
 
-double projection(const Plan<double>& plan, const std::vector<Vec3>& shape, const std::vector<Vec3>& rest,
-                  const std::vector<Vec3>& now) {
+double product(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double sum = 0;
-    for (std::size_t i = 0; i < plan.bodies; ++i) sum += plan.mass[i] * shape[i].dot(now[i] - rest[i]);
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
     return sum;
 }
 
-std::vector<Vec3> centres(const Plan<double>& plan, const State<double>& state) {
-    std::vector<Vec3> x(plan.bodies);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = state.x_w[i] + state.R_wb[i] * plan.com[i];
-    return x;
-}
-
 } // namespace
+
+Mode first_mode(const Plan<double>& plan) {
+    const State<double> state = make_state(plan);
+    Mode mode;
+    mode.shape.assign(plan.bodies, Vec3::Zero());
+    for (std::size_t i = 0; i < plan.bodies; ++i) // a push along x bends each joint about the axis across it
+        mode.shape[i] = state.R_wb[i].transpose() * Vec3(0, 0, -1) / double(plan.bodies);
+    double previous = 0;
+    for (int k = 0; k < 1000; ++k) {
+        mode.moment = inertia_times(plan, state, mode.shape);
+        double kk = 0;
+        for (std::size_t i = 0; i < plan.bodies; ++i) kk += mode.shape[i].dot(plan.K[i].cwiseProduct(mode.shape[i]));
+        const double modal_mass = product(mode.shape, mode.moment), square = kk / modal_mass;
+        mode.frequency = std::sqrt(square) / (2 * std::numbers::pi);
+        for (std::size_t i = 0; i < plan.bodies; ++i) {
+            mode.shape[i] /= std::sqrt(modal_mass);
+            mode.moment[i] /= std::sqrt(modal_mass);
+        }
+        if (k > 20 && std::abs(square - previous) < 1e-10 * square) break;
+        previous = square;
+        for (std::size_t i = 0; i < plan.bodies; ++i) mode.shape[i] = mode.moment[i].cwiseQuotient(plan.K[i]);
+    }
+    return mode;
+}
 
 RingDown fit_damped_sinusoid(const std::vector<double>& y, double dt, double about) {
     const double highest = std::min(8 * about, 0.5 / dt);
@@ -110,41 +125,29 @@ RingDown ring_down(const Problem& problem, const Variant& how, double dt, const 
     scene.wind.reset();
     scene.pulls.clear();
     scene.root_motion.clear();
+    scene.gravity.setZero();
+    scene.pose = Pose::rest;
     scene.joint_inertia = how.inertia;
-    if (scene.pose == Pose::rest) scene.pose = Pose::drawn;
-    Tree scaled = problem.tree;
-    for (Vec3& K : scaled.stiffness) {
-        K *= scene.stiffness_scale;
-        if (!(K.minCoeff() > 0)) return {};
-    }
-    const double about = sway_frequency(scaled, Vec3::UnitX(), scene.gravity.norm());
-    if (!(about > 0)) return {};
-    const auto samples = std::int64_t(periods / about / dt) + 1;
-    if (double(samples) < least_samples) return {};
-    Plan<double> plan;
-    try {
-        plan = make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver);
-    } catch (const std::domain_error&) {
-        return {}; // the drawn pose does not hold: there is no rest to ring about
-    }
+    Plan<double> plan = make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver);
     plan.tolerance = how.tolerance;
+    for (const Vec3& K : plan.K)
+        if (!(K.minCoeff() > 0)) return {};
+    const Mode mode = first_mode(plan);
+    const auto samples = std::int64_t(periods / mode.frequency / dt) + 1;
+    if (!(mode.frequency > 0) || double(samples) < least_samples) return {};
+    double largest = 0;
+    for (const Vec3& turn : mode.shape) largest = std::max(largest, turn.norm());
     State<double> state = make_state(plan);
-    const std::vector<Vec3> rest = centres(plan, state);
-    deflect(plan, state, problem.tree);
-    std::vector<Vec3> shape = centres(plan, state);
-    for (std::size_t i = 0; i < shape.size(); ++i) shape[i] -= rest[i];
+    for (std::size_t i = 0; i < plan.bodies; ++i) state.theta[i] = mode.shape[i] * (amplitude / largest);
+    state_update(plan, state);
     std::vector<double> y;
-    double first = 0;
     for (std::int64_t k = 0; k < samples; ++k) {
         if (k > 0) advance(plan, state);
         tick();
         if (first_non_finite(state)) return {};
-        const double value = projection(plan, shape, rest, centres(plan, state));
-        if (k == 0) first = value;
-        if (!(first > 0) || !std::isfinite(value)) return {};
-        y.push_back(value / first);
+        y.push_back(product(mode.moment, state.theta) / (amplitude / largest));
     }
-    return fit_damped_sinusoid(y, dt, about);
+    return fit_damped_sinusoid(y, dt, mode.frequency);
 }
 
 } // namespace bough
