@@ -18,6 +18,7 @@ constexpr const char* profile_name = "treeprofile";
 Subcommand profile_stages(CommonOptions&);  // profile_stages.cpp: what each stage of a run costs
 Subcommand profile_compare(CommonOptions&); // profile_compare.cpp: what became slower between two of its reports
 
-Subcommand profile_error(CommonOptions&); // profile_error.cpp: error against run time
+Subcommand profile_error(CommonOptions&);     // profile_error.cpp: error against run time
+Subcommand profile_stability(CommonOptions&); // profile_stability.cpp: the grid of extremes
 
 } // namespace bough

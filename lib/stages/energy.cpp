@@ -1,35 +1,49 @@
 #include "energy.h"
-#include "state_update.h"
+#include "root_term.h"
 
 namespace bough {
 
-template <class T> Energy energy(const Plan<T>& plan, const State<T>& given) {
-    // A copy with velocities and present composites, which the run itself may not have.
-    Plan<T> full = plan;
-    full.velocity = true;
-    full.forces = full.wind = false;
-    State<T> s = given;
-    s.omega_w.resize(plan.bodies);
-    s.v_w.resize(plan.bodies);
-    state_update(full, s);
-    Energy e;
+// Kinematics anew, in double: a float state's positions hold the rounding of every body on the way out, which over a deep
+// chain is more than what the energies change by.
+template <class T> std::vector<BodyMotion> body_motions(const Plan<T>& plan, const State<T>& s) {
+    std::vector<BodyMotion> motion(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
+        BodyMotion& b = motion[i];
+        const Vec3 theta = s.theta[i].template cast<double>(), d = plan.joint_position[i].template cast<double>();
+        BodyMotion base;
+        if (plan.parent[i] >= 0) {
+            base = motion[std::size_t(plan.parent[i])];
+        } else if (const Ground* ground = plan.root_motion ? ground_of(plan, s, i) : nullptr) {
+            base = {ground->R, ground->x, ground->v, ground->omega};
+        }
+        const Vec3 arm = base.R * d;
+        b.R = base.R * plan.R_pj[i].template cast<double>() * rotation_from_vector(theta);
+        b.x = base.x + arm;
+        b.v = base.v + base.omega.cross(arm);
+        b.omega = base.omega + b.R * (body_rate_jacobian(theta) * s.theta_dot[i].template cast<double>());
+    }
+    return motion;
+}
+
+template <class T> Energy energy(const Plan<T>& plan, const State<T>& s) {
+    Energy e;
+    const std::vector<BodyMotion> motion = body_motions(plan, s);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const BodyMotion& b = motion[i];
+        const Vec3 w = b.R.transpose() * b.omega, u = b.R.transpose() * b.v, c = plan.com[i].template cast<double>();
         const Vec3 theta = s.theta[i].template cast<double>();
-        const Mat3 R = s.R_wb[i].template cast<double>();
-        const Vec3 com = plan.com[i].template cast<double>();
-        const Vec3 v = s.v_w[i].template cast<double>(), omega = R.transpose() * s.omega_w[i].template cast<double>();
         const double m = double(plan.mass[i]);
-        const Mat3 c = cross_matrix(com);
-        const Mat3 I = plan.inertia_joint[i].template cast<double>() + m * c * c;
+        e.bodies += m * u.dot(u / 2 + w.cross(c)) + w.dot(plan.inertia_joint[i].template cast<double>() * w) / 2;
         if (plan.solver == Solver::analytic) e.kinetic += s.scaled_rate[i].template cast<double>().squaredNorm() / 2;
         e.elastic += theta.dot(plan.K[i].template cast<double>().cwiseProduct(theta)) / 2;
-        e.bodies += m * v.squaredNorm() / 2 + omega.dot(I * omega) / 2;
-        e.potential -= m * plan.scene.gravity.dot(s.x_w[i].template cast<double>() + R * com);
+        e.potential -= m * plan.scene.gravity.dot(b.x + b.R * c);
     }
     if (plan.solver != Solver::analytic) e.kinetic = e.bodies;
     return e;
 }
 
+template std::vector<BodyMotion> body_motions(const Plan<float>&, const State<float>&);
+template std::vector<BodyMotion> body_motions(const Plan<double>&, const State<double>&);
 template Energy energy(const Plan<float>&, const State<float>&);
 template Energy energy(const Plan<double>&, const State<double>&);
 

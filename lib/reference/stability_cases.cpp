@@ -1,0 +1,182 @@
+#include "stability_cases.h"
+#include "../growth/segment.h"
+#include "../model/wood.h"
+#include <cmath>
+#include <cstdio>
+
+namespace bough {
+namespace {
+
+std::string number(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", x);
+    return text;
+}
+
+void scale_stiffness(StabilitySetup& s, double x) {
+    for (Vec3& K : s.tree.stiffness) K *= x;
+}
+
+void blow(StabilitySetup& s, double speed) {
+    s.scene.wind = Wind();
+    s.scene.wind->velocity = Vec3(speed, 0, 0);
+}
+
+// Mass and inertia of the bodies without children.
+void scale_tips(StabilitySetup& s, double x) {
+    std::vector<bool> inner(s.tree.size_bodies(), false);
+    for (const std::int32_t p : s.tree.parent)
+        if (p >= 0) inner[std::size_t(p)] = true;
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+        if (inner[i]) continue;
+        s.tree.mass[i] *= x;
+        s.tree.inertia[i] *= x;
+    }
+}
+
+// The scene stands, but for its trees, wind, pulls and motion of the ground, which belong to the user's tree.
+void stand(StabilitySetup& s, const Splines& splines) {
+    s.tree = segment(splines, wood_presets().front(), {});
+    s.ranges = {{0, s.tree.size_bodies(), 0}};
+}
+
+Splines stem(const std::vector<Vec3>& points, const std::vector<double>& radii) {
+    Splines s;
+    s.parent = {-1};
+    s.parent_at = {0};
+    s.level = {0};
+    s.first_point = {0, std::int32_t(points.size())};
+    s.point = points;
+    s.radius = radii;
+    return s;
+}
+
+// A leaning pole cut evenly into n bodies.
+void pole(StabilitySetup& s, int n, double length, double radius) {
+    const Vec3 along = Vec3(0.3, 1, 0).normalized() * length;
+    SegmentOptions options;
+    options.segment_length = length / n * (1 + 1e-9);
+    s.tree = segment(stem({Vec3::Zero(), along}, {radius, radius / 2}), wood_presets().front(), options);
+    s.ranges = {{0, s.tree.size_bodies(), 0}};
+}
+
+// Bodies as no segmentation would make them: every third of a pole's shrunk to a point or thinned to a hair.
+void degenerate(StabilitySetup& s, double length_factor, double radius_factor) {
+    pole(s, 30, 3, 0.05);
+    for (std::size_t i = 2; i < s.tree.size_bodies(); i += 3) {
+        const double mass = length_factor * radius_factor * radius_factor;
+        s.tree.mass[i] *= mass;
+        s.tree.com[i] *= length_factor;
+        Mat3& I = s.tree.inertia[i];
+        const double across = std::max(length_factor * length_factor, radius_factor * radius_factor);
+        I = Vec3(I(0, 0) * across, I(1, 1) * across, I(2, 2) * radius_factor * radius_factor).asDiagonal();
+        I *= mass;
+        s.tree.size[i][0] *= length_factor;
+        s.tree.size[i].tail<2>() *= radius_factor;
+        if (i + 1 < s.tree.size_bodies()) s.tree.joint_position[i + 1] *= length_factor;
+    }
+}
+
+// The ground jumps by `distance` [m] within `span` [s].
+void teleport(StabilitySetup& s, double distance, double span) {
+    RootMotion motion;
+    motion.time = {0.5, 0.5 + span};
+    motion.position = {Vec3::Zero(), Vec3(distance, 0, 0)};
+    s.scene.root_motion = {motion};
+}
+
+struct List {
+    std::vector<StabilityCase> cases;
+    void add(const char* group, const std::string& name, bool promised, std::function<void(StabilitySetup&)> apply) {
+        cases.push_back({group, name, promised, std::move(apply)});
+    }
+};
+
+void single_axes(List& list) {
+    for (const double x : {0.0, 1e-12, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 1e2, 1e4, 1e6, 1e9, 1e12, 1e15})
+        list.add("stiffness", "K x " + number(x), x >= 1e-3 && x <= 1e6,
+                 [x](StabilitySetup& s) { scale_stiffness(s, x); });
+    for (const double x : {0.0, 1e-4, 1e-2, 0.1, 1.0, 10.0, 1e3, 1e6})
+        list.add("damping", "beta " + number(x) + " s", x <= 1,
+                 [x](StabilitySetup& s) { s.tree.damping.assign(s.tree.size_bodies(), x); });
+    for (const double rate : {1000.0, 240.0, 120.0, 60.0, 30.0, 15.0, 10.0, 4.0, 1.0})
+        list.add("step", rate > 1 ? "dt 1/" + number(rate) + " s" : "dt 1 s", rate <= 240 && rate >= 10,
+                 [rate](StabilitySetup& s) { s.dt = 1 / rate; });
+    for (const double speed : {0.0, 8.0, 20.0, 30.0, 50.0, 100.0})
+        list.add("wind", speed > 0 ? number(speed) + " m/s" : "still air", speed <= 50,
+                 [speed](StabilitySetup& s) { blow(s, speed); });
+    for (const double x : {0.0, 10.0, 100.0, 1000.0})
+        list.add("gravity", "g x " + number(x), x == 0, [x](StabilitySetup& s) { s.scene.gravity *= x; });
+    for (const double x : {1e-6, 1e-9, 1e6})
+        list.add("mass", "tips x " + number(x), x == 1e-6 || x == 1e6, [x](StabilitySetup& s) {
+            scale_tips(s, x);
+            if (x > 1) scale_stiffness(s, x);
+        });
+}
+
+void combinations(List& list) {
+    for (const double x : {1e-3, 1e6})
+        for (const double speed : {30.0, 50.0})
+            list.add("wind and stiffness", number(speed) + " m/s, K x " + number(x), true, [=](StabilitySetup& s) {
+                blow(s, speed);
+                scale_stiffness(s, x);
+            });
+    list.add("wind and stiffness", "30 m/s, K 0", false, [](StabilitySetup& s) {
+        blow(s, 30);
+        scale_stiffness(s, 0);
+    });
+    list.add("wind and step", "50 m/s, dt 1/10 s", true, [](StabilitySetup& s) {
+        blow(s, 50);
+        s.dt = 0.1;
+    });
+    list.add("wind and step", "50 m/s, dt 1/240 s", true, [](StabilitySetup& s) {
+        blow(s, 50);
+        s.dt = 1.0 / 240;
+    });
+    list.add("damping and stiffness", "beta 0, K x 1e-3", true, [](StabilitySetup& s) {
+        s.tree.damping.assign(s.tree.size_bodies(), 0);
+        scale_stiffness(s, 1e-3);
+    });
+    list.add("damping and stiffness", "beta 0, K x 1e+06, dt 1/10 s", true, [](StabilitySetup& s) {
+        s.tree.damping.assign(s.tree.size_bodies(), 0);
+        scale_stiffness(s, 1e6);
+        s.dt = 0.1;
+    });
+    list.add("damping and stiffness", "beta 1, K x 1e+06", true, [](StabilitySetup& s) {
+        s.tree.damping.assign(s.tree.size_bodies(), 1);
+        scale_stiffness(s, 1e6);
+    });
+}
+
+void own_trees(List& list) {
+    list.add("depth", "1 body", true, [](StabilitySetup& s) { pole(s, 1, 3, 0.05); });
+    list.add("depth", "chain of 400", true, [](StabilitySetup& s) { pole(s, 400, 10, 0.2); });
+    list.add("depth", "chain of 1e5", true, [](StabilitySetup& s) { pole(s, 100000, 20, 0.5); });
+    list.add("shape", "zero-length pieces", true, [](StabilitySetup& s) { degenerate(s, 1e-9, 1); });
+    list.add("shape", "zero-radius pieces", true, [](StabilitySetup& s) { degenerate(s, 1, 1e-6); });
+    list.add("shape", "pieces without extent", true, [](StabilitySetup& s) { degenerate(s, 1e-9, 1e-6); });
+    list.add("shape", "coincident points", true, [](StabilitySetup& s) {
+        const Vec3 a(0, 0, 0), b(0.1, 1, 0), c(0.2, 2, 0);
+        stand(s, stem({a, a, b, b, b, c, c}, {0.05, 0.05, 0.04, 0.04, 0.03, 0.02, 0}));
+    });
+    list.add("shape", "equal K, round inertia", true, [](StabilitySetup& s) {
+        for (Vec3& K : s.tree.stiffness) K.setConstant(K.mean());
+        for (Mat3& I : s.tree.inertia) I = Mat3::Identity() * (I.trace() / 3);
+    });
+    for (const double distance : {1.0, 100.0})
+        for (const double span : {1e-3, 0.1})
+            list.add("ground", "jumps " + number(distance) + " m in " + number(span) + " s", false,
+                     [=](StabilitySetup& s) { teleport(s, distance, span); });
+}
+
+} // namespace
+
+std::vector<StabilityCase> stability_cases() {
+    List list;
+    single_axes(list);
+    combinations(list);
+    own_trees(list);
+    return list.cases;
+}
+
+} // namespace bough

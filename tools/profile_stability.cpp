@@ -1,0 +1,63 @@
+#include "lib/reference/stability.h"
+#include "profile.h"
+#include "report_file.h"
+#include "simulation.h"
+#include <memory>
+
+namespace bough {
+namespace {
+
+struct StabilityCommand {
+    CommonOptions& common;
+    RunOptions run;
+    std::string only, report;
+    std::int64_t frames = StabilityOptions().frames;
+};
+
+void declare(CLI::App& app, StabilityCommand& o) {
+    app.add_option("INPUT", o.run.input, "A tree, or a scene whose trees, gravity and air are taken; - for stdin");
+    app.add_option("--frames", o.frames, "Steps a cell (100)")->option_text("N")->check(whole_number(4));
+    app.add_option("--only", o.only, "Only the cases whose group or name contains this")->option_text("TEXT");
+    app.add_option("--report", o.report, "Also write the figures as .json or .csv, the grid as .svg, both as .html")
+        ->option_text("FILE")
+        ->check(file_name());
+}
+
+void work(StabilityCommand& o) {
+    if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");
+    require_report(o.report);
+    const Setting setting = read_setting(o.run);
+    StabilityOptions options;
+    options.frames = o.frames;
+    options.only = o.only;
+    interrupt_at_boundary();
+    StabilityReport report;
+    {
+        std::unique_ptr<Progress> progress;
+        report = measure_stability({setting.tree, setting.ranges, setting.scene}, options,
+                                   [&](std::int64_t done, std::int64_t cells) {
+                                       if (interrupted()) throw Interrupted("interrupted: nothing is written");
+                                       if (!progress) progress = std::make_unique<Progress>(o.common, "cell", cells);
+                                       progress->at(done);
+                                   });
+    }
+    if (report.cells.empty()) throw UsageError("--only is '" + o.only + "', which no case's group or name contains");
+    Output output(o.common.output);
+    output.write(stability_table(report));
+    if (!o.report.empty())
+        write_stability_report(o.report, report, report_meta(profile_name, o.common, setting.source));
+    output.finish();
+    const PromiseCount count = promise_count(report);
+    if (count.held < count.promised)
+        throw PromiseError(std::to_string(count.promised - count.held) + " of " + std::to_string(count.promised) +
+                           " promised cells do not hold");
+}
+
+} // namespace
+
+Subcommand profile_stability(CommonOptions& common) {
+    const auto o = std::make_shared<StabilityCommand>(StabilityCommand{common, {}, {}, {}});
+    return {"stability", [o](CLI::App& app) { declare(app, *o); }, [o] { work(*o); }};
+}
+
+} // namespace bough
