@@ -23,7 +23,7 @@ void declare(CLI::App& app, ErrorCommand& o) {
     add_run_options(app, o.run, seconds_default);
     app.add_option(
            "--steps", o.steps,
-           "Steps a frame to run with, with commas: powers of two from 1/64 to 4096, the two finest also for the "
+           "Steps a frame to run with, with commas: powers of two from 1/64 to 4096, the three finest also for the "
            "limit of small steps (1/4,1/2,1,2,4,8,16,32,64)")
         ->option_text("LIST");
     app.add_option("--report", o.report, "Also write the figures as .json or .csv, the plot as .svg, both as .html")

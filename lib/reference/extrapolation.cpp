@@ -45,10 +45,9 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
         const double taken = H >= left ? left : H > left / 2 ? left / 2 : H;
         const double start = time + done;
         for (ArticulatedPass& pass : state.articulated) pass.fast = 0;
-#pragma omp parallel for schedule(dynamic, 1) if (n > 20)
+#pragma omp parallel for schedule(dynamic, 1) if (n > 100)
         for (int j = rows; j >= 1; --j) run_row(plan, state, state.articulated[std::size_t(j - 1)], j, start, taken);
-        double error = 0;
-        bool finite = true;
+        double squares = 0;
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             std::array<Vec3, rows> theta, rate;
             for (std::size_t j = 0; j < rows; ++j) {
@@ -56,12 +55,13 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
                 rate[j] = state.articulated[j].body[i].rate;
             }
             const double e = std::max(extrapolate(theta).norm(), taken * extrapolate(rate).norm());
-            finite = finite && std::isfinite(e);
-            error = std::max(error, e);
+            squares += e * e;
             ArticulatedBody& result = state.articulated[0].body[i]; // the first row's end is spent
             result.theta = theta[rows - 1];
             result.rate = rate[rows - 1];
         }
+        const double error = std::sqrt(squares / double(plan.bodies));
+        const bool finite = std::isfinite(error);
         const double growth =
             !finite ? 0.25
                     : std::clamp(0.8 * std::pow(plan.tolerance / std::max(error, 1e-300), 1.0 / rows), 0.25, 2.5);

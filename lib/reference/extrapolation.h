@@ -7,7 +7,7 @@
 //   T_j,k+1 = T_j,k + (T_j,k - T_j-1,k) / (j / (j - k) - 1)
 // cancels one power a column: T_8,8 is of order 8, and stiff components stay as stable as the implicit step makes them.
 // The sequences are independent of one another and run in parallel.
-// Error. e = largest |T_8,8 - T_8,7| over the joints, of theta [rad] and of rate times H; H is accepted where e <= tolerance,
+// Error. e = RMS over the joints of |T_8,8 - T_8,7|, the larger of theta's [rad] and rate's times H; accepted where e <= tolerance,
 // and the next is H (tolerance / e)^(1/8), times 0.8, between 1/4 and 2.5 of it. It is the error of the column before the
 // last, so an overestimate where the table converges.
 // A step of the plan (its dt) is cut into as many H as that takes; the last is shortened to end with it. The proposal for

@@ -26,7 +26,8 @@ struct Variant {
     double tolerance = 1e-8;                     // articulated_reference alone
 };
 
-// Bodies without children: the point at the far end of each (its length along z).
+// The branches' tips: pieces that no piece goes on from or leaves; the point meant is the far end (its length along z). Leaves
+// and fruit are not tips: what flutters at the end of a twig is chaotic, and no error of the tree.
 std::vector<std::size_t> tip_bodies(const Tree&);
 
 struct Trajectory {

@@ -47,9 +47,12 @@ double angle_difference(const Trajectory& run, const Trajectory& truth) {
     return count > 0 ? std::sqrt(squares / double(count)) : NAN;
 }
 
-// Limit of small steps of a first-order solver.
-std::optional<Trajectory> limit_of(const Trajectory& coarse, const Trajectory& fine) {
-    if (!coarse.finite || !fine.finite || coarse.stride != 1 || fine.stride != 1) return std::nullopt;
+// Limit of small steps of a first-order solver, from its three finest runs; none where they do not converge like one.
+std::optional<Trajectory> limit_of(const std::vector<Trajectory>& runs) {
+    if (runs.size() < 3) return std::nullopt;
+    const Trajectory &fine = runs.back(), &coarse = runs[runs.size() - 2], &coarser = runs[runs.size() - 3];
+    if (!coarser.finite || !coarse.finite || !fine.finite || coarse.stride != 1) return std::nullopt;
+    if (!(difference(fine, coarse).rms < 0.75 * difference(coarse, coarser).rms)) return std::nullopt;
     Trajectory limit = fine;
     for (std::size_t f = 0; f < limit.tip.size(); ++f)
         for (std::size_t k = 0; k < limit.tip[f].size(); ++k) limit.tip[f][k] = 2 * fine.tip[f][k] - coarse.tip[f][k];
@@ -172,8 +175,7 @@ ErrorRun Bench::row(const Variant& v, const Trajectory& run, const Trajectory* s
 void Bench::series(const std::vector<Variant>& variants, const Variant* in_float) {
     std::vector<Trajectory> runs;
     for (const Variant& v : variants) runs.push_back(timed(v));
-    std::optional<Trajectory> limit;
-    if (runs.size() >= 2) limit = limit_of(runs[runs.size() - 2], runs.back());
+    const std::optional<Trajectory> limit = limit_of(runs);
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const bool shown = std::any_of(options.variants.begin(), options.variants.end(), [&](const Variant& v) {
             return v.solver == variants[k].solver && v.inertia == variants[k].inertia && !v.single;
