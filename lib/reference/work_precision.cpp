@@ -175,7 +175,11 @@ ErrorRun Bench::row(const Variant& v, const Trajectory& run, const Trajectory* s
 void Bench::series(const std::vector<Variant>& variants, const Variant* in_float) {
     std::vector<Trajectory> runs;
     for (const Variant& v : variants) runs.push_back(timed(v));
-    const std::optional<Trajectory> limit = limit_of(runs);
+    std::optional<Trajectory> limit;
+    const std::size_t n = variants.size();
+    if (n >= 3 && variants[n - 1].steps_per_frame == 2 * variants[n - 2].steps_per_frame &&
+        variants[n - 2].steps_per_frame == 2 * variants[n - 3].steps_per_frame)
+        limit = limit_of(runs);
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const bool shown = std::any_of(options.variants.begin(), options.variants.end(), [&](const Variant& v) {
             return v.solver == variants[k].solver && v.inertia == variants[k].inertia && !v.single;
