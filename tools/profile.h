@@ -18,4 +18,6 @@ constexpr const char* profile_name = "treeprofile";
 Subcommand profile_stages(CommonOptions&);  // profile_stages.cpp: what each stage of a run costs
 Subcommand profile_compare(CommonOptions&); // profile_compare.cpp: what became slower between two of its reports
 
+Subcommand profile_error(CommonOptions&); // profile_error.cpp: error against run time
+
 } // namespace bough

@@ -7,12 +7,16 @@ using namespace bough;
 
 const ToolInfo info = {
     profile_name,
-    "Measures what each stage of a simulation costs; `compare` finds what became slower.\n"
+    "Measures what each stage of a simulation costs, how wrong it is and what that costs; `compare` finds what became\n"
+    "slower.\n"
     "Usage: treeprofile [stages] TREE|SCENE [--report FILE.json|FILE.csv] [treesim's run options]\n"
+    "       treeprofile error TREE|SCENE [--steps LIST] [--report FILE.json|.csv|.svg|.html] [treesim's run options]\n"
     "       treeprofile compare OLD.json NEW.json [--fail-above 1.1]",
-    "stages is what runs unless compare is the first word. Nothing is written while it measures. The first frame "
+    "stages is what runs unless another of these is the first word. Nothing is written while it measures. The first "
+    "frame "
     "after\n"
     "the start is left out as a warm-up; of --repeat runs the fastest counts.\n"
+    "error runs each solver at each number of steps a frame against a reference solution of the articulated dynamics.\n"
     "compare exits with 3 when the total, or a stage that had at least 5 % of it, costs more than --fail-above times\n"
     "what it did. Reports of different bodies, precision, solver or substeps are refused (2).\n"
     "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite or slower, 4 output not written, 130 interrupted.",
@@ -22,7 +26,8 @@ const ToolInfo info = {
 
 int main(int argc, char** argv) {
     CommonOptions common;
-    const std::vector<Subcommand> subcommands = {profile_stages(common), profile_compare(common)};
+    const std::vector<Subcommand> subcommands = {profile_stages(common), profile_error(common),
+                                                 profile_compare(common)};
     // A tree is never called like a subcommand by accident, because ./compare is another word.
     const std::string word = argc > 1 ? argv[1] : "";
     std::vector<char*> arguments(argv, argv + argc);

@@ -2,7 +2,15 @@
 // those of positions of the branches' tips over all frames, against a reference solution of the full articulated
 // dynamics; relative ones are shares of the truth's RMS tip deflection |x(t) - x(0)|, unless the name says of what. A
 // figure that was not measured, or has no value because the run became non-finite, is NAN.
+//
+// The split. step: from a run to the solver's own limit of small steps, by Richardson's extrapolation of the two finest runs in
+// double (first order); model: from that limit to the reference; arithmetic: from a run in float to the same in double.
+// The reference is articulated_reference at a tolerance and at ten times that; what the second is off by from the first is
+// reference_error. Its true error is smaller where it converges; where the motion is chaotic (leaves in strong wind), it is
+// what can be said.
+// Frequencies and decay rates: ring_down.h; in double and up to 8 steps a frame, where they are a solver's own.
 #pragma once
+#include "trajectory.h"
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -39,5 +47,19 @@ struct ErrorReport {
     double decay = NAN;           // [1/s] its decay rate
     double reference_seconds = 0; // [s/s] run time of the reference per simulated second
 };
+
+struct ErrorOptions {
+    std::vector<double> steps_per_frame{0.25, 0.5, 1, 2, 4, 8, 16, 32, 64}; // rising powers of two
+    std::vector<Variant> variants; // solver, inertia, precision of the series, in the report's order
+    double tolerance = 1e-8;       // [rad] of the reference
+};
+
+// All solvers that exist, a solver's default first, each in double and (where it has one) float.
+std::vector<Variant> all_variants();
+
+// progress(done, total) in thousandths of the work, once a frame; may throw to end. Cost: sum of the runs; the reference
+// takes 36 passes an inner step. Throws what make_plan throws, std::domain_error where nothing moves in the reference.
+ErrorReport measure_error(const Problem&, const ErrorOptions&,
+                          const std::function<void(std::int64_t, std::int64_t)>& progress);
 
 } // namespace bough

@@ -1,0 +1,78 @@
+#include "trajectory.h"
+#include "advance.h"
+#include <chrono>
+#include <cmath>
+
+namespace bough {
+namespace {
+
+template <class T>
+bool sample(const Plan<T>&, const State<T>& state, const Tree& tree, const std::vector<std::size_t>& tips,
+            bool keep_theta, Trajectory& out) {
+    if (first_non_finite(state)) return false;
+    std::vector<Vec3> tip;
+    tip.reserve(tips.size());
+    for (const std::size_t i : tips) {
+        const Vec3 x = state.x_w[i].template cast<double>();
+        tip.push_back(x + state.R_wb[i].template cast<double>().col(2) * tree.size[i][0]);
+        if (!tip.back().allFinite()) return false;
+    }
+    out.tip.push_back(std::move(tip));
+    if (keep_theta) {
+        out.theta.emplace_back();
+        for (const auto& theta : state.theta) out.theta.back().push_back(theta.template cast<double>());
+    }
+    return true;
+}
+
+template <class T>
+Trajectory run(const Problem& problem, const Variant& how, bool keep_theta, int repeat,
+               const std::function<void()>& tick) {
+    using Time = std::chrono::steady_clock;
+    Scene scene = problem.scene;
+    scene.joint_inertia = how.inertia;
+    const double dt = 1 / (problem.fps * how.steps_per_frame);
+    Plan<T> plan = make_plan<T>(problem.tree, problem.ranges, scene, {}, dt, how.solver);
+    plan.tolerance = how.tolerance;
+    const std::vector<std::size_t> tips = tip_bodies(problem.tree);
+    const auto stride = std::int64_t(std::max(1.0, 1 / how.steps_per_frame));
+    const auto substeps = std::int64_t(std::max(1.0, how.steps_per_frame));
+    Trajectory best;
+    for (int k = 0; k < repeat; ++k) {
+        Trajectory now;
+        now.stride = stride;
+        State<T> state = make_state(plan);
+        now.finite = sample(plan, state, problem.tree, tips, keep_theta, now);
+        for (std::int64_t f = stride; now.finite && f < problem.frames; f += stride) {
+            tick();
+            const Time::time_point start = Time::now();
+            for (std::int64_t s = 0; s < substeps; ++s) advance(plan, state);
+            now.seconds += std::chrono::duration<double>(Time::now() - start).count();
+            now.finite = sample(plan, state, problem.tree, tips, keep_theta, now);
+        }
+        now.hash = state_hash(state);
+        now.flags = state.flags;
+        if (k == 0 || now.seconds < best.seconds) best = std::move(now);
+    }
+    return best;
+}
+
+} // namespace
+
+std::vector<std::size_t> tip_bodies(const Tree& tree) {
+    std::vector<bool> inner(tree.size_bodies(), false);
+    for (const std::int32_t p : tree.parent)
+        if (p >= 0) inner[std::size_t(p)] = true;
+    std::vector<std::size_t> tips;
+    for (std::size_t i = 0; i < inner.size(); ++i)
+        if (!inner[i]) tips.push_back(i);
+    return tips;
+}
+
+Trajectory run_trajectory(const Problem& problem, const Variant& how, bool keep_theta, int repeat,
+                          const std::function<void()>& tick) {
+    return how.single ? run<float>(problem, how, keep_theta, repeat, tick)
+                      : run<double>(problem, how, keep_theta, repeat, tick);
+}
+
+} // namespace bough

@@ -1,0 +1,47 @@
+// trajectory.h: one run of one solver at one step length, kept as the positions of the tree's tips in each frame.
+#pragma once
+#include "../stages/plan.h"
+#include "../stages/state.h"
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+// What is run: the joined tree, its scene, `frames` frames (the start included) at `fps`.
+struct Problem {
+    const Tree& tree;
+    const std::vector<TreeRange>& ranges;
+    Scene scene;
+    double fps = 30;
+    std::int64_t frames = 61;
+};
+
+// How: one row of a work-precision table.
+struct Variant {
+    Solver solver = Solver::analytic;
+    JointInertia inertia = JointInertia::branch; // analytic alone
+    bool single = false;                         // float; analytic alone
+    double steps_per_frame = 1;                  // 2^k; below 1 a step spans 1 / steps_per_frame frames
+    double tolerance = 1e-8;                     // articulated_reference alone
+};
+
+// Bodies without children: the point at the far end of each (its length along z).
+std::vector<std::size_t> tip_bodies(const Tree&);
+
+struct Trajectory {
+    std::int64_t stride = 1;              // frames between two samples
+    std::vector<std::vector<Vec3>> tip;   // [m] samples x tips, world
+    std::vector<std::vector<Vec3>> theta; // [rad] samples x joints, where asked for
+    double seconds = 0;                   // run time of the steps alone, the fastest of `repeat` runs
+    bool finite = true;
+    std::uint64_t hash = 0;
+    StepFlags flags;
+};
+
+// tick is called once a frame and may throw to end the run. A run that becomes non-finite ends there (finite = false).
+// Throws what make_plan throws. O(bodies) a step.
+Trajectory run_trajectory(const Problem&, const Variant&, bool keep_theta, int repeat,
+                          const std::function<void()>& tick);
+
+} // namespace bough

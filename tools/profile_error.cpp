@@ -1,0 +1,130 @@
+#include "lib/reference/work_precision.h"
+#include "profile.h"
+#include "report_file.h"
+#include "simulation.h"
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace bough {
+namespace {
+
+constexpr double seconds_default = 2;
+
+struct ErrorCommand {
+    CommonOptions& common;
+    RunOptions run;
+    std::string steps, report;
+    CLI::App* app = nullptr;
+};
+
+void declare(CLI::App& app, ErrorCommand& o) {
+    o.app = &app;
+    add_run_options(app, o.run, seconds_default);
+    app.add_option(
+           "--steps", o.steps,
+           "Steps a frame to run with, with commas: powers of two from 1/64 to 4096, the two finest also for the "
+           "limit of small steps (1/4,1/2,1,2,4,8,16,32,64)")
+        ->option_text("LIST");
+    app.add_option("--report", o.report, "Also write the figures as .json or .csv, the plot as .svg, both as .html")
+        ->option_text("FILE")
+        ->check(file_name());
+}
+
+// 4, 0.25 or 1/4.
+double step_count(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const std::string what = "--steps holds '" + text + "', expected powers of two such as 1/4 or 16";
+    double value = 0;
+    try {
+        const auto number = [&](const std::string& part) { return number_list("--steps", part, 1)[0]; };
+        value =
+            slash == std::string::npos ? number(text) : number(text.substr(0, slash)) / number(text.substr(slash + 1));
+    } catch (const UsageError&) {
+        throw UsageError(what);
+    }
+    int exponent = 0;
+    if (!(value >= 1.0 / 64 && value <= 4096) || std::frexp(value, &exponent) != 0.5) throw UsageError(what);
+    return value;
+}
+
+std::vector<double> chosen_steps(const std::string& text) {
+    if (text.empty()) return ErrorOptions().steps_per_frame;
+    std::vector<double> steps;
+    for (const std::string& part : split_list(text)) steps.push_back(step_count(part));
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    return steps;
+}
+
+// All series, or those that --solver, --precision, --joint-inertia leave.
+std::vector<Variant> chosen_variants(const ErrorCommand& o) {
+    const auto given = [&](const char* name) { return o.app->get_option(name)->count() > 0; };
+    std::vector<Variant> chosen;
+    for (const Variant& v : all_variants()) {
+        if (given("--solver") && o.run.solver != solver_name(v.solver)) continue;
+        if (given("--precision") && (o.run.precision == "float") != v.single) continue;
+        if (!o.run.joint_inertia.empty() && (o.run.joint_inertia == "paper") != (v.inertia == JointInertia::paper))
+            continue;
+        chosen.push_back(v);
+    }
+    if (chosen.empty()) throw UsageError("--solver, --precision and --joint-inertia leave nothing to measure");
+    return chosen;
+}
+
+// A drawn tree that nothing moves stands still: what is measured then is its fall from the unloaded pose.
+void let_move(ErrorCommand& o, Scene& scene) {
+    if (scene.wind || !scene.pulls.empty() || !scene.root_motion.empty() || scene.pose != Pose::drawn) return;
+    if (!o.run.pose.empty())
+        throw UsageError("--pose drawn: nothing moves then; name a wind, or leave --pose out to switch gravity on");
+    scene.pose = Pose::rest;
+    o.common.notes.push_back("no wind, pulls or root motion: gravity is switched on at the start (--pose rest)");
+}
+
+void work(ErrorCommand& o) {
+    if (o.app->get_option("--substeps")->count() > 0) throw UsageError("--substeps: --steps says it here");
+    if (o.run.solver == solver_name(Solver::articulated_reference))
+        throw UsageError("--solver articulated-reference is what the others are held against");
+    if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");
+    require_report(o.report);
+    ErrorOptions options;
+    options.steps_per_frame = chosen_steps(o.steps);
+    options.variants = chosen_variants(o);
+    if (o.run.tolerance) options.tolerance = *o.run.tolerance;
+    RunOptions reading = o.run;
+    reading.tolerance.reset();
+    Setting setting = read_setting(reading);
+    let_move(o, setting.scene);
+    const Problem problem{setting.tree, setting.ranges, setting.scene, o.run.fps, frames_of(o.run, seconds_default)};
+    const double coarsest = std::max(1.0, 1 / options.steps_per_frame.front());
+    if (double(problem.frames - 1) < 2 * coarsest)
+        throw UsageError("--frames: at least two of the longest steps are needed");
+    interrupt_at_boundary();
+    ErrorReport report;
+    {
+        Progress progress(o.common, "thousandth", 1000);
+        try {
+            report = measure_error(problem, options, [&](std::int64_t done, std::int64_t) {
+                if (interrupted()) throw Interrupted("interrupted: nothing is written");
+                progress.at(done);
+            });
+        } catch (const std::out_of_range& error) {
+            throw InputError(input_name(o.run.input), error.what());
+        } catch (const std::domain_error& error) {
+            throw InputError(input_name(o.run.input), error.what());
+        }
+    }
+    Output output(o.common.output);
+    output.write(error_table(report));
+    if (!o.report.empty()) write_error_report(o.report, report, report_meta(profile_name, o.common, setting.source));
+    output.finish();
+}
+
+} // namespace
+
+Subcommand profile_error(CommonOptions& common) {
+    const auto o = std::make_shared<ErrorCommand>(ErrorCommand{common, {}, {}, {}});
+    return {"error", [o](CLI::App& app) { declare(app, *o); }, [o] { work(*o); }};
+}
+
+} // namespace bough
