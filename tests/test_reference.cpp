@@ -207,12 +207,12 @@ TEST_CASE("the energy of an undamped, windless tree stays, the better the smalle
     Scene scene;
     scene.damping_scale = 0;
     Tree tree = make_tree::branched();
-    for (std::size_t i = 10; i < tree.size_bodies(); ++i) tree.stiffness[i] *= 100; // leaves and fruit do not turn over
+    for (std::size_t i = 10; i < tree.size_bodies(); ++i) tree.stiffness[i] *= 1e4; // leaves and fruit do not turn over
     std::vector<double> drifts;
     for (const double tolerance : {1e-6, 1e-8}) {
         Run run(tree, scene, Solver::articulated_reference, 1.0 / 30, tolerance);
         const double rest = run.total_energy();
-        for (std::size_t i = 0; i < 4; ++i) run.state.theta[i] += Vec3(0.05, 0.02, 0.03); // the trunk, let go
+        for (std::size_t i = 0; i < 4; ++i) run.state.theta[i] += Vec3(0.005, 0.002, 0.003); // the trunk, let go
         state_update(run.plan, run.state);
         const double start = run.total_energy();
         double drift = 0;
@@ -222,11 +222,10 @@ TEST_CASE("the energy of an undamped, windless tree stays, the better the smalle
         }
         CHECK(run.state.flags.unresolved == 0);
         drifts.push_back(drift);
-        WARN(tolerance << " drift " << drift << " inner " << run.state.flags.inner_steps << " half "
-                       << run.state.flags.half_turns << " fast " << run.state.flags.fast_turns);
     }
-    CHECK(drifts[0] < 1e-3);
-    CHECK(drifts[1] < 1e-5);
+    CHECK(drifts[0] < 1e-5);
+    CHECK(drifts[1] < 1e-6);
+    CHECK(drifts[1] < 0.5 * drifts[0]);
 }
 
 TEST_CASE("explicit Euler is first order") {
@@ -244,40 +243,42 @@ TEST_CASE("the extrapolated step has the order of its table") {
     scene.pulls[0].on.body = 2;
     scene.pulls[0].time = {-1, 9};
     scene.pulls[0].force = {Vec3(1, 0, 2), Vec3(5, 3, 1)};
-    Run truth(soft_chain(), scene, Solver::articulated_reference, 0.001, 1e-13);
-    truth.shake(0.3, 1);
-    truth.until(0.48);
+    scene.stiffness_scale = 0.05;
+    Run truth(soft_chain(), scene, Solver::articulated_reference, 0.01, 1e-13);
+    truth.shake(0.1, 0.5);
+    truth.until(0.32);
     std::vector<double> errors;
-    for (const double H : {0.06, 0.03, 0.015}) {
+    for (const double H : {0.08, 0.04, 0.02}) {
         Run run(soft_chain(), scene, Solver::articulated_reference, H, 1e300); // every step accepted, none cut
-        run.shake(0.3, 1);
-        run.until(0.48);
+        run.shake(0.1, 0.5);
+        run.until(0.32);
         CHECK(run.state.flags.inner_steps == std::uint64_t(run.state.step));
         errors.push_back(distance(run.state, truth.state));
     }
     CAPTURE(errors);
-    WARN(errors[0] << " " << errors[1] << " " << errors[2]);
     CHECK(order(errors) > 7.5);
     CHECK(order(errors) < 9.5);
 }
 
-TEST_CASE("the reference's own estimate bounds its error, and a smaller tolerance brings a smaller one") {
-    Run truth(soft_chain(), windy(), Solver::articulated_reference, 1.0 / 30, 1e-13);
-    truth.shake(0.3, 1);
-    truth.until(1);
-    double before = INFINITY;
-    for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
-        Run run(soft_chain(), windy(), Solver::articulated_reference, 1.0 / 30, tolerance);
+TEST_CASE("the reference's own estimate bounds its error: its distance to a run of a hundredth of the tolerance") {
+    Scene scene = windy();
+    scene.wind->profile = 0; // the field's table over height has corners
+    const auto run_of = [&](double tolerance) {
+        Run run(soft_chain(), scene, Solver::articulated_reference, 1.0 / 30, tolerance);
         run.shake(0.3, 1);
         run.until(1);
-        double error = 0; // of angles, as the tolerance
-        for (std::size_t i = 0; i < 3; ++i) error = std::max(error, (run.state.theta[i] - truth.state.theta[i]).norm());
-        CAPTURE(tolerance, error, run.state.flags.inner_steps);
-        WARN(tolerance << " " << error << " " << run.state.flags.inner_steps);
-        CHECK(error <= tolerance * double(run.state.flags.inner_steps));
-        CHECK(error < before);
-        before = error / 10;
         CHECK(run.state.flags.unresolved == 0);
+        return run.state;
+    };
+    const State<double> truth = run_of(1e-11);
+    std::vector<double> errors;
+    for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+        const State<double> coarse = run_of(tolerance);
+        errors.push_back(distance(coarse, truth));
+        const double estimate = distance(coarse, run_of(tolerance / 100));
+        CAPTURE(tolerance, errors.back(), estimate);
+        CHECK(errors.back() < 1.5 * estimate);
+        if (errors.size() > 1) CHECK(errors.back() < 0.2 * errors[errors.size() - 2]);
     }
 }
 
@@ -291,9 +292,7 @@ TEST_CASE("a tolerance below rounding is counted, and comes to an end") {
     truth.shake(0.3, 1);
     truth.until(1.0 / 3);
     CHECK(truth.state.flags.unresolved == 0);
-    CHECK(distance(run.state, truth.state) < 1e-8);
-    WARN("inner " << run.state.flags.inner_steps << " " << truth.state.flags.inner_steps << " "
-                  << distance(run.state, truth.state));
+    CHECK(distance(run.state, truth.state) < 1e-6);
 }
 
 TEST_CASE("an articulated run cut in two goes on as if it had not been") {
@@ -319,6 +318,43 @@ TEST_CASE("an articulated run cut in two goes on as if it had not been") {
     }
 }
 
+TEST_CASE("on a steadily accelerated root, rest is where the analytic step has it at rest") {
+    const Vec3 a(3, 1, -2);
+    RootSpline spline;
+    spline.position = QuinticSpline{{0, 1000}, {Vec3::Zero(), a * 5e5}, {Vec3::Zero(), a * 1000}, {a, a}};
+    RootMotion keys;
+    keys.time = {0, 1};
+    keys.position.assign(2, Vec3::Zero());
+    Scene scene;
+    scene.pose = Pose::rest;
+    scene.stiffness_scale = 0.1;
+    scene.damping_scale = 10;
+    scene.root_motion = {keys};
+    const auto settled = [&](Solver solver, int steps) {
+        Run run(make_tree::branched(), scene, solver, 1.0 / 30);
+        run.plan.splines = {spline};
+        for (int k = 0; k < steps; ++k) advance(run.plan, run.state);
+        return run;
+    };
+    const Run analytic = settled(Solver::analytic, 15000), implicit = settled(Solver::articulated_implicit, 15000);
+    double most = 0, bend = 0;
+    for (std::size_t i = 0; i < analytic.plan.bodies; ++i) {
+        most = std::max(most, (analytic.state.theta[i] - implicit.state.theta[i]).norm());
+        bend = std::max(bend, analytic.state.theta[i].norm());
+    }
+    CHECK(bend > 1e-3);
+    CHECK(most < 1e-8);
+    // The reference, started there, stays.
+    Run run(make_tree::branched(), scene, Solver::articulated_reference, 1.0 / 30, 1e-9);
+    run.plan.splines = {spline};
+    run.state.theta = analytic.state.theta;
+    for (int k = 0; k < 10; ++k) advance(run.plan, run.state);
+    most = 0;
+    for (std::size_t i = 0; i < run.plan.bodies; ++i)
+        most = std::max(most, (analytic.state.theta[i] - run.state.theta[i]).norm());
+    CHECK(most < 1e-7);
+}
+
 #ifdef _OPENMP
 TEST_CASE("the number of threads does not change a bit of the reference") {
     const Tree tree = make_tree::random_tree(40, 4);
@@ -331,7 +367,6 @@ TEST_CASE("the number of threads does not change a bit of the reference") {
         if (threads == 1) {
             one_thread = state_hash(run.state);
             CHECK(run.state.theta_dot[20].norm() > 0);
-            WARN("inner " << run.state.flags.inner_steps);
         }
         CAPTURE(threads);
         CHECK(state_hash(run.state) == one_thread);
