@@ -17,7 +17,7 @@ template <class T> void start_from_own_body(const Plan<T>& plan, State<T>& s, st
         const T arm = plan.com_distance[i];
         s.c_drag[i] = s.drag_bound[i] * plan.sway[i];
         s.c_wind[i] = s.wind_bound[i] * plan.sway[i];
-        s.c_turn[i] = s.turn_bound[i] * plan.path_weight[i];
+        s.c_turn[i] = s.turn_bound[i];
         s.c_drag_row[i] = s.c_drag[i] * arm;
         s.c_wind_row[i] = s.c_wind[i] * arm;
         s.c_turn_row[i] = s.c_turn[i] * arm;

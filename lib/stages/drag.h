@@ -20,16 +20,25 @@
 // The wind itself, tau at rest, goes to the spring (spring.h). It is as stiff: a leaf or a 1 mm twig reaches the wind's speed
 // within milliseconds and, under a force held for a frame, would be thrown round by radians. There the bounds of the force at
 // rest join the oscillator, with velocity as
-//   d'_j = (1/u_j) sum_b s_bj (wind_bound)_b W_b, and with direction gamma_j = (1/u_j) sum_b s_bj (turn_bound)_b U_b,
-// U_b = sum of u over b's path: S w' + (beta K + d') w + (K + G + gamma) phi = r + d' w_0. Both enter with w - w_0 and phi
-// alone: at first order of the step nothing is changed and the fixed point is the true one. Where they are large the joint
-// goes with the air and turns by about tau / gamma in a step at the most; what is so light in so strong a wind follows it
-// too slowly. In still air d' and gamma are zero, and drag takes energy alone.
+//   d'_j = (1/u_j) sum_b s_bj (wind_bound)_b W_b, and with direction gamma_j = sum_b s_bj (turn_bound)_b:
+// S w' + (beta K + d') w + (K + G + gamma) phi = r + d' w_0. Both enter with w - w_0 and phi alone: at first order of the step
+// nothing is changed and the fixed point is the true one. d' is a secant: kappa rho A |u| is what the force falls by, over
+// the speed, from a body at rest to one that goes with the wind, so that what is light is driven to the wind's speed, no
+// faster and no slower. gamma is what the joint's own turning changes of its composite's moment, the other joints' is left out.
+// What else was tried, on apple trees of 1 000 bodies in gusty wind (RMS error of the tips against the articulated reference,
+// share of their RMS deflection, 1 step a frame; bare / in leaf; the limit of small steps: 33 / 57 %):
+//   the tangent 2 kappa rho A |u| and gamma a row sum over the path, as d'   57 / 81 %   creeps: in 20 s not at rest in a steady wind
+//   the secant, gamma likewise                                             54 / 80 %
+//   the tangent, gamma as here                                             41 / 63 %
+//   the secant, gamma as here                                              34 / 56 %
+//   the secant, gamma of the own body alone                                34 / 56 %   K x 1e-3: leaves spin for ever
+//   no d', gamma of the own body                                           37 / 89 %   leaves spin
+//   neither                                                                37 / 89 %   leaves spin In still air d' and gamma are zero, and drag takes energy alone.
 // The weights are those of the branches' first modes (branch_mode.h), each scaled to a unit deflection of its tip, doubled at
 // each side branch on the way out: what is further out is lighter, answers the drag first, and is to be bounded least. Along
 // one branch's first mode d_j u_j is D u itself but for the other branches of the path; motions are dragged less than they
 // should be, never more.
-// W_b, U_b are constant; the outer sums go with the composite sweep, six scalars a body. (What it costs: the spring's
+// W_b is constant; the outer sums go with the composite sweep, six scalars a body. (What it costs: the spring's
 // propagators depend on the wind.)
 // Reads   c_drag_tau_w, c_drag_row, c_J_w, R_wb. Writes scaled_rate.
 // After   composite. O(n), joints in parallel. Errors none.

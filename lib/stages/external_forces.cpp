@@ -34,7 +34,7 @@ template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::
     state.drag_f_w[i] = scale * (moving.force - still.force);
     state.drag_tau_w[i] = arm.cross(state.drag_f_w[i]);
     state.drag_bound[i] = scale * (moving.speed + still.speed);
-    state.wind_bound[i] = 2 * scale * wind.norm();
+    state.wind_bound[i] = scale * wind.norm();
     // Force and arm both turn: twice the force for |u| (u.n), three times for |u_n| u_n, the arm alone for a sphere.
     const T turns = plan.kind[i] == Kind::branch ? T(3) : is_flat(plan.kind[i]) ? T(2) : T(1);
     state.turn_bound[i] = turns * scale * wind.squaredNorm();

@@ -7,8 +7,8 @@
 // drag_bound |v| with drag_bound = kappa rho A (|u| + |u at rest|) (|u_n| for branches), since || u|u - w|w| || <= (|u| + |w|) |u - w|.
 // A body "stands still" when it does on its tree's ground: where the root is moved, u at rest is the wind's velocity less that
 // of the ground carried to the body, so that a tree driven through still air is a tree that stands in the wind.
-// What the implicit step needs to know of the part at rest (drag.h): its derivative with velocity is at most wind_bound =
-// 2 kappa rho A |u at rest|, that with the body's direction (force and arm both turn with it) at most turn_bound =
+// What the implicit step needs to know of the part at rest (drag.h): wind_bound = kappa rho A |u at rest| is what it falls by,
+// over the speed, from rest to going with the wind; that with the body's direction (force and arm both turn with it) at most turn_bound =
 // 3, 2, 1 (branch, leaf, fruit) times kappa rho A |u at rest|^2 a radian.
 // Reads   R_wb, x_w, v_w (with wind), time. Writes f_w, tau_w, drag_f_w, drag_tau_w and the bounds.
 // After   state_update of the step before, wind_field. O(n + pulls), bodies in parallel. Errors none.

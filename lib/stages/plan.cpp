@@ -77,7 +77,6 @@ template <class T> void plan_air_bounds(Plan<T>& plan, const Tree& tree, const s
         const double r = root ? 0 : tree.joint_position[i].norm();
         sum[i] = u + (root ? 0 : sum[p]);
         moved[i] = root ? 0 : moved[p] + sum[p] * r;
-        plan.path_weight.push_back(T(sum[i]));
         plan.sway.push_back(T(moved[i] + sum[i] * tree.com[i].norm()));
         plan.joint_distance.push_back(T(r));
         plan.com_distance.push_back(T(tree.com[i].norm()));

@@ -95,7 +95,6 @@ template <class T> struct Plan {
     // Wind (drag.h, external_forces.h).
     std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)
     std::vector<Kind> kind;
-    std::vector<T> path_weight;                  // [rad/m] U_b: sum of u over the path
     std::vector<T> sway;                         // [1] W_b: what the weights move the body's centre of mass by
     std::vector<T> joint_distance, com_distance; // [m] |joint_position|, |com|
     std::vector<T> inverse_weight;               // [m/rad] 1 / u_j

@@ -99,8 +99,8 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         if (l < 0) ++flags.buckling;
         if (plan.wind) {
             // The air's bounds are multiples of 1, which U makes U^T U: its rows are bounded by their sums in turn.
-            const T row = plan.inverse_weight[i] * (U.transpose() * U.col(k)).cwiseAbs().sum();
-            const T d = row * s.c_wind_row[i];
+            const T row = (U.transpose() * U.col(k)).cwiseAbs().sum();
+            const T d = row * plan.inverse_weight[i] * s.c_wind_row[i];
             b += d;
             l += row * s.c_turn_row[i];
             residual += d * v[k];

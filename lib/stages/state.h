@@ -49,7 +49,7 @@ template <class T> struct State {
     std::vector<Vector3<T>> f_w, tau_w; // [N], [N m about own joint] at rest: pulls, wind on bodies that stand still
     std::vector<Vector3<T>> drag_f_w, drag_tau_w; // what the bodies' velocities change of the wind's force
     std::vector<T> drag_bound;                    // [N s/m] bound on the drag's change with the body's velocity
-    std::vector<T> wind_bound;                    // [N s/m] the same for the wind on a body that stands still
+    std::vector<T> wind_bound;                    // [N s/m] how the force at rest falls with the body's velocity
     std::vector<T> turn_bound;                    // [N] bound on the wind's change with the body's direction, a radian
 
     // composite
@@ -59,7 +59,7 @@ template <class T> struct State {
     std::vector<Vector3<T>> c_drag_f_w, c_drag_tau_w;
     std::vector<T> c_drag, c_drag_row; // [N s/m], [N s] sums of the row-sum bounds (drag.h)
     std::vector<T> c_wind, c_wind_row;
-    std::vector<T> c_turn, c_turn_row; // [N rad/m], [N rad]
+    std::vector<T> c_turn, c_turn_row; // [N], [N m] sums of turn_bound
 
     // root motion, one each for the plan's splines
     std::vector<Ground> ground;         // present
