@@ -1,7 +1,6 @@
 #include "articulated.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
-#include <Eigen/Cholesky>
 #include <limits>
 
 namespace bough {
@@ -127,12 +126,24 @@ void add_pulls(const Plan<double>& plan, ArticulatedPass& pass, double time) {
     }
 }
 
+// L^-1 of S = L L^T, L lower triangular.
+Mat3 inverse_factor(const Mat3& S) {
+    const double i00 = 1 / std::sqrt(S(0, 0));
+    const double l10 = S(1, 0) * i00, l20 = S(2, 0) * i00;
+    const double i11 = 1 / std::sqrt(S(1, 1) - l10 * l10);
+    const double l21 = (S(2, 1) - l20 * l10) * i11;
+    const double i22 = 1 / std::sqrt(S(2, 2) - l20 * l20 - l21 * l21);
+    const double m10 = -l10 * i00 * i11, m21 = -l21 * i11 * i22;
+    const double m20 = -(l20 * i00 + l21 * m10) * i22;
+    Mat3 m;
+    m << i00, 0, 0, m10, i11, 0, m20, m21, i22;
+    return m;
+}
+
 // Eliminates the joint and hands the rest to the parent, r: the joint in the parent's axes.
 void eliminate(ArticulatedBody& b, ArticulatedBody* parent, const Vec3& r) {
     const Mat3 sum = b.A + b.Z;
-    const double scale = sum.trace();
-    const Mat3 L = (sum / scale).llt().matrixL();
-    const Mat3 Li = L.triangularView<Eigen::Lower>().solve(Mat3(Mat3::Identity())) / std::sqrt(scale);
+    const Mat3 Li = inverse_factor(sum);
     b.E = Li.transpose() * Li;
     b.N += b.A * b.alpha_bias + b.B * b.a_bias;
     b.F += b.B.transpose() * b.alpha_bias + b.M * b.a_bias;
