@@ -19,7 +19,8 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             optional({"source", &state.source}),
             array("theta", state.theta, {}),
             array("theta_dot", state.theta_dot, body),
-            array("scaled_rate", state.scaled_rate, body)};
+            array("scaled_rate", state.scaled_rate, body),
+            optional({"articulated_step", &state.articulated_step})};
 }
 
 std::string hexadecimal(std::uint64_t value) {
@@ -42,6 +43,7 @@ void check_state(const SavedState& state, const std::string& name) {
     if (state.substeps < 1) fail("substeps", "is " + std::to_string(state.substeps) + ", expected 1 or more");
     if (state.precision != "float" && state.precision != "double")
         fail("precision", "is \"" + state.precision.substr(0, 20) + "\", expected \"float\" or \"double\"");
+    if (!(state.articulated_step >= 0)) fail("articulated_step", "is below 0, expected seconds");
 }
 
 } // namespace

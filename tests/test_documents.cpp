@@ -94,7 +94,8 @@ TEST_CASE("saved states come back from both forms") {
     state.fps = 59.94;
     state.substeps = 4;
     state.precision = "float";
-    state.solver = "analytic";
+    state.solver = "articulated-reference";
+    state.articulated_step = 0.1 / 3;
     state.fingerprint = 0xfedcba9876543210u;
     for (int i = 0; i < 20; ++i) {
         state.theta.push_back(random.vector());
@@ -114,6 +115,7 @@ TEST_CASE("saved states come back from both forms") {
         CHECK(same(read.theta, state.theta));
         CHECK(same(read.theta_dot, state.theta_dot));
         CHECK(same(read.scaled_rate, state.scaled_rate));
+        CHECK(same(read.articulated_step, state.articulated_step));
     }
 }
 

@@ -41,10 +41,10 @@ Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& pl
     for (std::int64_t f = 2; f < frames; ++f) {
         for (int k = 0; k < o.run.substeps; ++k) {
             const Time::time_point start = Time::now();
-            step(plan, state, &clock);
+            advance(plan, state, &clock);
             total += std::chrono::duration<double>(Time::now() - start).count();
         }
-        require_finite(state, setting.tree, f);
+        require_finite(plan, state, setting.tree, f);
     }
     Report report;
     report.bodies = std::int64_t(plan.bodies);

@@ -150,15 +150,18 @@ const char* early_stage(const std::string& array) {
     return nullptr;
 }
 
-template <class T> [[noreturn]] void name_non_finite(const State<T>& state, const Tree& tree, std::int64_t frame) {
+template <class T>
+[[noreturn]] void name_non_finite(const Plan<T>& plan, const State<T>& state, const Tree& tree, std::int64_t frame) {
     std::string place;
     visit_arrays(Plan<T>(), state, [&](const std::string& name, const auto& array, bool, const std::string&) {
         const char* stage = place.empty() ? early_stage(name) : nullptr;
         for (std::size_t i = 0; stage && place.empty() && i < array.size(); ++i)
             if (!finite(array[i])) place = std::string(stage) + " (" + name + "), " + body_text(tree, i);
     });
-    if (place.empty())
-        place = std::string(stage_name(Stage::spring)) + " (theta), " + body_text(tree, *first_non_finite(state));
+    const Stage last = is_articulated(plan.solver) ? Stage::articulated : Stage::spring;
+    if (place.empty()) place = std::string(stage_name(last)) + " (theta), " + body_text(tree, *first_non_finite(state));
+    if (plan.solver == Solver::articulated_explicit)
+        place += "; explicit Euler needs far smaller steps (--substeps), or take --solver articulated-implicit";
     throw PromiseError("the simulation became non-finite in frame " + std::to_string(frame) + ": stage " + place);
 }
 
@@ -269,12 +272,13 @@ void advance_frame(const Plan<T>& plan, State<T>& state, const Tree& tree, std::
                    StageClock* clock) {
     for (int k = 0; k < substeps; ++k) {
         advance(plan, state, clock);
-        require_finite(state, tree, frame);
+        require_finite(plan, state, tree, frame);
     }
 }
 
-template <class T> void require_finite(const State<T>& state, const Tree& tree, std::int64_t frame) {
-    if (first_non_finite(state)) name_non_finite(state, tree, frame);
+template <class T>
+void require_finite(const Plan<T>& plan, const State<T>& state, const Tree& tree, std::int64_t frame) {
+    if (first_non_finite(state)) name_non_finite(plan, state, tree, frame);
 }
 
 template <class T>
@@ -315,8 +319,8 @@ template Plan<float> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template Plan<double> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template void advance_frame(const Plan<float>&, State<float>&, const Tree&, std::int64_t, int, StageClock*);
 template void advance_frame(const Plan<double>&, State<double>&, const Tree&, std::int64_t, int, StageClock*);
-template void require_finite(const State<float>&, const Tree&, std::int64_t);
-template void require_finite(const State<double>&, const Tree&, std::int64_t);
+template void require_finite(const Plan<float>&, const State<float>&, const Tree&, std::int64_t);
+template void require_finite(const Plan<double>&, const State<double>&, const Tree&, std::int64_t);
 template void fill_frame(const State<float>&, std::int64_t, double, const MotionFields&, MotionFrame&);
 template void fill_frame(const State<double>&, std::int64_t, double, const MotionFields&, MotionFrame&);
 

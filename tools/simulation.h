@@ -48,7 +48,7 @@ void advance_frame(const Plan<T>&, State<T>&, const Tree&, std::int64_t frame, i
                    StageClock* clock = nullptr);
 
 // Throws that PromiseError where theta or theta_dot is non-finite.
-template <class T> void require_finite(const State<T>&, const Tree&, std::int64_t frame);
+template <class T> void require_finite(const Plan<T>&, const State<T>&, const Tree&, std::int64_t frame);
 
 // The frame's arrays, as far as `fields` asks for them. Throws PromiseError where a pose is non-finite.
 template <class T>

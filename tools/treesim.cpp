@@ -110,7 +110,8 @@ void refuse_contradictions(const Options& o, const std::string& format) {
 
 template <class T> std::string explanation(const Plan<T>& plan, const RunOptions& run) {
     std::ostringstream text;
-    text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s\n";
+    text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s, solver "
+         << solver_name(plan.solver) << "\n";
     for (const PlannedStage& stage : plan.stages)
         text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
     std::size_t used = 0, left = 0;
@@ -143,6 +144,7 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
         state.theta_dot[i] = saved.theta_dot[i].template cast<T>();
         state.scaled_rate[i] = saved.scaled_rate[i].template cast<T>();
     }
+    state.articulated_step = saved.articulated_step;
     state.step = saved.frame * o.run.substeps;
     move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
@@ -157,6 +159,7 @@ template <class T> void save(const Options& o, const Setting& setting, const Sta
     saved.precision = o.run.precision;
     saved.solver = o.run.solver;
     saved.fingerprint = fingerprint(setting);
+    saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
     for (std::size_t i = 0; i < state.theta.size(); ++i) {
         saved.theta.push_back(state.theta[i].template cast<double>());
@@ -193,6 +196,9 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
     if (flags.half_turns > 0)
         notes.push_back(std::to_string(flags.half_turns) +
                         " times a joint turned past half a turn: the small angles that the method assumes are left");
+    if (flags.energy_guard > 0)
+        notes.push_back(std::to_string(flags.energy_guard) +
+                        " times a joint turned by more than 0.3 rad in a step and was kept from gaining energy");
     if (flags.fast_turns > 0)
         notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
     if (flags.unresolved > 0)

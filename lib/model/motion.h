@@ -46,11 +46,12 @@ struct SavedState {
     double fps = 30;
     std::int32_t substeps = 1;
     std::string precision;         // "float" or "double"
-    std::string solver;            // "analytic"
+    std::string solver;            // "analytic" ...
     std::uint64_t fingerprint = 0; // of the tree and the scene it belongs to
     std::vector<Vec3> theta;       // [rad]; floats are exact in doubles
     std::vector<Vec3> theta_dot;   // [rad/s]
-    std::vector<Vec3> scaled_rate; // [sqrt(J)] what the analytic step carries of the rates (stages/spring.h)
+    std::vector<Vec3> scaled_rate; // what the solver carries of the rates (State::scaled_rate): analytic [sqrt(J)]
+    double articulated_step = 0;   // [s] State::articulated_step
     std::string source;
 };
 

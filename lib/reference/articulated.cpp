@@ -1,11 +1,13 @@
 #include "articulated.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
-#include <Eigen/Cholesky>
 #include <limits>
 
 namespace bough {
 namespace {
+
+// Of the determinant of an inertia over its trace's cube: a rod of radius 1e-7 of its length has this.
+constexpr double least_extent = 2e-15;
 
 // [r]* X and X [r]*, column by column and row by row: half the work of the matrix products.
 Mat3 cross_left(const Vec3& r, const Mat3& X) {
@@ -27,12 +29,13 @@ ArticulatedBody ground_body(const Plan<double>& plan, const ArticulatedPass& pas
     ArticulatedBody b;
     const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
     const Ground ground = spline < 0 ? Ground() : pass.ground[std::size_t(spline)];
+    const Mat3 R_bw = ground.R.transpose();
     b.R_wb = ground.R;
     b.x_w = ground.x;
-    b.omega_w = ground.omega;
-    b.v_w = ground.v;
-    b.alpha_bias = ground.alpha;
-    b.a_bias = ground.a;
+    b.omega = R_bw * ground.omega;
+    b.v = R_bw * ground.v;
+    b.alpha = R_bw * ground.alpha;
+    b.a = R_bw * ground.a;
     return b;
 }
 
@@ -49,86 +52,110 @@ void move_ground(const Plan<double>& plan, ArticulatedPass& pass, double time, d
 }
 
 // Kinematics and biases from the parent.
-void place(const Plan<double>& plan, const ArticulatedBody* parent, ArticulatedBody& b, std::size_t i, double h,
+void place(const Plan<double>& plan, const ArticulatedBody& parent, ArticulatedBody& b, std::size_t i, double h,
            std::uint64_t& fast) {
-    b.R_wb = parent->R_wb * plan.R_pj[i] * rotation_from_vector(b.theta);
-    b.r_w = parent->R_wb * plan.joint_position[i];
-    b.x_w = parent->x_w + b.r_w;
-    const Vec3 own = b.R_wb * b.rate;
-    b.omega_w = parent->omega_w + own;
-    b.v_w = parent->v_w + parent->omega_w.cross(b.r_w);
-    const Vec3 spin = bounded(parent->omega_w, h, fast);
-    b.alpha_bias = parent->alpha_bias + spin.cross(bounded(own, h, fast));
-    b.a_bias = parent->a_bias + parent->alpha_bias.cross(b.r_w) + spin.cross(spin.cross(b.r_w));
+    const Vec3& r = plan.joint_position[i];
+    b.R_pb = plan.R_pj[i] * rotation_from_vector(b.theta);
+    b.R_wb = parent.R_wb * b.R_pb;
+    b.x_w = parent.x_w + parent.R_wb * r;
+    const Vec3 carried = b.R_pb.transpose() * parent.omega;
+    b.omega = carried + b.rate;
+    b.v = b.R_pb.transpose() * (parent.v + parent.omega.cross(r));
+    const Vec3 spin = bounded(parent.omega, h, fast);
+    b.alpha_bias = (b.R_pb.transpose() * spin).cross(bounded(b.rate, h, fast));
+    b.a_bias = b.R_pb.transpose() * spin.cross(spin.cross(r));
 }
 
-void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, const Vec3& c,
-             const Vec3& a_com, double h) {
-    const Vec3 u = pass.wind.at(b.x_w.y() + c.y()) - b.v_w - b.omega_w.cross(c);
-    Vec3 f = plan.drag_area[i] * air_force(plan.kind[i], b.R_wb, u).force;
+void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i,
+             const Vec3& a_own, double h) {
+    static const Mat3 own_axes = Mat3::Identity();
+    const Vec3& c = plan.com[i];
+    const double height = b.x_w.y() + b.R_wb.row(1).dot(c);
+    const Vec3 u = b.R_wb.transpose() * pass.wind.at(height) - b.v - b.omega.cross(c);
+    Vec3 f = plan.drag_area[i] * air_force(plan.kind[i], own_axes, u).force;
     if (h > 0) {
-        const Mat3 D = h * plan.drag_area[i] * air_damping(plan.kind[i], b.R_wb, u);
+        const Mat3 D = h * plan.drag_area[i] * air_damping(plan.kind[i], own_axes, u);
         const Mat3 cD = cross_left(c, D);
         b.M += D;
         b.B += cD;
         b.A += cross_left(c, cD.transpose()); // [c] D [c]^T
-        f -= D * a_com;
+        f -= D * a_own;
         if (is_flat(plan.kind[i])) {
-            const Mat3 turning = h * plan.drag_area[i] * c.norm() * air_turning(plan.kind[i], b.R_wb, u);
+            const Mat3 turning = h * plan.drag_area[i] * c.norm() * air_turning(plan.kind[i], own_axes, u);
             b.A += h * turning;
-            b.N += turning * (b.omega_w + h * b.alpha_bias);
+            b.N += turning * b.omega;
         }
     }
     b.F -= f;
     b.N -= c.cross(f);
 }
 
+// The body's own inertia about its joint; four roundings more where it has none about some axis.
+Mat3 own_inertia(const Mat3& J) {
+    const double size = J.trace();
+    if (J.determinant() > least_extent * size * size * size) return J;
+    return J + 4 * std::numeric_limits<double>::epsilon() * size * Mat3::Identity();
+}
+
 // The body's own inertia, bias wrench and spring.
 void load(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i, double h,
           std::uint64_t& fast) {
-    const Mat3 J = b.R_wb * plan.inertia_joint[i] * b.R_wb.transpose();
-    const Vec3 c = b.R_wb * plan.com[i];
+    const Mat3& J = plan.inertia_joint[i];
+    const Vec3& c = plan.com[i];
     const double m = plan.mass[i];
-    const Vec3 spin = bounded(b.omega_w, h, fast);
-    const Vec3 a_com = b.a_bias + b.alpha_bias.cross(c) + spin.cross(spin.cross(c));
-    b.A = J;
-    b.A.diagonal().array() += 4 * std::numeric_limits<double>::epsilon() * J.trace();
+    const Vec3 spin = bounded(b.omega, h, fast), weight = m * (b.R_wb.transpose() * plan.scene.gravity);
+    const Vec3 a_own = spin.cross(spin.cross(c));
+    b.A = own_inertia(J);
     b.B = m * cross_matrix(c);
     b.M = m * Mat3::Identity();
-    b.F = m * (a_com - plan.scene.gravity);
-    b.N = J * b.alpha_bias + spin.cross(J * spin) + m * c.cross(b.a_bias - plan.scene.gravity);
-    if (plan.wind) add_air(plan, pass, b, i, c, a_com, h);
+    b.F = m * a_own - weight;
+    b.N = spin.cross(J * spin) - c.cross(weight);
+    if (plan.wind) add_air(plan, pass, b, i, a_own, h);
 
-    const Mat3 rates = body_rate_jacobian_inverse(b.theta) * b.R_wb.transpose(); // theta_dot from omega_w
-    const Vec3 theta_dot = rates * (b.R_wb * b.rate);
-    b.u = -rates.transpose() * plan.K[i].cwiseProduct(b.theta + (h + plan.beta[i]) * theta_dot);
-    b.Z = h > 0 ? Mat3(rates.transpose() * (h * (h + plan.beta[i]) * plan.K[i]).asDiagonal() * rates)
-                : Mat3(Mat3::Zero());
+    const Mat3 T = body_rate_jacobian_inverse(b.theta);
+    b.u = -T.transpose() * plan.K[i].cwiseProduct(b.theta + (h + plan.beta[i]) * (T * b.rate));
+    b.Z = h > 0 ? Mat3(T.transpose() * (h * (h + plan.beta[i]) * plan.K[i]).asDiagonal() * T) : Mat3(Mat3::Zero());
 }
 
 void add_pulls(const Plan<double>& plan, ArticulatedPass& pass, double time) {
     for (const PlannedPull<double>& pull : plan.pulls) {
         ArticulatedBody& b = pass.body[pull.body];
-        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time);
+        const Vec3 f = b.R_wb.transpose() * pull_force(plan.scene.pulls[pull.source], time);
         b.F -= f;
-        b.N -= (b.R_wb * pull.point_b).cross(f);
+        b.N -= pull.point_b.cross(f);
     }
 }
 
-// Eliminates the joint and hands the rest to the parent.
-void eliminate(ArticulatedBody& b, ArticulatedBody* parent) {
+// L^-1 of S = L L^T, L lower triangular.
+Mat3 inverse_factor(const Mat3& S) {
+    const double i00 = 1 / std::sqrt(S(0, 0));
+    const double l10 = S(1, 0) * i00, l20 = S(2, 0) * i00;
+    const double i11 = 1 / std::sqrt(S(1, 1) - l10 * l10);
+    const double l21 = (S(2, 1) - l20 * l10) * i11;
+    const double i22 = 1 / std::sqrt(S(2, 2) - l20 * l20 - l21 * l21);
+    const double m10 = -l10 * i00 * i11, m21 = -l21 * i11 * i22;
+    const double m20 = -(l20 * i00 + l21 * m10) * i22;
+    Mat3 m;
+    m << i00, 0, 0, m10, i11, 0, m20, m21, i22;
+    return m;
+}
+
+// Eliminates the joint and hands the rest to the parent, r: the joint in the parent's axes.
+void eliminate(ArticulatedBody& b, ArticulatedBody* parent, const Vec3& r) {
     const Mat3 sum = b.A + b.Z;
-    const double scale = sum.trace();
-    const Mat3 L = (sum / scale).llt().matrixL();
-    const Mat3 Li = L.triangularView<Eigen::Lower>().solve(Mat3(Mat3::Identity())) / std::sqrt(scale);
+    const Mat3 Li = inverse_factor(sum);
     b.E = Li.transpose() * Li;
+    b.N += b.A * b.alpha_bias + b.B * b.a_bias;
+    b.F += b.B.transpose() * b.alpha_bias + b.M * b.a_bias;
+    const Vec3 torque = b.u;
     b.u -= b.N;
     if (!parent) return;
-    const Mat3 ZE = b.Z * b.E, LB = Li * b.B;
-    const Mat3 passed = ZE * b.A;
-    const Mat3 A = (passed + passed.transpose()) / 2, B = ZE * b.B, M = b.M - LB.transpose() * LB;
-    const Vec3 turn = b.E * b.u, F = b.F + b.B.transpose() * turn, N = b.N + b.A * turn;
-    const Vec3& r = b.r_w;
+    const Mat3& R = b.R_pb;
+    const Mat3 ZE = b.Z * b.E, ZEA = ZE * b.A, LB = Li * b.B, M_own = b.M - LB.transpose() * LB;
+    const Vec3 turn = b.E * b.u;
+    const Vec3 F = R * (b.F + b.B.transpose() * turn), N = R * (b.Z.isZero(0) ? torque : Vec3(b.N + b.A * turn));
+    const Mat3 A = R * ((ZEA + ZEA.transpose()) / 2) * R.transpose();
+    const Mat3 B = R * (ZE * b.B) * R.transpose(), M = R * M_own * R.transpose();
     const Mat3 rM = cross_left(r, M), rB = cross_left(r, B.transpose()); // rB = [r] B^T
     parent->M += M;
     parent->B += B + rM;
@@ -137,15 +164,12 @@ void eliminate(ArticulatedBody& b, ArticulatedBody* parent) {
     parent->N += N + r.cross(F);
 }
 
-void accelerate(ArticulatedBody& b, const ArticulatedBody* parent) {
-    if (!parent) {
-        b.a_w.setZero();
-        b.alpha_w = b.joint_w = b.E * b.u;
-        return;
-    }
-    b.a_w = parent->a_w + parent->alpha_w.cross(b.r_w);
-    b.joint_w = b.E * (b.u - b.A * parent->alpha_w - b.B * b.a_w);
-    b.alpha_w = parent->alpha_w + b.joint_w;
+void accelerate(ArticulatedBody& b, const ArticulatedBody& parent, const Vec3& r) {
+    const Vec3 alpha = b.R_pb.transpose() * parent.alpha;
+    const Vec3 a = b.R_pb.transpose() * (parent.a + parent.alpha.cross(r));
+    b.rate_dot = b.E * (b.u - b.A * alpha - b.B * a);
+    b.alpha = alpha + b.alpha_bias + b.rate_dot;
+    b.a = a + b.a_bias;
 }
 
 } // namespace
@@ -157,18 +181,20 @@ void articulated_pass(const Plan<double>& plan, ArticulatedPass& pass, double ti
     const auto parent = [&](std::size_t i) {
         return plan.parent[i] < 0 ? nullptr : &body[std::size_t(plan.parent[i])];
     };
-    for (std::size_t i = 0; i < plan.bodies; ++i) {
-        if (plan.parent[i] < 0) {
-            const ArticulatedBody ground = ground_body(plan, pass, i);
-            place(plan, &ground, body[i], i, h, pass.fast);
-        } else {
-            place(plan, parent(i), body[i], i, h, pass.fast);
-        }
+    const auto outward = [&](auto&& visit) {
+        for (std::size_t i = 0; i < plan.bodies; ++i)
+            if (const ArticulatedBody* p = parent(i))
+                visit(i, *p);
+            else
+                visit(i, ground_body(plan, pass, i));
+    };
+    outward([&](std::size_t i, const ArticulatedBody& p) {
+        place(plan, p, body[i], i, h, pass.fast);
         load(plan, pass, body[i], i, h, pass.fast);
-    }
+    });
     add_pulls(plan, pass, time + h);
-    for (std::size_t i = plan.bodies; i-- > 0;) eliminate(body[i], parent(i));
-    for (std::size_t i = 0; i < plan.bodies; ++i) accelerate(body[i], parent(i));
+    for (std::size_t i = plan.bodies; i-- > 0;) eliminate(body[i], parent(i), plan.joint_position[i]);
+    outward([&](std::size_t i, const ArticulatedBody& p) { accelerate(body[i], p, plan.joint_position[i]); });
 }
 
 void joint_accelerations(const Plan<double>& plan, const std::vector<Vec3>& theta, const std::vector<Vec3>& rate,
@@ -179,8 +205,7 @@ void joint_accelerations(const Plan<double>& plan, const std::vector<Vec3>& thet
     }
     articulated_pass(plan, work, time, 0);
     acceleration.resize(plan.bodies);
-    for (std::size_t i = 0; i < plan.bodies; ++i)
-        acceleration[i] = work.body[i].R_wb.transpose() * work.body[i].joint_w;
+    for (std::size_t i = 0; i < plan.bodies; ++i) acceleration[i] = work.body[i].rate_dot;
 }
 
 } // namespace bough

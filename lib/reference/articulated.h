@@ -1,7 +1,7 @@
 // articulated.h: the full dynamics of the articulated tree, one articulated-body pass in O(n) (Featherstone 2008, chapter 7).
 //
 // Equations. Joint i holds the rotation vector theta and the rate w = J theta_dot of its body against its parent, in the axes
-// of the body. In world axes, about each joint, with c the body's centre of mass, J_o its inertia about the joint:
+// of the body. In any axes, about each joint, with c the body's centre of mass, J_o its inertia about the joint:
 //   omega = omega_p + R w      alpha = alpha_p + R w' + omega_p x R w
 //   v     = v_p + omega_p x r  a     = a_p + alpha_p x r + omega_p x (omega_p x r)
 //   F = m (a - g + alpha x c + omega x (omega x c)) - f      N = J_o alpha + omega x J_o omega + m c x (a - g) - n
@@ -18,11 +18,17 @@
 // Terms quadratic in omega stay explicit. What turns by more than a radian in h is not resolved by it, and would be thrown out: there,
 // and in those terms alone, omega is taken as 1 / h (h > 0 only). Counted in pass.fast.
 //
-// Sweeps. Outward: kinematics, the biases (accelerations were no joint to accelerate) and each body's own inertia. Inward, with
-// E = (A + Z)^-1, u = tau - N:  A' = Z E A,  B' = Z E B,  M' = M - B^T E B,  N' = N + A E u,  F' = F + B^T E u, shifted by r to the
-// parent. Z E A is A - A E A without the subtraction: without a spring it is 0, not what rounding left, and with a stiff one
-// it keeps its digits. Outward: joint_w = E (u - A alpha_p - B a).
-// A body without extent about an axis (zero radius) would make A singular: four roundings of its trace are added to it.
+// Sweeps. Outward: kinematics, the biases (what of a body's accelerations neither the parent's nor the joint's bring) and
+// each body's own inertia. Inward, with the biases' own wrench in N and F, E = (A + Z)^-1, u = tau - N:
+//   A' = Z E A,  B' = Z E B,  M' = M - B^T E B,  N' = N + A E u,  F' = F + B^T E u, turned and shifted by r to the parent.
+// Z E A is A - A E A without the subtraction: without a spring it is 0 (and N' tau), not what rounding left, and with a
+// stiff one it keeps its digits. Outward: w' = E (u - A alpha_p - B a_p), alpha_p, a_p those of the joint's place on the parent.
+//
+// Digits. Every body is computed in its own axes: there a thin rod's small inertia about itself stands apart from the rest,
+// where in world axes the rounding of what hangs on it would cover it (three hundred bodies with twigs of 0.1 mm lost ten
+// digits to that). What is left to lose is what rounding the result costs: in a chain 1e5 deep that is a moment of 1e-2
+// of those that act, because the joints' accelerations nearly cancel in the bodies'. tests/test_articulated.cpp.
+// A body without extent about an axis (below 1e-7 of its length) would make A singular: four roundings of its trace are added.
 // Reads   plan constants, theta and rate in pass.body. Writes all of pass. O(n), about 0.4 us a body. Errors none; non-finite
 //         in, non-finite out.
 #pragma once

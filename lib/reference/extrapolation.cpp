@@ -2,12 +2,14 @@
 #include "articulated_step.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bough {
 namespace {
 
 constexpr int rows = extrapolation_rows;
-constexpr double smallest = 1e-9; // of the plan's step
+constexpr double smallest = 1e-9;                                          // of the plan's step
+constexpr double rounding = 4096 * std::numeric_limits<double>::epsilon(); // the table's weights sum to 3400
 
 // Row j (from 0): j + 1 implicit steps over H from the state.
 void run_row(const Plan<double>& plan, const State<double>& state, ArticulatedPass& pass, int steps, double time,
@@ -47,7 +49,7 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
         for (ArticulatedPass& pass : state.articulated) pass.fast = 0;
 #pragma omp parallel for schedule(dynamic, 1) if (n > 100)
         for (int j = rows; j >= 1; --j) run_row(plan, state, state.articulated[std::size_t(j - 1)], j, start, taken);
-        double squares = 0;
+        double squares = 0, size = 0;
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             std::array<Vec3, rows> theta, rate;
             for (std::size_t j = 0; j < rows; ++j) {
@@ -56,17 +58,19 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
             }
             const double e = std::max(extrapolate(theta).norm(), taken * extrapolate(rate).norm());
             squares += e * e;
+            size = std::max(size, theta[rows - 1].norm() + taken * rate[rows - 1].norm());
             ArticulatedBody& result = state.articulated[0].body[i]; // the first row's end is spent
             result.theta = theta[rows - 1];
             result.rate = rate[rows - 1];
         }
         const double error = std::sqrt(squares / double(plan.bodies));
         const bool finite = std::isfinite(error);
-        const double growth =
-            !finite ? 0.25
-                    : std::clamp(0.8 * std::pow(plan.tolerance / std::max(error, 1e-300), 1.0 / rows), 0.25, 2.5);
-        const bool accepted = finite && error <= plan.tolerance;
-        if (!accepted && taken > least) {
+        const bool accepted = finite && error <= plan.tolerance, rounded = finite && error <= rounding * size;
+        double growth = 0.25;
+        if (finite)
+            growth = std::clamp(0.8 * std::pow(plan.tolerance / std::max(error, 1e-300), 1.0 / rows), 0.25, 2.5);
+        if (rounded) growth = std::max(growth, 1.0); // a smaller H would not do better
+        if (!accepted && !rounded && taken > least) {
             H = std::max(taken * std::min(growth, 0.8), least);
             continue;
         }

@@ -48,8 +48,8 @@ template <class T> struct Audit {
     double initial = 0, work = 0, scale = 0, excess = 0;
     double squares[4] = {0, 0, 0, 0};
     std::int64_t counts[4] = {0, 0, 0, 0}, signs = 0, steps = 0;
-    double max_angle = 0;
-    bool booked = true; // all work is: nothing moves the ground
+    double max_angle = 0, largest = 0; // [rad], [rad/s]
+    bool booked = true;                // all work is: nothing moves the ground
 
     Audit(const Plan<T>& p, const State<T>& s, const Tree& tree, std::int64_t n)
         : plan(p), tips(tip_bodies(tree)), frames(n), start(s.x_w), theta(s.theta), rate(s.theta_dot),
@@ -85,7 +85,11 @@ template <class T> struct Audit {
         ++steps;
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             max_angle = std::max(max_angle, double(s.theta[i].norm()));
-            for (int k = 0; k < 3; ++k) signs += s.theta_dot[i][k] * rate[i][k] < 0;
+            largest = std::max(largest, double(s.theta_dot[i].cwiseAbs().maxCoeff()));
+            for (int k = 0; k < 3; ++k) {
+                const double a = double(rate[i][k]), b = double(s.theta_dot[i][k]), small = 1e-6 * largest;
+                signs += a * b < 0 && std::abs(a) > small && std::abs(b) > small;
+            }
         }
         rate = s.theta_dot;
         theta = s.theta;
@@ -112,7 +116,7 @@ std::string failures(const StabilityCell& cell, bool booked, bool settles) {
     std::string text;
     const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
     if (booked && !(cell.energy_drift <= energy_tolerance)) add("energy grows beyond the work done");
-    if (settles && !(cell.rms_growth <= growth_tolerance)) add("deflection grows under a steady load");
+    if (settles && cell.rms_growth > growth_tolerance) add("deflection grows under a steady load");
     return text;
 }
 
@@ -136,7 +140,8 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
         cell.finite = !first_non_finite(state);
         if (cell.finite) audit.after_step(state);
     }
-    cell.guards = state.flags.bounded_lambda + state.flags.half_turns + state.flags.fast_turns + state.flags.unresolved;
+    cell.guards = state.flags.bounded_lambda + state.flags.half_turns + state.flags.energy_guard +
+                  state.flags.fast_turns + state.flags.unresolved;
     cell.max_angle = audit.max_angle;
     cell.energy_drift = audit.booked ? audit.excess : NAN;
     cell.ringing = double(audit.signs) / double(3 * plan.bodies) / double(std::max<std::int64_t>(1, audit.steps));

@@ -9,7 +9,7 @@
 // growth    RMS tip deflection of the last quarter at most 1.05 times that of the third, where the load is a steady wind, damping
 //           is on and a quarter holds a period of the first mode.
 // A joint past 1 rad has left the method's assumption of small angles a joint: `outside`, which is said, not excused.
-// Ringing is sign changes of theta_dot a joint axis and frame; guards are those of StepFlags but buckling, which is physics.
+// Ringing is sign changes of theta_dot a joint axis and frame, below a millionth of the largest rate left out; guards are those of StepFlags but buckling, which is physics.
 #pragma once
 #include "../stages/plan.h"
 #include "stability_cases.h"

@@ -38,11 +38,16 @@ template <class T> void symmetric_eigen(Matrix3<T> A, Matrix3<T>& V, Vector3<T>&
 
 namespace {
 
+// [rad] a joint's turn in a step above which its energy is checked.
+template <class T> constexpr T guarded_turn = T(0.3);
+
 // One joint at the start of its step, in the axes of its body.
 template <class T> struct Joint {
     Matrix3<T> T_tb;       // rates of theta from the body's: J^-1
     Vector3<T> residual_b; // [N m] tau - T^T K theta
     Matrix3<T> K_b, KG_b;  // [N m/rad] T^T K T, and with gravity's gradient
+    Vector3<T> held_b;     // [N m] of tau, what is held constant over the step: all but gravity
+    Vector3<T> g_b, h_b;   // [m/s^2], [kg m] gravity and the composite's first moment
 };
 
 template <class T> Joint<T> load(const Plan<T>& plan, const State<T>& s, std::size_t i) {
@@ -54,6 +59,7 @@ template <class T> Joint<T> load(const Plan<T>& plan, const State<T>& s, std::si
     Vector3<T> tau_w = Vector3<T>::Zero();
     if (plan.forces) tau_w += s.c_tau_w[i];
     const RootLoad<T>* root = plan.root_motion ? root_load_of(plan, s, i) : nullptr;
+    joint.g_b = joint.h_b = Vector3<T>::Zero();
     if (plan.gravity || root) {
         Vector3<T> g_w = plan.scene.gravity.template cast<T>();
         T row = plan.gravity_row[i];
@@ -64,13 +70,27 @@ template <class T> Joint<T> load(const Plan<T>& plan, const State<T>& s, std::si
             const Matrix3<T> J_b = R_wb.transpose() * s.c_J_w[i] * R_wb;
             joint.KG_b += turning_gradient<T>(J_b, R_wb.transpose() * root->omega, R_wb.transpose() * root->alpha);
         }
-        tau_w += s.c_h_w[i].cross(g_w);
         const Vector3<T> g = R_wb.transpose() * g_w, h = R_wb.transpose() * s.c_h_w[i];
+        joint.g_b = g;
+        joint.h_b = h;
         const Matrix3<T> hg = h * g.transpose();
         joint.KG_b += (g.dot(h) + row) * Matrix3<T>::Identity() - T(0.5) * (hg + hg.transpose());
     }
-    joint.residual_b = R_wb.transpose() * tau_w - joint.T_tb.transpose() * plan.K[i].cwiseProduct(s.theta[i]);
+    joint.held_b = R_wb.transpose() * tau_w;
+    joint.residual_b =
+        joint.held_b + joint.h_b.cross(joint.g_b) - joint.T_tb.transpose() * plan.K[i].cwiseProduct(s.theta[i]);
     return joint;
+}
+
+// What a turn of theta by phi_b has added to the joint's energy beyond the work of what is held, with its composite rigid:
+// kinetic |w|^2 / 2, elastic, and gravity's exactly.
+template <class T>
+T energy_gained(const Plan<T>& plan, const Joint<T>& joint, std::size_t i, const Vector3<T>& theta,
+                const Vector3<T>& next, T kinetic, const Vector3<T>& phi_b) {
+    const Vector3<T> K = plan.K[i];
+    const T elastic = (next - theta).dot(K.cwiseProduct(next + theta)) / 2;
+    const Vector3<T> h = rotation_from_vector(Vector3<T>(-theta)) * (rotation_from_vector(next) * joint.h_b);
+    return kinetic + elastic - joint.g_b.dot(h - joint.h_b) - joint.held_b.dot(phi_b);
 }
 
 template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_t i, T h) {
@@ -116,7 +136,16 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         dq[k] = p.E * residual + p.B * v[k];
         v_new[k] = p.B * residual + p.C * v[k];
     }
-    s.theta[i] += joint.T_tb * (U * dq);
+    const Vector3<T> phi = U * dq, next = s.theta[i] + joint.T_tb * phi;
+    if (phi.squaredNorm() > guarded_turn<T> * guarded_turn<T>) {
+        const T after = v_new.squaredNorm(), before = v.squaredNorm();
+        const T excess = energy_gained(plan, joint, i, s.theta[i], next, (after - before) / 2, phi);
+        if (excess > 0) {
+            v_new *= std::sqrt(std::max(T(0), 1 - 2 * excess / after));
+            ++flags.energy_guard;
+        }
+    }
+    s.theta[i] = next;
     if (shorten_rotation(s.theta[i])) ++flags.half_turns;
     s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * (U * v_new);
     s.scaled_rate[i] = X * v_new;
@@ -128,17 +157,19 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
 template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
     const auto n = std::int64_t(plan.bodies);
     const T h = T(plan.dt);
-    std::uint64_t buckling = 0, bounded = 0, half_turns = 0;
-#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns) if (n > 2000)
+    std::uint64_t buckling = 0, bounded = 0, half_turns = 0, guarded = 0;
+#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns, guarded) if (n > 2000)
     for (std::int64_t i = 0; i < n; ++i) {
         const StepFlags flags = evolve(plan, state, std::size_t(i), h);
         buckling += flags.buckling;
         bounded += flags.bounded_lambda;
         half_turns += flags.half_turns;
+        guarded += flags.energy_guard;
     }
     state.flags.buckling += buckling;
     state.flags.bounded_lambda += bounded;
     state.flags.half_turns += half_turns;
+    state.flags.energy_guard += guarded;
 }
 
 template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {

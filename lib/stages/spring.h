@@ -37,6 +37,10 @@
 // q'' + b q' + lambda q = r with b = beta (U^T K_b U)_ii, v = X^T w (oscillator.h). Where G is not 0, U^T K_b U has small
 // terms off its diagonal: they are dropped, which leaves the damping positive. lambda < 0 is buckling: it grows as it does,
 // and is counted. lambda is bounded where its square would overflow (oscillator.h), counted.
+// Large turns. All of the above is frozen at the step's start, and right to second order of phi. A joint that turns by more than
+// 0.3 rad in a step has left that; there, and there alone, its energy is checked with the composite taken rigid: kinetic
+// + elastic - g.(turned h) less the work of what is held constant, tau.phi. What it has gained beyond, the rate gives back
+// (down to rest). Counted; idle while the angles a step are small, which is what the method is for.
 // Half turns. theta is the rotation vector "in the standard fashion" (§3), |theta| <= pi: a joint that turns past half a turn is as
 // far from rest the other way round, at the same elastic energy, and its spring pulls it on. Counted; the small angles
 // that the method assumes were left long before.

@@ -25,6 +25,10 @@ for s in r["stages"]:
     assert s["calls"] == r["frames"]' || fail "the report does not add up"
 ! treeprofile tree.json --frames 5 | grep -q wind_field || fail "a stage that did not run is in the table"
 expect 0 treeprofile tree.json --frames 5 --report r.csv
+expect 0 treeprofile stages tree.json --frames 5 --repeat 1 --solver articulated-implicit
+grep -q '^articulated ' out && ! grep -q '^spring ' out || fail "the articulated solver's stages are not in the table"
+grep -q "^hash $(treesim tree.json --frames 5 --no-output --hash --solver articulated-implicit 2>&1 | sed 's/hash //')$" out ||
+    fail "the articulated solver's hash is not that of treesim"
 [[ $(head -n 1 r.csv) == name,calls,seconds,* ]] || fail "the CSV has no header"
 
 # compare: a report against itself, against a slower one, against one of another kind.

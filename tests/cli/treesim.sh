@@ -65,6 +65,31 @@ for option in "--wind storm" "--seed 5" "--gravity 0,-3,0" "--precision float" "
     [[ $(hash tree.json --wind gusty --frames 20 $option) != "$one" ]] || fail "$option changes nothing"
 done
 
+# Solvers: each another motion, one motion however cut, in double alone; what they do not take is refused.
+treegen --bodies 60 --seed 3 | treeconvert - -o small.json
+for solver in articulated-implicit articulated-reference; do
+    one=$(hash small.json --wind gusty --frames 8 --solver $solver)
+    [[ -n $one && $one != $(hash small.json --wind gusty --frames 8) ]] || fail "--solver $solver changes nothing"
+    [[ $(hash small.json --wind gusty --frames 8 --solver $solver --threads 1) == "$one" ]] || fail "threads change $solver"
+    for form in json safetensors; do
+        treesim small.json --wind gusty --frames 4 --solver $solver --no-output --save-state solver.$form
+        [[ $(hash small.json --wind gusty --frames 4 --solver $solver --resume solver.$form) == "$one" ]] ||
+            fail "$solver does not go on as it was from a saved state in $form"
+    done
+    refused 2 "/solver" treesim small.json --wind gusty --frames 4 --resume solver.json
+    refused 1 "--precision float" treesim small.json --solver $solver --precision float
+    refused 1 "--joint-inertia" treesim small.json --solver $solver --joint-inertia paper
+    treesim small.json --frames 3 --solver $solver --no-output --explain 2>&1 | grep -q "^stage articulated on: $solver" ||
+        fail "--explain does not name $solver"
+done
+[[ $(hash small.json --wind gusty --frames 8 --solver articulated-reference --tolerance 1e-4) != "$one" ]] ||
+    fail "--tolerance changes nothing"
+refused 1 "--tolerance" treesim small.json --tolerance 1e-4
+refused 1 "--tolerance" treesim small.json --solver articulated-implicit --tolerance 1e-4
+refused 1 "--tolerance" treesim small.json --solver articulated-reference --tolerance 0
+refused 3 "stage articulated (theta), body" treesim small.json --wind gusty --frames 300 --no-output --solver articulated-explicit
+grep -q "substeps" err || fail "what to do about explicit steps is not said: $(cat err)"
+
 # One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
 cat >glb.py <<'END'
 import json, struct, sys
@@ -78,6 +103,7 @@ print(len(doc["skins"][0]["joints"]), len(channels), sum(t["count"] for t in tim
       max([round(t["max"][0], 4) for t in times], default="none"), "treesim" in doc["asset"]["extras"]["source"])
 END
 bodies=$(treesim tree.json --frames 1 -o one.jsonl && head -n 1 one.jsonl | python3 -c 'import json, sys; print(json.load(sys.stdin)["bodies"])')
+one=$(hash tree.json --wind gusty --frames 20)
 [[ $(hash tree.json --wind gusty --frames 20 -q -o m.glb) == "$one" ]] || fail "an animated mesh changes the hash"
 read -r joints channels keys last source < <(python3 glb.py <m.glb)
 [[ $joints -eq $bodies && $channels -le $bodies && $channels -gt 1 && $last == 0.6333 && $source == True ]] ||
