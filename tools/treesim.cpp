@@ -193,6 +193,8 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
     if (flags.half_turns > 0)
         notes.push_back(std::to_string(flags.half_turns) +
                         " times a joint turned past half a turn: the small angles that the method assumes are left");
+    if (flags.limited > 0)
+        notes.push_back(std::to_string(flags.limited) + " times a joint was stopped at its limit, as asked");
     if (flags.fast_turns > 0)
         notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
     if (flags.unresolved > 0)

@@ -1,5 +1,6 @@
 #include "spring.h"
 #include "joint.h"
+#include "joint_limit.h"
 #include "oscillator.h"
 #include "root_term.h"
 #include <Eigen/Cholesky>
@@ -117,9 +118,15 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         v_new[k] = p.B * residual + p.C * v[k];
     }
     s.theta[i] += joint.T_tb * (U * dq);
-    if (shorten_rotation(s.theta[i])) ++flags.half_turns;
-    s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * (U * v_new);
     s.scaled_rate[i] = X * v_new;
+    Vector3<T> omega_b = U * v_new;
+    if (plan.joint_limit && stop_at_limit(plan.theta_limit[i], L, s.theta[i], s.scaled_rate[i])) {
+        ++flags.limited;
+        omega_b = s.scaled_rate[i];
+        L.transpose().template triangularView<Eigen::Upper>().solveInPlace(omega_b);
+    }
+    if (shorten_rotation(s.theta[i])) ++flags.half_turns;
+    s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * omega_b;
     return flags;
 }
 
@@ -128,17 +135,19 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
 template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
     const auto n = std::int64_t(plan.bodies);
     const T h = T(plan.dt);
-    std::uint64_t buckling = 0, bounded = 0, half_turns = 0;
-#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns) if (n > 2000)
+    std::uint64_t buckling = 0, bounded = 0, half_turns = 0, limited = 0;
+#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns, limited) if (n > 2000)
     for (std::int64_t i = 0; i < n; ++i) {
         const StepFlags flags = evolve(plan, state, std::size_t(i), h);
         buckling += flags.buckling;
         bounded += flags.bounded_lambda;
         half_turns += flags.half_turns;
+        limited += flags.limited;
     }
     state.flags.buckling += buckling;
     state.flags.bounded_lambda += bounded;
     state.flags.half_turns += half_turns;
+    state.flags.limited += limited;
 }
 
 template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {

@@ -37,6 +37,7 @@
 // q'' + b q' + lambda q = r with b = beta (U^T K_b U)_ii, v = X^T w (oscillator.h). Where G is not 0, U^T K_b U has small
 // terms off its diagonal: they are dropped, which leaves the damping positive. lambda < 0 is buckling: it grows as it does,
 // and is counted. lambda is bounded where its square would overflow (oscillator.h), counted.
+// Limits. Where the scene has joint limits, the step ends with them: joint_limit.h. Counted.
 // Half turns. theta is the rotation vector "in the standard fashion" (§3), |theta| <= pi: a joint that turns past half a turn is as
 // far from rest the other way round, at the same elastic energy, and its spring pulls it on. Counted; the small angles
 // that the method assumes were left long before.
