@@ -12,6 +12,10 @@ constexpr DocumentType wind_type{"bough-wind", 1};
 const std::vector<std::string> poses{"drawn", "settled", "rest"};
 const std::vector<std::string> inertias{"branch", "paper"};
 
+std::string text_of(const ordered_json& value) {
+    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 // The document's fields as one object. In the binary form they all stand in __metadata__: what begins as an object, an
 // array or a number does is JSON text, anything else a string.
 json fields_of(std::string_view content, const std::string& name, const DocumentType& type) {
@@ -131,6 +135,29 @@ RootMotion read_root_motion(const json& value, const std::string& name, const st
     return motion;
 }
 
+// One number for all, or for each kind a number or one for each axis.
+JointLimit read_joint_limit(const json& value, const std::string& name) {
+    JointLimit limit;
+    if (value.is_number()) {
+        limit.branch = limit.leaf = limit.fruit = Vec3::Constant(value.get<double>());
+        return limit;
+    }
+    if (!value.is_object())
+        throw InputError(name + ": /joint_limit", "is " + text_of(value) +
+                                                      ", expected a number of degrees or an object with branch, leaf, "
+                                                      "fruit");
+    ObjectReader object(value, name, "/joint_limit");
+    for (const auto& [kind, most] :
+         {std::pair{"branch", &limit.branch}, {"leaf", &limit.leaf}, {"fruit", &limit.fruit}}) {
+        if (object.has(kind) && object.need(kind).is_number())
+            most->setConstant(object.need(kind).get<double>());
+        else
+            object.read(kind, *most);
+    }
+    object.finish();
+    return limit;
+}
+
 ordered_json numbers(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
@@ -184,13 +211,13 @@ ordered_json value_of(const Scene& scene) {
     for (const RootMotion& motion : scene.root_motion) fields["root_motion"].push_back(value_of(motion));
     fields["pose"] = poses[std::size_t(scene.pose)];
     fields["joint_inertia"] = inertias[std::size_t(scene.joint_inertia)];
+    if (scene.joint_limit)
+        fields["joint_limit"] = {{"branch", numbers(scene.joint_limit->branch)},
+                                 {"leaf", numbers(scene.joint_limit->leaf)},
+                                 {"fruit", numbers(scene.joint_limit->fruit)}};
     fields["stiffness_scale"] = scene.stiffness_scale;
     fields["damping_scale"] = scene.damping_scale;
     return fields;
-}
-
-std::string text_of(const ordered_json& value) {
-    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 } // namespace
@@ -216,6 +243,7 @@ Scene read_scene(std::string_view content, const std::string& name) {
             read_root_motion(value, name, "/root_motion/" + std::to_string(scene.root_motion.size())));
     scene.pose = Pose(object.word("pose", poses, std::size_t(scene.pose)));
     scene.joint_inertia = JointInertia(object.word("joint_inertia", inertias, std::size_t(scene.joint_inertia)));
+    if (object.has("joint_limit")) scene.joint_limit = read_joint_limit(object.need("joint_limit"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();

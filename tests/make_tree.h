@@ -85,7 +85,7 @@ inline std::size_t add_fruit(Tree& t, std::int32_t parent, const Vec3& at, const
     t.mass.push_back(mass);
     t.com.push_back({0, 0, center});
     t.inertia.push_back(0.4 * mass * radius * radius * Mat3::Identity());
-    t.stiffness.push_back(Vec3(1e-3, 1e-3, 1e-3));
+    t.stiffness.push_back(Vec3(0.1, 0.1, 0.1));
     t.damping.push_back(0.01);
     return add_body(t, parent, Kind::fruit, at, rotation, {center, radius, radius}, branch, level, s);
 }

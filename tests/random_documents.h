@@ -164,6 +164,11 @@ inline RootMotion random_root_motion(std::int32_t tree, std::size_t keys, bool p
     return m;
 }
 
+inline JointLimit random_joint_limit(Random& random) {
+    const auto angles = [&] { return Vec3(180 * (1 - random.fraction()), 180 * (1 - random.fraction()), 180); };
+    return {angles(), angles(), angles()};
+}
+
 inline Motion random_motion(const MotionFields& fields, std::int64_t bodies, std::int64_t frames, Random& random) {
     Motion motion;
     motion.header.bodies = bodies;
@@ -237,6 +242,10 @@ inline bool same(const Splines& a, const Splines& b) {
 
 inline bool same(const RootMotion& a, const RootMotion& b) {
     return a.tree == b.tree && same(a.time, b.time) && same(a.position, b.position) && same(a.rotation, b.rotation);
+}
+
+inline bool same(const JointLimit& a, const JointLimit& b) {
+    return same(a.branch, b.branch) && same(a.leaf, b.leaf) && same(a.fruit, b.fruit);
 }
 
 inline bool same(const MotionFrame& a, const MotionFrame& b) {

@@ -144,6 +144,11 @@ TEST_CASE("each rule of a scene") {
     CHECK(broken(good, [](Scene& s) { s.pulls[0].force[1].y() = not_a_number; }) == "pulls/0/force/1");
     CHECK(broken(good, [](Scene& s) { s.pulls[0].on.tree = 2; }) == "pulls/0/on/tree");
     CHECK(broken(good, [](Scene& s) { s.stiffness_scale = -1; }) == "stiffness_scale");
+    good.joint_limit = JointLimit{};
+    CHECK(place(good) == "");
+    CHECK(broken(good, [](Scene& s) { s.joint_limit->leaf.z() = not_a_number; }) == "joint_limit/leaf/2");
+    CHECK(broken(good, [](Scene& s) { s.joint_limit->branch.x() = 180.1; }) == "joint_limit/branch/0");
+    CHECK(broken(good, [](Scene& s) { s.joint_limit->fruit.setZero(); }) == "joint_limit/fruit");
 }
 
 TEST_CASE("a tree appended stands where it was put, as it was") {

@@ -206,6 +206,15 @@ TEST_CASE("scenes name the nested place") {
     CHECK(scene_error("\"gravity\": [0, \"x\", 0]") == "s: /gravity/1: is \"x\", expected a number");
     CHECK(scene_error("\"pose\": \"sitting\"") == "s: /pose: is \"sitting\", expected one of drawn, settled, rest");
     CHECK(scene_error("\"air_density\": -1") == "s: /air_density: is -1, expected 0 or more");
+    const std::string degrees = ", expected degrees, more than 0 and at most 180";
+    CHECK(scene_error("\"joint_limit\": 0") == "s: /joint_limit: is 0" + degrees);
+    CHECK(scene_error("\"joint_limit\": {\"leaf\": 181}") == "s: /joint_limit/leaf: is 181" + degrees);
+    CHECK(scene_error("\"joint_limit\": {\"fruit\": [5, 5, -1]}") == "s: /joint_limit/fruit/2: is -1" + degrees);
+    CHECK(scene_error("\"joint_limit\": {\"fruit\": [5, 5]}") ==
+          "s: /joint_limit/fruit: has 2 numbers, expected 3 (x, y, z)");
+    CHECK(scene_error("\"joint_limit\": \"30\"") ==
+          "s: /joint_limit: is \"30\", expected a number of degrees or an object with branch, leaf, fruit");
+    CHECK(scene_error("\"joint_limit\": {\"twig\": 5}").rfind("s: /joint_limit/twig: ", 0) == 0);
     CHECK(scene_error("\"air_density\": 1, \"air_density\": 1") == "s: /air_density: appears twice");
     CHECK_THAT(scene_error("\"gravity\": [0, NaN, 0]"), StartsWith("s:1:") && Contains("/gravity/1 is NaN"));
 

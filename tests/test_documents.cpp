@@ -120,6 +120,7 @@ TEST_CASE("saved states come back from both forms") {
 }
 
 TEST_CASE("scenes come back from both forms") {
+    Random random;
     Scene scene;
     scene.trees = {{"oak.json", {1, 0, -0.1}, 30}, {"birch.safetensors", {0, 0, 1e-300}, -7.5}};
     scene.gravity = {0, -1.62, 0};
@@ -129,6 +130,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.joint_inertia = JointInertia::paper;
     scene.stiffness_scale = 0.5;
     scene.damping_scale = 2;
+    scene.joint_limit = random_joint_limit(random);
     Pull pull;
     pull.time = {0, 1.5};
     pull.force = {{0, 0, 1}, {0.1, 0.2, 0.3}};
@@ -146,7 +148,6 @@ TEST_CASE("scenes come back from both forms") {
     pull.on = {};
     pull.on.body = 57;
     scene.pulls.push_back(pull);
-    Random random;
     scene.root_motion.resize(2);
     scene.root_motion[0] = random_root_motion(1, 5, true, true, random);
     scene.root_motion[1] = random_root_motion(0, 2, false, true, random);
@@ -174,6 +175,8 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(read.joint_inertia == JointInertia::paper);
         CHECK(read.stiffness_scale == 0.5);
         CHECK(read.damping_scale == 2);
+        REQUIRE(read.joint_limit);
+        CHECK(same(*read.joint_limit, *scene.joint_limit));
         REQUIRE(read.pulls.size() == 4);
         CHECK(same(read.pulls[0].time, pull.time));
         CHECK(same(read.pulls[0].force, pull.force));
@@ -198,6 +201,7 @@ TEST_CASE("a scene of two lines has the defaults") {
     CHECK_FALSE(read.wind);
     CHECK(read.pulls.empty());
     CHECK(read.root_motion.empty());
+    CHECK_FALSE(read.joint_limit);
     CHECK(read.gravity == defaults.gravity);
     CHECK(read.pose == Pose::drawn);
 
@@ -207,6 +211,18 @@ TEST_CASE("a scene of two lines has the defaults") {
     const Wind wind = read_wind(R"({"format": "bough-wind", "version": 1, "velocity": [3, 0, 4]})", "w");
     CHECK(wind.velocity == Vec3(3, 0, 4));
     CHECK(wind.gust_factor == 1);
+}
+
+TEST_CASE("a joint limit may be one number, or one for a kind") {
+    const auto read = [](const std::string& limit) {
+        return read_scene(R"({"format": "bough-scene", "version": 1, "joint_limit": )" + limit + "}", "s").joint_limit;
+    };
+    const Vec3 none = Vec3::Constant(180), all = Vec3::Constant(30.5);
+    REQUIRE(read("30.5"));
+    CHECK(same(*read("30.5"), JointLimit{all, all, all}));
+    CHECK(same(*read(R"({"branch": 30.5})"), JointLimit{all, none, none}));
+    CHECK(same(*read(R"({"leaf": [10, 20, 180], "fruit": 30.5})"), JointLimit{none, Vec3(10, 20, 180), all}));
+    CHECK(same(*read("{}"), JointLimit{}));
 }
 
 TEST_CASE("a tree written by hand is read as it says") {

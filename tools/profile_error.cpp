@@ -83,6 +83,7 @@ void let_move(ErrorCommand& o, Scene& scene) {
 
 void work(ErrorCommand& o) {
     if (o.app->get_option("--substeps")->count() > 0) throw UsageError("--substeps: --steps says it here");
+    if (o.run.joint_limit) throw UsageError("--joint-limit: the reference solution keeps no limits");
     if (o.run.solver == solver_name(Solver::articulated_reference))
         throw UsageError("--solver articulated-reference is what the others are held against");
     if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");

@@ -34,6 +34,11 @@ void apply(const RunOptions& o, Scene& scene) {
         scene.joint_inertia = o.joint_inertia == "paper" ? JointInertia::paper : JointInertia::branch;
     if (o.stiffness_scale) scene.stiffness_scale = *o.stiffness_scale;
     if (o.damping_scale) scene.damping_scale = *o.damping_scale;
+    if (o.joint_limit) {
+        if (*o.joint_limit > 180) throw UsageError("--joint-limit is above 180 degrees, which is no limit");
+        const Vec3 all = Vec3::Constant(*o.joint_limit);
+        scene.joint_limit = JointLimit{all, all, all};
+    }
 }
 
 void stand(Setting& setting, const Tree& tree, const Placement& place) {
@@ -129,6 +134,8 @@ struct Fingerprint {
         for (const double value : {s.air_density, s.stiffness_scale, s.damping_scale}) add(value);
         add(std::uint64_t(s.pose));
         add(std::uint64_t(s.joint_inertia));
+        if (!s.joint_limit) return;
+        for (const Vec3& most : {s.joint_limit->branch, s.joint_limit->leaf, s.joint_limit->fruit}) add(most);
     }
 };
 
@@ -214,6 +221,10 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
     app.add_option("--damping-scale", o.damping_scale, "Multiplies every joint's damping (1)")
         ->option_text("X")
         ->check(not_negative_number());
+    app.add_option("--joint-limit", o.joint_limit,
+                   "Largest angle of every joint about each of its axes, from its spring's rest [deg] (none)")
+        ->option_text("DEG")
+        ->check(positive_number());
 }
 
 std::int64_t frames_of(const RunOptions& o, double seconds_default) {
@@ -230,6 +241,8 @@ Setting read_setting(const RunOptions& o) {
         throw UsageError("--precision float: not with --solver " + o.solver + ", which runs in double");
     if (is_articulated(solver) && !o.joint_inertia.empty())
         throw UsageError("--joint-inertia: only with --solver analytic");
+    if (is_articulated(solver) && o.joint_limit)
+        throw UsageError("--joint-limit: only with --solver analytic, which alone keeps limits");
     if (o.tolerance && solver != Solver::articulated_reference)
         throw UsageError("--tolerance: only with --solver articulated-reference");
     Setting setting;

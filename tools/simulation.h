@@ -16,7 +16,7 @@ struct RunOptions {
     double fps = 30;
     int substeps = 1;
     std::string wind, gravity, solver = "analytic", precision = "double", pose, joint_inertia;
-    std::optional<double> stiffness_scale, damping_scale, tolerance;
+    std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
 };
 

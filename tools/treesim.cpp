@@ -199,6 +199,8 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
     if (flags.energy_guard > 0)
         notes.push_back(std::to_string(flags.energy_guard) +
                         " times a joint turned by more than 0.3 rad in a step and was kept from gaining energy");
+    if (flags.limited > 0)
+        notes.push_back(std::to_string(flags.limited) + " times a joint was stopped at its limit, as asked");
     if (flags.fast_turns > 0)
         notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
     if (flags.unresolved > 0)

@@ -134,6 +134,20 @@ std::optional<Defect> check(const std::vector<RootMotion>& motions, std::size_t 
     return std::nullopt;
 }
 
+// The place is the number's own, or what stands for all the equal numbers under it: people may write one number there.
+std::optional<Defect> check(const JointLimit& limit) {
+    const Vec3 same = Vec3::Constant(limit.branch[0]);
+    const bool one = limit.branch == same && limit.leaf == same && limit.fruit == same;
+    for (const auto& [kind, most] : {std::pair{"branch", limit.branch}, {"leaf", limit.leaf}, {"fruit", limit.fruit}})
+        for (int k = 0; k < 3; ++k) {
+            if (most[k] > 0 && most[k] <= 180) continue;
+            const bool whole = most == Vec3::Constant(most[k]);
+            return Defect{one ? "joint_limit" : std::string("joint_limit/") + kind, whole ? -1 : k,
+                          "is " + text(most[k]) + ", expected degrees, more than 0 and at most 180"};
+        }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<Defect> check(const Scene& scene) {
@@ -147,6 +161,8 @@ std::optional<Defect> check(const Scene& scene) {
         if (auto defect = check(scene.pulls[i], "pulls/" + std::to_string(i), scene.trees.size())) return defect;
     for (std::size_t i = 0; i < scene.root_motion.size(); ++i)
         if (auto defect = check(scene.root_motion, i, scene.trees.size())) return defect;
+    if (scene.joint_limit)
+        if (auto defect = check(*scene.joint_limit)) return defect;
     if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
     return at_least("damping_scale", scene.damping_scale, 0);
 }

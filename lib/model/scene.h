@@ -85,6 +85,12 @@ enum class JointInertia : std::uint8_t {
     paper   // the composite's own, as in the paper
 };
 
+// Largest angles of the joints from their springs' rest, about each axis of the joint frame: of branches, of leaves and
+// petals, of fruit (joint_limit.h). Above 0; 180: no limit.
+struct JointLimit {
+    Vec3 branch{180, 180, 180}, leaf{180, 180, 180}, fruit{180, 180, 180}; // [deg]
+};
+
 struct Scene {
     std::vector<Placement> trees; // may be empty where the caller has the tree already
     Vec3 gravity{0, -9.81, 0};    // [m/s^2]; zero: absent
@@ -96,6 +102,7 @@ struct Scene {
     JointInertia joint_inertia = JointInertia::branch;
     double stiffness_scale = 1; // [1] multiplies every K
     double damping_scale = 1;   // [1] multiplies every beta
+    std::optional<JointLimit> joint_limit;
 };
 
 // The first broken rule, or none. O(keys).

@@ -4,6 +4,7 @@
 #include "pose.h"
 #include "state_arrays.h"
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace bough {
@@ -56,6 +57,28 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, const Scene
         plan.inertia_joint.push_back(Mat3(tree.inertia[i] - tree.mass[i] * com * com).template cast<T>());
         plan.K.push_back(tree.stiffness[i].template cast<T>());
         plan.beta.push_back(T(tree.damping[i]));
+    }
+}
+
+template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
+    if (is_articulated(plan.solver))
+        throw std::domain_error("joint_limit: only the analytic solver keeps limits, not " +
+                                std::string(solver_name(plan.solver)));
+    constexpr double degree = 3.14159265358979323846 / 180;
+    const JointLimit& limit = *plan.scene.joint_limit;
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const Kind kind = tree.kind[i];
+        const Vec3& most = kind == Kind::branch ? limit.branch : kind == Kind::fruit ? limit.fruit : limit.leaf;
+        Vector3<T> angle;
+        for (int k = 0; k < 3; ++k) {
+            angle[k] = most[k] < 180 ? T(most[k] * degree) : std::numeric_limits<T>::infinity();
+            if (!(std::abs(plan.theta_start[i][k]) <= angle[k]))
+                throw std::domain_error(
+                    "joint_limit: body " + std::to_string(i) + " (branch " + std::to_string(tree.branch[i]) +
+                    ") starts " + std::to_string(double(plan.theta_start[i][k]) / degree) +
+                    " degrees from its spring's rest about " + "xyz"[k] + ", its limit is " + std::to_string(most[k]));
+        }
+        plan.theta_limit.push_back(angle);
     }
 }
 
@@ -174,9 +197,9 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                           : other);
     const std::string moved = plan.root_motion ? "; roots moved by /root_motion" : "";
     add(Stage::spring, analytic,
-        !analytic          ? "another solver than analytic"
-        : plan.root_motion ? "every scene; the root's term for /root_motion"
-                           : "every scene");
+        !analytic ? "another solver than analytic"
+                  : std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") +
+                        (plan.joint_limit ? "; angles kept within /joint_limit" : ""));
     add(Stage::articulated, !analytic, analytic ? "solver analytic" : solver_name(plan.solver));
     add(Stage::state_update, true,
         std::string(!plan.velocity
@@ -219,6 +242,8 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     plan_root_motion(plan, ranges);
     plan.top = plan.wind ? highest_reach(tree, plan.splines, plan.moved) : 0;
     plan_bodies(plan, tree, scene);
+    plan.joint_limit = scene.joint_limit.has_value();
+    if (plan.joint_limit) plan_joint_limit(plan, tree);
     if (plan.wind) plan_surfaces(plan, tree, scene);
     if (solver == Solver::analytic) plan_modes(plan, tree, scene);
     explain(plan, wishes);

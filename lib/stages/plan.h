@@ -67,7 +67,7 @@ template <class T> struct Plan {
     double tolerance = 1e-8; // [rad] error allowed in a step of articulated_reference (extrapolation.h)
     Scene scene;             // as given, for times and forces
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
-    bool root_motion = false;
+    bool root_motion = false, joint_limit = false;
     std::vector<PlannedStage> stages;
     std::vector<PlannedArray> arrays;
 
@@ -83,6 +83,8 @@ template <class T> struct Plan {
     std::vector<T> beta;                    // [s]
     std::vector<Vector3<T>> inertia_factor; // [1] square roots of F's diagonal (spring.h)
     std::vector<Vector3<T>> theta_start;    // [rad]
+
+    std::vector<Vector3<T>> theta_limit; // [rad] joint_limit.h; infinite: none
 
     // Gravity's gradient (spring.h).
     std::vector<T> gravity_row; // [N m] bound on what the path's other joints change of gravity's moment
@@ -105,7 +107,8 @@ template <class T> struct Plan {
 
 // tree: joined and checked; ranges: of each of the scene's trees in it (one range for a tree on its own). Scales K and
 // beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).
-// Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow.
+// Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow,
+// for one that starts beyond a joint limit (its body and angle), and for joint limits with an articulated solver.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
                   Solver solver = Solver::analytic);

@@ -89,6 +89,9 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
     const std::vector<Vec3> tau = gravity_moments(tree, turned_moments(tree, f), gravity);
     for (std::size_t i = 0; i < tau.size(); ++i) {
         pose.theta[i] = carry(tree, i, f.R[i].transpose() * tau[i]);
+        if (!(pose.theta[i].norm() <= 3.14159265358979323846)) // the step would take it the other way round (spring.h)
+            throw std::domain_error(name_of(tree, i) + " is too soft to carry its weight in the drawn pose: its spring "
+                                                       "would be wound by more than half a turn");
         pose.joint_rotation[i] =
             (tree.joint_rotation[i] * quaternion_from_vector<double>(pose.theta[i]).conjugate()).normalized();
     }

@@ -11,7 +11,7 @@
 //          a branch that buckles under its own weight: refused, with its name.
 // rest     The drawn tree is unloaded and the run starts from it: theta = 0.
 // Reads a checked tree (K as scaled by the scene). Cost O(n) (settled: O(n) an iteration, about 5 to 50).
-// Throws std::domain_error that names body and branch: drawn with K = 0 under load or no solution; settled without
+// Throws std::domain_error that names body and branch: drawn with K = 0 under load or no solution within half a turn; settled without
 // convergence.
 #pragma once
 #include "../model/scene.h"

@@ -1,5 +1,6 @@
 #include "spring.h"
 #include "joint.h"
+#include "joint_limit.h"
 #include "oscillator.h"
 #include "root_term.h"
 #include <Eigen/Cholesky>
@@ -146,9 +147,15 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         }
     }
     s.theta[i] = next;
-    if (shorten_rotation(s.theta[i])) ++flags.half_turns;
-    s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * (U * v_new);
     s.scaled_rate[i] = X * v_new;
+    Vector3<T> omega_b = U * v_new;
+    if (plan.joint_limit && stop_at_limit(plan.theta_limit[i], L, s.theta[i], s.scaled_rate[i])) {
+        ++flags.limited;
+        omega_b = s.scaled_rate[i];
+        L.transpose().template triangularView<Eigen::Upper>().solveInPlace(omega_b);
+    }
+    if (shorten_rotation(s.theta[i])) ++flags.half_turns;
+    s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * omega_b;
     return flags;
 }
 
@@ -157,19 +164,21 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
 template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
     const auto n = std::int64_t(plan.bodies);
     const T h = T(plan.dt);
-    std::uint64_t buckling = 0, bounded = 0, half_turns = 0, guarded = 0;
-#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns, guarded) if (n > 2000)
+    std::uint64_t buckling = 0, bounded = 0, half_turns = 0, guarded = 0, limited = 0;
+#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns, guarded, limited) if (n > 2000)
     for (std::int64_t i = 0; i < n; ++i) {
         const StepFlags flags = evolve(plan, state, std::size_t(i), h);
         buckling += flags.buckling;
         bounded += flags.bounded_lambda;
         half_turns += flags.half_turns;
         guarded += flags.energy_guard;
+        limited += flags.limited;
     }
     state.flags.buckling += buckling;
     state.flags.bounded_lambda += bounded;
     state.flags.half_turns += half_turns;
     state.flags.energy_guard += guarded;
+    state.flags.limited += limited;
 }
 
 template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {

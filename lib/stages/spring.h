@@ -41,6 +41,7 @@
 // 0.3 rad in a step has left that; there, and there alone, its energy is checked with the composite taken rigid: kinetic
 // + elastic - g.(turned h) less the work of what is held constant, tau.phi. What it has gained beyond, the rate gives back
 // (down to rest). Counted; idle while the angles a step are small, which is what the method is for.
+// Limits. Where the scene has joint limits, the step ends with them: joint_limit.h. Counted.
 // Half turns. theta is the rotation vector "in the standard fashion" (§3), |theta| <= pi: a joint that turns past half a turn is as
 // far from rest the other way round, at the same elastic energy, and its spring pulls it on. Counted; the small angles
 // that the method assumes were left long before.

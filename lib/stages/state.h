@@ -16,6 +16,7 @@ struct StepFlags {
     std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
     std::uint64_t half_turns = 0;     // joint-steps in which a joint turned past half a turn (spring.h)
     std::uint64_t energy_guard = 0;   // joint-steps in which a large turn had gained energy, taken back (spring.h)
+    std::uint64_t limited = 0; // joint-steps that ended on a joint limit, which the scene asks for (joint_limit.h)
     std::uint64_t fast_turns =
         0; // bodies' turns of more than a radian a step, bounded in the implicit step (articulated.h)
     std::uint64_t inner_steps = 0; // steps that articulated_reference cut the plan's into, which is no guard

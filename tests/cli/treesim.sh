@@ -13,6 +13,10 @@ refused 1 "--fps" treesim tree.json --fps inf
 refused 1 "--wind" treesim tree.json --wind typhoon
 refused 2 "nowhere.json" treesim tree.json --wind ./nowhere.json
 refused 1 "--solver" treesim tree.json --solver coupled
+refused 1 "--joint-limit" treesim tree.json --joint-limit 0
+refused 1 "--joint-limit" treesim tree.json --joint-limit 181
+refused 1 "--joint-limit" treesim tree.json --joint-limit 10 --solver articulated-implicit
+refused 2 "joint_limit: body" treesim tree.json --joint-limit 1e-9
 refused 1 "--precision" treesim tree.json --precision half
 refused 1 "--gravity" treesim tree.json --gravity 1,2
 refused 1 "--fields" treesim tree.json --fields pose,colour
@@ -89,6 +93,17 @@ refused 1 "--tolerance" treesim small.json --solver articulated-implicit --toler
 refused 1 "--tolerance" treesim small.json --solver articulated-reference --tolerance 0
 refused 3 "stage articulated (theta), body" treesim small.json --wind gusty --frames 300 --no-output --solver articulated-explicit
 grep -q "substeps" err || fail "what to do about explicit steps is not said: $(cat err)"
+# Joint limits: kept within, noted, part of what a saved state belongs to; none that is reached, none that is felt.
+limited() { treesim tree.json --pose rest --wind storm --frames 20 "$@"; }
+limited --joint-limit 3 --fields angles 2>err | python3 -c '
+import json, math, sys
+frames = [json.loads(line) for line in list(sys.stdin)[1:]]
+most = max(abs(a) for f in frames for a in f["theta"])
+assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "--joint-limit is not kept"
+grep -q 'times a joint was stopped at its limit' err || fail "stops at a limit are not noted"
+limited --joint-limit 3 --no-output -q --save-state limited.state
+refused 2 "limited.state" treesim tree.json --pose rest --wind storm --frames 20 --resume limited.state
+[[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20) ]] || fail "a limit far off is felt"
 
 # One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
 cat >glb.py <<'END'
