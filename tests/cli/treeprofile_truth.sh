@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# treeprofile error and stability: what they write adds up, and wrong use is said.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+treegen --bodies 100 --seed 3 | treeconvert - -q -o small.json
+refused 1 "--steps" treeprofile error small.json --wind gusty --steps 3
+refused 1 "--steps" treeprofile error small.json --wind gusty --steps 1/0
+refused 1 "--substeps" treeprofile error small.json --substeps 2
+refused 1 "articulated-reference" treeprofile error small.json --solver articulated-reference
+refused 1 "--pose drawn" treeprofile error small.json --pose drawn
+refused 1 "--frames" treeprofile error small.json --frames 3
+refused 1 ".html" treeprofile error small.json --report r.pdf
+refused 2 "absent.json" treeprofile error absent.json
+refused 2 "moves" treeprofile error small.json --gravity 0,0,0 --pose rest
+
+expect 0 treeprofile error small.json --wind gusty --seconds 0.5 --steps 1,2,4 --report r.json
+python3 -c '
+import json, math
+r = json.load(open("r.json"))
+runs = r["runs"]
+keys = """solver scheme refresh steps_per_frame precision seconds_per_simulated_second error_rms error_max error_rms_peak
+error_max_peak error_rms_height error_step error_model error_arithmetic""".split()
+assert all(k in run for run in runs for k in keys)
+assert 0 <= r["reference_error"] < 1e-3
+series = [(x["solver"], x["scheme"], x["precision"]) for x in runs]
+assert series[0] == ("analytic", "inertia-branch", "double")
+assert ("articulated-implicit", "euler", "double") in series
+implicit = [x["error_rms"] for x in runs if x["solver"] == "articulated-implicit"]
+assert implicit[0] > 1.3 * implicit[1] > 1.69 * implicit[2], implicit
+assert all(x["error_rms"] is None for x in runs if x["solver"] == "articulated-explicit")
+assert all((x["error_arithmetic"] is not None) == (x["precision"] == "float") for x in runs)' || fail "the report does not add up"
+expect 0 treeprofile error small.json --seconds 0.5 --steps 1 --solver analytic --precision float
+grep -q "float" out && ! grep -q "double" out || fail "--precision float shows other runs"
+grep -q "gravity is switched on" err || fail "what moves a tree without wind is not said"
+
+expect 0 treeprofile stability small.json --frames 12 --only shape --report s.json
+python3 -c '
+import json
+r = json.load(open("s.json"))
+keys = "case solver precision finite bounded energy_drift ringing max_angle guards promised".split()
+assert r["cells"] and all(k in c for c in r["cells"] for k in keys)
+assert all(c["finite"] and c["bounded"] for c in r["cells"] if c["promised"])
+assert {c["precision"] for c in r["cells"] if c["promised"]} == {"float", "double"}' || fail "the grid does not add up"
+expect 0 treeprofile stability small.json --frames 12 --only "wind and stiffness"
+refused 1 "--only" treeprofile stability small.json --only nothing-like-it
+refused 1 "--frames" treeprofile stability small.json --frames 2
+refused 2 "absent.json" treeprofile stability absent.json
