@@ -1,4 +1,5 @@
 #include "trajectory.h"
+#include "../stages/root_term.h"
 #include "advance.h"
 #include <chrono>
 #include <cmath>
@@ -7,14 +8,17 @@ namespace bough {
 namespace {
 
 template <class T>
-bool sample(const Plan<T>&, const State<T>& state, const Tree& tree, const std::vector<std::size_t>& tips,
+bool sample(const Plan<T>& plan, const State<T>& state, const Tree& tree, const std::vector<std::size_t>& tips,
             bool keep_theta, Trajectory& out) {
     if (first_non_finite(state)) return false;
     std::vector<Vec3> tip;
     tip.reserve(tips.size());
     for (const std::size_t i : tips) {
-        const Vec3 x = state.x_w[i].template cast<double>();
-        tip.push_back(x + state.R_wb[i].template cast<double>().col(2) * tree.size[i][0]);
+        Vec3 x = state.x_w[i].template cast<double>() + state.R_wb[i].template cast<double>().col(2) * tree.size[i][0];
+        // As seen from the tree's ground: being carried is no deflection.
+        if (const Ground* ground = plan.root_motion ? ground_of(plan, state, i) : nullptr)
+            x = ground->R.transpose() * (x - ground->x);
+        tip.push_back(x);
         if (!tip.back().allFinite()) return false;
     }
     out.tip.push_back(std::move(tip));

@@ -32,7 +32,7 @@ std::vector<std::size_t> tip_bodies(const Tree&);
 
 struct Trajectory {
     std::int64_t stride = 1;              // frames between two samples
-    std::vector<std::vector<Vec3>> tip;   // [m] samples x tips, world
+    std::vector<std::vector<Vec3>> tip;   // [m] samples x tips, as seen from the tree's ground
     std::vector<std::vector<Vec3>> theta; // [rad] samples x joints, where asked for
     double seconds = 0;                   // run time of the steps alone, the fastest of `repeat` runs
     bool finite = true;

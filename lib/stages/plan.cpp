@@ -4,6 +4,7 @@
 #include "pose.h"
 #include "state_arrays.h"
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <stdexcept>
 
@@ -60,6 +61,13 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, const Scene
     }
 }
 
+std::string text(double value) { // of four digits, whatever the locale
+    std::array<char, 32> buffer;
+    const auto end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 4).ptr;
+    return std::string(buffer.data(), end);
+}
+
 template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
     if (is_articulated(plan.solver))
         throw std::domain_error("joint_limit: only the analytic solver keeps limits, not " +
@@ -75,8 +83,8 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
             if (!(std::abs(plan.theta_start[i][k]) <= angle[k]))
                 throw std::domain_error(
                     "joint_limit: body " + std::to_string(i) + " (branch " + std::to_string(tree.branch[i]) +
-                    ") starts " + std::to_string(double(plan.theta_start[i][k]) / degree) +
-                    " degrees from its spring's rest about " + "xyz"[k] + ", its limit is " + std::to_string(most[k]));
+                    ") starts " + text(double(plan.theta_start[i][k]) / degree) +
+                    " degrees from its spring's rest about " + "xyz"[k] + ", its limit is " + text(most[k]));
         }
         plan.theta_limit.push_back(angle);
     }

@@ -10,7 +10,7 @@
 
 namespace bough {
 
-// What happened in the steps so far; none of it acts on the result but the bound on lambda (oscillator.h).
+// What happened in the steps so far; none of it acts on the result but bounded_lambda, energy_guard and limited.
 struct StepFlags {
     std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
     std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
