@@ -142,8 +142,10 @@ struct Fingerprint {
 template <class T> bool finite(const T& value) {
     if constexpr (std::is_floating_point_v<T>)
         return std::isfinite(value);
-    else
+    else if constexpr (requires { value.allFinite(); })
         return value.allFinite();
+    else
+        return true; // a step's own scratch
 }
 
 std::string body_text(const Tree& tree, std::size_t i) {
@@ -165,7 +167,9 @@ template <class T>
         for (std::size_t i = 0; stage && place.empty() && i < array.size(); ++i)
             if (!finite(array[i])) place = std::string(stage) + " (" + name + "), " + body_text(tree, i);
     });
-    const Stage last = is_articulated(plan.solver) ? Stage::articulated : Stage::spring;
+    const Stage last = is_articulated(plan.solver)      ? Stage::articulated
+                       : plan.solver == Solver::coupled ? Stage::resolvent
+                                                        : Stage::spring;
     if (place.empty()) place = std::string(stage_name(last)) + " (theta), " + body_text(tree, *first_non_finite(state));
     if (plan.solver == Solver::articulated_explicit)
         place += "; explicit Euler needs far smaller steps (--substeps), or take --solver articulated-implicit";
@@ -194,7 +198,8 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
     for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
     app.add_option(
            "--solver", o.solver,
-           "How a step is made: analytic (default), or the full articulated dynamics by articulated-explicit (Euler; "
+           "How a step is made: coupled, analytic (default), or the full articulated dynamics by articulated-explicit "
+           "(Euler; "
            "unstable but at tiny steps), articulated-implicit (linearly implicit Euler), articulated-reference (high "
            "order, adaptive)")
         ->option_text("NAME")

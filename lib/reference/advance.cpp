@@ -1,11 +1,11 @@
 #include "advance.h"
+#include "../coupled/coupled_step.h"
 #include "../stages/root_term.h"
 #include "../stages/spring.h"
 #include "../stages/state_update.h"
 #include "articulated_step.h"
 #include "extrapolation.h"
 #include <cassert>
-#include <chrono>
 
 namespace bough {
 namespace {
@@ -45,16 +45,10 @@ void articulated(const Plan<double>& plan, State<double>& state) {
 
 template <class T> void advance(const Plan<T>& plan, State<T>& state, StageClock* clock) {
     if (plan.solver == Solver::analytic) return step(plan, state, clock);
+    if (plan.solver == Solver::coupled) return coupled_step(plan, state, clock);
     if constexpr (std::is_same_v<T, double>) {
-        const auto timed = [&](Stage stage, auto&& body) {
-            using Time = std::chrono::steady_clock;
-            const Time::time_point start = clock ? Time::now() : Time::time_point{};
-            body();
-            ++state.calls[std::size_t(stage)];
-            if (clock) clock->seconds[std::size_t(stage)] += std::chrono::duration<double>(Time::now() - start).count();
-        };
-        timed(Stage::articulated, [&] { articulated(plan, state); });
-        timed(Stage::state_update, [&] {
+        run_stage(Stage::articulated, state, clock, [&] { articulated(plan, state); });
+        run_stage(Stage::state_update, state, clock, [&] {
             move_ground(plan, state, double(state.step + 1) * plan.dt);
             state_update(plan, state);
         });

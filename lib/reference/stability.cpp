@@ -128,7 +128,7 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
     cell.name = what.name;
     cell.solver = solver_name(solver);
     cell.precision = sizeof(T) == 4 ? "float" : "double";
-    cell.promised = what.promised && solver == Solver::analytic;
+    cell.promised = what.promised && !is_articulated(solver);
     const Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver);
     State<T> state = make_state(plan);
     Audit<T> audit(plan, state, setup.tree, frames);
@@ -174,7 +174,7 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
     std::erase_if(cases, [&](const StabilityCase& c) {
         return c.group.find(options.only) == std::string::npos && c.name.find(options.only) == std::string::npos;
     });
-    const std::int64_t total = std::int64_t(cases.size()) * (options.with_implicit ? 3 : 2);
+    const std::int64_t total = std::int64_t(cases.size()) * (options.with_implicit ? 5 : 4);
     std::int64_t done = 0;
     for (const StabilityCase& what : cases) {
         StabilitySetup setup = given;
@@ -188,6 +188,8 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
             report.cells.push_back(run_cell(setup, what, solver, single, options.frames, tick));
             progress(++done, total);
         };
+        cell(Solver::coupled, false);
+        cell(Solver::coupled, true);
         cell(Solver::analytic, false);
         cell(Solver::analytic, true);
         if (options.with_implicit) cell(Solver::articulated_implicit, false);

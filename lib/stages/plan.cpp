@@ -12,12 +12,13 @@ namespace bough {
 
 const char* stage_name(Stage stage) {
     static constexpr const char* names[stage_count] = {"wind_field",  "external_forces", "composite",   "drag",
-                                                       "root_motion", "spring",          "articulated", "state_update"};
+                                                       "root_motion", "spring",          "articulated", "midpoint",
+                                                       "body_loads",  "resolvent",       "state_update"};
     return names[std::size_t(stage)];
 }
 
 const char* solver_name(Solver solver) {
-    static constexpr const char* names[] = {"analytic", "articulated-explicit", "articulated-implicit",
+    static constexpr const char* names[] = {"coupled", "analytic", "articulated-explicit", "articulated-implicit",
                                             "articulated-reference"};
     return names[std::size_t(solver)];
 }
@@ -151,6 +152,14 @@ template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene&
     if (plan.wind) plan_air_bounds(plan, tree, modes.weight);
 }
 
+template <class T> void plan_carried_moments(Plan<T>& plan, const Tree& tree) {
+    std::vector<Vec3> P(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) P[i] = tree.mass[i] * tree.com[i];
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += double(plan.c_mass[i]) * tree.joint_position[i];
+    for (const Vec3& moment : P) plan.carried_moment.push_back(moment.template cast<T>());
+}
+
 // Highest point that a body could reach by standing straight up from the ground: the wind's table covers it.
 double highest_reach(const Tree& tree, const std::vector<RootSpline>& splines, const std::vector<MovedTree>& moved) {
     const auto height = [&](std::size_t root) {
@@ -188,27 +197,34 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const auto add = [&plan](Stage stage, bool on, const std::string& reason) {
         plan.stages.push_back({stage, on, reason});
     };
-    const bool analytic = plan.solver == Solver::analytic;
-    const char* const other = "another solver than analytic (articulated evaluates them in its own pass)";
-    add(Stage::wind_field, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : other);
-    add(Stage::external_forces, analytic && plan.forces,
-        !plan.forces                       ? "no wind, no pulls"
-        : !analytic                        ? other
-        : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
-        : plan.wind                        ? "/wind"
-                                           : "/pulls");
-    add(Stage::composite, analytic, analytic ? "every scene" : "another solver than analytic");
-    add(Stage::drag, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : other);
+    const bool analytic = plan.solver == Solver::analytic, coupled = plan.solver == Solver::coupled;
+    const std::string solver = std::string("solver ") + solver_name(plan.solver);
+    const std::string own = solver + " (evaluates it in its own pass)";
+    const std::string moved = plan.root_motion ? "; roots moved by /root_motion" : "";
+    const std::string limited = plan.joint_limit ? "; angles kept within /joint_limit" : "";
+    const std::string forces = !plan.forces                       ? "no wind, no pulls"
+                               : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
+                               : plan.wind                        ? "/wind"
+                                                                  : "/pulls";
+    add(Stage::wind_field, (analytic || coupled) && plan.wind,
+        !plan.wind            ? "no wind"
+        : analytic || coupled ? "/wind"
+                              : own);
+    add(Stage::external_forces, analytic && plan.forces, analytic || !plan.forces ? forces : own);
+    add(Stage::composite, analytic, analytic ? "every scene" : solver);
+    add(Stage::drag, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : own);
     add(Stage::root_motion, analytic && plan.root_motion,
         !plan.root_motion ? "no root motion"
         : analytic        ? "/root_motion"
-                          : other);
-    const std::string moved = plan.root_motion ? "; roots moved by /root_motion" : "";
+                          : own);
     add(Stage::spring, analytic,
-        !analytic ? "another solver than analytic"
-                  : std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") +
-                        (plan.joint_limit ? "; angles kept within /joint_limit" : ""));
-    add(Stage::articulated, !analytic, analytic ? "solver analytic" : solver_name(plan.solver));
+        !analytic
+            ? solver
+            : std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") + limited);
+    add(Stage::articulated, is_articulated(plan.solver), solver);
+    add(Stage::midpoint, coupled, coupled ? "every scene" + moved : solver);
+    add(Stage::body_loads, coupled, coupled ? "every scene" + (plan.forces ? "; " + forces : "") : solver);
+    add(Stage::resolvent, coupled, coupled ? "every scene" + limited : solver);
     add(Stage::state_update, true,
         std::string(!plan.velocity
                         ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
@@ -221,16 +237,15 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
         plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
     });
     plan.arrays.push_back(
-        {"articulated", !analytic,
-         plan.bodies * sizeof(ArticulatedBody) * std::max<std::size_t>(1, articulated_passes(plan.solver)),
-         analytic ? "solver analytic" : solver_name(plan.solver)});
+        {"articulated", is_articulated(plan.solver),
+         plan.bodies * sizeof(ArticulatedBody) * std::max<std::size_t>(1, articulated_passes(plan.solver)), solver});
 }
 
 } // namespace
 
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver) {
+                  double dt, Solver solver, Scheme scheme) {
     Tree tree = drawn;
     for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
     for (double& beta : tree.damping) beta *= scene.damping_scale;
@@ -238,6 +253,7 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     plan.bodies = tree.size_bodies();
     plan.dt = dt;
     plan.solver = solver;
+    plan.scheme = scheme;
     plan.scene = scene;
     plan.gravity = !scene.gravity.isZero();
     plan.wind = scene.wind.has_value(); // a wind of no velocity is still air, which drags
@@ -254,12 +270,14 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     if (plan.joint_limit) plan_joint_limit(plan, tree);
     if (plan.wind) plan_surfaces(plan, tree, scene);
     if (solver == Solver::analytic) plan_modes(plan, tree, scene);
+    if (solver == Solver::coupled && plan.gravity) plan_carried_moments(plan, tree);
     explain(plan, wishes);
     return plan;
 }
 
-template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver);
-template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double,
-                                Solver);
+template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
+                               Scheme);
+template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
+                                Scheme);
 
 } // namespace bough

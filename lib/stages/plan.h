@@ -2,6 +2,7 @@
 // they read, in the precision of the run. A stage or array that nothing needs is not run and not allocated; why, is
 // said in `stages` and `arrays`, which `treesim --explain` prints and the tests hold against what really happened.
 #pragma once
+#include "../coupled/scheme.h"
 #include "../model/root_motion.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
@@ -20,18 +21,27 @@ enum class Stage : std::uint8_t {
     root_motion,
     spring,
     articulated,
+    midpoint,
+    body_loads,
+    resolvent,
     state_update
 };
-constexpr std::size_t stage_count = 8;
+constexpr std::size_t stage_count = 11;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
-enum class Solver : std::uint8_t { analytic, articulated_explicit, articulated_implicit, articulated_reference };
-constexpr std::array<Solver, 4> all_solvers{Solver::analytic, Solver::articulated_explicit,
+enum class Solver : std::uint8_t {
+    coupled,
+    analytic,
+    articulated_explicit,
+    articulated_implicit,
+    articulated_reference
+};
+constexpr std::array<Solver, 5> all_solvers{Solver::coupled, Solver::analytic, Solver::articulated_explicit,
                                             Solver::articulated_implicit, Solver::articulated_reference};
-const char* solver_name(Solver); // as in --solver: analytic, articulated-explicit ...
+const char* solver_name(Solver); // as in --solver: coupled, analytic, articulated-explicit ...
 constexpr bool is_articulated(Solver solver) {
-    return solver != Solver::analytic;
+    return solver != Solver::analytic && solver != Solver::coupled;
 }
 
 // What the caller will read besides poses: arrays for it exist only then.
@@ -64,8 +74,9 @@ template <class T> struct Plan {
     std::size_t bodies = 0;
     double dt = 0; // [s] one step
     Solver solver = Solver::analytic;
-    double tolerance = 1e-8; // [rad] error allowed in a step of articulated_reference (extrapolation.h)
-    Scene scene;             // as given, for times and forces
+    Scheme scheme = Scheme::p12; // of the coupled solver
+    double tolerance = 1e-8;     // [rad] error allowed in a step of articulated_reference (extrapolation.h)
+    Scene scene;                 // as given, for times and forces
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     bool root_motion = false, joint_limit = false;
     std::vector<PlannedStage> stages;
@@ -90,6 +101,8 @@ template <class T> struct Plan {
     std::vector<T> gravity_row; // [N m] bound on what the path's other joints change of gravity's moment
     T row_gravity = 0; // [m/s^2] what the rows hold for: |g|, or 1 where the root's motion stands in (root_term.h)
 
+    std::vector<Vector3<T>> carried_moment; // [kg m] P of body_load.h, body axes
+
     // Root motion (root_term.h): a curve an entry of Scene::root_motion, and which trees it moves, rising.
     std::vector<RootSpline> splines;
     std::vector<MovedTree> moved;
@@ -111,6 +124,6 @@ template <class T> struct Plan {
 // for one that starts beyond a joint limit (its body and angle), and for joint limits with an articulated solver.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
-                  Solver solver = Solver::analytic);
+                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12);
 
 } // namespace bough

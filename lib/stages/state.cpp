@@ -13,8 +13,8 @@ namespace {
 template <class T> void set_zero(T& value) {
     if constexpr (std::is_floating_point_v<T>)
         value = 0;
-    else
-        value.setZero();
+    else if constexpr (requires { value.setZero(); })
+        value.setZero(); // the rest is a step's own scratch
 }
 
 } // namespace
@@ -33,7 +33,11 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
         pass.ground.resize(plan.splines.size());
         if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top);
     }
-    if (plan.wind && plan.solver == Solver::analytic) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
+    if (plan.wind && !is_articulated(plan.solver)) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
+    if (plan.solver == Solver::coupled) {
+        state.wind_change = state.wind;
+        state.coupled_ground.resize(plan.splines.size());
+    }
     state.ground.resize(plan.splines.size());
     state.root_load.resize(plan.splines.size());
     move_ground(plan, state, 0);

@@ -1,9 +1,11 @@
 // state.h: what a step changes, in arrays grouped by the stage that writes them. Empty where the plan leaves them out.
 #pragma once
+#include "../coupled/coupled_body.h"
 #include "articulated_pass.h"
 #include "plan.h"
 #include "wind.h"
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -70,6 +72,14 @@ template <class T> struct State {
     // spring
     std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for
 
+    // coupled
+    std::vector<Vector3<T>> theta_change, theta_dot_change; // of the last step; carried, saved
+    std::vector<CoupledBody<T>> coupled;
+    std::vector<ResolventBody<std::complex<T>>> resolvent;
+    std::vector<ResolventBody<T>> resolvent_real;
+    WindTable<T> wind_change; // [m/s] of the wind over the step
+    std::vector<GroundStep<T>> coupled_ground;
+
     // articulated solvers: a pass each, or as many as rows of the extrapolation
     std::vector<ArticulatedPass> articulated;
     double articulated_step = 0; // [s] what articulated_reference proposes for its next inner step; 0: none yet
@@ -82,7 +92,7 @@ template <class T> struct State {
 
 // Passes that a solver runs side by side.
 constexpr std::size_t articulated_passes(Solver solver) {
-    return solver == Solver::analytic ? 0 : solver == Solver::articulated_reference ? 8 : 1;
+    return !is_articulated(solver) ? 0 : solver == Solver::articulated_reference ? 8 : 1;
 }
 
 // At the plan's start pose, at rest, kinematics up to date.

@@ -8,12 +8,13 @@ namespace bough {
 
 // visit(name, array, on, reason) for every array over bodies.
 template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>& plan, StateType& s, Visit&& visit) {
-    const std::string always = "every scene";
-    const bool analytic = plan.solver == Solver::analytic;
-    const std::string composite = analytic ? always : std::string("solver ") + solver_name(plan.solver);
+    const std::string always = "every scene", solver = std::string("solver ") + solver_name(plan.solver);
+    const bool analytic = plan.solver == Solver::analytic, coupled = plan.solver == Solver::coupled;
+    const std::string composite = analytic ? always : solver, pass = coupled ? always : solver;
+    const bool real = scheme_of(plan.scheme).real;
     const bool air = analytic && plan.wind, loads = analytic && plan.forces;
-    const std::string wind = !plan.wind ? "no wind" : analytic ? "/wind" : composite;
-    const std::string forces = plan.forces && !analytic           ? composite
+    const std::string wind = !plan.wind ? "no wind" : analytic ? "/wind" : solver;
+    const std::string forces = plan.forces && !analytic           ? solver
                                : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
                                : plan.wind                        ? "/wind"
                                : plan.forces                      ? "/pulls"
@@ -24,7 +25,9 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     const std::string torque = plan.torque ? "output field torque" : "no output field torque";
     visit("theta", s.theta, true, always);
     visit("theta_dot", s.theta_dot, true, always);
-    visit("scaled_rate", s.scaled_rate, true, always);
+    visit("scaled_rate", s.scaled_rate, !coupled, coupled ? solver : always);
+    visit("theta_change", s.theta_change, coupled, pass);
+    visit("theta_dot_change", s.theta_dot_change, coupled, pass);
     visit("R_wb", s.R_wb, true, always);
     visit("x_w", s.x_w, true, always);
     visit("omega_w", s.omega_w, plan.velocity, velocity);
@@ -48,6 +51,9 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("c_wind_row", s.c_wind_row, air, wind);
     visit("c_turn", s.c_turn, air, wind);
     visit("c_turn_row", s.c_turn_row, air, wind);
+    visit("coupled", s.coupled, coupled, pass);
+    visit("resolvent", s.resolvent, coupled && !real, coupled && real ? "a scheme of a real pole" : pass);
+    visit("resolvent_real", s.resolvent_real, coupled && real, coupled && !real ? "a scheme of complex poles" : pass);
     visit("torque_j", s.torque_j, plan.torque, torque);
 }
 

@@ -6,31 +6,19 @@
 #include "spring.h"
 #include "state_update.h"
 #include "wind.h"
-#include <chrono>
 
 namespace bough {
-namespace {
-
-template <class T, class Body> void run(Stage stage, State<T>& state, StageClock* clock, Body&& body) {
-    using Time = std::chrono::steady_clock;
-    const Time::time_point start = clock ? Time::now() : Time::time_point{};
-    body();
-    ++state.calls[std::size_t(stage)];
-    if (clock) clock->seconds[std::size_t(stage)] += std::chrono::duration<double>(Time::now() - start).count();
-}
-
-} // namespace
-
 template <class T> void step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
     // Loads that depend on time are taken in the middle of the step, where their error is of second order.
     const double middle = (double(state.step) + 0.5) * plan.dt;
-    if (plan.wind) run(Stage::wind_field, state, clock, [&] { evaluate_wind(*plan.scene.wind, middle, state.wind); });
-    if (plan.forces) run(Stage::external_forces, state, clock, [&] { external_forces(plan, state, middle); });
-    run(Stage::composite, state, clock, [&] { composite_update(plan, state); });
-    if (plan.wind) run(Stage::drag, state, clock, [&] { joint_drag(plan, state); });
-    if (plan.root_motion) run(Stage::root_motion, state, clock, [&] { root_loads(plan, state, middle); });
-    run(Stage::spring, state, clock, [&] { spring_update(plan, state); });
-    run(Stage::state_update, state, clock, [&] {
+    if (plan.wind)
+        run_stage(Stage::wind_field, state, clock, [&] { evaluate_wind(*plan.scene.wind, middle, state.wind); });
+    if (plan.forces) run_stage(Stage::external_forces, state, clock, [&] { external_forces(plan, state, middle); });
+    run_stage(Stage::composite, state, clock, [&] { composite_update(plan, state); });
+    if (plan.wind) run_stage(Stage::drag, state, clock, [&] { joint_drag(plan, state); });
+    if (plan.root_motion) run_stage(Stage::root_motion, state, clock, [&] { root_loads(plan, state, middle); });
+    run_stage(Stage::spring, state, clock, [&] { spring_update(plan, state); });
+    run_stage(Stage::state_update, state, clock, [&] {
         move_ground(plan, state, double(state.step + 1) * plan.dt);
         state_update(plan, state);
     });

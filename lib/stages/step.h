@@ -3,6 +3,7 @@
 #include "plan.h"
 #include "state.h"
 #include <array>
+#include <chrono>
 
 namespace bough {
 
@@ -10,6 +11,15 @@ namespace bough {
 struct StageClock {
     std::array<double, stage_count> seconds{};
 };
+
+// Runs one stage: counted, and timed where there is a clock.
+template <class T, class Body> void run_stage(Stage stage, State<T>& state, StageClock* clock, Body&& body) {
+    using Time = std::chrono::steady_clock;
+    const Time::time_point start = clock ? Time::now() : Time::time_point{};
+    body();
+    ++state.calls[std::size_t(stage)];
+    if (clock) clock->seconds[std::size_t(stage)] += std::chrono::duration<double>(Time::now() - start).count();
+}
 
 // Advances the state by plan.dt. Needs a state of this plan with kinematics up to date (make_state, or the step before).
 // O(n), allocates nothing. Never throws; a state that became non-finite is found by first_non_finite().

@@ -1,0 +1,100 @@
+#include "body_load.h"
+#include "../stages/air.h"
+#include "../stages/external_forces.h"
+#include <limits>
+
+namespace bough {
+
+template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, double time) {
+    const Wind& wind = *plan.scene.wind;
+    evaluate_wind(wind, time, state.wind);
+    evaluate_wind(wind, time + plan.dt, state.wind_change);
+    for (std::size_t k = 0; k < state.wind.velocity.size(); ++k)
+        state.wind_change.velocity[k] -= state.wind.velocity[k];
+    if (scheme_of(plan.scheme).extrapolates) evaluate_wind(wind, time + plan.dt / 2, state.wind);
+}
+
+namespace {
+
+// A body without extent about some axis (a thin rod about itself) would make the joint's inertia singular: four roundings
+// of its trace are added, below any inertia that its arithmetic can tell from none.
+template <class T> Matrix3<T> own_inertia(const Matrix3<T>& J) {
+    constexpr T rounding = 4 * std::numeric_limits<T>::epsilon(), least = rounding * rounding;
+    (void)least;
+    const T size = J.trace();
+    if (J.determinant() > rounding / 8 * size * size * size) return J;
+    return J + rounding * size * Matrix3<T>::Identity();
+}
+
+template <class T> Vector3<T> bounded(const Vector3<T>& omega, T h) {
+    const T turn = h * omega.norm();
+    return turn > 1 ? Vector3<T>(omega / turn) : omega;
+}
+
+template <class T> void add_air(const Plan<T>& plan, const State<T>& state, CoupledBody<T>& b, std::size_t i) {
+    const T y = b.x.y() + b.c.y(), scale = plan.drag_area[i];
+    const Vector3<T> u = state.wind.at(y) - b.v - b.omega.cross(b.c);
+    b.D = scale * air_damping(plan.kind[i], b.R, u);
+    const Vector3<T> ahead = b.v - b.v_0 + (b.omega - b.omega_0).cross(b.c);
+    const Vector3<T> f = scale * air_force(plan.kind[i], b.R, u).force + b.D * ahead;
+    b.F -= f;
+    b.N -= b.c.cross(f);
+    b.slope_F = -b.D * state.wind_change.at(y);
+    b.slope_N = b.c.cross(b.slope_F);
+    if (is_flat(plan.kind[i])) b.H += scale * plan.com[i].norm() * air_turning(plan.kind[i], b.R, u);
+}
+
+template <class T> void load(const Plan<T>& plan, State<T>& state, std::size_t i) {
+    CoupledBody<T>& b = state.coupled[i];
+    const T m = plan.mass[i];
+    const Vector3<T> g = plan.scene.gravity.template cast<T>();
+    const Vector3<T> spin = bounded(b.omega, T(plan.dt));
+    b.J = b.R * own_inertia(plan.inertia_joint[i]) * b.R.transpose();
+    b.H.setZero();
+    if (plan.gravity) {
+        const Vector3<T> P = b.R * plan.carried_moment[i];
+        const Matrix3<T> Pg = P * g.transpose();
+        b.H = P.dot(g) * Matrix3<T>::Identity() - T(0.5) * (Pg + Pg.transpose());
+    }
+    b.F = m * (b.a_0 - g + b.alpha_0.cross(b.c) + spin.cross(spin.cross(b.c)));
+    b.N = b.J * b.alpha_0 + spin.cross(b.J * spin) + m * b.c.cross(b.a_0 - g);
+    if (plan.forces) {
+        b.slope_F.setZero();
+        b.slope_N.setZero();
+    }
+    if (plan.wind) add_air(plan, state, b, i);
+    b.N -= b.H * b.turn;
+    const Vector3<T>& K = plan.K[i];
+    b.torque = -b.rates.transpose() * K.cwiseProduct(Vector3<T>(state.theta[i] + plan.beta[i] * state.theta_dot[i]));
+    b.torque_rate = b.rates.transpose() * K.cwiseProduct(state.theta_dot[i]);
+}
+
+template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double time) {
+    const double at = time + (scheme_of(plan.scheme).extrapolates ? plan.dt / 2 : 0);
+    for (const PlannedPull<T>& pull : plan.pulls) {
+        CoupledBody<T>& b = state.coupled[pull.body];
+        const Pull& source = plan.scene.pulls[pull.source];
+        const Vector3<T> arm = b.R * pull.point_b, f = pull_force(source, at).template cast<T>();
+        const Vector3<T> change = (pull_force(source, time + plan.dt) - pull_force(source, time)).template cast<T>();
+        b.F -= f;
+        b.N -= arm.cross(f);
+        b.slope_F -= change;
+        b.slope_N -= arm.cross(change);
+    }
+}
+
+} // namespace
+
+template <class T> void body_loads(const Plan<T>& plan, State<T>& state, double time) {
+    const auto n = std::int64_t(plan.bodies);
+#pragma omp parallel for schedule(static) if (n > 2000)
+    for (std::int64_t i = 0; i < n; ++i) load(plan, state, std::size_t(i));
+    add_pulls(plan, state, time);
+}
+
+template void wind_over_step(const Plan<float>&, State<float>&, double);
+template void wind_over_step(const Plan<double>&, State<double>&, double);
+template void body_loads(const Plan<float>&, State<float>&, double);
+template void body_loads(const Plan<double>&, State<double>&, double);
+
+} // namespace bough

@@ -1,0 +1,26 @@
+// body_load.h: second part of the coupled step (coupled_step.h): each body's own inertia, forces and what they change by.
+//
+// At y*, with f the air's force and pulls, D = -d f / d v, H = -d (moment) / d (rotation), all about the joint:
+//   F = m (a_0 - g + alpha_0 x c + omega x (omega x c)) - f*
+//   N = J alpha_0 + omega x J omega + m c x (a_0 - g) - c x f* - H psi,      f* = f(y*) + D (v* - v_0) at the centre of mass
+// so that f* and the moment H psi stand for the force at y0's velocity and rotation in the linear model at y*; what they change by on the way
+// is the resolvent's. H has two parts. Gravity's: turning the tree by psi_b body by body changes its moments by the Hessian
+// of its potential, which is block diagonal in the bodies' absolute rotations (the body's first moment is that of
+// all it carries: P = R (m c + sum over children of (mass outboard) d), a constant in the body's axes):
+//   H = (P.g) 1 - (P g^T + g P^T) / 2
+// The air's on plates: the bound of air.h on how fast its moment may turn.
+// slope: known functions of time, the wind's velocity U and the pulls: D (U(t+h) - U(t)), f(t+h) - f(t).
+// Torque of the joint, world: rates^T (-K (theta_0 + beta eta_0)), and rates^T K eta_0 its rate.
+// Reads   the first part of coupled, theta, theta_dot, wind, wind_change. Writes the second. O(n), bodies in parallel. Errors none.
+#pragma once
+#include "../stages/plan.h"
+#include "../stages/state.h"
+
+namespace bough {
+
+template <class T> void body_loads(const Plan<T>&, State<T>&, double time);
+
+// Wind half a step on, and its change over the step, into state.wind, state.wind_change. O(1).
+template <class T> void wind_over_step(const Plan<T>&, State<T>&, double time);
+
+} // namespace bough

@@ -1,0 +1,47 @@
+// coupled_body.h: what the coupled step works in, one record a body (coupled_step.h names the sweeps that fill it).
+#pragma once
+#include "../model/math.h"
+
+namespace bough {
+
+// All in world axes, about the body's own joint. y*: the evaluation point, half a step on; y0: the start.
+template <class T> struct CoupledBody {
+    // midpoint.h
+    Matrix3<T> R;            // world from body, at y*
+    Matrix3<T> rates;        // T G^T: theta_dot from the joint's angular velocity
+    Vector3<T> r;            // [m] own joint from the parent's
+    Vector3<T> x;            // [m] own joint
+    Vector3<T> c;            // [m] centre of mass from the joint
+    Vector3<T> omega, v;     // [rad/s], [m/s] at y*
+    Vector3<T> omega_0, v_0; // of y0's rates in y*'s pose
+    Vector3<T> turn;         // [rad] psi: from y0 to y*
+    Vector3<T> alpha_0, a_0; // [rad/s^2], [m/s^2] where no joint accelerates: biases
+
+    // body_load.h
+    Matrix3<T> J;                // [kg m^2] inertia
+    Matrix3<T> H;                // [N m/rad] gravity's stiffness and the air's in turning
+    Matrix3<T> D;                // [N s/m] the air's damping at the centre of mass; with wind alone
+    Vector3<T> N, F;             // [N m], [N] that the motion at y* with those biases asks for, less the forces
+    Vector3<T> slope_N, slope_F; // [N m], [N] what they change by over the step with time; with wind or pulls
+    Vector3<T> torque;           // [N m] of the joint's own spring and damper at y0
+    Vector3<T> torque_rate;      // [N m/s] how y0's rates change the spring's
+};
+
+// What the solve works in (resolvent.h); S: std::complex<T>, or T for a scheme with a real pole.
+template <class S> struct ResolventBody {
+    Eigen::Matrix<S, 3, 3> A, B, M;  // [kg m^2], [kg m], [kg] articulated
+    Eigen::Matrix<S, 3, 3> E;        // (A + Z)^-1
+    Eigen::Matrix<S, 3, 1> N, F;     // [N m], [N]
+    Eigen::Matrix<S, 3, 1> u;        // [N m] the joint's torque less N
+    Eigen::Matrix<S, 3, 1> alpha, a; // [rad/s^2], [m/s^2] beyond the biases
+};
+
+// The ground over one step, world: half a step on, its velocities at the start, its mean accelerations and their change.
+template <class T> struct GroundStep {
+    Matrix3<T> R;
+    Vector3<T> x, v, omega, v_0, omega_0;
+    Vector3<T> turn; // [rad] from the start to half a step on
+    Vector3<T> a, alpha, slope_a, slope_alpha;
+};
+
+} // namespace bough

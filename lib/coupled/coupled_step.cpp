@@ -1,0 +1,56 @@
+#include "coupled_step.h"
+#include "../stages/root_term.h"
+#include "../stages/spring.h"
+#include "../stages/state_update.h"
+#include "body_load.h"
+#include "midpoint.h"
+#include "resolvent.h"
+
+namespace bough {
+namespace {
+
+template <class T> void solve(const Plan<T>& plan, State<T>& state) {
+    const RationalScheme& scheme = scheme_of(plan.scheme);
+    for (Vector3<T>& change : state.theta_change) change.setZero();
+    for (Vector3<T>& change : state.theta_dot_change) change.setZero();
+    for (int k = 0; k < scheme.poles; ++k) resolvent(plan, state, scheme.pole[std::size_t(k)]);
+}
+
+template <class T> void take(const Plan<T>& plan, State<T>& state) {
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        Vector3<T>&theta = state.theta[i], &eta = state.theta_dot[i];
+        theta += state.theta_change[i];
+        eta += state.theta_dot_change[i];
+        const Vector3<T> long_way = theta;
+        if (!shorten_rotation(theta)) continue;
+        ++state.flags.half_turns;
+        eta = body_rate_jacobian_inverse(theta) * (body_rate_jacobian(long_way) * eta);
+        state.theta_change[i] = T(plan.dt) * eta;
+        state.theta_dot_change[i].setZero();
+    }
+}
+
+} // namespace
+
+template <class T> void coupled_step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
+    const double time = double(state.step) * plan.dt, end = double(state.step + 1) * plan.dt;
+    if (plan.wind) run_stage(Stage::wind_field, state, clock, [&] { wind_over_step(plan, state, time); });
+    run_stage(Stage::midpoint, state, clock, [&] {
+        ground_over_step(plan, state, time);
+        midpoint(plan, state);
+    });
+    run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, state, time); });
+    run_stage(Stage::resolvent, state, clock, [&] { solve(plan, state); });
+    run_stage(Stage::state_update, state, clock, [&] {
+        take(plan, state);
+        move_ground(plan, state, end);
+        state_update(plan, state);
+    });
+    if (plan.torque) spring_torque(plan, state);
+    ++state.step;
+}
+
+template void coupled_step(const Plan<float>&, State<float>&, StageClock*);
+template void coupled_step(const Plan<double>&, State<double>&, StageClock*);
+
+} // namespace bough

@@ -1,0 +1,33 @@
+// coupled_step.h: bough's own step: the full dynamics of the articulated tree, one linear solve a step, O(n).
+//
+// What is solved. In every joint's rotation vector theta and eta = theta_dot the tree obeys y' = f(y, t), y = (theta, eta):
+//   theta' = eta,   M(theta) eta' = -K (theta + beta eta) + Q(theta, eta, t)
+// M the joint-space inertia, Q all else: gravity, air, pulls, the moving ground and what turning bodies bring by themselves. In this
+// chart the springs are exactly linear (articulated.h says why this is the spring law).
+//
+// Step. With any matrix L, y' = L y + (f(y, t) - L y). The bracket is taken constant at a point y* half a step on, and the rest solved
+// exactly (an exponential Rosenbrock step: Hochbruck, Ostermann, Acta Numerica 19, 2010, 2.4; any L: W-methods, Verwer et al. 1999):
+//   y1 = y0 + h phi1(h L) f~,   f~ = f(y*, t*) + L (y0 - y*)
+// phi1 by a rational function (scheme.h; Haut et al. 2016 for the idea): y1 = y0 + h sum c (h L - p)^-1 f~ over its poles. With
+//   L = ( 0 1 ; -M*^-1 (K + H)  -M*^-1 (K beta + D) ),   f~ = (eta_0, M*^-1 (-K (theta_0 + beta eta_0) + Q* + H psi* + D (eta* - eta_0)))
+// (* at y*; H, D what of Q's derivatives is linear and known: gravity and air), (h L - p)(x_u, x_v) = f~ reads
+//   h x_v - p x_u = eta_0,   -h M^-1 ((K + H) x_u + (K beta + D) x_v) - p x_v = f~_eta
+// Eliminate x_u = (h x_v - eta_0)/p, s = p/h, and with the acceleration gamma = -p x_v:
+//   (M + (K beta + D)/s + (K + H)/s^2) gamma = M f~_eta - (K + H) eta_0/s
+// : one solve with the tree's inertia at the complex frequency s. resolvent.h makes it an articulated-body pass.
+// Known functions of time (wind, pulls, ground) change in the step by s(t): exactly linear ones add h phi2 to h phi1 at its middle value,
+// phi2's residue is c/p: the right side has f(t*) + (1/p - 1/2)(f(t + h) - f(t)).
+//
+// Order. y* = y0 + (last change)/2 is y(t + h/2) to second order: order 2 for any L and any of the schemes but LIE, which takes y* = y0.
+// Where a joint's motion was broken off (start, joint limit, half turn) the last change is h eta, 0.
+// Error of the linear part: a mode at omega is advanced by R(i omega h): P12 damps by (omega h)^3 / 72 and is exact to h^3.
+// Reads and writes State. See state.h for what is carried: theta, theta_dot, and their last changes.
+#pragma once
+#include "../stages/step.h"
+
+namespace bough {
+
+// Advances the state by plan.dt. Needs a state of this plan with kinematics up to date. O(n), allocates nothing.
+template <class T> void coupled_step(const Plan<T>&, State<T>&, StageClock* clock = nullptr);
+
+} // namespace bough

@@ -1,0 +1,100 @@
+#include "midpoint.h"
+#include "../model/rotation_maps.h"
+
+namespace bough {
+
+template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, double time) {
+    const double h = plan.dt;
+    for (std::size_t k = 0; k < plan.splines.size(); ++k) {
+        const Ground start = ground_at(plan.splines[k], time), end = ground_at(plan.splines[k], time + h);
+        const Ground middle = ground_at(plan.splines[k], time + (scheme_of(plan.scheme).extrapolates ? h / 2 : 0));
+        GroundStep<T>& g = state.coupled_ground[k];
+        g.R = middle.R.template cast<T>();
+        g.x = middle.x.template cast<T>();
+        g.v = middle.v.template cast<T>();
+        g.omega = middle.omega.template cast<T>();
+        g.v_0 = start.v.template cast<T>();
+        g.omega_0 = start.omega.template cast<T>();
+        g.turn = (h / 2 * (middle.omega + start.omega) / 2).template cast<T>();
+        // The mean acceleration, so that the change of velocity is exact whatever happens in between.
+        g.a = ((end.v - start.v) / h).template cast<T>();
+        g.alpha = ((end.omega - start.omega) / h).template cast<T>();
+        g.slope_a = (end.a - start.a).template cast<T>();
+        g.slope_alpha = (end.alpha - start.alpha).template cast<T>();
+    }
+}
+
+namespace {
+
+template <class T> Vector3<T> bounded(const Vector3<T>& omega, T h, std::uint64_t& count) {
+    const T turn = h * omega.norm();
+    if (!(turn > 1)) return omega;
+    ++count;
+    return omega / turn;
+}
+
+template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const State<T>& state, std::size_t i) {
+    CoupledBody<T> b;
+    b.R.setIdentity();
+    for (Vector3<T>* v : {&b.x, &b.omega, &b.v, &b.omega_0, &b.v_0, &b.turn, &b.alpha_0, &b.a_0}) v->setZero();
+    if (const GroundStep<T>* g = ground_step_of(plan, state, i)) {
+        b.R = g->R;
+        b.x = g->x;
+        b.omega = g->omega;
+        b.v = g->v;
+        b.omega_0 = g->omega_0;
+        b.v_0 = g->v_0;
+        b.turn = g->turn;
+    }
+    return b;
+}
+
+template <class T>
+void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::size_t i, bool halfway,
+           std::uint64_t& fast) {
+    CoupledBody<T>& b = state.coupled[i];
+    const T h = T(plan.dt);
+    Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
+    const Vector3<T> half_change = state.theta_change[i] / 2;
+    if (halfway) {
+        theta += half_change;
+        eta += state.theta_dot_change[i] / 2;
+    }
+    const RotationMaps<T> maps = rotation_maps(theta);
+    const Matrix3<T> G = p.R * plan.R_pj[i], GJ = G * maps.J;
+    b.R = G * maps.R;
+    b.rates = maps.J_inverse * G.transpose();
+    b.r = p.R * plan.joint_position[i];
+    b.x = p.x + b.r;
+    b.c = b.R * plan.com[i];
+    const Vector3<T> w = GJ * eta, w_0 = GJ * state.theta_dot[i];
+    b.omega = p.omega + w;
+    b.v = p.v + p.omega.cross(b.r);
+    b.omega_0 = p.omega_0 + w_0;
+    b.v_0 = p.v_0 + p.omega_0.cross(b.r);
+    b.turn = p.turn;
+    if (halfway) b.turn += GJ * half_change;
+    const Vector3<T> spin = bounded(p.omega, h, fast), turning = bounded(w, h, fast);
+    b.alpha_0 = p.alpha_0 + spin.cross(turning) + G * maps.rate_bias(bounded(eta, h, fast));
+    b.a_0 = p.a_0 + p.alpha_0.cross(b.r) + spin.cross(spin.cross(b.r));
+}
+
+} // namespace
+
+template <class T> void midpoint(const Plan<T>& plan, State<T>& state) {
+    const bool halfway = scheme_of(plan.scheme).extrapolates;
+    std::uint64_t fast = 0;
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (plan.parent[i] < 0)
+            place(plan, state, ground_body(plan, state, i), i, halfway, fast);
+        else
+            place(plan, state, state.coupled[std::size_t(plan.parent[i])], i, halfway, fast);
+    state.flags.fast_turns += fast;
+}
+
+template void ground_over_step(const Plan<float>&, State<float>&, double);
+template void ground_over_step(const Plan<double>&, State<double>&, double);
+template void midpoint(const Plan<float>&, State<float>&);
+template void midpoint(const Plan<double>&, State<double>&);
+
+} // namespace bough

@@ -1,0 +1,30 @@
+// midpoint.h: first sweep of the coupled step (coupled_step.h): where the bodies are half a step on, by extrapolation, how
+// fast they move there, and what accelerations that motion brings by itself.
+//
+// y* = y0 + (last change of y0) / 2, joint by joint; y0 itself for schemes that do not extrapolate. Outward, G = R_p R_pj:
+//   R = G exp theta*,  r = R_p d,  w = G J eta,  omega = omega_p + w,  v = v_p + omega_p x r
+//   alpha_0 = alpha_0,p + omega_p x w + G J_dot eta*,  a_0 = a_0,p + alpha_0,p x r + omega_p x (omega_p x r)
+//   psi = psi_p + G J (theta* - theta_0)
+// v, omega twice: with eta* and with eta_0 (omega_0, v_0), both in the pose of y*. The ground is a body whose motion is known: there
+// its place and velocity half a step on, and of y0 its velocity at the start.
+// Quadratic terms take omega as a radian a step at most: what turns faster is not resolved by the step, and would be thrown
+// out by terms that hold for an instant. Counted (StepFlags::fast_turns).
+// Reads   theta, theta_dot, theta_change, theta_dot_change, coupled_ground. Writes the first part of coupled. O(n). Errors none.
+#pragma once
+#include "../stages/plan.h"
+#include "../stages/state.h"
+
+namespace bough {
+
+// Of every spline of the root's motion over the step from `time`, into state.coupled_ground.
+template <class T> void ground_over_step(const Plan<T>&, State<T>&, double time);
+
+template <class T> void midpoint(const Plan<T>&, State<T>&);
+
+// The ground under root i, or null where it rests.
+template <class T> const GroundStep<T>* ground_step_of(const Plan<T>& plan, const State<T>& state, std::size_t i) {
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
+    return spline < 0 ? nullptr : &state.coupled_ground[std::size_t(spline)];
+}
+
+} // namespace bough

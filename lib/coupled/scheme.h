@@ -1,0 +1,41 @@
+// scheme.h: rational functions that stand for the exponential in the coupled step (coupled_step.h).
+//
+// A linear system y' = L y + f is advanced by y1 = y0 + h phi1(h L) (L y0 + f), phi1(z) = (exp z - 1) / z. With a rational
+// R(z) for exp z, whose poles p are simple and whose degree falls at infinity,
+//   phi1(z) = (R(z) - 1) / z = sum over poles of c / (z - p),   c the residue of phi1 at p,
+// a complex pole standing for itself and its conjugate: what it adds is 2 Re. For R = N / D, c = N(p) / (p D'(p)).
+// Order q of R: sum of -c / p^(k+1) is 1 / (k + 1)! for k = 0 ... q - 1 (the series of phi1). R(infinity) = 1 + sum of c.
+//
+//   P12       Pade(1, 2), the stability function of Radau IIA of two stages: order 3, R(infinity) = 0. Hairer, Wanner, Solving
+//             Ordinary Differential Equations II, IV.3
+//   P.25 P.5  order 3 with R(infinity) = 1/4, 1/2: R = (1 + (1 - b1) z + a2 z^2) / (1 - b1 z + b2 z^2), rho = R(infinity),
+//             b1 = (1/3 + rho/6) / (1/2 + rho/2), b2 = b1/2 - 1/6, a2 = 1/3 - b1/2. Less damping, more lag of what is stiff
+//   P34       Pade(3, 4), order 7, R(infinity) = 0: two pairs of poles, two solves a step
+//   LIE       R = 1 / (1 - z), order 1: the linearly implicit Euler step
+//   midpoint  R = (2 + z) / (2 - z), order 2, R(infinity) = -1: damps nothing
+#pragma once
+#include <array>
+#include <complex>
+#include <cstdint>
+
+namespace bough {
+
+enum class Scheme : std::uint8_t { p12, p25, p50, p34, lie, midpoint };
+constexpr std::array<Scheme, 6> all_schemes{Scheme::p12, Scheme::p25, Scheme::p50,
+                                            Scheme::p34, Scheme::lie, Scheme::midpoint};
+
+struct Pole {
+    std::complex<double> p, c;
+};
+
+struct RationalScheme {
+    const char* name;         // as in --scheme
+    std::array<Pole, 2> pole; // of a pair of conjugates, the upper
+    int poles = 1;            // how many of them count: solves a step
+    bool real = false;        // the pole is real and stands for itself alone
+    bool extrapolates = true; // the nonlinear terms are taken half a step on (LIE: at the start)
+};
+
+const RationalScheme& scheme_of(Scheme);
+
+} // namespace bough
