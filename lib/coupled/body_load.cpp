@@ -11,7 +11,7 @@ template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, dou
     evaluate_wind(wind, time + plan.dt, state.wind_change);
     for (std::size_t k = 0; k < state.wind.velocity.size(); ++k)
         state.wind_change.velocity[k] -= state.wind.velocity[k];
-    if (scheme_of(plan.scheme).extrapolates) evaluate_wind(wind, time + plan.dt / 2, state.wind);
+    evaluate_wind(wind, time + plan.dt / 2, state.wind);
 }
 
 namespace {
@@ -19,8 +19,7 @@ namespace {
 // A body without extent about some axis (a thin rod about itself) would make the joint's inertia singular: four roundings
 // of its trace are added, below any inertia that its arithmetic can tell from none.
 template <class T> Matrix3<T> own_inertia(const Matrix3<T>& J) {
-    constexpr T rounding = 4 * std::numeric_limits<T>::epsilon(), least = rounding * rounding;
-    (void)least;
+    constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
     const T size = J.trace();
     if (J.determinant() > rounding / 8 * size * size * size) return J;
     return J + rounding * size * Matrix3<T>::Identity();
@@ -71,7 +70,7 @@ template <class T> void load(const Plan<T>& plan, State<T>& state, std::size_t i
 }
 
 template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double time) {
-    const double at = time + (scheme_of(plan.scheme).extrapolates ? plan.dt / 2 : 0);
+    const double at = time + plan.dt / 2;
     for (const PlannedPull<T>& pull : plan.pulls) {
         CoupledBody<T>& b = state.coupled[pull.body];
         const Pull& source = plan.scene.pulls[pull.source];

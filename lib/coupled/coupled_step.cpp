@@ -4,6 +4,7 @@
 #include "../stages/state_update.h"
 #include "body_load.h"
 #include "energy_guard.h"
+#include "limits.h"
 #include "midpoint.h"
 #include "resolvent.h"
 
@@ -38,7 +39,7 @@ template <class T> void coupled_step(const Plan<T>& plan, State<T>& state, Stage
     if (plan.wind) run_stage(Stage::wind_field, state, clock, [&] { wind_over_step(plan, state, time); });
     run_stage(Stage::midpoint, state, clock, [&] {
         ground_over_step(plan, state, time);
-        midpoint(plan, state);
+        midpoint(plan, state, scheme_of(plan.scheme).extrapolates);
     });
     run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, state, time); });
     run_stage(Stage::resolvent, state, clock, [&] { solve(plan, state); });
@@ -48,6 +49,7 @@ template <class T> void coupled_step(const Plan<T>& plan, State<T>& state, Stage
         move_ground(plan, state, end);
         state_update(plan, state);
         if (watched) guard_energy(plan, state, time);
+        if (plan.joint_limit && keep_limits(plan, state)) state_update(plan, state);
     });
     if (plan.torque) spring_torque(plan, state);
     ++state.step;

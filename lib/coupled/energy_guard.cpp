@@ -20,8 +20,7 @@ double kinetic(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vect
     return double(plan.mass[i] * (v1.dot(v2) / 2 + moment) + b1.dot(plan.inertia_joint[i] * b2) / 2);
 }
 
-template <class T> double elastic(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& theta) {
-    (void)s;
+template <class T> double elastic(const Plan<T>& plan, std::size_t i, const Vector3<T>& theta) {
     return double(theta.dot(plan.K[i].cwiseProduct(theta)) / 2);
 }
 
@@ -59,7 +58,7 @@ template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s) {
         }
         b.omega += joint_spin(s, i);
         account.kinetic += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
-        account.gained -= elastic(plan, s, i, s.theta[i]);
+        account.gained -= elastic(plan, i, s.theta[i]);
     }
     return true;
 }
@@ -97,7 +96,7 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
     account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);
     account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
     account.gained +=
-        elastic(plan, s, i, s.theta[i]) - double(plan.mass[i] * plan.scene.gravity.template cast<T>().dot(moved));
+        elastic(plan, i, s.theta[i]) - double(plan.mass[i] * plan.scene.gravity.template cast<T>().dot(moved));
     if (!plan.wind) return;
     account.gained -= air_work(plan, s, i, moved);
 }

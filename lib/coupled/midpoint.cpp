@@ -26,6 +26,8 @@ template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, d
 
 namespace {
 
+template <class T> constexpr T resolved_turn = T(0.3); // [rad] a step
+
 template <class T> Vector3<T> bounded(const Vector3<T>& omega, T h, std::uint64_t& count) {
     const T turn = h * omega.norm();
     if (!(turn > 1)) return omega;
@@ -56,7 +58,7 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
     const T h = T(plan.dt);
     Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
     Vector3<T> half_change = state.theta_change[i] / 2;
-    if (half_change.squaredNorm() > T(0.15 * 0.15)) halfway = false;
+    if (half_change.norm() > resolved_turn<T> / 2) halfway = false;
     if (halfway) {
         theta += half_change;
         eta += state.theta_dot_change[i] / 2;
@@ -82,8 +84,7 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
 
 } // namespace
 
-template <class T> void midpoint(const Plan<T>& plan, State<T>& state) {
-    const bool halfway = scheme_of(plan.scheme).extrapolates;
+template <class T> void midpoint(const Plan<T>& plan, State<T>& state, bool halfway) {
     std::uint64_t fast = 0;
     for (std::size_t i = 0; i < plan.bodies; ++i)
         if (plan.parent[i] < 0)
@@ -95,7 +96,7 @@ template <class T> void midpoint(const Plan<T>& plan, State<T>& state) {
 
 template void ground_over_step(const Plan<float>&, State<float>&, double);
 template void ground_over_step(const Plan<double>&, State<double>&, double);
-template void midpoint(const Plan<float>&, State<float>&);
-template void midpoint(const Plan<double>&, State<double>&);
+template void midpoint(const Plan<float>&, State<float>&, bool);
+template void midpoint(const Plan<double>&, State<double>&, bool);
 
 } // namespace bough

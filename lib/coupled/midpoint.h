@@ -1,7 +1,8 @@
 // midpoint.h: first sweep of the coupled step (coupled_step.h): where the bodies are half a step on, by extrapolation, how
 // fast they move there, and what accelerations that motion brings by itself.
 //
-// y* = y0 + (last change of y0) / 2, joint by joint; y0 itself for schemes that do not extrapolate. Outward, G = R_p R_pj:
+// y* = y0 + (last change of y0) / 2, joint by joint; y0 itself for schemes that do not extrapolate, and for joints that turned
+// by more than 0.3 rad in the last step, whose way on cannot be told from it. Outward, G = R_p R_pj:
 //   R = G exp theta*,  r = R_p d,  w = G J eta,  omega = omega_p + w,  v = v_p + omega_p x r
 //   alpha_0 = alpha_0,p + omega_p x w + G J_dot eta*,  a_0 = a_0,p + alpha_0,p x r + omega_p x (omega_p x r)
 //   psi = psi_p + G J (theta* - theta_0)
@@ -19,7 +20,8 @@ namespace bough {
 // Of every spline of the root's motion over the step from `time`, into state.coupled_ground.
 template <class T> void ground_over_step(const Plan<T>&, State<T>&, double time);
 
-template <class T> void midpoint(const Plan<T>&, State<T>&);
+// halfway: at y*, else at y0, whatever the scheme.
+template <class T> void midpoint(const Plan<T>&, State<T>&, bool halfway);
 
 // The ground under root i, or null where it rests.
 template <class T> const GroundStep<T>* ground_step_of(const Plan<T>& plan, const State<T>& state, std::size_t i) {

@@ -1,59 +1,9 @@
 #include "resolvent.h"
+#include "articulated_algebra.h"
 #include "midpoint.h"
-#include <type_traits>
 
 namespace bough {
 namespace {
-
-template <class S> using Matrix = Eigen::Matrix<S, 3, 3>;
-template <class S> using Vector = Eigen::Matrix<S, 3, 1>;
-
-template <class T, class S> constexpr bool is_complex = !std::is_same_v<T, S>;
-
-template <class S, class T> S field(std::complex<double> z, T) {
-    if constexpr (is_complex<T, S>)
-        return S(T(z.real()), T(z.imag()));
-    else
-        return T(z.real());
-}
-
-// r x v. (Eigen's own cross conjugates.)
-template <class T, class V> V cross(const Vector3<T>& r, const V& v) {
-    return V(r.y() * v.z() - r.z() * v.y(), r.z() * v.x() - r.x() * v.z(), r.x() * v.y() - r.y() * v.x());
-}
-
-// [r]* X, column by column.
-template <class T, class S> Matrix<S> cross_left(const Vector3<T>& r, const Matrix<S>& X) {
-    Matrix<S> m;
-    for (int k = 0; k < 3; ++k) m.col(k) = cross(r, Vector<S>(X.col(k)));
-    return m;
-}
-
-// X^-1 of a symmetric X = L D L^T, L with unit diagonal.
-template <class S> Matrix<S> symmetric_inverse(const Matrix<S>& X) {
-    const S one(1);
-    const S d0 = one / X(0, 0);
-    const S l10 = X(1, 0) * d0, l20 = X(2, 0) * d0;
-    const S d1 = one / (X(1, 1) - l10 * X(1, 0));
-    const S y21 = X(2, 1) - l20 * X(1, 0);
-    const S l21 = y21 * d1;
-    const S d2 = one / (X(2, 2) - l20 * X(2, 0) - l21 * y21);
-    const S m20 = l10 * l21 - l20; // L^-1 has -l10, -l21 and this below its diagonal
-    const S e21 = -l21 * d2, e20 = m20 * d2;
-    Matrix<S> E;
-    E(2, 2) = d2;
-    E(2, 1) = E(1, 2) = e21;
-    E(2, 0) = E(0, 2) = e20;
-    E(1, 1) = d1 - l21 * e21;
-    E(1, 0) = E(0, 1) = -l10 * d1 - l21 * e20;
-    E(0, 0) = d0 + l10 * l10 * d1 + m20 * e20;
-    return E;
-}
-
-template <class S> void symmetrise(Matrix<S>& X) {
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < r; ++c) X(r, c) = X(c, r) = (X(r, c) + X(c, r)) / typename Eigen::NumTraits<S>::Real(2);
-}
 
 template <class T, class S> struct Solve {
     const Plan<T>& plan;
@@ -97,19 +47,7 @@ template <class T, class S> struct Solve {
         q.E = symmetric_inverse(Matrix<S>(q.A + Z));
         q.u = b.torque.template cast<S>() - s1 * b.torque_rate.template cast<S>() - q.N;
         if (plan.parent[i] < 0) return;
-        ResolventBody<S>& parent = body[std::size_t(plan.parent[i])];
-        const Matrix<S> ZE = Z * q.E, EB = q.E * q.B;
-        Matrix<S> A = ZE * q.A, M = q.M - q.B.transpose() * EB;
-        const Matrix<S> B = ZE * q.B;
-        symmetrise(A);
-        symmetrise(M);
-        const Vector<S> turn = q.E * q.u, N = q.N + q.A * turn, F = q.F + q.B.transpose() * turn;
-        const Matrix<S> rM = cross_left(b.r, M), rB = cross_left(b.r, Matrix<S>(B.transpose()));
-        parent.M += M;
-        parent.B += B + rM;
-        parent.A += A + rB + rB.transpose() + cross_left(b.r, Matrix<S>(rM.transpose()));
-        parent.F += F;
-        parent.N += N + cross(b.r, F);
+        hand_on(q, Z, b.r, body[std::size_t(plan.parent[i])]);
     }
 
     void accelerate(std::size_t i, const Vector<S>& alpha_p, const Vector<S>& a_p) {
@@ -135,8 +73,7 @@ template <class T, class S> struct Solve {
     void accelerate_root(std::size_t i) {
         Vector<S> alpha = Vector<S>::Zero(), a = Vector<S>::Zero();
         if (const GroundStep<T>* g = ground_step_of(plan, state, i)) {
-            const Vector3<T>& r = state.coupled[i].r;
-            a = (g->a + g->omega.cross(g->omega.cross(r))).template cast<S>() + slope * g->slope_a.template cast<S>();
+            a = g->a.template cast<S>() + slope * g->slope_a.template cast<S>();
             alpha = g->alpha.template cast<S>() + slope * g->slope_alpha.template cast<S>();
         }
         accelerate(i, alpha, a);

@@ -53,7 +53,11 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("c_turn_row", s.c_turn_row, air, wind);
     visit("coupled", s.coupled, coupled, pass);
     visit("resolvent", s.resolvent, coupled && !real, coupled && real ? "a scheme of a real pole" : pass);
-    visit("resolvent_real", s.resolvent_real, coupled && real, coupled && !real ? "a scheme of complex poles" : pass);
+    visit("resolvent_real", s.resolvent_real, coupled && (real || plan.joint_limit),
+          !coupled           ? solver
+          : real             ? pass
+          : plan.joint_limit ? "/joint_limit"
+                             : "a scheme of complex poles, no joint limit");
     visit("guard", s.guard, coupled, pass);
     visit("torque_j", s.torque_j, plan.torque, torque);
 }
