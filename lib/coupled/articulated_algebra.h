@@ -56,12 +56,26 @@ template <class S> void symmetrise(Matrix<S>& X) {
         for (int c = 0; c < r; ++c) X(r, c) = X(c, r) = (X(r, c) + X(c, r)) / typename Eigen::NumTraits<S>::Real(2);
 }
 
-// What an eliminated joint hands on to the body it hangs on, r: from that body's joint to this one.
+// R X with R real, X symmetric or not: half of a complex product.
+template <class T, class S> Matrix<S> real_times(const Matrix3<T>& R, const Matrix<S>& X) {
+    if constexpr (is_complex<T, S>) {
+        const Matrix3<T> re = X.real(), im = X.imag();
+        Matrix<S> m;
+        m.real() = R * re;
+        m.imag() = R * im;
+        return m;
+    } else {
+        return R * X;
+    }
+}
+
+// What an eliminated joint hands on to the body it hangs on: impedance Z = z K, K real; r: from that body's joint to this one.
 template <class T, class S>
-void hand_on(const ResolventBody<S>& q, const Matrix<S>& Z, const Vector3<T>& r, ResolventBody<S>& parent) {
-    const Matrix<S> ZE = Z * q.E, EB = q.E * q.B;
-    Matrix<S> A = ZE * q.A, M = q.M - q.B.transpose() * EB;
-    const Matrix<S> B = ZE * q.B;
+void hand_on(const ResolventBody<S>& q, const S& z, const Matrix3<T>& K, const Vector3<T>& r,
+             ResolventBody<S>& parent) {
+    const Matrix<S> EB = q.E * q.B;
+    Matrix<S> A = z * real_times<T, S>(K, q.E * q.A), M = q.M - q.B.transpose() * EB;
+    const Matrix<S> B = z * real_times<T, S>(K, EB);
     symmetrise(A);
     symmetrise(M);
     const Vector<S> turn = q.E * q.u, N = q.N + q.A * turn, F = q.F + q.B.transpose() * turn;

@@ -40,7 +40,7 @@ template <class T> void stop(const Plan<T>& plan, State<T>& state) {
         const Matrix3<T> Z = b.rates.transpose() * lock.asDiagonal() * b.rates;
         q.E = symmetric_inverse(Matrix3<T>(q.A + Z));
         q.u = -b.rates.transpose() * lock.cwiseProduct(state.theta_dot[i]) - q.N;
-        if (plan.parent[i] >= 0) hand_on(q, Z, b.r, body[std::size_t(plan.parent[i])]);
+        if (plan.parent[i] >= 0) hand_on(q, T(1), Z, b.r, body[std::size_t(plan.parent[i])]);
     }
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const CoupledBody<T>& b = state.coupled[i];

@@ -43,11 +43,11 @@ template <class T, class S> struct Solve {
         const CoupledBody<T>& b = state.coupled[i];
         ResolventBody<S>& q = body[i];
         const Matrix3<T> stiffness = b.rates.transpose() * plan.K[i].asDiagonal() * b.rates;
-        const Matrix<S> Z = (plan.beta[i] * s1 + s2) * stiffness.template cast<S>();
-        q.E = symmetric_inverse(Matrix<S>(q.A + Z));
+        const S z = plan.beta[i] * s1 + s2;
+        q.E = symmetric_inverse(Matrix<S>(q.A + z * stiffness.template cast<S>()));
         q.u = b.torque.template cast<S>() - s1 * b.torque_rate.template cast<S>() - q.N;
         if (plan.parent[i] < 0) return;
-        hand_on(q, Z, b.r, body[std::size_t(plan.parent[i])]);
+        hand_on(q, z, stiffness, b.r, body[std::size_t(plan.parent[i])]);
     }
 
     void accelerate(std::size_t i, const Vector<S>& alpha_p, const Vector<S>& a_p) {
