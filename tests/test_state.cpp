@@ -35,6 +35,13 @@ Scene gusty() {
     return scene;
 }
 
+// The random trees' thinnest twigs are of rubber otherwise.
+Scene stiff_gusty() {
+    Scene scene = gusty();
+    scene.stiffness_scale = 1e6;
+    return scene;
+}
+
 } // namespace
 
 TEST_CASE("FNV-1a as written here starts and goes on as published") {
@@ -94,11 +101,11 @@ TEMPLATE_TEST_CASE("the number of threads does not change a bit", "", float, dou
 }
 
 TEMPLATE_TEST_CASE("nor does it with the coupled solver, whatever the scheme's poles", "", float, double) {
-    const Tree tree = make_tree::random_tree(5000, 1);
+    const Tree tree = make_tree::forest(std::vector<Tree>(10, make_tree::random_tree(300, 2)));
     const int threads_before = omp_get_max_threads();
     for (const Scheme scheme : {Scheme::p12, Scheme::p34, Scheme::lie}) {
-        const auto plan =
-            make_plan<TestType>(tree, {{0, tree.size_bodies(), 0}}, gusty(), {}, 1.0 / 30, Solver::coupled, scheme);
+        const auto plan = make_plan<TestType>(tree, {{0, tree.size_bodies(), 0}}, stiff_gusty(), {}, 1.0 / 30,
+                                              Solver::coupled, scheme);
         std::uint64_t one_thread = 0;
         for (int threads : {1, 2, 8, 15}) {
             omp_set_num_threads(threads);
@@ -107,7 +114,7 @@ TEMPLATE_TEST_CASE("nor does it with the coupled solver, whatever the scheme's p
             if (threads == 1) {
                 one_thread = state_hash(state);
                 CHECK_FALSE(first_non_finite(state).has_value());
-                CHECK(state.theta_dot[2500].norm() > 0);
+                CHECK(state.theta_dot[150].norm() > 0);
             }
             CAPTURE(scheme_of(scheme).name, threads);
             CHECK(state_hash(state) == one_thread);
@@ -140,7 +147,7 @@ TEMPLATE_TEST_CASE("a run cut in two goes on as if it had not been", "", float, 
 
 TEMPLATE_TEST_CASE("a coupled run cut in two goes on by its last changes, with every scheme", "", float, double) {
     const Tree tree = make_tree::random_tree(300, 2);
-    Scene scene = gusty();
+    Scene scene = stiff_gusty();
     const Quat turned(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
     scene.root_motion.push_back(
         {0, {0, 0.3, 0.9}, {Vec3::Zero(), Vec3(0.2, 0.1, 0), Vec3(-0.1, 0, 0.3)}, {Quat::Identity(), turned, turned}});
