@@ -91,7 +91,7 @@ for scheme in P12 P.25 P.5 P34 LIE midpoint; do
         seen+="$one "
         [[ $(hash "${plain[@]}" --frames 8 --scheme "${scheme,,}" --threads 1) == "$one" ]] || fail "${scheme,,} is not $scheme"
         for form in json safetensors; do
-            treesim "${run[@]}" --frames 4 --no-output --save-state coupled.$form
+            treesim "${run[@]}" --frames 4 -q --no-output --save-state coupled.$form
             [[ $(hash "${run[@]}" --frames 4 --resume coupled.$form) == "$one" ]] ||
                 fail "$scheme in $precision does not go on as it was from a saved state in $form"
         done
