@@ -63,8 +63,8 @@ struct ErrorOptions {
     double tolerance = 1e-6; // [rad] of the reference: an error of its tips of 1e-6 to 1e-5 of their RMS deflection
 };
 
-// The series that are measured unless others are asked for: every solver that exists, each one's default first; the defaults
-// in float too. Of coupled the schemes whose trade differs: P.25 lies between P12 and P.5.
+// The series that are measured unless others are asked for: every solver that exists, each one's default first;
+// coupled's default and all of analytic in float too. Of coupled the schemes whose trade differs: P.25 lies between P12 and P.5.
 std::vector<Variant> all_variants();
 
 // progress(done, total) in thousandths of the work, once a frame; may throw to end. Cost: sum of the runs; the reference
