@@ -36,7 +36,8 @@ template <class T> void add_air(const Plan<T>& plan, const State<T>& state, Coup
     const Vector3<T> u = state.wind.at(y) - b.v - b.omega.cross(b.c);
     b.D = scale * air_damping(plan.kind[i], b.R, u);
     const Vector3<T> ahead = b.v - b.v_0 + (b.omega - b.omega_0).cross(b.c);
-    const Vector3<T> f = scale * air_force(plan.kind[i], b.R, u).force + b.D * ahead;
+    b.air = scale * air_force(plan.kind[i], b.R, u).force;
+    const Vector3<T> f = b.air + b.D * ahead;
     b.F -= f;
     b.N -= b.c.cross(f);
     b.slope_F = -b.D * state.wind_change.at(y);

@@ -1,6 +1,7 @@
 // coupled_body.h: what the coupled step works in, one record a body (coupled_step.h names the sweeps that fill it).
 #pragma once
 #include "../model/math.h"
+#include <cstdint>
 
 namespace bough {
 
@@ -21,6 +22,7 @@ template <class T> struct CoupledBody {
     Matrix3<T> J;                // [kg m^2] inertia
     Matrix3<T> H;                // [N m/rad] gravity's stiffness and the air's in turning
     Matrix3<T> D;                // [N s/m] the air's damping at the centre of mass; with wind alone
+    Vector3<T> air;              // [N] the air's force at y*; with wind alone
     Vector3<T> N, F;             // [N m], [N] that the motion at y* with those biases asks for, less the forces
     Vector3<T> slope_N, slope_F; // [N m], [N] what they change by over the step with time; with wind or pulls
     Vector3<T> torque;           // [N m] of the joint's own spring and damper at y0
@@ -34,6 +36,24 @@ template <class S> struct ResolventBody {
     Eigen::Matrix<S, 3, 1> N, F;     // [N m], [N]
     Eigen::Matrix<S, 3, 1> u;        // [N m] the joint's torque less N
     Eigen::Matrix<S, 3, 1> alpha, a; // [rad/s^2], [m/s^2] beyond the biases
+};
+
+// A body as the energy guard weighs it (energy_guard.h), velocities at its joint, world: by slow joints and by fast ones.
+template <class T> struct GuardBody {
+    Vector3<T> com;                // [m] at the step's start
+    Vector3<T> v, omega;           // [m/s], [rad/s]
+    Vector3<T> v_fast, omega_fast; // [m/s], [rad/s]
+    std::uint32_t tree = 0;        // account
+    bool fast = false;
+};
+
+// Energies [J] of one root's tree in one step.
+struct EnergyAccount {
+    bool watched = false;
+    double kinetic = 0,
+           gained = 0; // at the start; potential energy gained in the step less the work done by the air and pulls
+    double slow = 0, mixed = 0, fast = 0; // kinetic at the end, (slow + 2 x mixed + x^2 fast) at x = 1
+    double keep_fast = 1, keep_slow = 1;  // what the rates are scaled by
 };
 
 // The ground over one step, world: half a step on, its velocities at the start, its mean accelerations and their change.

@@ -3,6 +3,7 @@
 #include "../stages/spring.h"
 #include "../stages/state_update.h"
 #include "body_load.h"
+#include "energy_guard.h"
 #include "midpoint.h"
 #include "resolvent.h"
 
@@ -42,9 +43,11 @@ template <class T> void coupled_step(const Plan<T>& plan, State<T>& state, Stage
     run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, state, time); });
     run_stage(Stage::resolvent, state, clock, [&] { solve(plan, state); });
     run_stage(Stage::state_update, state, clock, [&] {
+        const bool watched = weigh_start(plan, state);
         take(plan, state);
         move_ground(plan, state, end);
         state_update(plan, state);
+        if (watched) guard_energy(plan, state, time);
     });
     if (plan.torque) spring_torque(plan, state);
     ++state.step;

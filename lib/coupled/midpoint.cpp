@@ -55,7 +55,8 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
     CoupledBody<T>& b = state.coupled[i];
     const T h = T(plan.dt);
     Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
-    const Vector3<T> half_change = state.theta_change[i] / 2;
+    Vector3<T> half_change = state.theta_change[i] / 2;
+    if (half_change.squaredNorm() > T(0.15 * 0.15)) halfway = false;
     if (halfway) {
         theta += half_change;
         eta += state.theta_dot_change[i] / 2;

@@ -3,6 +3,7 @@
 #include "spring.h"
 #include "state_arrays.h"
 #include "state_update.h"
+#include <algorithm>
 #include <bit>
 #include <type_traits>
 
@@ -37,6 +38,7 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     if (plan.solver == Solver::coupled) {
         state.wind_change = state.wind;
         state.coupled_ground.resize(plan.splines.size());
+        state.account.resize(std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1)));
     }
     state.ground.resize(plan.splines.size());
     state.root_load.resize(plan.splines.size());

@@ -77,6 +77,8 @@ template <class T> struct State {
     std::vector<CoupledBody<T>> coupled;
     std::vector<ResolventBody<std::complex<T>>> resolvent;
     std::vector<ResolventBody<T>> resolvent_real;
+    std::vector<GuardBody<T>> guard;
+    std::vector<EnergyAccount> account; // one a root
     WindTable<T> wind_change; // [m/s] of the wind over the step
     std::vector<GroundStep<T>> coupled_ground;
 

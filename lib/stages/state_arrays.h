@@ -54,6 +54,7 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("coupled", s.coupled, coupled, pass);
     visit("resolvent", s.resolvent, coupled && !real, coupled && real ? "a scheme of a real pole" : pass);
     visit("resolvent_real", s.resolvent_real, coupled && real, coupled && !real ? "a scheme of complex poles" : pass);
+    visit("guard", s.guard, coupled, pass);
     visit("torque_j", s.torque_j, plan.torque, torque);
 }
 

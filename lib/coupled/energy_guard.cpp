@@ -1,0 +1,159 @@
+#include "energy_guard.h"
+#include "../stages/external_forces.h"
+#include "midpoint.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bough {
+namespace {
+
+constexpr double fast_turn = 0.3;  // [rad] a step
+constexpr double tolerance = 1e-3; // of the kinetic energy
+
+// Kinetic energy's bilinear form over one body: velocities at its joint, c its centre of mass from there.
+template <class T>
+double kinetic(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& v1, const Vector3<T>& w1,
+               const Vector3<T>& v2, const Vector3<T>& w2) {
+    const Vector3<T> c = s.R_wb[i] * plan.com[i];
+    const Vector3<T> b1 = s.R_wb[i].transpose() * w1, b2 = s.R_wb[i].transpose() * w2;
+    const T moment = (v1.dot(w2.cross(c)) + v2.dot(w1.cross(c))) / 2;
+    return double(plan.mass[i] * (v1.dot(v2) / 2 + moment) + b1.dot(plan.inertia_joint[i] * b2) / 2);
+}
+
+template <class T> double elastic(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& theta) {
+    (void)s;
+    return double(theta.dot(plan.K[i].cwiseProduct(theta)) / 2);
+}
+
+// The joint's own angular velocity, world.
+template <class T> Vector3<T> joint_spin(const State<T>& s, std::size_t i) {
+    return s.R_wb[i] * (body_rate_jacobian(s.theta[i]) * s.theta_dot[i]);
+}
+
+} // namespace
+
+template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s) {
+    const T limit = T(fast_turn / plan.dt);
+    for (EnergyAccount& account : s.account) account = {};
+    std::uint32_t trees = 0;
+    bool any = false;
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        GuardBody<T>& b = s.guard[i];
+        b.tree = plan.parent[i] < 0 ? trees++ : s.guard[std::size_t(plan.parent[i])].tree;
+        const Vector3<T> rate = s.theta_dot[i] + s.theta_dot_change[i];
+        if (!(s.coupled[i].omega.squaredNorm() > limit * limit || rate.squaredNorm() > limit * limit)) continue;
+        s.account[b.tree].watched = any = true;
+    }
+    if (!any) return false;
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        GuardBody<T>& b = s.guard[i];
+        EnergyAccount& account = s.account[b.tree];
+        if (!account.watched) continue;
+        b.com = s.x_w[i] + s.R_wb[i] * plan.com[i];
+        b.v.setZero();
+        b.omega.setZero();
+        if (plan.parent[i] >= 0) {
+            const auto p = std::size_t(plan.parent[i]);
+            b.omega = s.guard[p].omega;
+            b.v = s.guard[p].v + b.omega.cross(Vector3<T>(s.x_w[i] - s.x_w[p]));
+        }
+        b.omega += joint_spin(s, i);
+        account.kinetic += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
+        account.gained -= elastic(plan, s, i, s.theta[i]);
+    }
+    return true;
+}
+
+namespace {
+
+// Work [J] of the air on a body that moved so far. Whatever the body does, its power is at most kappa rho A times 4/27 |U|^3 (branch,
+// fruit; at a third of the wind's speed U) or |u| U_n^2 / 4 (plate): what the linear model has beyond that is its error.
+template <class T> double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved) {
+    const CoupledBody<T>& y = s.coupled[i];
+    const Vector3<T> U = s.wind.at(y.x.y() + y.c.y()), mean = moved / T(plan.dt);
+    const Vector3<T> ahead = mean - y.v - y.omega.cross(y.c);
+    const T speed = U.norm();
+    const T most = is_flat(plan.kind[i]) ? (U - mean).norm() * speed * speed / 4 : T(4.0 / 27) * speed * speed * speed;
+    return double(std::min((y.air - y.D * ahead).dot(moved), T(plan.dt) * plan.drag_area[i] * most));
+}
+
+template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t i) {
+    GuardBody<T>& b = s.guard[i];
+    EnergyAccount& account = s.account[b.tree];
+    const Vector3<T> c = s.R_wb[i] * plan.com[i], moved = s.x_w[i] + c - b.com;
+    b.v = b.omega = b.v_fast = b.omega_fast = Vector3<T>::Zero();
+    if (plan.parent[i] >= 0) {
+        const GuardBody<T>& p = s.guard[std::size_t(plan.parent[i])];
+        const Vector3<T> arm = s.x_w[i] - s.x_w[std::size_t(plan.parent[i])];
+        b.omega = p.omega;
+        b.omega_fast = p.omega_fast;
+        b.v = p.v + p.omega.cross(arm);
+        b.v_fast = p.v_fast + p.omega_fast.cross(arm);
+    }
+    const Vector3<T> spin = joint_spin(s, i);
+    b.fast = (b.omega + b.omega_fast + spin).norm() * T(plan.dt) > T(fast_turn);
+    (b.fast ? b.omega_fast : b.omega) += spin;
+    account.slow += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
+    account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);
+    account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
+    account.gained +=
+        elastic(plan, s, i, s.theta[i]) - double(plan.mass[i] * plan.scene.gravity.template cast<T>().dot(moved));
+    if (!plan.wind) return;
+    account.gained -= air_work(plan, s, i, moved);
+}
+
+// The factors that leave as much kinetic energy as there may be.
+void settle(EnergyAccount& a) {
+    const double now = a.slow + 2 * a.mixed + a.fast, excess = now - a.kinetic + a.gained;
+    if (!(excess > tolerance * now)) return;
+    const double target = now - excess;
+    // The largest x in [0, 1] with slow + 2 x mixed + x^2 fast = target, or where that is least.
+    const double least = a.fast > 0 ? std::clamp(-a.mixed / a.fast, 0.0, 1.0) : 0;
+    const double at_least = a.slow + 2 * least * a.mixed + least * least * a.fast;
+    if (at_least < target) {
+        const double root = std::sqrt(std::max(0.0, a.mixed * a.mixed - a.fast * (a.slow - target)));
+        a.keep_fast = std::clamp((root - a.mixed) / a.fast, 0.0, 1.0);
+        return;
+    }
+    a.keep_fast = least;
+    a.keep_slow = at_least > 0 ? std::sqrt(std::max(0.0, target) / at_least) : 1;
+    a.keep_fast *= a.keep_slow;
+}
+
+template <class T> void add_pulls_work(const Plan<T>& plan, State<T>& s, double time) {
+    for (const PlannedPull<T>& pull : plan.pulls) {
+        EnergyAccount& account = s.account[s.guard[pull.body].tree];
+        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time + plan.dt / 2);
+        const Vector3<T> from_com = pull.point_b - plan.com[pull.body];
+        const Vector3<T> now = s.x_w[pull.body] + s.R_wb[pull.body] * pull.point_b;
+        // Where the point was: the centre of mass then, and the arm turned back from y* by half the step's turn.
+        const Vector3<T> then = s.guard[pull.body].com + s.coupled[pull.body].R * from_com;
+        account.gained -= f.dot((now - then).template cast<double>());
+    }
+}
+
+} // namespace
+
+template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, double time) {
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (s.account[s.guard[i].tree].watched) weigh_end(plan, s, i);
+    add_pulls_work(plan, s, time);
+    for (EnergyAccount& account : s.account)
+        if (account.watched) settle(account);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const EnergyAccount& account = s.account[s.guard[i].tree];
+        const double keep = s.guard[i].fast ? account.keep_fast : account.keep_slow;
+        if (!(keep < 1)) continue;
+        s.theta_dot[i] *= T(keep);
+        s.theta_change[i] = T(plan.dt) * s.theta_dot[i];
+        s.theta_dot_change[i].setZero();
+        ++s.flags.energy_guard;
+    }
+}
+
+template bool weigh_start(const Plan<float>&, State<float>&);
+template bool weigh_start(const Plan<double>&, State<double>&);
+template void guard_energy(const Plan<float>&, State<float>&, double);
+template void guard_energy(const Plan<double>&, State<double>&, double);
+
+} // namespace bough

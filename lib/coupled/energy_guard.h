@@ -1,0 +1,26 @@
+// energy_guard.h: no step of the coupled solver gives a tree more energy than was put into it.
+//
+// The step is accurate where bodies turn by a small part of a radian in it; what turns faster is not resolved, and its
+// nonlinear terms, taken at one point for the whole step, can put energy in that nobody worked for. Where some body of a tree turns by
+// more than 0.3 rad in a step, and there alone, the tree's balance over the step is drawn up,
+//   excess = (kinetic + elastic + potential)_1 - (...)_0 - work of the air and the pulls - work of the moving ground
+// with the bodies' true kinetic energy, gravity's potential and the air's force of the step, at the mean velocity that the
+// bodies had: (f(y*) - D (v_mean - v*)) . (x_1 - x_0). A positive excess (above 1/1000 of the kinetic energy, which is what the balance itself
+// is off by) is taken from the rates: of the joints whose bodies turn that fast by one factor, in [0, 1]; where that is not
+// enough, from all of the tree. What a tree does slowly is not touched for what its leaves do. Damping only ever makes the
+// excess smaller: the guard never takes what damping took.
+// Counted a joint (StepFlags::energy_guard). The last change of a scaled joint is dropped.
+// Cost: nothing but a comparison a body where nothing turns fast, else two sweeps over the watched trees.
+#pragma once
+#include "../stages/plan.h"
+#include "../stages/state.h"
+
+namespace bough {
+
+// When the step is known but not yet taken: what the balance needs of y0. False where no tree is watched.
+template <class T> bool weigh_start(const Plan<T>&, State<T>&);
+
+// After it, kinematics (poses) up to date: scales rates.
+template <class T> void guard_energy(const Plan<T>&, State<T>&, double time);
+
+} // namespace bough
