@@ -66,8 +66,9 @@ const Names every_stage{"composite", "spring", "state_update"};
 const Names every_array{"theta", "theta_dot", "scaled_rate", "R_wb", "x_w", "c_h_w", "c_J_w"};
 // With the coupled solver: wind is a stage, its forces are in the bodies' loads; pulls and the ground are in its own stages.
 const Names every_coupled_stage{"midpoint", "body_loads", "resolvent", "state_update"};
-const Names every_coupled_array{"theta", "theta_dot", "theta_change", "theta_dot_change", "R_wb", "x_w", "coupled"};
-const Names records{"articulated", "coupled", "resolvent", "resolvent_real"};
+const Names every_coupled_array{"theta", "theta_dot", "theta_change", "theta_dot_change",
+                                "R_wb",  "x_w",       "coupled",      "guard"};
+const Names records{"articulated", "coupled", "resolvent", "resolvent_real", "guard"};
 
 struct Method {
     Solver solver = Solver::analytic;
