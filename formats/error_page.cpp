@@ -36,11 +36,13 @@ void write_error_html(Output& output, const ErrorReport& report, const ReportMet
                     {"the reference's own error", known(percent(report.reference_error), report.reference_error)},
                     {"the reference's run time", figure(report.reference_seconds) + " s/s"}};
     page.svg = error_svg(report, output.name());
-    page.notes = {"Errors are those of the positions of the branches' tips over all frames, as shares of the RMS tip "
-                  "deflection of the reference, of its peak or of the tree's height. Time is run time per simulated "
-                  "second. Hollow points, and errors smaller than the reference's own, are not told from zero.",
-                  "Step: from a run to the solver's own limit of small steps; model: from that limit to the full "
-                  "articulated dynamics; arithmetic: from a run to the same in the widest precision."};
+    page.notes = {
+        "Errors are those of the positions of the branches' tips over all frames, as shares of the RMS tip "
+        "deflection of the reference, of its peak or of the tree's height. Time is run time per simulated "
+        "second. Hollow points, and errors smaller than the reference's own, are not told from zero. Of other "
+        "solvers than the first the picture draws one series, the table has all.",
+        "Step: from a run to the solver's own limit of small steps; model: from that limit to the full "
+        "articulated dynamics; arithmetic: from a run to the same in the widest precision."};
     page.table.names = {"steps/frame",   "time s/s",  "rms",   "max",  "rms of peak", "max of peak", "rms of height",
                         "angle rms deg", "frequency", "decay", "step", "model",       "arithmetic"};
     for (const ErrorSeries& series : error_series(report)) {

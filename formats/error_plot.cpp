@@ -10,7 +10,8 @@ namespace {
 
 // Okabe and Ito's colours, told apart by people of any colour vision. Marks differ as well: full, and hollow for points
 // below the reference's error.
-constexpr std::array<const char*, 6> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
+constexpr std::array<const char*, 8> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                "#e69f00", "#56b4e9", "#1b1b1b", "#8c8c8c"};
 constexpr std::array<int, 5> full_marks = {7, 5, 9, 11, 13};
 constexpr std::array<const char*, 3> part_colours = {"#0072b2", "#e69f00", "#888888"};
 constexpr int picture_width = 1080, plot_height = 560, key_line = 21;
@@ -50,6 +51,23 @@ std::string listed(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
     return text;
+}
+
+// What is drawn: every series of the report's first solver, of each other one its first alone. The rest are named.
+std::vector<ErrorSeries> drawn(const std::vector<ErrorSeries>& all, std::string& left_out) {
+    std::vector<ErrorSeries> some;
+    std::vector<std::string> rest;
+    const auto solver = [](const ErrorSeries& s) { return s.runs.front()->solver; };
+    for (const ErrorSeries& series : all) {
+        const bool first =
+            std::none_of(some.begin(), some.end(), [&](const ErrorSeries& s) { return solver(s) == solver(series); });
+        if (first || solver(series) == solver(all.front()))
+            some.push_back(series);
+        else
+            rest.push_back(series.name);
+    }
+    for (const std::string& name : rest) left_out += (left_out.empty() ? "not drawn: " : "; ") + name;
+    return some;
 }
 
 std::vector<Line> make_lines(const std::vector<ErrorSeries>& all, double reference) {
@@ -131,7 +149,8 @@ std::string title(const ErrorReport& r) {
            figure(r.rms_deflection) + " m of " + figure(r.height) + " m height";
 }
 
-std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines, int height) {
+std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines, const std::string& left_out,
+                       int height) {
     std::vector<double> times, errors = {report.reference_error};
     for (const Line& line : lines)
         for (const Point& p : line.points) times.push_back(p.time), errors.push_back(p.error);
@@ -176,6 +195,7 @@ std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines
         marks(false);
         marks(true);
     }
+    if (!left_out.empty()) plots.push_back("NaN with lines lc rgb 'white' title " + gnuplot_text(left_out));
     if (plots.empty()) plots.push_back("NaN notitle");
     text += "plot ";
     for (std::size_t k = 0; k < plots.size(); ++k) text += (k == 0 ? "" : ", \\\n  ") + plots[k];
@@ -238,12 +258,13 @@ std::string split_panel(const std::vector<Line>& lines, int height, int top) {
 } // namespace
 
 std::string error_svg(const ErrorReport& report, const std::string& name) {
-    const std::vector<ErrorSeries> series = error_series(report);
+    std::string left_out;
+    const std::vector<ErrorSeries> series = drawn(error_series(report), left_out);
     const std::vector<Line> lines = make_lines(series, report.reference_error);
-    const int top = plot_height + key_line * (int(lines.size()) + 1) + 20;
+    const int top = plot_height + key_line * (int(lines.size()) + (left_out.empty() ? 1 : 2)) + 20;
     const int height = top + 48 + 58 + std::max(70, 46 * int(lines.size()));
-    return gnuplot_svg("set multiplot\n" + plot_panel(report, lines, height) + split_panel(lines, height, top) +
-                           "unset multiplot\n",
+    return gnuplot_svg("set multiplot\n" + plot_panel(report, lines, left_out, height) +
+                           split_panel(lines, height, top) + "unset multiplot\n",
                        picture_width, height, name);
 }
 

@@ -1,4 +1,6 @@
 #include "error_report.h"
+#include <array>
+#include <charconv>
 #include <cmath>
 
 namespace bough {
@@ -11,7 +13,14 @@ std::string known(const std::string& text, double value) {
 }
 
 std::string cell(double share) {
-    return padded(known(percent(share), share), wide + 1);
+    std::string text = known(percent(share), share);
+    if (text.size() > wide) { // as -1.62e-05%: one digit of it keeps the columns apart
+        std::array<char, 32> digits;
+        const auto end =
+            std::to_chars(digits.data(), digits.data() + digits.size(), 100 * share, std::chars_format::scientific, 0);
+        text = std::string(digits.data(), end.ptr) + "%";
+    }
+    return padded(text, wide + 1);
 }
 
 std::string summary(const ErrorReport& r) {

@@ -56,6 +56,7 @@ void write_report_json(Output& output, const Report& report) {
     j["threads"] = report.threads;
     j["simd"] = report.simd;
     j["solver"] = report.solver;
+    if (!report.scheme.empty()) j["scheme"] = report.scheme;
     j["precision"] = report.precision;
     j["hash"] = report.hash;
     j["total_ns_per_body_frame"] = report.total_ns_per_body_frame;
@@ -98,6 +99,7 @@ Report read_report(std::string_view content, const std::string& name) {
     report.compiler = j.contains("compiler") ? read.text(j, "", "compiler") : "";
     report.flags = j.contains("flags") ? read.text(j, "", "flags") : "";
     report.solver = j.contains("solver") ? read.text(j, "", "solver") : "";
+    report.scheme = j.contains("scheme") ? read.text(j, "", "scheme") : "";
     report.simd = read.text(j, "", "simd");
     report.precision = read.text(j, "", "precision");
     report.hash = read.text(j, "", "hash");

@@ -18,6 +18,7 @@ struct ReportStage {
 
 struct Report {
     std::string tool, version, compiler, flags, simd, solver, precision, hash;
+    std::string scheme; // of the coupled solver; empty with all others
     std::int64_t bodies = 0;
     std::int64_t frames = 0; // measured: the first one, a warm-up, is left out
     int threads = 1, substeps = 1;

@@ -1,4 +1,5 @@
-#include "document.h"
+#include "document_parts.h"
+#include "lib/stages/plan.h"
 #include "motion.h"
 #include <charconv>
 
@@ -6,6 +7,13 @@ namespace bough {
 namespace {
 
 constexpr DocumentType type{"bough-state", 1};
+
+// What one solver carries and another does not: may be absent (check_carried says when), and is then empty.
+Field carried(const std::string& name, std::vector<Vec3>& values, const Per& per) {
+    Field field = optional(array(name, values, per));
+    std::get<Array>(field.value).fill = [](std::size_t) {};
+    return field;
+}
 
 // `fingerprint`: 16 hexadecimal digits, because JSON's numbers do not hold 64 bits everywhere.
 std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
@@ -15,11 +23,14 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             {"substeps", &state.substeps},
             {"precision", &state.precision},
             {"solver", &state.solver},
+            optional({"scheme", &state.scheme}),
             {"fingerprint", &fingerprint},
             optional({"source", &state.source}),
             array("theta", state.theta, {}),
             array("theta_dot", state.theta_dot, body),
-            array("scaled_rate", state.scaled_rate, body),
+            carried("theta_change", state.theta_change, body),
+            carried("theta_dot_change", state.theta_dot_change, body),
+            carried("scaled_rate", state.scaled_rate, body),
             optional({"articulated_step", &state.articulated_step})};
 }
 
@@ -34,6 +45,21 @@ bool read_hexadecimal(const std::string& text, std::uint64_t& value) {
     return text.size() == 16 && text[0] != '-' && error == std::errc() && end == text.data() + text.size();
 }
 
+// What is carried from step to step is the solver's own: all of it, and nothing of another's.
+void check_carried(const SavedState& state, const std::string& name) {
+    const bool coupled = state.solver == solver_name(Solver::coupled);
+    const auto check = [&](const char* field, bool there, bool wanted) {
+        if (there && !wanted)
+            throw InputError(name + ": /" + field, "is there, but solver " + in_quotes(state.solver) + " has none");
+        if (!there && wanted) missing_field(name, "", field);
+    };
+    const bool bodies = !state.theta.empty();
+    check("scheme", !state.scheme.empty(), coupled);
+    check("theta_change", !state.theta_change.empty(), coupled && bodies);
+    check("theta_dot_change", !state.theta_dot_change.empty(), coupled && bodies);
+    check("scaled_rate", !state.scaled_rate.empty(), !coupled && bodies);
+}
+
 void check_state(const SavedState& state, const std::string& name) {
     const auto fail = [&](const char* field, const std::string& message) {
         throw InputError(name + ": /" + field, message);
@@ -43,6 +69,7 @@ void check_state(const SavedState& state, const std::string& name) {
     if (state.substeps < 1) fail("substeps", "is " + std::to_string(state.substeps) + ", expected 1 or more");
     if (state.precision != "float" && state.precision != "double")
         fail("precision", "is \"" + state.precision.substr(0, 20) + "\", expected \"float\" or \"double\"");
+    check_carried(state, name);
     if (!(state.articulated_step >= 0)) fail("articulated_step", "is below 0, expected seconds");
 }
 

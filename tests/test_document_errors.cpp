@@ -346,6 +346,32 @@ TEST_CASE("a binary file is believed only as far as it goes") {
         Contains("after a gap"));
 }
 
+TEST_CASE("a saved state has what its solver carries, whole, and nothing of another's") {
+    const auto error = [](const std::string& solver, const std::string& carried) {
+        const std::string text = "{\"format\": \"bough-state\", \"version\": 1, \"frame\": 3, \"fps\": 30, "
+                                 "\"substeps\": 1, \"precision\": \"double\", \"fingerprint\": \"00c0ffee00c0ffee\", "
+                                 "\"theta\": [1, 2, 3], \"theta_dot\": [4, 5, 6], \"solver\": \"" +
+                                 solver + "\"" + carried + "}";
+        return error_of([&] { read_state(text, "s"); });
+    };
+    const std::string rate = ", \"scaled_rate\": [1, 2, 3]", scheme = ", \"scheme\": \"P12\"",
+                      change = ", \"theta_change\": [1, 2, 3]", dot = ", \"theta_dot_change\": [1, 2, 3]";
+    for (const std::string solver : {"analytic", "articulated-implicit"}) {
+        CHECK(error(solver, rate).empty());
+        CHECK(error(solver, "") == "s: /scaled_rate: is missing");
+        CHECK(error(solver, rate + change) == "s: /theta_change: is there, but solver \"" + solver + "\" has none");
+        CHECK(error(solver, rate + scheme) == "s: /scheme: is there, but solver \"" + solver + "\" has none");
+    }
+    CHECK(error("coupled", scheme + change + dot).empty());
+    CHECK(error("coupled", change + dot) == "s: /scheme: is missing");
+    CHECK(error("coupled", scheme + dot) == "s: /theta_change: is missing");
+    CHECK(error("coupled", scheme + change) == "s: /theta_dot_change: is missing");
+    CHECK(error("coupled", scheme + change + dot + rate) ==
+          "s: /scaled_rate: is there, but solver \"coupled\" has none");
+    CHECK_THAT(error("coupled", scheme + change + ", \"theta_dot_change\": [1, 2]"), Contains("/theta_dot_change"));
+    CHECK(error("a\\nb", change + rate).find('\n') == std::string::npos);
+}
+
 TEST_CASE("cut or with any byte changed, a document is read as it stands or refused") {
     Random random;
     const Tree tree = random_tree(2, random);
@@ -361,6 +387,11 @@ TEST_CASE("cut or with any byte changed, a document is read as it stands or refu
     SavedState state;
     state.precision = "double";
     state.theta = state.theta_dot = state.scaled_rate = {Vec3(1, 2, 3)};
+    SavedState coupled = state;
+    coupled.solver = "coupled";
+    coupled.scheme = "P12";
+    coupled.theta_change.swap(coupled.scaled_rate);
+    coupled.theta_dot_change = coupled.theta_change;
 
     std::vector<std::string> documents{two_bodies};
     for (const Form form : {Form::json, Form::safetensors}) {
@@ -368,6 +399,7 @@ TEST_CASE("cut or with any byte changed, a document is read as it stands or refu
         documents.push_back(written([&](Output& o) { write_splines(o, splines, form); }));
         documents.push_back(written([&](Output& o) { write_scene(o, scene, form); }));
         documents.push_back(written([&](Output& o) { write_state(o, state, form); }));
+        documents.push_back(written([&](Output& o) { write_state(o, coupled, form); }));
     }
     for (const MotionForm form : {MotionForm::jsonl, MotionForm::json, MotionForm::safetensors})
         documents.push_back(written([&](Output& o) {

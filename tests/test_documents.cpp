@@ -116,6 +116,28 @@ TEST_CASE("saved states come back from both forms") {
         CHECK(same(read.theta_dot, state.theta_dot));
         CHECK(same(read.scaled_rate, state.scaled_rate));
         CHECK(same(read.articulated_step, state.articulated_step));
+        CHECK(read.scheme.empty());
+        CHECK(read.theta_change.empty());
+        CHECK(read.theta_dot_change.empty());
+    }
+    // The coupled solver carries its last changes instead.
+    state.solver = "coupled";
+    state.scheme = "P.25";
+    state.articulated_step = 0;
+    state.theta_change = state.scaled_rate;
+    state.scaled_rate.clear();
+    for (std::size_t i = 0; i < state.theta.size(); ++i) state.theta_dot_change.push_back(random.vector());
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_state(o, state, form); });
+        CHECK(text.find("scaled_rate") == std::string::npos);
+        const SavedState read = read_state(text, "s");
+        CHECK(read.solver == state.solver);
+        CHECK(read.scheme == state.scheme);
+        CHECK(same(read.theta, state.theta));
+        CHECK(same(read.theta_dot, state.theta_dot));
+        CHECK(same(read.theta_change, state.theta_change));
+        CHECK(same(read.theta_dot_change, state.theta_dot_change));
+        CHECK(read.scaled_rate.empty());
     }
 }
 

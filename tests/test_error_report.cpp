@@ -152,6 +152,15 @@ TEST_CASE("the error table summarises, has a row a run by steps, and fits 120 co
     CHECK((find("implicit, linear") + 1)->find("<0.0001%") != std::string::npos); // nothing below the reference
 }
 
+TEST_CASE("a figure wider than its column keeps one digit, and the columns stay apart") {
+    ErrorReport report = make_report();
+    report.runs = {make_run("coupled", "P12", "double", 1, 0.2)};
+    report.runs[0].error_frequency = -1.62e-7;
+    report.runs[0].error_decay = -1.23e-6;
+    const std::string table = error_table(report);
+    CHECK(table.find("   -2e-05%   -1e-04% ") != std::string::npos);
+}
+
 TEST_CASE("a refresh is named where runs differ in it, and parts the lines") {
     ErrorReport report = make_report();
     REQUIRE(error_series(report).size() == 4);
@@ -182,6 +191,18 @@ TEST_CASE("the plot is well-formed SVG that names each line and what could not b
         INFO(name);
         CHECK(text.find(name) != std::string::npos);
     }
+    // Of another solver than the first one line is drawn, its first; what is left out is named.
+    CHECK(text.find("not drawn") == std::string::npos);
+    ErrorReport more = report;
+    more.runs.push_back(make_run("coupled", "P12", "double", 1, 0.01));
+    more.runs.push_back(make_run("coupled", "P12", "float", 1, 0.01));
+    more.runs.push_back(make_run("coupled", "P34", "double", 1, 0.01));
+    REQUIRE(xml.load_string(error_svg(more, "plot.svg").c_str()));
+    std::string legend;
+    for (const auto& node : xml.select_nodes("//text()")) legend += std::string(node.node().value()) + "\n";
+    CHECK(legend.find("coupled, P12, double\n") != std::string::npos);
+    CHECK(legend.find("analytic, branch, float\n") != std::string::npos);
+    CHECK(legend.find("not drawn: coupled, P12, float; coupled, P34, double\n") != std::string::npos);
     // Commands in a name are text; so is an empty report, and one of which nothing can be drawn.
     for (const char* hostile : {"'; print system('true'); ", "\"; exit status 3 #", "`false` @x $x \\n \\042 ä {^2}"}) {
         report.runs[0].solver = hostile;

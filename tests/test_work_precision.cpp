@@ -62,6 +62,14 @@ TEST_CASE("a single rod's ring-down is its closed form") {
         CHECK(found.frequency == Approx(frequency).epsilon(1e-6));
         CHECK(found.decay == Approx(decay).epsilon(1e-4));
     }
+    // The coupled step has its scheme's: P34's is right here, LIE multiplies the rod's motion by 1 / (1 + h d - i h w), about.
+    const double h = 0.05 / frequency, w = 2 * std::numbers::pi * frequency;
+    const auto coupled = [&](Scheme scheme) {
+        return ring_down(problem, {.solver = Solver::coupled, .scheme = scheme}, h, [] {});
+    };
+    CHECK(coupled(Scheme::p34).frequency == Approx(frequency).epsilon(1e-6));
+    CHECK(coupled(Scheme::p34).decay == Approx(decay).epsilon(1e-4));
+    CHECK(coupled(Scheme::lie).decay == Approx(std::log(std::hypot(1 + h * decay, h * w)) / h).epsilon(1e-3));
 }
 
 TEST_CASE("the first mode of many pieces is the cantilever's") {
@@ -114,6 +122,79 @@ TEST_CASE("the analytic step converges at first order to its own limit, which is
     CHECK(report.runs[6].error_arithmetic < 1e-4);
     CHECK(report.runs[6].error_arithmetic > 1e-9);
     CHECK(report.runs[6].error_rms == Approx(report.runs[0].error_rms).epsilon(1e-3));
+}
+
+namespace {
+
+Variant coupled_by(Scheme scheme, bool single = false) {
+    return {.solver = Solver::coupled, .single = single, .scheme = scheme};
+}
+
+ErrorReport chain_report(const std::vector<Variant>& variants, const std::vector<double>& steps) {
+    return report_of(paper_trees::chain(2e9, 0.06 / (2 * std::numbers::pi * 1.05)), gravity_switched_on(), variants,
+                     steps, 61);
+}
+
+} // namespace
+
+TEST_CASE("the coupled step converges to the reference: what is left of it as a model is the reference's own error") {
+    const ErrorReport report = chain_report({coupled_by(Scheme::p12)}, {1, 2, 4, 8, 16, 32, 64});
+    REQUIRE(report.runs.size() == 7);
+    CHECK(report.runs[0].solver == "coupled");
+    CHECK(report.runs[0].scheme == "P12");
+    CHECK(report.reference_error < 1e-5);
+    for (const ErrorRun& run : report.runs) CHECK(run.error_model < report.reference_error);
+    for (std::size_t k = 1; k < 4; ++k) // the second order of its nonlinear terms, or better
+        CHECK(report.runs[k - 1].error_rms / report.runs[k].error_rms > 3.5);
+    CHECK(report.runs[0].error_rms_peak < 0.005);
+    CHECK(report.runs[0].error_step == Approx(report.runs[0].error_rms).epsilon(1e-2));
+}
+
+TEST_CASE("the limit of small steps is found at the order that the runs show") {
+    // Taken as first order, the midpoint's limit would be off by twice the finest run's error; as second, LIE's by a third.
+    for (const auto& [scheme, ratio] : {std::pair{Scheme::midpoint, 4.0}, std::pair{Scheme::lie, 2.0}}) {
+        CAPTURE(scheme_of(scheme).name);
+        const ErrorReport report = chain_report({coupled_by(scheme)}, {16, 32, 64});
+        REQUIRE(report.runs.size() == 3);
+        CHECK(report.runs[1].error_rms / report.runs[2].error_rms == Approx(ratio).epsilon(0.06));
+        CHECK(report.runs[2].error_model < 0.1 * report.runs[2].error_rms);
+    }
+}
+
+TEST_CASE("schemes are series of their own, with one limit: that of the one nearest to it") {
+    const ErrorReport report =
+        chain_report({coupled_by(Scheme::lie), coupled_by(Scheme::p12), coupled_by(Scheme::p12, true)}, {4, 8, 16});
+    REQUIRE(report.runs.size() == 9);
+    const auto is = [&](std::size_t k, const char* scheme, const char* precision) {
+        return report.runs[k].scheme == scheme && report.runs[k].precision == precision;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(is(k, "LIE", "double"));
+        CHECK(is(3 + k, "P12", "double"));
+        CHECK(is(6 + k, "P12", "float"));
+        CHECK(report.runs[k].error_model == report.runs[3].error_model);
+        CHECK(report.runs[6 + k].error_model == report.runs[3].error_model);
+        CHECK(std::isnan(report.runs[k].error_arithmetic));
+        CHECK(report.runs[6 + k].error_arithmetic < 1e-4); // against P12 in double, from which LIE is far
+        CHECK(report.runs[6 + k].error_arithmetic > 1e-9);
+        CHECK(report.runs[k].error_rms > 100 * report.runs[3 + k].error_rms);
+    }
+    CHECK(report.runs[0].error_model < 1e-4);
+}
+
+TEST_CASE("the usual series begin with each solver's default, in double") {
+    const std::vector<Variant> all = all_variants();
+    CHECK(all.front().solver == Solver::coupled);
+    CHECK(all.front().scheme == Scheme());
+    std::vector<Solver> seen;
+    for (const Variant& v : all) {
+        const bool first = std::find(seen.begin(), seen.end(), v.solver) == seen.end();
+        if (!first) continue;
+        seen.push_back(v.solver);
+        CHECK_FALSE(v.single);
+        CHECK(v.inertia == JointInertia::branch);
+    }
+    CHECK(seen.size() + 1 == all_solvers.size()); // all but the reference
 }
 
 TEST_CASE("what cannot run is non-finite, and what does not move has no error") {

@@ -33,6 +33,7 @@ void refuse_different(const CompareOptions& o, const Report& before, const Repor
     same("bodies", std::to_string(before.bodies), std::to_string(after.bodies));
     same("precision", before.precision, after.precision);
     same("solver", before.solver, after.solver);
+    same("scheme", before.scheme, after.scheme);
     same("substeps", std::to_string(before.substeps), std::to_string(after.substeps));
 }
 

@@ -57,18 +57,27 @@ std::vector<double> chosen_steps(const std::string& text) {
     return steps;
 }
 
-// All series, or those that --solver, --precision, --joint-inertia leave.
+// The usual series, or with --scheme that scheme's; of these what --solver, --precision, --joint-inertia leave.
 std::vector<Variant> chosen_variants(const ErrorCommand& o) {
     const auto given = [&](const char* name) { return o.app->get_option(name)->count() > 0; };
-    std::vector<Variant> chosen;
-    for (const Variant& v : all_variants()) {
+    std::vector<Variant> series = all_variants(), chosen;
+    if (!o.run.scheme.empty()) {
+        Variant v;
+        v.solver = Solver::coupled;
+        v.scheme = chosen_scheme(o.run);
+        series = {v, v};
+        series.back().single = true;
+    }
+    for (const Variant& v : series) {
         if (given("--solver") && o.run.solver != solver_name(v.solver)) continue;
         if (given("--precision") && (o.run.precision == "float") != v.single) continue;
-        if (!o.run.joint_inertia.empty() && (o.run.joint_inertia == "paper") != (v.inertia == JointInertia::paper))
+        const bool paper = v.inertia == JointInertia::paper;
+        if (!o.run.joint_inertia.empty() && (v.solver != Solver::analytic || paper != (o.run.joint_inertia == "paper")))
             continue;
         chosen.push_back(v);
     }
-    if (chosen.empty()) throw UsageError("--solver, --precision and --joint-inertia leave nothing to measure");
+    if (chosen.empty())
+        throw UsageError("--solver, --scheme, --precision and --joint-inertia leave nothing to measure");
     return chosen;
 }
 
@@ -92,8 +101,10 @@ void work(ErrorCommand& o) {
     options.steps_per_frame = chosen_steps(o.steps);
     options.variants = chosen_variants(o);
     if (o.run.tolerance) options.tolerance = *o.run.tolerance;
-    RunOptions reading = o.run;
+    RunOptions reading = o.run; // what is a series' own is not the scene's
     reading.tolerance.reset();
+    reading.joint_inertia.clear();
+    reading.scheme.clear();
     Setting setting = read_setting(reading);
     let_move(o, setting.scene);
     const Problem problem{setting.tree, setting.ranges, setting.scene, o.run.fps, frames_of(o.run, seconds_default)};

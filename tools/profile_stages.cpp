@@ -85,8 +85,9 @@ std::string table(const Report& r) {
     text += formatted("%-18s %8s   %13.2f  %5.1f%%\n\n", "total", "", r.total_ns_per_body_frame, 100.0);
     text += "bodies " + std::to_string(r.bodies) + ", frames " + std::to_string(r.frames) +
             " (after one of warm-up), substeps " + std::to_string(r.substeps) + "\n";
-    text += "hash " + r.hash + "\nthreads " + std::to_string(r.threads) + ", simd " + r.simd + ", " + r.solver + ", " +
-            r.precision + "\ncompiler " + r.compiler + "\nflags " + r.flags + "\n";
+    text += "hash " + r.hash + "\nthreads " + std::to_string(r.threads) + ", simd " + r.simd + ", " + r.solver +
+            (r.scheme.empty() ? "" : ", " + r.scheme) + ", " + r.precision + "\ncompiler " + r.compiler + "\nflags " +
+            r.flags + "\n";
     return text;
 }
 
@@ -103,6 +104,7 @@ void work_stages(StagesOptions& o) {
     report.flags = compiler_flags();
     report.simd = simd_target();
     report.solver = o.run.solver;
+    report.scheme = scheme_name(o.run);
     report.precision = o.run.precision;
     report.threads = o.common.threads;
     report.substeps = o.run.substeps;

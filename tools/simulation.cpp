@@ -3,6 +3,7 @@
 #include "formats/tree.h"
 #include "lib/stages/state_arrays.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -58,6 +59,22 @@ void read_scene_trees(Setting& setting, const std::string& scene_file) {
         const std::string file = (folder / place.file).string();
         stand(setting, read_tree(read_input(file), file), place);
     }
+}
+
+// A line of help: what each solver is for, the default marked.
+std::string solver_help() {
+    constexpr std::array<std::pair<Solver, const char*>, all_solvers.size()> uses{{
+        {Solver::coupled, "the full dynamics by one linear solve (--scheme), true at one step a frame"},
+        {Solver::analytic, "the paper's, each joint by itself: lively at any stiffness, not true at any step"},
+        {Solver::articulated_explicit, "Euler, for comparison: unstable but at tiny steps"},
+        {Solver::articulated_implicit, "linearly implicit Euler, for comparison: damps what a step does not resolve"},
+        {Solver::articulated_reference, "high order, adaptive, slow: the truth to hold others against"},
+    }};
+    std::string text = "How a step is made:";
+    for (const auto& [solver, use] : uses)
+        text += std::string(solver == uses.front().first ? " " : "; ") + solver_name(solver) +
+                (solver == default_solver ? " (default): " : ": ") + use;
+    return text;
 }
 
 Solver chosen_solver(const RunOptions& o) {
@@ -196,14 +213,15 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
     app.add_option("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)")->option_text("X,Y,Z");
     std::vector<std::string> solvers;
     for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
-    app.add_option(
-           "--solver", o.solver,
-           "How a step is made: coupled, analytic (default), or the full articulated dynamics by articulated-explicit "
-           "(Euler; "
-           "unstable but at tiny steps), articulated-implicit (linearly implicit Euler), articulated-reference (high "
-           "order, adaptive)")
+    app.add_option("--solver", o.solver, solver_help())->option_text("NAME")->check(CLI::IsMember(solvers));
+    std::vector<std::string> schemes;
+    for (const Scheme scheme : all_schemes) schemes.push_back(scheme_of(scheme).name);
+    app.add_option("--scheme", o.scheme,
+                   "Which rational function coupled steps with: " + std::string(scheme_of(Scheme()).name) +
+                       " (default): robust; P.25, P.5: damp less, stiff joints lag more; P34: true to higher "
+                       "frequencies, two solves a step; LIE, midpoint, for comparison: first order; no damping at all")
         ->option_text("NAME")
-        ->check(CLI::IsMember(solvers));
+        ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
     app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
         ->option_text("RAD")
         ->check(positive_number());
@@ -239,15 +257,27 @@ std::int64_t frames_of(const RunOptions& o, double seconds_default) {
     return std::int64_t(frames);
 }
 
+Scheme chosen_scheme(const RunOptions& o) {
+    if (o.scheme.empty()) return Scheme();
+    for (const Scheme scheme : all_schemes)
+        if (o.scheme == scheme_of(scheme).name) return scheme;
+    throw UsageError("--scheme is '" + o.scheme + "', which is unknown");
+}
+
+std::string scheme_name(const RunOptions& o) {
+    return chosen_solver(o) == Solver::coupled ? scheme_of(chosen_scheme(o)).name : "";
+}
+
 Setting read_setting(const RunOptions& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
     const Solver solver = chosen_solver(o);
     if (is_articulated(solver) && o.precision == "float")
         throw UsageError("--precision float: not with --solver " + o.solver + ", which runs in double");
-    if (is_articulated(solver) && !o.joint_inertia.empty())
+    if (solver != Solver::analytic && !o.joint_inertia.empty())
         throw UsageError("--joint-inertia: only with --solver analytic");
     if (is_articulated(solver) && o.joint_limit)
-        throw UsageError("--joint-limit: only with --solver analytic, which alone keeps limits");
+        throw UsageError("--joint-limit: only with --solver coupled or analytic, which keep limits");
+    if (solver != Solver::coupled && !o.scheme.empty()) throw UsageError("--scheme: only with --solver coupled");
     if (o.tolerance && solver != Solver::articulated_reference)
         throw UsageError("--tolerance: only with --solver articulated-reference");
     Setting setting;
@@ -275,7 +305,7 @@ std::uint64_t fingerprint(const Setting& setting) {
 template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
         Plan<T> plan = make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
-                                    chosen_solver(o));
+                                    chosen_solver(o), chosen_scheme(o));
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {

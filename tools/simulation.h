@@ -9,13 +9,17 @@
 
 namespace bough {
 
+// What runs without --solver. Help, messages and tests follow it.
+constexpr Solver default_solver = Solver::analytic;
+
 struct RunOptions {
     std::string input;
     std::optional<double> seconds;
     std::optional<std::int64_t> frames;
     double fps = 30;
     int substeps = 1;
-    std::string wind, gravity, solver = "analytic", precision = "double", pose, joint_inertia;
+    std::string wind, gravity, solver = solver_name(default_solver), precision = "double", pose, joint_inertia;
+    std::string scheme; // of the coupled solver; empty: its default
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
 };
@@ -25,6 +29,10 @@ void add_run_options(CLI::App&, RunOptions&, double seconds_default);
 
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
 std::int64_t frames_of(const RunOptions&, double seconds_default);
+
+// The one that --scheme names, or the coupled solver's default; its name, empty for all other solvers.
+Scheme chosen_scheme(const RunOptions&);
+std::string scheme_name(const RunOptions&);
 
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {

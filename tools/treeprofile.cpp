@@ -20,7 +20,7 @@ const ToolInfo info = {
     "error runs each solver at each number of steps a frame against a reference solution of the articulated dynamics.\n"
     "stability runs a grid of extreme cases and exits with 3 where a promised one does not hold.\n"
     "compare exits with 3 when the total, or a stage that had at least 5 % of it, costs more than --fail-above times\n"
-    "what it did. Reports of different bodies, precision, solver or substeps are refused (2).\n"
+    "what it did. Reports of different bodies, precision, solver, scheme or substeps are refused (2).\n"
     "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite, slower or a promise broken, 4 output not written, 130 "
     "interrupted.",
     {}};

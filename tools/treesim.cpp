@@ -111,7 +111,9 @@ void refuse_contradictions(const Options& o, const std::string& format) {
 template <class T> std::string explanation(const Plan<T>& plan, const RunOptions& run) {
     std::ostringstream text;
     text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s, solver "
-         << solver_name(plan.solver) << "\n";
+         << solver_name(plan.solver);
+    if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
+    text << "\n";
     for (const PlannedStage& stage : plan.stages)
         text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
     std::size_t used = 0, left = 0;
@@ -124,6 +126,19 @@ template <class T> std::string explanation(const Plan<T>& plan, const RunOptions
     return text.str();
 }
 
+// visit(in memory, in the document) for each array that the solver carries from step to step (State).
+template <class T, class StateType, class Saved, class Visit>
+void visit_carried(const Plan<T>& plan, StateType& state, Saved& saved, Visit&& visit) {
+    visit(state.theta, saved.theta);
+    visit(state.theta_dot, saved.theta_dot);
+    if (plan.solver == Solver::coupled) {
+        visit(state.theta_change, saved.theta_change);
+        visit(state.theta_dot_change, saved.theta_dot_change);
+    } else {
+        visit(state.scaled_rate, saved.scaled_rate);
+    }
+}
+
 template <class T> void restore(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state) {
     const SavedState saved = read_state(read_input(o.resume), input_name(o.resume));
     const auto refuse = [&](const std::string& field, const std::string& found, const std::string& expected) {
@@ -132,6 +147,7 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     };
     refuse("precision", saved.precision, o.run.precision);
     refuse("solver", saved.solver, o.run.solver);
+    refuse("scheme", saved.scheme, scheme_name(o.run));
     refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
     if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
     refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(plan.bodies) + " bodies");
@@ -139,11 +155,9 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
         throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
                                                    ", but this run's tree and scene have " +
                                                    hash_text(fingerprint(setting)));
-    for (std::size_t i = 0; i < plan.bodies; ++i) {
-        state.theta[i] = saved.theta[i].template cast<T>();
-        state.theta_dot[i] = saved.theta_dot[i].template cast<T>();
-        state.scaled_rate[i] = saved.scaled_rate[i].template cast<T>();
-    }
+    visit_carried(plan, state, saved, [](std::vector<Vector3<T>>& to, const std::vector<Vec3>& from) {
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i].template cast<T>();
+    });
     state.articulated_step = saved.articulated_step;
     state.step = saved.frame * o.run.substeps;
     move_ground(plan, state, double(state.step) * plan.dt);
@@ -151,21 +165,21 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     if (plan.torque) spring_torque(plan, state);
 }
 
-template <class T> void save(const Options& o, const Setting& setting, const State<T>& state, std::int64_t frame) {
+template <class T>
+void save(const Options& o, const Setting& setting, const Plan<T>& plan, const State<T>& state, std::int64_t frame) {
     SavedState saved;
     saved.frame = frame;
     saved.fps = o.run.fps;
     saved.substeps = o.run.substeps;
     saved.precision = o.run.precision;
     saved.solver = o.run.solver;
+    saved.scheme = scheme_name(o.run);
     saved.fingerprint = fingerprint(setting);
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
-    for (std::size_t i = 0; i < state.theta.size(); ++i) {
-        saved.theta.push_back(state.theta[i].template cast<double>());
-        saved.theta_dot.push_back(state.theta_dot[i].template cast<double>());
-        saved.scaled_rate.push_back(state.scaled_rate[i].template cast<double>());
-    }
+    visit_carried(plan, state, saved, [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
+        for (const Vector3<T>& v : from) to.push_back(v.template cast<double>());
+    });
     Output output(o.save_state);
     write_state(output, saved, form_of_name(o.save_state));
     output.finish();
@@ -231,7 +245,7 @@ std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>&
         throw;
     } catch (const Interrupted&) {
         if (sink) sink->finish();
-        if (!o.save_state.empty() && done >= 0) save(o, setting, state, done);
+        if (!o.save_state.empty() && done >= 0) save(o, setting, plan, state, done);
         throw;
     }
     if (sink) sink->finish();
@@ -252,7 +266,7 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
     interrupt_at_boundary();
     const std::unique_ptr<FrameSink> sink = open_sink(o, setting, format, fields);
     const std::int64_t done = run_frames(o, setting, plan, state, sink.get(), fields, first, last);
-    if (!o.save_state.empty()) save(o, setting, state, done);
+    if (!o.save_state.empty()) save(o, setting, plan, state, done);
     if (o.explain) {
         for (std::size_t k = 0; k < stage_count; ++k)
             std::cerr << "calls " << stage_name(Stage(k)) << " " << state.calls[k] << "\n";

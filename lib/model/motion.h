@@ -47,11 +47,14 @@ struct SavedState {
     std::int32_t substeps = 1;
     std::string precision;         // "float" or "double"
     std::string solver;            // "analytic" ...
+    std::string scheme;            // "P12" ..., of the coupled solver; empty with all others
     std::uint64_t fingerprint = 0; // of the tree and the scene it belongs to
     std::vector<Vec3> theta;       // [rad]; floats are exact in doubles
     std::vector<Vec3> theta_dot;   // [rad/s]
-    std::vector<Vec3> scaled_rate; // what the solver carries of the rates (State::scaled_rate): analytic [sqrt(J)]
-    double articulated_step = 0;   // [s] State::articulated_step
+    // What else a solver carries from step to step; each has its own, the others' stay empty.
+    std::vector<Vec3> theta_change, theta_dot_change; // coupled: [rad], [rad/s] of the last step
+    std::vector<Vec3> scaled_rate;                    // all others: State::scaled_rate; analytic [sqrt(J)]
+    double articulated_step = 0;                      // [s] State::articulated_step
     std::string source;
 };
 

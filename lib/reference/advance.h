@@ -1,5 +1,6 @@
 // advance.h: one step with the solver that the plan names.
 //
+// coupled               coupled_step.h: the full dynamics, one linear solve a step
 // analytic              step.h: the paper's, one joint at a time
 // articulated_explicit  articulated_step.h, Euler forward
 // articulated_implicit  articulated_step.h, linearly implicit

@@ -128,7 +128,7 @@ RingDown ring_down(const Problem& problem, const Variant& how, double dt, const 
     scene.gravity.setZero();
     scene.pose = Pose::rest;
     scene.joint_inertia = how.inertia;
-    Plan<double> plan = make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver);
+    Plan<double> plan = make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme);
     plan.tolerance = how.tolerance;
     for (const Vec3& K : plan.K)
         if (!(K.minCoeff() > 0)) return {};

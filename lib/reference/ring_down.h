@@ -6,7 +6,7 @@
 //   y(t) = phi^T M theta(t) / y(0),
 // over three periods, and e^(-d t) (a cos 2 pi f t + b sin 2 pi f t) is fitted to it by least squares: a, b linearly, f and d by
 // a search from 0.3 to 8 times the mode's frequency (above half the sampling rate a step cannot tell).
-// Reads a Variant's solver and step; cost three periods of it. f = d = NAN where nothing can ring: a joint without
+// Reads a Variant's solver, scheme and inertia; cost three periods of it. f = d = NAN where nothing can ring: a joint without
 // stiffness, a run that becomes non-finite, fewer than 8 steps in three periods.
 #pragma once
 #include "trajectory.h"

@@ -2,14 +2,14 @@
 // solver and precision. "Bounded" is the definition of formats/README.md; positions being finite proves nothing.
 //
 // Each cell starts at rest (stability_cases.h) and is judged by
-// energy    E = kinetic (of the oscillators for the analytic step, of the bodies for articulated ones) + elastic + potential. Never
+// energy    E = kinetic (of the oscillators for the analytic step, of the bodies for all others) + elastic + potential. Never
 //           above what it was at the start plus what the air could have put in, W = sum over steps of max(0, the air's moments at the
 //           start times the joints' turns, those at the end times the same), by more than 1 % of the largest kinetic + elastic energy so far. (A jump of the ground does work
 //           that is not booked: such cells are judged without.)
 // growth    RMS tip deflection of the last quarter at most 1.05 times that of the third, where the load is a steady wind, damping
 //           is on and a quarter holds a period of the first mode.
 // A joint past 1 rad has left the method's assumption of small angles a joint: `outside`, which is said, not excused.
-// Ringing is sign changes of theta_dot a joint axis and frame, below a millionth of the largest rate left out; guards are those of StepFlags but buckling, which is physics.
+// Ringing is sign changes of theta_dot a joint axis and frame, below a millionth of the largest rate left out; guards are those of StepFlags but buckling, which is physics, and joint limits, which the scene asks for.
 #pragma once
 #include "../stages/plan.h"
 #include "stability_cases.h"
@@ -45,7 +45,7 @@ struct StabilityReport {
 
 struct StabilityOptions {
     std::int64_t frames = 100; // steps a cell
-    bool with_implicit = true; // beside analytic in double and float, articulated_implicit
+    bool with_implicit = true; // beside coupled and analytic in double and float, articulated_implicit
     std::string only;          // cases whose group or name contains this; empty: all
 };
 

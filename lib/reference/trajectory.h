@@ -21,7 +21,7 @@ struct Problem {
 struct Variant {
     Solver solver = Solver::analytic;
     JointInertia inertia = JointInertia::branch; // analytic alone
-    bool single = false;                         // float; analytic alone
+    bool single = false;                         // float; coupled and analytic alone
     double steps_per_frame = 1;                  // 2^k; below 1 a step spans 1 / steps_per_frame frames
     double tolerance = 1e-8;                     // articulated_reference alone
     Scheme scheme = Scheme::p12;                 // coupled alone

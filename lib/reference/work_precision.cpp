@@ -11,6 +11,10 @@ constexpr double quick = 0.1;         // [s] below it a run is repeated, the fas
 constexpr double ringing_up_to = 8;   // steps a frame
 constexpr double reference_cost = 60; // of its passes in a frame, for the progress alone
 
+bool same_series(const Variant& a, const Variant& b) {
+    return a.solver == b.solver && a.inertia == b.inertia && a.scheme == b.scheme;
+}
+
 struct Difference {
     double rms = NAN, worst = NAN; // [m]
 };
@@ -47,17 +51,25 @@ double angle_difference(const Trajectory& run, const Trajectory& truth) {
     return count > 0 ? std::sqrt(squares / double(count)) : NAN;
 }
 
-// Limit of small steps of a first-order solver, from its three finest runs; none where they do not converge like one.
+// Limit of small steps by a solver's three finest runs; none where they do not converge (work_precision.h).
 std::optional<Trajectory> limit_of(const std::vector<Trajectory>& runs) {
     if (runs.size() < 3) return std::nullopt;
     const Trajectory &fine = runs.back(), &coarse = runs[runs.size() - 2], &coarser = runs[runs.size() - 3];
     if (!coarser.finite || !coarse.finite || !fine.finite || coarse.stride != 1) return std::nullopt;
-    if (!(difference(fine, coarse).rms < 0.75 * difference(coarse, coarser).rms)) return std::nullopt;
+    const double before = difference(coarse, coarser).rms, last = difference(fine, coarse).rms;
+    if (!(last < 0.75 * before)) return std::nullopt;
+    const double weight = 1 / (std::clamp(before / last, 2.0, 8.0) - 1);
     Trajectory limit = fine;
     for (std::size_t f = 0; f < limit.tip.size(); ++f)
-        for (std::size_t k = 0; k < limit.tip[f].size(); ++k) limit.tip[f][k] = 2 * fine.tip[f][k] - coarse.tip[f][k];
+        for (std::size_t k = 0; k < limit.tip[f].size(); ++k)
+            limit.tip[f][k] += weight * (fine.tip[f][k] - coarse.tip[f][k]);
     return limit;
 }
+
+// What the rows of a series say of its limit.
+struct Limit {
+    double left = 0, model = 0; // [m] from the finest run to it, from it to the reference
+};
 
 struct Bench {
     const Problem& problem;
@@ -68,6 +80,8 @@ struct Bench {
     double height = 0, rms = 0, peak = 0; // [m]
     RingDown ring;
     ErrorReport report;
+    std::vector<Variant> rows;                     // what report.runs are of
+    std::vector<std::pair<Variant, Limit>> limits; // of each series that has one
 
     void start(double frame_cost) { unit = frame_cost; }
     std::function<void()> tick() {
@@ -85,6 +99,8 @@ struct Bench {
     ErrorRun row(const Variant&, const Trajectory&, const Trajectory* same_in_double,
                  const std::optional<Trajectory>& limit);
     void series(const std::vector<Variant>& in_double, const Variant* in_float);
+    void add(const Variant&, const ErrorRun&);
+    void find_models();
 };
 
 void Bench::measure_deflection() {
@@ -137,7 +153,8 @@ ErrorRun Bench::row(const Variant& v, const Trajectory& run, const Trajectory* s
                     const std::optional<Trajectory>& limit) {
     ErrorRun r;
     r.solver = solver_name(v.solver);
-    r.scheme = v.solver != Solver::analytic        ? "euler"
+    r.scheme = v.solver == Solver::coupled         ? scheme_of(v.scheme).name
+               : v.solver != Solver::analytic      ? "euler"
                : v.inertia == JointInertia::branch ? "inertia-branch"
                                                    : "inertia-paper";
     r.refresh = "always";
@@ -157,10 +174,7 @@ ErrorRun Bench::row(const Variant& v, const Trajectory& run, const Trajectory* s
     r.error_max_peak = error.worst / peak;
     r.error_rms_height = error.rms / height;
     r.error_angle = angle_difference(run, truth);
-    if (limit) {
-        r.error_step = difference(same_in_double ? *same_in_double : run, *limit).rms / rms;
-        r.error_model = difference(*limit, truth).rms / rms;
-    }
+    if (limit) r.error_step = difference(same_in_double ? *same_in_double : run, *limit).rms / rms;
     if (same_in_double) r.error_arithmetic = difference(run, *same_in_double).rms / rms;
     if (rings(v)) {
         start(v.steps_per_frame);
@@ -180,34 +194,56 @@ void Bench::series(const std::vector<Variant>& variants, const Variant* in_float
     if (n >= 3 && variants[n - 1].steps_per_frame == 2 * variants[n - 2].steps_per_frame &&
         variants[n - 2].steps_per_frame == 2 * variants[n - 3].steps_per_frame)
         limit = limit_of(runs);
+    if (limit)
+        limits.push_back({variants.front(), {difference(runs.back(), *limit).rms, difference(*limit, truth).rms}});
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        const bool shown = std::any_of(options.variants.begin(), options.variants.end(), [&](const Variant& v) {
-            return v.solver == variants[k].solver && v.inertia == variants[k].inertia && !v.single;
-        });
-        if (shown) report.runs.push_back(row(variants[k], runs[k], nullptr, limit));
+        const bool shown = std::any_of(options.variants.begin(), options.variants.end(),
+                                       [&](const Variant& v) { return same_series(v, variants[k]) && !v.single; });
+        if (shown) add(variants[k], row(variants[k], runs[k], nullptr, limit));
     }
     if (!in_float) return;
     for (std::size_t k = 0; k < runs.size(); ++k) {
         Variant v = variants[k];
         v.single = true;
-        report.runs.push_back(row(v, timed(v), &runs[k], limit));
+        add(v, row(v, timed(v), &runs[k], limit));
+    }
+}
+
+void Bench::add(const Variant& v, const ErrorRun& run) {
+    rows.push_back(v);
+    report.runs.push_back(run);
+}
+
+// Of each row whose solver has a limit: by the scheme that needed the least extrapolation.
+void Bench::find_models() {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        Limit best{INFINITY, NAN};
+        for (const auto& [v, limit] : limits)
+            if (v.solver == rows[k].solver && v.inertia == rows[k].inertia && limit.left < best.left) best = limit;
+        if (report.runs[k].finite) report.runs[k].error_model = best.model / rms;
     }
 }
 
 } // namespace
 
 std::vector<Variant> all_variants() {
-    return {{Solver::analytic, JointInertia::branch, false},
-            {Solver::analytic, JointInertia::branch, true},
-            {Solver::analytic, JointInertia::paper, false},
-            {Solver::analytic, JointInertia::paper, true},
-            {Solver::articulated_implicit, JointInertia::branch, false},
-            {Solver::articulated_explicit, JointInertia::branch, false}};
+    std::vector<Variant> all;
+    const auto add = [&all](Solver solver, Scheme scheme, JointInertia inertia, bool single) {
+        all.push_back({.solver = solver, .inertia = inertia, .single = single, .scheme = scheme});
+    };
+    for (const bool single : {false, true}) add(Solver::coupled, Scheme::p12, JointInertia::branch, single);
+    for (const Scheme scheme : {Scheme::p34, Scheme::p50, Scheme::lie, Scheme::midpoint})
+        add(Solver::coupled, scheme, JointInertia::branch, false);
+    for (const JointInertia inertia : {JointInertia::branch, JointInertia::paper})
+        for (const bool single : {false, true}) add(Solver::analytic, Scheme::p12, inertia, single);
+    for (const Solver solver : {Solver::articulated_implicit, Solver::articulated_explicit})
+        add(solver, Scheme::p12, JointInertia::branch, false);
+    return all;
 }
 
 ErrorReport measure_error(const Problem& problem, const ErrorOptions& options,
                           const std::function<void(std::int64_t, std::int64_t)>& progress) {
-    Bench bench{problem, options, progress, 0, 1, 1, {}, 0, 0, 0, {}, {}};
+    Bench bench{problem, options, progress, 0, 1, 1, {}, 0, 0, 0, {}, {}, {}, {}};
     double a_series = 0;
     for (const double steps : options.steps_per_frame) a_series += std::max(1.0, steps);
     bench.total = double(problem.frames - 1) * (2 * reference_cost + a_series * double(options.variants.size()));
@@ -226,7 +262,7 @@ ErrorReport measure_error(const Problem& problem, const ErrorOptions& options,
         const Variant* in_float = nullptr;
         for (std::size_t j = k; j < options.variants.size(); ++j) {
             const Variant& v = options.variants[j];
-            if (v.solver != options.variants[k].solver || v.inertia != options.variants[k].inertia) continue;
+            if (!same_series(v, options.variants[k])) continue;
             taken[j] = true;
             if (v.single) in_float = &v;
         }
@@ -238,6 +274,7 @@ ErrorReport measure_error(const Problem& problem, const ErrorOptions& options,
         }
         bench.series(in_double, in_float);
     }
+    bench.find_models();
     return report;
 }
 

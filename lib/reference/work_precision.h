@@ -3,8 +3,15 @@
 // dynamics; relative ones are shares of the truth's RMS tip deflection |x(t) - x(0)|, unless the name says of what. A
 // figure that was not measured, or has no value because the run became non-finite, is NAN.
 //
-// The split. step: from a run to the solver's own limit of small steps, by Richardson's extrapolation of the two finest runs in
-// double (first order; the steps must halve, and where the three finest do not converge like that, there is no limit); model: from that limit to the reference; arithmetic: from a run in float to the same in double.
+// The split. step: from a run to the solver's own limit of small steps; model: from that limit to the reference; arithmetic:
+// from a run in float to the same in double.
+// The limit is Richardson's, of the three finest runs in double, each of half the step of the one before: with d1, d2 the RMS
+// differences of the first two and of the last two, the observed order is q = log2(d1 / d2), and limit = finest +
+// (finest - the one before) / (2^q - 1). q is taken between 1 and 3: the solvers' orders lie there, and what differences near
+// rounding say is not believed. Where d2 > 0.75 d1 the runs do not converge and there is no limit.
+// What extrapolation leaves is part of the model error: where the order still changes with the step (coupled with stiff joints
+// in wind) up to a quarter of the finest run's error. Schemes of one solver share their limit, though: model is that of
+// the scheme, of those measured, whose finest run is nearest to its limit.
 // The reference is articulated_reference at a tolerance and at ten times that; what the second is off by from the first is
 // reference_error. Its true error is smaller where it converges; where the motion is chaotic (leaves in strong wind), it is
 // what can be said.
@@ -19,11 +26,13 @@
 namespace bough {
 
 struct ErrorRun {
-    std::string solver, scheme, refresh, precision; // a solver's default scheme and refresh come first in the report
-    double steps_per_frame = 1;                     // 1/4 ... 64; below 1 it is frames of that many times the length
-    bool finite = false;                            // the whole run; the errors are NAN where it is not
-    double seconds_per_simulated_second = NAN;      // [s/s] run time of the steps alone
-    double error_rms = NAN, error_max = NAN; // [1] of the RMS tip deflection: over tips and frames, and the worst
+    std::string solver, precision;
+    std::string scheme,
+        refresh; // coupled: scheme.h's names; the others: below. A solver's default comes first in the report
+    double steps_per_frame = 1;                // 1/4 ... 64; below 1 it is frames of that many times the length
+    bool finite = false;                       // the whole run; the errors are NAN where it is not
+    double seconds_per_simulated_second = NAN; // [s/s] run time of the steps alone
+    double error_rms = NAN, error_max = NAN;   // [1] of the RMS tip deflection: over tips and frames, and the worst
     double error_rms_peak = NAN, error_max_peak = NAN; // [1] the same of the peak tip deflection
     double error_rms_height = NAN;                     // [1] of the tree's height
     double error_angle = NAN;                          // [rad] RMS over joints and frames
@@ -50,11 +59,12 @@ struct ErrorReport {
 
 struct ErrorOptions {
     std::vector<double> steps_per_frame{0.25, 0.5, 1, 2, 4, 8, 16, 32, 64}; // rising powers of two
-    std::vector<Variant> variants; // solver, inertia, precision of the series, in the report's order
+    std::vector<Variant> variants; // solver, scheme, inertia, precision of the series, in the report's order
     double tolerance = 1e-6; // [rad] of the reference: an error of its tips of 1e-6 to 1e-5 of their RMS deflection
 };
 
-// All solvers that exist, a solver's default first, each in double and (where it has one) float.
+// The series that are measured unless others are asked for: every solver that exists, each one's default first;
+// coupled's default and all of analytic in float too. Of coupled the schemes whose trade differs: P.25 lies between P12 and P.5.
 std::vector<Variant> all_variants();
 
 // progress(done, total) in thousandths of the work, once a frame; may throw to end. Cost: sum of the runs; the reference

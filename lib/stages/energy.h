@@ -1,7 +1,7 @@
 // energy.h: the energies that stability is audited with, and the audit itself is a test's or a tool's.
 //
 // kinetic    of the joints' oscillators, sum of theta_dot^T S theta_dot / 2 (joint.h): what the analytic step conserves in a
-//            joint; with JointInertia::branch it is not the bodies' own. Of the articulated solvers: the bodies'.
+//            joint; with JointInertia::branch it is not the bodies' own. Of all other solvers: the bodies'.
 // bodies     sum of m v^2 / 2 + omega^T I omega / 2 of the bodies with the velocities of (8), (11).
 // elastic    sum of theta^T K theta / 2.
 // potential  of gravity, sum of -m g.x, relative to x = 0.

@@ -71,7 +71,7 @@ std::string text(double value) { // of four digits, whatever the locale
 
 template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
     if (is_articulated(plan.solver))
-        throw std::domain_error("joint_limit: only the analytic solver keeps limits, not " +
+        throw std::domain_error("joint_limit: only the coupled and the analytic solver keep limits, not " +
                                 std::string(solver_name(plan.solver)));
     constexpr double degree = 3.14159265358979323846 / 180;
     const JointLimit& limit = *plan.scene.joint_limit;

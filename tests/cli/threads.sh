@@ -4,18 +4,20 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --bodies 6000 --seed 5 --leaves --fruit | treeconvert - -o tree.json
 hash() { treesim tree.json --wind gusty --no-output --hash "$@" 2>&1 | grep '^hash '; }
-for precision in double float; do
-    one=$(hash --precision $precision --threads 1 --frames 12)
+for run in "analytic --precision double" "analytic --precision float" "coupled --precision double" \
+    "coupled --precision float" "coupled --scheme P34" "coupled --scheme midpoint"; do
+    read -ra by <<<"--solver $run"
+    one=$(hash "${by[@]}" --threads 1 --frames 12)
     for threads in 2 3 8 15; do
-        [[ $(hash --precision $precision --threads $threads --frames 12) == "$one" ]] ||
-            fail "$threads threads give another hash in $precision"
+        [[ $(hash "${by[@]}" --threads $threads --frames 12) == "$one" ]] ||
+            fail "$threads threads give another hash with $run"
     done
-    hash --precision $precision --frames 5 --save-state half.json >/dev/null
-    [[ $(hash --precision $precision --frames 7 --threads 3 --resume half.json) == "$one" ]] ||
-        fail "a run cut in two gives another hash in $precision"
-    hash --precision $precision --frames 5 --save-state half.safetensors >/dev/null
-    [[ $(hash --precision $precision --frames 7 --resume half.safetensors) == "$one" ]] ||
-        fail "a run cut in two gives another hash in $precision, its state in binary"
+    hash "${by[@]}" --frames 5 --save-state half.json >/dev/null
+    [[ $(hash "${by[@]}" --frames 7 --threads 3 --resume half.json) == "$one" ]] ||
+        fail "a run cut in two gives another hash with $run"
+    hash "${by[@]}" --frames 5 --save-state half.safetensors >/dev/null
+    [[ $(hash "${by[@]}" --frames 7 --resume half.safetensors) == "$one" ]] ||
+        fail "a run cut in two gives another hash with $run, its state in binary"
 done
 
 # Frames of the two halves are the frames of the whole.

@@ -23,8 +23,13 @@ error_max_peak error_rms_height error_step error_model error_arithmetic""".split
 assert all(k in run for run in runs for k in keys)
 assert 0 <= r["reference_error"] < 1e-3
 series = [(x["solver"], x["scheme"], x["precision"]) for x in runs]
-assert series[0] == ("analytic", "inertia-branch", "double")
+assert series[0] == ("coupled", "P12", "double")
 assert ("articulated-implicit", "euler", "double") in series
+for solver, scheme in ("coupled", "P12"), ("analytic", "inertia-branch"), ("analytic", "inertia-paper"):
+    assert (solver, scheme, "double") in series and (solver, scheme, "float") in series
+assert {s for solver, s, _ in series if solver == "coupled"} == {"P12", "P34", "P.5", "LIE", "midpoint"}
+one = {(x["scheme"], x["precision"]): x["error_rms"] for x in runs if x["solver"] == "coupled" and x["steps_per_frame"] == 1}
+assert 3 * one["P12", "double"] < one["midpoint", "double"] < one["LIE", "double"], one
 implicit = [x["error_rms"] for x in runs if x["solver"] == "articulated-implicit"]
 assert implicit[0] > 1.3 * implicit[1] > 1.69 * implicit[2], implicit
 assert all(x["error_rms"] is None for x in runs if x["solver"] == "articulated-explicit")
@@ -32,6 +37,13 @@ assert all((x["error_arithmetic"] is not None) == (x["precision"] == "float") fo
 expect 0 treeprofile error small.json --seconds 0.5 --steps 1 --solver analytic --precision float
 grep -q "float" out && ! grep -q "double" out || fail "--precision float shows other runs"
 grep -q "gravity is switched on" err || fail "what moves a tree without wind is not said"
+series() { treeprofile error small.json --wind gusty --seconds 0.3 --steps 1 "$@" | grep -o '^[a-z-]*, .*'; }
+[[ $(series --scheme p.25) == $'coupled, P.25, double\ncoupled, P.25, float' ]] || fail "--scheme gave $(series --scheme P.25)"
+[[ $(series --scheme P12 --precision double) == "coupled, P12, double" ]] || fail "--precision is passed over with --scheme"
+[[ $(series --joint-inertia paper --precision double) == "analytic, inertia-paper, double" ]] ||
+    fail "--joint-inertia gave $(series --joint-inertia paper --precision double)"
+[[ $(series --solver coupled | grep -c .) -eq 6 ]] || fail "--solver coupled gave $(series --solver coupled)"
+refused 1 "--scheme" treeprofile error small.json --wind gusty --solver analytic --scheme P12
 
 expect 0 treeprofile stability small.json --frames 12 --only shape --report s.json
 python3 -c '
@@ -40,7 +52,8 @@ r = json.load(open("s.json"))
 keys = "case solver precision finite bounded energy_drift ringing max_angle guards promised".split()
 assert r["cells"] and all(k in c for c in r["cells"] for k in keys)
 assert all(c["finite"] and c["bounded"] for c in r["cells"] if c["promised"])
-assert {c["precision"] for c in r["cells"] if c["promised"]} == {"float", "double"}' || fail "the grid does not add up"
+assert {(c["solver"], c["precision"]) for c in r["cells"] if c["promised"]} == {
+    (s, p) for s in ("coupled", "analytic") for p in ("float", "double")}' || fail "the grid does not add up"
 expect 0 treeprofile stability small.json --frames 12 --only "wind and stiffness"
 refused 1 "--only" treeprofile stability small.json --only nothing-like-it
 refused 1 "--frames" treeprofile stability small.json --frames 2

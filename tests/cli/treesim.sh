@@ -12,7 +12,7 @@ refused 1 "--fps" treesim tree.json --fps 0
 refused 1 "--fps" treesim tree.json --fps inf
 refused 1 "--wind" treesim tree.json --wind typhoon
 refused 2 "nowhere.json" treesim tree.json --wind ./nowhere.json
-refused 1 "--solver" treesim tree.json --solver coupled
+refused 1 "--solver" treesim tree.json --solver springs
 refused 1 "--joint-limit" treesim tree.json --joint-limit 0
 refused 1 "--joint-limit" treesim tree.json --joint-limit 181
 refused 1 "--joint-limit" treesim tree.json --joint-limit 10 --solver articulated-implicit
@@ -63,38 +63,82 @@ mkdir frames
 [[ $(find frames -name 'm_*.obj' | wc -l) -eq 20 && -s frames/m.mtl ]] || fail "20 frames gave $(ls frames)"
 [[ $(grep -c '^v ' frames/m_000.obj) -eq $(grep -c '^v ' frames/m_019.obj) ]] || fail "the topology changes"
 ! cmp -s frames/m_000.obj frames/m_019.obj || fail "nothing moves in a gusty wind"
-for option in "--wind storm" "--seed 5" "--gravity 0,-3,0" "--precision float" "--pose rest" "--joint-inertia paper" \
-    "--stiffness-scale 2" "--damping-scale 3" "--substeps 2" "--fps 60"; do
+for option in "--wind storm" "--seed 5" "--gravity 0,-3,0" "--precision float" "--pose rest" "--stiffness-scale 2" \
+    "--damping-scale 3" "--substeps 2" "--fps 60"; do
     # shellcheck disable=SC2086
     [[ $(hash tree.json --wind gusty --frames 20 $option) != "$one" ]] || fail "$option changes nothing"
 done
 
-# Solvers: each another motion, one motion however cut, in double alone; what they do not take is refused.
+# Solvers: each another motion, one motion however cut; what they do not take is refused. The help marks one as default.
 treegen --bodies 60 --seed 3 | treeconvert - -o small.json
+default=$(treesim --help | grep -o '[a-z-]* (default): ' | head -n 1)
+default=${default% (default): }
+[[ $(hash small.json --wind gusty --frames 8) == $(hash small.json --wind gusty --frames 8 --solver "$default") ]] ||
+    fail "$default is not the default"
+one=$(hash small.json --wind gusty --frames 8 --solver analytic)
+[[ $(hash small.json --wind gusty --frames 8 --solver analytic --joint-inertia paper) != "$one" ]] ||
+    fail "--joint-inertia paper changes nothing"
+treesim small.json --wind gusty --frames 4 --solver analytic --no-output --save-state analytic.state
+
+# The coupled solver: a motion for each scheme and precision, the same for any case of its name, cut in two or not.
+seen=" $one "
+for scheme in P12 P.25 P.5 P34 LIE midpoint; do
+    for precision in double float; do
+        plain=(small.json --wind gusty --solver coupled --precision $precision)
+        run=("${plain[@]}" --scheme $scheme)
+        one=$(hash "${run[@]}" --frames 8)
+        [[ -n $one && $seen != *" $one "* ]] || fail "--scheme $scheme in $precision is the motion of another"
+        seen+="$one "
+        [[ $(hash "${plain[@]}" --frames 8 --scheme "${scheme,,}" --threads 1) == "$one" ]] || fail "${scheme,,} is not $scheme"
+        for form in json safetensors; do
+            treesim "${run[@]}" --frames 4 -q --no-output --save-state coupled.$form
+            [[ $(hash "${run[@]}" --frames 4 --resume coupled.$form) == "$one" ]] ||
+                fail "$scheme in $precision does not go on as it was from a saved state in $form"
+        done
+    done
+done
+[[ $(hash small.json --wind gusty --frames 8 --solver coupled) == $(hash small.json --wind gusty --frames 8 --solver coupled --scheme P12) ]] ||
+    fail "P12 is not the default scheme"
+! grep -q scaled_rate coupled.json && grep -q '"theta_dot_change"' coupled.json || fail "a coupled state holds other arrays"
+! grep -q '_change' analytic.state && grep -q '"scaled_rate"' analytic.state || fail "an analytic state holds other arrays"
+refused 2 "/scheme: is midpoint, but this run has P12" treesim small.json --wind gusty --frames 4 --solver coupled --precision float --resume coupled.json
+refused 2 "/solver: is coupled, but this run has analytic" treesim small.json --wind gusty --frames 4 --solver analytic --precision float --resume coupled.json
+refused 2 "/solver: is analytic, but this run has coupled" treesim small.json --wind gusty --frames 4 --solver coupled --resume analytic.state
+refused 2 "/fps" treesim small.json --wind gusty --frames 4 --solver coupled --scheme midpoint --precision float --fps 60 --resume coupled.json
+refused 1 "--scheme" treesim small.json --solver coupled --scheme P13
+refused 1 "--scheme: only with --solver coupled" treesim small.json --solver analytic --scheme P12
+refused 1 "--joint-inertia" treesim small.json --solver coupled --joint-inertia paper
+refused 1 "--tolerance" treesim small.json --solver coupled --tolerance 1e-4
+expect 0 treesim small.json --solver coupled --joint-limit 20 --frames 3
+treesim small.json --frames 3 --solver coupled --scheme LIE --no-output --explain 2>plan
+grep -q '^plan: .* solver coupled, scheme LIE$' plan && grep -q '^array resolvent left out, .*: a scheme of a real pole$' plan &&
+    grep -q '^calls resolvent 2$' plan && grep -q '^calls spring 0$' plan || fail "--explain does not tell the coupled step"
+
 for solver in articulated-implicit articulated-reference; do
     one=$(hash small.json --wind gusty --frames 8 --solver $solver)
-    [[ -n $one && $one != $(hash small.json --wind gusty --frames 8) ]] || fail "--solver $solver changes nothing"
+    [[ -n $one && $seen != *" $one "* ]] || fail "--solver $solver changes nothing"
     [[ $(hash small.json --wind gusty --frames 8 --solver $solver --threads 1) == "$one" ]] || fail "threads change $solver"
     for form in json safetensors; do
         treesim small.json --wind gusty --frames 4 --solver $solver --no-output --save-state solver.$form
         [[ $(hash small.json --wind gusty --frames 4 --solver $solver --resume solver.$form) == "$one" ]] ||
             fail "$solver does not go on as it was from a saved state in $form"
     done
-    refused 2 "/solver" treesim small.json --wind gusty --frames 4 --resume solver.json
+    refused 2 "/solver" treesim small.json --wind gusty --frames 4 --solver analytic --resume solver.json
     refused 1 "--precision float" treesim small.json --solver $solver --precision float
     refused 1 "--joint-inertia" treesim small.json --solver $solver --joint-inertia paper
-    treesim small.json --frames 3 --solver $solver --no-output --explain 2>&1 | grep -q "^stage articulated on: $solver" ||
+    refused 1 "--joint-limit" treesim small.json --solver $solver --joint-limit 10
+    treesim small.json --frames 3 --solver $solver --no-output --explain 2>&1 | grep -q "^stage articulated on: solver $solver" ||
         fail "--explain does not name $solver"
 done
 [[ $(hash small.json --wind gusty --frames 8 --solver articulated-reference --tolerance 1e-4) != "$one" ]] ||
     fail "--tolerance changes nothing"
-refused 1 "--tolerance" treesim small.json --tolerance 1e-4
+refused 1 "--tolerance" treesim small.json --solver analytic --tolerance 1e-4
 refused 1 "--tolerance" treesim small.json --solver articulated-implicit --tolerance 1e-4
 refused 1 "--tolerance" treesim small.json --solver articulated-reference --tolerance 0
 refused 3 "stage articulated (theta), body" treesim small.json --wind gusty --frames 300 --no-output --solver articulated-explicit
 grep -q "substeps" err || fail "what to do about explicit steps is not said: $(cat err)"
 # Joint limits: kept within, noted, part of what a saved state belongs to; none that is reached, none that is felt.
-limited() { treesim tree.json --pose rest --wind storm --frames 20 "$@"; }
+limited() { treesim tree.json --solver analytic --pose rest --wind storm --frames 20 "$@"; }
 limited --joint-limit 3 --fields angles 2>err | python3 -c '
 import json, math, sys
 frames = [json.loads(line) for line in list(sys.stdin)[1:]]
@@ -102,7 +146,7 @@ most = max(abs(a) for f in frames for a in f["theta"])
 assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "--joint-limit is not kept"
 grep -q 'times a joint was stopped at its limit' err || fail "stops at a limit are not noted"
 limited --joint-limit 3 --no-output -q --save-state limited.state
-refused 2 "limited.state" treesim tree.json --pose rest --wind storm --frames 20 --resume limited.state
+refused 2 "limited.state" treesim tree.json --solver analytic --pose rest --wind storm --frames 20 --resume limited.state
 [[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20) ]] || fail "a limit far off is felt"
 
 # One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
@@ -178,13 +222,19 @@ near = lambda a, b: max(abs(x - y) for x, y in zip(a, b)) < 1e-12
 assert near(place[0], [2.1, 0.2, 1.3]), place[0]
 assert near(place[15], [2.5, 0, 1]), place[15]
 assert near(place[30], [1, 0, 3]) and near(place[36], [1, 0, 3]), place[30]' || fail "the root does not follow its keys"
-one=$(hash place/moved.json --frames 40)
-[[ $(hash place/moved.json --frames 40 --threads 1) == "$one" ]] || fail "threads change the hash of a moved root"
-treesim place/moved.json --frames 18 --no-output --save-state moved.state
-[[ $(hash place/moved.json --frames 22 --resume moved.state) == "$one" ]] || fail "a moved root does not go on as it was"
+for solver in analytic coupled; do
+    run=(place/moved.json --solver $solver --wind breeze)
+    one=$(hash "${run[@]}" --frames 40)
+    [[ $(hash "${run[@]}" --frames 40 --threads 1) == "$one" ]] || fail "threads change the hash of a moved root, $solver"
+    treesim "${run[@]}" --frames 18 --no-output --save-state moved.state
+    [[ $(hash "${run[@]}" --frames 22 --resume moved.state) == "$one" ]] ||
+        fail "a moved root does not go on as it was, $solver"
+done
 expect 0 treesim place/moved.json --frames 20 -q --wind breeze -o moved.glb
-treesim place/moved.json --frames 2 --no-output --explain 2>&1 | grep -q '^stage root_motion on: /root_motion$' ||
-    fail "--explain says nothing of root motion"
+treesim place/moved.json --solver analytic --frames 2 --no-output --explain 2>&1 |
+    grep -q '^stage root_motion on: /root_motion$' || fail "--explain says nothing of root motion"
+treesim place/moved.json --solver coupled --frames 2 --no-output --explain 2>&1 |
+    grep -q '^stage midpoint on: every scene; roots moved by /root_motion$' || fail "--explain says nothing of root motion"
 broken() { # sed script, pointer
     sed "$1" place/moved.json >place/broken.json
     ! cmp -s place/broken.json place/moved.json || fail "$1 changes nothing"
