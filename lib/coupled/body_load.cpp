@@ -11,7 +11,7 @@ template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, dou
     evaluate_wind(wind, time + plan.dt, state.wind_change);
     for (std::size_t k = 0; k < state.wind.velocity.size(); ++k)
         state.wind_change.velocity[k] -= state.wind.velocity[k];
-    if (scheme_of(plan.scheme).extrapolates) evaluate_wind(wind, time + plan.dt / 2, state.wind);
+    evaluate_wind(wind, time + plan.dt / 2, state.wind);
 }
 
 namespace {
@@ -70,7 +70,7 @@ template <class T> void load(const Plan<T>& plan, State<T>& state, std::size_t i
 }
 
 template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double time) {
-    const double at = time + (scheme_of(plan.scheme).extrapolates ? plan.dt / 2 : 0);
+    const double at = time + plan.dt / 2;
     for (const PlannedPull<T>& pull : plan.pulls) {
         CoupledBody<T>& b = state.coupled[pull.body];
         const Pull& source = plan.scene.pulls[pull.source];

@@ -135,8 +135,7 @@ template <class T, class S> struct Solve {
     void accelerate_root(std::size_t i) {
         Vector<S> alpha = Vector<S>::Zero(), a = Vector<S>::Zero();
         if (const GroundStep<T>* g = ground_step_of(plan, state, i)) {
-            const Vector3<T>& r = state.coupled[i].r;
-            a = (g->a + g->omega.cross(g->omega.cross(r))).template cast<S>() + slope * g->slope_a.template cast<S>();
+            a = g->a.template cast<S>() + slope * g->slope_a.template cast<S>();
             alpha = g->alpha.template cast<S>() + slope * g->slope_alpha.template cast<S>();
         }
         accelerate(i, alpha, a);
