@@ -84,6 +84,21 @@ TEST_CASE("So it is in a steady wind on leaves, from rest, on a driven ground to
     CHECK(difference(tree_off_origin(), steady_wind(), {Vec3(3, -1, 2), Vec3(4, 5, -6), Vec3::Zero()}, 0) < 1e-11);
 }
 
+// Linear in the wind about its middle, ours is off the wind's force at the end by the square of the wind's change. Without
+// leaves: of a plate's force the damping knows the part along its normal alone, a first-order share of the change.
+TEST_CASE("In a wind that changes both take that at the end of the step, but for second order in h") {
+    Scene scene = steady_wind();
+    scene.wind->velocity = Vec3(6, 0, 0);
+    scene.wind->gust_factor = 2;
+    scene.wind->gust_period = 0.7; // falling at half a second
+    const Tree tree = paper_trees::branched(2e8, 0.01);
+    const double coarse = difference(tree, scene, {}, 0, 4e-3), fine = difference(tree, scene, {}, 0, 2e-3);
+    CAPTURE(coarse, fine);
+    CHECK(coarse < 1e-2);
+    CHECK(coarse > 1e-8);
+    CHECK(std::log2(coarse / fine) == Approx(2).margin(0.2));
+}
+
 // The one difference of principle: the articulated step lets the air damp the velocities at the step's end with all that
 // brings them there, turning bodies' own accelerations a_0 too (h D a_0); L here has the velocities' change with the joints'
 // rates alone. It is of second order in h in the rates, above the first order of the method.
