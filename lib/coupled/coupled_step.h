@@ -16,7 +16,7 @@
 //   (M + (K beta + D)/s + (K + H)/s^2) gamma = M f~_eta - (K + H) eta_0/s
 // : one solve with the tree's inertia at the complex frequency s. resolvent.h makes it an articulated-body pass.
 // Known functions of time (wind, pulls, ground) change in the step by s(t): exactly linear ones add h phi2 to h phi1 at its middle value,
-// phi2's residue is c/p: the right side has f(t*) + (1/p - 1/2)(f(t + h) - f(t)).
+// phi2's residue is c/p: the right side has f(t*) + (1/p - 1/2)(f(t + h) - f(t)). For LIE, p = 1, it is the force at the end.
 //
 // Order. y* = y0 + (last change)/2 is y(t + h/2) to second order: order 2 for any L and any of the schemes but LIE, which takes y* = y0.
 // Where a joint's motion was broken off (start, joint limit, half turn) the last change is h eta, 0.
