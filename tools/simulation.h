@@ -10,7 +10,7 @@
 namespace bough {
 
 // What runs without --solver. Help, messages and tests follow it.
-constexpr Solver default_solver = Solver::analytic;
+constexpr Solver default_solver = Solver::coupled;
 
 struct RunOptions {
     std::string input;

@@ -212,7 +212,7 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
                         " times a joint turned past half a turn: the small angles that the method assumes are left");
     if (flags.energy_guard > 0)
         notes.push_back(std::to_string(flags.energy_guard) +
-                        " times a joint turned by more than 0.3 rad in a step and was kept from gaining energy");
+                        " times a joint was kept from gaining energy in a turn of more than 0.3 rad in a step");
     if (flags.limited > 0)
         notes.push_back(std::to_string(flags.limited) + " times a joint was stopped at its limit, as asked");
     if (flags.fast_turns > 0)
