@@ -4,8 +4,8 @@
 // error of the whole motion so far that is seen, not that of one step.
 //
 // Reading. Where the error falls with h^q, difference = (2^q - 1) error. q is 1 to 3 here and changes with tree, load
-// and step (stiff joints in a changing load 1, the springs of a resolved mode 3), so the difference itself is taken, as at
-// order 1: a bound more than a middle. A third run at 4 h would not tell q: where that run no longer resolves the
+// and step (stiff joints in a changing load 1, the springs of a resolved mode 3), so the difference itself is taken, as
+// at order 1: a bound more than a middle. A third run at 4 h would not tell q: where that run no longer resolves the
 // motion, the differences say 3 and more of runs whose error falls with h.
 // Measured against articulated_reference, 2 to 3 s at 1/30 to 1/240 s: a chain of 20 and a branched tree of 21 rods
 // with first modes of 0.3 to 11 Hz under gravity switched on, gusts, storm and a shaken root; an apple of 1000 bodies
