@@ -1,4 +1,5 @@
 // treesim: a timed simulation of a tree or a scene, frame after frame.
+#include "error_line.h"
 #include "formats/motion.h"
 #include "formats/obj.h"
 #include "frame_sink.h"
@@ -23,7 +24,7 @@ struct Options {
     std::string fields, save_state, resume;
     GltfChoice gltf;
     std::optional<int> sides;
-    bool explain = false, hash = false, no_output = false;
+    bool explain = false, hash = false, report_error = false, no_output = false;
 };
 
 const ToolInfo info = {
@@ -50,6 +51,9 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
     app.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
     app.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
+    app.add_flag("--report-error", o.report_error,
+                 "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at "
+                 "twice the step beside this one (half the time more); with --solver coupled");
     app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
         ->option_text("FILE")
         ->check(file_name());
@@ -93,6 +97,8 @@ void refuse_contradictions(const Options& o, const std::string& format) {
         if (!o.common.format.empty()) throw UsageError("--no-output: not with --format");
         if (!o.fields.empty()) throw UsageError("--no-output: not with --fields");
     }
+    if (o.report_error && o.run.solver != solver_name(Solver::coupled))
+        throw UsageError("--report-error: only with --solver coupled, whose error is its step's alone");
     const bool mesh = format == "obj" || format == "glb";
     if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
@@ -225,7 +231,7 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
 // Frames first..last into the sink; what ended the run early is thrown after the frames before it are safe.
 template <class T>
 std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state, FrameSink* sink,
-                        const MotionFields& fields, std::int64_t first, std::int64_t last) {
+                        ErrorEstimate<T>* estimate, const MotionFields& fields, std::int64_t first, std::int64_t last) {
     MotionFrame frame;
     Progress progress(o.common, "frame", last - first + 1);
     std::int64_t done = first - 1;
@@ -233,6 +239,7 @@ std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>&
         for (std::int64_t f = first; f <= last; ++f) {
             if (interrupted()) throw Interrupted("interrupted after frame " + std::to_string(done));
             if (f > 0) advance_frame(plan, state, setting.tree, f, o.run.substeps);
+            if (f > 0 && estimate) estimate->follow(state);
             if (sink) {
                 fill_frame(state, f, o.run.fps, fields, frame);
                 sink->write(frame);
@@ -263,9 +270,12 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
         first = state.step / o.run.substeps + 1;
         last += first - (o.run.frames ? 0 : 1); // --seconds counts the start, which is not written again
     }
+    std::optional<ErrorEstimate<T>> estimate;
+    if (o.report_error) estimate.emplace(setting.tree, plan, state);
     interrupt_at_boundary();
     const std::unique_ptr<FrameSink> sink = open_sink(o, setting, format, fields);
-    const std::int64_t done = run_frames(o, setting, plan, state, sink.get(), fields, first, last);
+    const std::int64_t done =
+        run_frames(o, setting, plan, state, sink.get(), estimate ? &*estimate : nullptr, fields, first, last);
     if (!o.save_state.empty()) save(o, setting, plan, state, done);
     if (o.explain) {
         for (std::size_t k = 0; k < stage_count; ++k)
@@ -273,6 +283,7 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
         std::cerr << "allocated " << state.bytes() << " bytes\n";
     }
     if (o.hash) std::cerr << "hash " << hash_text(state_hash(state)) << "\n";
+    if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(state.flags, o.common.notes);
 }
 

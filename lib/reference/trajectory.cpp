@@ -14,11 +14,7 @@ bool sample(const Plan<T>& plan, const State<T>& state, const Tree& tree, const 
     std::vector<Vec3> tip;
     tip.reserve(tips.size());
     for (const std::size_t i : tips) {
-        Vec3 x = state.x_w[i].template cast<double>() + state.R_wb[i].template cast<double>().col(2) * tree.size[i][0];
-        // As seen from the tree's ground: being carried is no deflection.
-        if (const Ground* ground = plan.root_motion ? ground_of(plan, state, i) : nullptr)
-            x = ground->R.transpose() * (x - ground->x);
-        tip.push_back(x);
+        tip.push_back(tip_position(plan, state, tree, i));
         if (!tip.back().allFinite()) return false;
     }
     out.tip.push_back(std::move(tip));
@@ -72,6 +68,16 @@ std::vector<std::size_t> tip_bodies(const Tree& tree) {
         if (!inner[i] && tree.kind[i] == Kind::branch) tips.push_back(i);
     return tips;
 }
+
+template <class T> Vec3 tip_position(const Plan<T>& plan, const State<T>& state, const Tree& tree, std::size_t body) {
+    const Vec3 x =
+        state.x_w[body].template cast<double>() + state.R_wb[body].template cast<double>().col(2) * tree.size[body][0];
+    const Ground* ground = plan.root_motion ? ground_of(plan, state, body) : nullptr;
+    return ground ? Vec3(ground->R.transpose() * (x - ground->x)) : x;
+}
+
+template Vec3 tip_position(const Plan<float>&, const State<float>&, const Tree&, std::size_t);
+template Vec3 tip_position(const Plan<double>&, const State<double>&, const Tree&, std::size_t);
 
 Trajectory run_trajectory(const Problem& problem, const Variant& how, bool keep_theta, int repeat,
                           const std::function<void()>& tick) {

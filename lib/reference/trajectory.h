@@ -31,6 +31,9 @@ struct Variant {
 // and fruit are not tips: what flutters at the end of a twig is chaotic, and no error of the tree.
 std::vector<std::size_t> tip_bodies(const Tree&);
 
+// [m] The far end of a body, as seen from its tree's ground: being carried is no deflection. O(log moved trees).
+template <class T> Vec3 tip_position(const Plan<T>&, const State<T>&, const Tree&, std::size_t body);
+
 struct Trajectory {
     std::int64_t stride = 1;              // frames between two samples
     std::vector<std::vector<Vec3>> tip;   // [m] samples x tips, as seen from the tree's ground
