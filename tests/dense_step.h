@@ -5,7 +5,7 @@
 // eta - eta_0):  d' = L d + f~ + (t - h/2)/h slope.  From dense_dynamics.h: accelerations and mass matrix. From here:
 //   rates of turning Phi_b and of moving V_b of body b with eta, in y*'s pose; D = sum V^T D_b V, H = sum Phi^T H_b Phi
 //   H_b    gravity's, by second differences of the potential of what body b turns; the air's bound on plates (air.h)
-//   slope  M^-1 of what wind and pulls change by, and of what D and H make of the ground's going on
+//   slope  M^-1 of what wind and pulls change by, and of what D makes of the ground's going on
 // The step is R(h W) of the matrix W that makes the system autonomous, R by its polynomials: no poles, no residues.
 // For grounds of steady acceleration and angular velocity, turning about the world's origin.
 #pragma once
@@ -106,7 +106,6 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
         K += turn.transpose() * H * turn;
         C += move.transpose() * D * move;
         slope += move.transpose() * D * (taken.wind_change - p.ground.a * taken.h);
-        slope -= turn.transpose() * H * p.ground.omega * taken.h;
         for (std::size_t k = 0; k < p.pulls.size(); ++k) {
             if (p.plan.pulls[k].body != b) continue;
             const V3 arm = pose.R[b] * (p.plan.pulls[k].point_b - tree.com[b]).cast<Real>();

@@ -15,7 +15,7 @@ template <class T> struct CoupledBody {
     Vector3<T> c;            // [m] centre of mass from the joint
     Vector3<T> omega, v;     // [rad/s], [m/s] at y*
     Vector3<T> omega_0, v_0; // of y0's rates in y*'s pose
-    Vector3<T> turn;         // [rad] psi: from y0 to y*
+    Vector3<T> turn;         // [rad] psi: from y0 to y*, by the joints alone
     Vector3<T> alpha_0, a_0; // [rad/s^2], [m/s^2] where no joint accelerates: biases
 
     // body_load.h
@@ -60,7 +60,6 @@ struct EnergyAccount {
 template <class T> struct GroundStep {
     Matrix3<T> R;
     Vector3<T> x, v, omega, v_0, omega_0;
-    Vector3<T> turn; // [rad] from the start to half a step on
     Vector3<T> a, alpha, slope_a, slope_alpha;
 };
 

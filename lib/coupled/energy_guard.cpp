@@ -29,6 +29,15 @@ template <class T> Vector3<T> joint_spin(const State<T>& s, std::size_t i) {
     return s.R_wb[i] * (body_rate_jacobian(s.theta[i]) * s.theta_dot[i]);
 }
 
+template <class T> bool turns(const GroundStep<T>* g) {
+    return g && !(g->omega.isZero(0) && g->omega_0.isZero(0));
+}
+
+// How far the ground goes in the step [m]: Simpson's rule.
+template <class T> Vector3<T> carried(const GroundStep<T>& g, T h) {
+    return h * ((2 * g.v_0 + h * g.a) + 4 * g.v) / 6;
+}
+
 } // namespace
 
 template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s) {
@@ -41,6 +50,7 @@ template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s) {
         b.tree = plan.parent[i] < 0 ? trees++ : s.guard[std::size_t(plan.parent[i])].tree;
         const Vector3<T> rate = s.theta_dot[i] + s.theta_dot_change[i];
         if (!(s.coupled[i].omega.squaredNorm() > limit * limit || rate.squaredNorm() > limit * limit)) continue;
+        if (turns(ground_step_of(plan, s, i))) continue;
         s.account[b.tree].watched = any = true;
     }
     if (!any) return false;
@@ -67,13 +77,16 @@ namespace {
 
 // Work [J] of the air on a body that moved so far. Whatever the body does, its power is at most kappa rho A times 4/27 |U|^3 (branch,
 // fruit; at a third of the wind's speed U) or |u| U_n^2 / 4 (plate): what the linear model has beyond that is its error.
-template <class T> double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved) {
+template <class T>
+double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved, const Vector3<T>& own) {
     const CoupledBody<T>& y = s.coupled[i];
-    const Vector3<T> U = s.wind.at(y.x.y() + y.c.y()), mean = moved / T(plan.dt);
+    const Vector3<T> mean = moved / T(plan.dt), ground = (moved - own) / T(plan.dt);
+    const Vector3<T> U = s.wind.at(y.x.y() + y.c.y()) - ground;
     const Vector3<T> ahead = mean - y.v - y.omega.cross(y.c);
     const T speed = U.norm();
-    const T most = is_flat(plan.kind[i]) ? (U - mean).norm() * speed * speed / 4 : T(4.0 / 27) * speed * speed * speed;
-    return double(std::min((y.air - y.D * ahead).dot(moved), T(plan.dt) * plan.drag_area[i] * most));
+    const T most =
+        is_flat(plan.kind[i]) ? (U + ground - mean).norm() * speed * speed / 4 : T(4.0 / 27) * speed * speed * speed;
+    return double(std::min((y.air - y.D * ahead).dot(own), T(plan.dt) * plan.drag_area[i] * most));
 }
 
 template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t i) {
@@ -95,10 +108,13 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
     account.slow += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
     account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);
     account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
-    account.gained +=
-        elastic(plan, i, s.theta[i]) - double(plan.mass[i] * plan.scene.gravity.template cast<T>().dot(moved));
-    if (!plan.wind) return;
-    account.gained -= air_work(plan, s, i, moved);
+    Vector3<T> own = moved, g = plan.scene.gravity.template cast<T>();
+    if (const GroundStep<T>* ground = ground_step_of(plan, s, i)) {
+        own -= carried(*ground, T(plan.dt));
+        g -= ground->a;
+    }
+    account.gained += elastic(plan, i, s.theta[i]) - double(plan.mass[i] * g.dot(own));
+    if (plan.wind) account.gained -= air_work(plan, s, i, moved, own);
 }
 
 // The factors that leave as much kinetic energy as there may be.
@@ -126,7 +142,8 @@ template <class T> void add_pulls_work(const Plan<T>& plan, State<T>& s, double 
         const Vector3<T> from_com = pull.point_b - plan.com[pull.body];
         const Vector3<T> now = s.x_w[pull.body] + s.R_wb[pull.body] * pull.point_b;
         // Where the point was: the centre of mass then, and the arm turned back from y* by half the step's turn.
-        const Vector3<T> then = s.guard[pull.body].com + s.coupled[pull.body].R * from_com;
+        Vector3<T> then = s.guard[pull.body].com + s.coupled[pull.body].R * from_com;
+        if (const GroundStep<T>* ground = ground_step_of(plan, s, pull.body)) then += carried(*ground, T(plan.dt));
         account.gained -= f.dot((now - then).template cast<double>());
     }
 }

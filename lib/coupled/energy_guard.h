@@ -3,12 +3,14 @@
 // The step is accurate where bodies turn by a small part of a radian in it; what turns faster is not resolved, and its
 // nonlinear terms, taken at one point for the whole step, can put energy in that nobody worked for. Where some body of a tree turns by
 // more than 0.3 rad in a step, and there alone, the tree's balance over the step is drawn up,
-//   excess = (kinetic + elastic + potential)_1 - (...)_0 - work of the air and the pulls - work of the moving ground
+//   excess = (kinetic + elastic + potential)_1 - (...)_0 - work of the air and the pulls
 // with the bodies' true kinetic energy, gravity's potential and the air's force of the step, at the mean velocity that the
 // bodies had: (f(y*) - D (v_mean - v*)) . (x_1 - x_0). A positive excess (above 1/1000 of the kinetic energy, which is what the balance itself
 // is off by) is taken from the rates: of the joints whose bodies turn that fast by one factor, in [0, 1]; where that is not
 // enough, from all of the tree. What a tree does slowly is not touched for what its leaves do. Damping only ever makes the
 // excess smaller: the guard never takes what damping took.
+// On a ground that is carried along, all of it is as seen from the ground, and gravity is less by the ground's acceleration.
+// A tree on a ground that turns is not watched: the work of turning is not booked.
 // Counted a joint (StepFlags::energy_guard). The last change of a scaled joint is dropped.
 // Cost: nothing but a comparison a body where nothing turns fast, else two sweeps over the watched trees.
 #pragma once

@@ -15,7 +15,6 @@ template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, d
         g.omega = middle.omega.template cast<T>();
         g.v_0 = start.v.template cast<T>();
         g.omega_0 = start.omega.template cast<T>();
-        g.turn = (h / 2 * (middle.omega + start.omega) / 2).template cast<T>();
         // The mean acceleration, so that the change of velocity is exact whatever happens in between.
         g.a = ((end.v - start.v) / h).template cast<T>();
         g.alpha = ((end.omega - start.omega) / h).template cast<T>();
@@ -26,7 +25,7 @@ template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, d
 
 namespace {
 
-template <class T> constexpr T resolved_turn = T(0.3); // [rad] a step
+template <class T> constexpr T resolved_turn = T(0.3); // [rad] of a joint in a step; of a body twice that
 
 template <class T> Vector3<T> bounded(const Vector3<T>& omega, T h, std::uint64_t& count) {
     const T turn = h * omega.norm();
@@ -46,7 +45,6 @@ template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const State<T
         b.v = g->v;
         b.omega_0 = g->omega_0;
         b.v_0 = g->v_0;
-        b.turn = g->turn;
     }
     return b;
 }
@@ -58,7 +56,8 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
     const T h = T(plan.dt);
     Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
     Vector3<T> half_change = state.theta_change[i] / 2;
-    if (half_change.norm() > resolved_turn<T> / 2) halfway = false;
+    const Vector3<T> half_turn = p.turn + p.R * (plan.R_pj[i] * half_change);
+    if (half_change.norm() > resolved_turn<T> / 2 || half_turn.norm() > resolved_turn<T>) halfway = false;
     if (halfway) {
         theta += half_change;
         eta += state.theta_dot_change[i] / 2;

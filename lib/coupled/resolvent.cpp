@@ -24,7 +24,10 @@ template <class T, class S> struct Solve {
         q.A = b.J.template cast<S>() + s2 * b.H.template cast<S>();
         q.B = (m * cross_matrix(b.c)).template cast<S>();
         q.M = (m * Matrix3<T>::Identity()).template cast<S>();
-        q.N = b.N.template cast<S>() + s1 * (b.H * b.omega_0).template cast<S>();
+        // By the joints alone: what the ground turns it turns with the springs, and a tree at rest on it stays so.
+        Vector3<T> own = b.omega_0;
+        if (const GroundStep<T>* g = ground_step_of(plan, state, i)) own -= g->omega_0;
+        q.N = b.N.template cast<S>() + s1 * (b.H * own).template cast<S>();
         q.F = b.F.template cast<S>();
         if (plan.wind) {
             const Matrix3<T> cD = cross_left(b.c, b.D);

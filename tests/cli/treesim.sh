@@ -193,13 +193,15 @@ refused 1 "--tolerance" treesim small.json --solver articulated-reference --tole
 refused 3 "stage articulated (theta), body" treesim small.json --wind gusty --frames 300 --no-output --solver articulated-explicit
 grep -q "substeps" err || fail "what to do about explicit steps is not said: $(cat err)"
 # Joint limits: kept within, noted, part of what a saved state belongs to; none that is reached, none that is felt.
-limited() { treesim tree.json --solver analytic --pose rest --wind storm --frames 20 "$@"; }
-limited --joint-limit 3 --fields angles 2>err | python3 -c '
+limited() { treesim tree.json --solver "${limits_of:-analytic}" --pose rest --wind storm --frames 20 "$@"; }
+for limits_of in coupled analytic; do
+    limited --joint-limit 3 --fields angles 2>err | python3 -c '
 import json, math, sys
 frames = [json.loads(line) for line in list(sys.stdin)[1:]]
 most = max(abs(a) for f in frames for a in f["theta"])
-assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "--joint-limit is not kept"
-grep -q 'times a joint was stopped at its limit' err || fail "stops at a limit are not noted"
+assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "--joint-limit is not kept, $limits_of"
+    grep -q 'times a joint was stopped at its limit' err || fail "stops at a limit are not noted, $limits_of"
+done
 limited --joint-limit 3 --no-output -q --save-state limited.state
 refused 2 "limited.state" treesim tree.json --solver analytic --pose rest --wind storm --frames 20 --resume limited.state
 [[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20) ]] || fail "a limit far off is felt"
