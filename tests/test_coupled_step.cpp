@@ -2,6 +2,9 @@
 #include "coupled_cases.h"
 #include "coupled_support.h"
 #include "dense_step.h"
+#include "lib/coupled/body_load.h"
+#include "lib/coupled/midpoint.h"
+#include "lib/coupled/resolvent.h"
 #include "lib/stages/wind.h"
 #include <catch2/catch.hpp>
 
@@ -56,7 +59,7 @@ struct Bench : Run<double> {
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             state.theta[i] = random_vector(dice, 0.6);
             state.theta_dot[i] = random_vector(dice, 0.8);
-            state.theta_change[i] = random_vector(dice, 0.05);
+            state.theta_change[i] = random_vector(dice, 0.02);
             state.theta_dot_change[i] = random_vector(dice, 0.5);
         }
     }
@@ -95,6 +98,19 @@ dense::Step step_of(const Tree& tree, const Named& named, const Bench& bench) {
     return step;
 }
 
+// The step's stages up to its changes: what the energy guard makes of them is no part of the equations.
+void solve(Bench& bench) {
+    const double time = double(bench.state.step) * h;
+    const RationalScheme& scheme = scheme_of(bench.plan.scheme);
+    if (bench.plan.wind) wind_over_step(bench.plan, bench.state, time);
+    ground_over_step(bench.plan, bench.state, time);
+    midpoint(bench.plan, bench.state, scheme.extrapolates);
+    body_loads(bench.plan, bench.state, time);
+    for (Vec3& change : bench.state.theta_change) change.setZero();
+    for (Vec3& change : bench.state.theta_dot_change) change.setZero();
+    for (int k = 0; k < scheme.poles; ++k) resolvent(bench.plan, bench.state, scheme.pole[std::size_t(k)]);
+}
+
 // Of the changes of theta and of theta_dot, each relative to its largest: the worst.
 double difference(const Bench& after, const dense::Vector& truth) {
     double worst = 0;
@@ -124,7 +140,7 @@ TEST_CASE(
             for (const Scheme scheme : extrapolating) {
                 Bench bench(tree, named, scheme);
                 const dense::Vector truth = dense::take(step_of(tree, named, bench), scheme);
-                bench.steps(1);
+                solve(bench);
                 CAPTURE(leaves, named.name, scheme_of(scheme).name);
                 REQUIRE(bench.state.flags.fast_turns == 0);
                 REQUIRE(bench.state.flags.half_turns == 0);
