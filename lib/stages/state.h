@@ -79,7 +79,7 @@ template <class T> struct State {
     std::vector<ResolventBody<T>> resolvent_real;
     std::vector<GuardBody<T>> guard;
     std::vector<EnergyAccount> account; // one a root
-    WindTable<T> wind_change; // [m/s] of the wind over the step
+    WindTable<T> wind_change;           // [m/s] of the wind over the step
     std::vector<GroundStep<T>> coupled_ground;
 
     // articulated solvers: a pass each, or as many as rows of the extrapolation
