@@ -70,7 +70,7 @@ RingDown ring(const Tree& tree, double beta, Scheme scheme = Scheme::p12) {
 
 } // namespace
 
-TEST_CASE("the first frequency of a cantilever is the beam's within 1 % at 1/30 s, however it is cut") {
+TEST_CASE("the first frequency of a cantilever is the beam's within 1 % at 1/30 s, for 10 to 320 pieces") {
     for (const int n : {5, 10, 20, 40, 80, 160, 320}) {
         const Tree tree = cantilever(n);
         REQUIRE(tree.size_bodies() == std::size_t(n));

@@ -1,4 +1,5 @@
 #include "body_load.h"
+#include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
 #include <limits>
@@ -25,11 +26,6 @@ template <class T> Matrix3<T> own_inertia(const Matrix3<T>& J) {
     return J + rounding * size * Matrix3<T>::Identity();
 }
 
-template <class T> Vector3<T> bounded(const Vector3<T>& omega, T h) {
-    const T turn = h * omega.norm();
-    return turn > 1 ? Vector3<T>(omega / turn) : omega;
-}
-
 template <class T> void add_air(const Plan<T>& plan, const State<T>& state, CoupledBody<T>& b, std::size_t i) {
     const T y = b.x.y() + b.c.y(), scale = plan.drag_area[i];
     const Vector3<T> u = state.wind.at(y) - b.v - b.omega.cross(b.c);
@@ -48,7 +44,8 @@ template <class T> void load(const Plan<T>& plan, State<T>& state, std::size_t i
     CoupledBody<T>& b = state.coupled[i];
     const T m = plan.mass[i];
     const Vector3<T> g = plan.scene.gravity.template cast<T>();
-    const Vector3<T> spin = bounded(b.omega, T(plan.dt));
+    std::uint64_t seen = 0; // counted by midpoint()
+    const Vector3<T> spin = resolved_turn(b.omega, T(plan.dt), seen);
     b.J = b.R * own_inertia(plan.inertia_joint[i]) * b.R.transpose();
     b.H.setZero();
     if (plan.gravity) {

@@ -44,7 +44,7 @@ template <class T> void coupled_step(const Plan<T>& plan, State<T>& state, Stage
     run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, state, time); });
     run_stage(Stage::resolvent, state, clock, [&] { solve(plan, state); });
     run_stage(Stage::state_update, state, clock, [&] {
-        const bool watched = weigh_start(plan, state);
+        const bool watched = weigh_start(plan, state, time);
         take(plan, state);
         move_ground(plan, state, end);
         state_update(plan, state);

@@ -38,9 +38,20 @@ template <class T> Vector3<T> carried(const GroundStep<T>& g, T h) {
     return h * ((2 * g.v_0 + h * g.a) + 4 * g.v) / 6;
 }
 
+// The pulls' work, from their points at the start (sign 1) to those at the end (-1), as seen from the ground.
+template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, double time, double sign) {
+    for (const PlannedPull<T>& pull : plan.pulls) {
+        Vector3<T> point = s.x_w[pull.body] + s.R_wb[pull.body] * pull.point_b;
+        const GroundStep<T>* ground = ground_step_of(plan, s, pull.body);
+        if (ground && sign < 0) point -= carried(*ground, T(plan.dt));
+        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time + plan.dt / 2);
+        s.account[s.guard[pull.body].tree].gained += sign * f.dot(point.template cast<double>());
+    }
+}
+
 } // namespace
 
-template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s) {
+template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s, double time) {
     const T limit = T(fast_turn / plan.dt);
     for (EnergyAccount& account : s.account) account = {};
     std::uint32_t trees = 0;
@@ -70,6 +81,7 @@ template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s) {
         account.kinetic += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
         account.gained -= elastic(plan, i, s.theta[i]);
     }
+    book_pulls(plan, s, time, 1);
     return true;
 }
 
@@ -135,25 +147,12 @@ void settle(EnergyAccount& a) {
     a.keep_fast *= a.keep_slow;
 }
 
-template <class T> void add_pulls_work(const Plan<T>& plan, State<T>& s, double time) {
-    for (const PlannedPull<T>& pull : plan.pulls) {
-        EnergyAccount& account = s.account[s.guard[pull.body].tree];
-        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time + plan.dt / 2);
-        const Vector3<T> from_com = pull.point_b - plan.com[pull.body];
-        const Vector3<T> now = s.x_w[pull.body] + s.R_wb[pull.body] * pull.point_b;
-        // Where the point was: the centre of mass then, and the arm turned back from y* by half the step's turn.
-        Vector3<T> then = s.guard[pull.body].com + s.coupled[pull.body].R * from_com;
-        if (const GroundStep<T>* ground = ground_step_of(plan, s, pull.body)) then += carried(*ground, T(plan.dt));
-        account.gained -= f.dot((now - then).template cast<double>());
-    }
-}
-
 } // namespace
 
 template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, double time) {
     for (std::size_t i = 0; i < plan.bodies; ++i)
         if (s.account[s.guard[i].tree].watched) weigh_end(plan, s, i);
-    add_pulls_work(plan, s, time);
+    book_pulls(plan, s, time, -1);
     for (EnergyAccount& account : s.account)
         if (account.watched) settle(account);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
@@ -167,8 +166,8 @@ template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, double ti
     }
 }
 
-template bool weigh_start(const Plan<float>&, State<float>&);
-template bool weigh_start(const Plan<double>&, State<double>&);
+template bool weigh_start(const Plan<float>&, State<float>&, double);
+template bool weigh_start(const Plan<double>&, State<double>&, double);
 template void guard_energy(const Plan<float>&, State<float>&, double);
 template void guard_energy(const Plan<double>&, State<double>&, double);
 

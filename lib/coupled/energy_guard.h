@@ -20,7 +20,7 @@
 namespace bough {
 
 // When the step is known but not yet taken: what the balance needs of y0. False where no tree is watched.
-template <class T> bool weigh_start(const Plan<T>&, State<T>&);
+template <class T> bool weigh_start(const Plan<T>&, State<T>&, double time);
 
 // After it, kinematics (poses) up to date: scales rates.
 template <class T> void guard_energy(const Plan<T>&, State<T>&, double time);

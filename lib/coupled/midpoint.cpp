@@ -1,4 +1,5 @@
 #include "midpoint.h"
+#include "../model/resolved_turn.h"
 #include "../model/rotation_maps.h"
 
 namespace bough {
@@ -25,14 +26,7 @@ template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, d
 
 namespace {
 
-template <class T> constexpr T resolved_turn = T(0.3); // [rad] of a joint in a step; of a body twice that
-
-template <class T> Vector3<T> bounded(const Vector3<T>& omega, T h, std::uint64_t& count) {
-    const T turn = h * omega.norm();
-    if (!(turn > 1)) return omega;
-    ++count;
-    return omega / turn;
-}
+template <class T> constexpr T most_turn = T(0.3); // [rad] of a joint in a step; of a body twice that
 
 template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const State<T>& state, std::size_t i) {
     CoupledBody<T> b;
@@ -57,7 +51,7 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
     Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
     Vector3<T> half_change = state.theta_change[i] / 2;
     const Vector3<T> half_turn = p.turn + p.R * (plan.R_pj[i] * half_change);
-    if (half_change.norm() > resolved_turn<T> / 2 || half_turn.norm() > resolved_turn<T>) halfway = false;
+    if (half_change.norm() > most_turn<T> / 2 || half_turn.norm() > most_turn<T>) halfway = false;
     if (halfway) {
         theta += half_change;
         eta += state.theta_dot_change[i] / 2;
@@ -76,8 +70,8 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
     b.v_0 = p.v_0 + p.omega_0.cross(b.r);
     b.turn = p.turn;
     if (halfway) b.turn += GJ * half_change;
-    const Vector3<T> spin = bounded(p.omega, h, fast), turning = bounded(w, h, fast);
-    b.alpha_0 = p.alpha_0 + spin.cross(turning) + G * maps.rate_bias(bounded(eta, h, fast));
+    const Vector3<T> spin = resolved_turn(p.omega, h, fast), turning = resolved_turn(w, h, fast);
+    b.alpha_0 = p.alpha_0 + spin.cross(turning) + G * maps.rate_bias(resolved_turn(eta, h, fast));
     b.a_0 = p.a_0 + p.alpha_0.cross(b.r) + spin.cross(spin.cross(b.r));
 }
 

@@ -1,4 +1,5 @@
 #include "articulated.h"
+#include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
 #include <limits>
@@ -14,14 +15,6 @@ Mat3 cross_left(const Vec3& r, const Mat3& X) {
     Mat3 m;
     for (int k = 0; k < 3; ++k) m.col(k) = r.cross(X.col(k));
     return m;
-}
-
-// Angular velocity as the terms quadratic in it take it: at most a radian a step.
-Vec3 bounded(const Vec3& omega, double h, std::uint64_t& count) {
-    const double turn = h * omega.norm();
-    if (!(turn > 1)) return omega;
-    ++count;
-    return omega / turn;
 }
 
 // The ground as a body without mass, about the world's origin carried along.
@@ -61,8 +54,8 @@ void place(const Plan<double>& plan, const ArticulatedBody& parent, ArticulatedB
     const Vec3 carried = b.R_pb.transpose() * parent.omega;
     b.omega = carried + b.rate;
     b.v = b.R_pb.transpose() * (parent.v + parent.omega.cross(r));
-    const Vec3 spin = bounded(parent.omega, h, fast);
-    b.alpha_bias = (b.R_pb.transpose() * spin).cross(bounded(b.rate, h, fast));
+    const Vec3 spin = resolved_turn(parent.omega, h, fast);
+    b.alpha_bias = (b.R_pb.transpose() * spin).cross(resolved_turn(b.rate, h, fast));
     b.a_bias = b.R_pb.transpose() * spin.cross(spin.cross(r));
 }
 
@@ -103,7 +96,7 @@ void load(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody
     const Mat3& J = plan.inertia_joint[i];
     const Vec3& c = plan.com[i];
     const double m = plan.mass[i];
-    const Vec3 spin = bounded(b.omega, h, fast), weight = m * (b.R_wb.transpose() * plan.scene.gravity);
+    const Vec3 spin = resolved_turn(b.omega, h, fast), weight = m * (b.R_wb.transpose() * plan.scene.gravity);
     const Vec3 a_own = spin.cross(spin.cross(c));
     b.A = own_inertia(J);
     b.B = m * cross_matrix(c);
