@@ -2,7 +2,7 @@
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
-#include <limits>
+#include "own_inertia.h"
 
 namespace bough {
 
@@ -16,15 +16,6 @@ template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, dou
 }
 
 namespace {
-
-// A body without extent about some axis (a thin rod about itself) would make the joint's inertia singular: four roundings
-// of its trace are added, below any inertia that its arithmetic can tell from none.
-template <class T> Matrix3<T> own_inertia(const Matrix3<T>& J) {
-    constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
-    const T size = J.trace();
-    if (J.determinant() > rounding / 8 * size * size * size) return J;
-    return J + rounding * size * Matrix3<T>::Identity();
-}
 
 template <class T> void add_air(const Plan<T>& plan, const State<T>& state, CoupledBody<T>& b, std::size_t i) {
     const T y = b.x.y() + b.c.y(), scale = plan.drag_area[i];

@@ -8,6 +8,7 @@
 // The geometry is the drawn pose: theta = 0 puts every body where it was drawn. What the springs' rest pose is (the
 // drawn one, or the one that gravity bends into the drawn one) is the scene's `pose` (pose.h).
 #pragma once
+#include "kind.h"
 #include "math.h"
 #include "splines.h"
 #include <optional>
@@ -15,13 +16,6 @@
 #include <vector>
 
 namespace bough {
-
-enum class Kind : std::uint8_t { branch = 0, leaf = 1, fruit = 2, petal = 3 };
-
-// A thin plate, in shape and in the air: a leaf, a needle, a petal.
-constexpr bool is_flat(Kind kind) {
-    return kind == Kind::leaf || kind == Kind::petal;
-}
 
 struct Tree {
     std::vector<std::int32_t> parent; // body index < own, -1: the ground

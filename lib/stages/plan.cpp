@@ -1,4 +1,5 @@
 #include "plan.h"
+#include "../fast/plan_lanes.h"
 #include "../model/body_shape.h"
 #include "../model/branch_mode.h"
 #include "pose.h"
@@ -13,7 +14,7 @@ namespace bough {
 const char* stage_name(Stage stage) {
     static constexpr const char* names[stage_count] = {"wind_field",  "external_forces", "composite",   "drag",
                                                        "root_motion", "spring",          "articulated", "midpoint",
-                                                       "body_loads",  "resolvent",       "state_update"};
+                                                       "body_loads",  "resolvent",       "lanes",       "state_update"};
     return names[std::size_t(stage)];
 }
 
@@ -206,8 +207,9 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                                : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
                                : plan.wind                        ? "/wind"
                                                                   : "/pulls";
-    add(Stage::wind_field, (analytic || coupled) && plan.wind,
+    add(Stage::wind_field, (analytic || coupled) && plan.wind && !plan.lanes.on,
         !plan.wind            ? "no wind"
+        : plan.lanes.on       ? "in lanes"
         : analytic || coupled ? "/wind"
                               : own);
     add(Stage::external_forces, analytic && plan.forces, analytic || !plan.forces ? forces : own);
@@ -222,16 +224,27 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
             ? solver
             : std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") + limited);
     add(Stage::articulated, is_articulated(plan.solver), solver);
-    add(Stage::midpoint, coupled, coupled ? "every scene" + moved : solver);
-    add(Stage::body_loads, coupled, coupled ? "every scene" + (plan.forces ? "; " + forces : "") : solver);
-    add(Stage::resolvent, coupled, coupled ? "every scene" + limited : solver);
-    add(Stage::state_update, true,
-        std::string(!plan.velocity
-                        ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
-                                     : "every scene (poses; no wind, no output field velocity: no velocities)")
-                    : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
-                                      : "every scene (poses; velocities for /wind)") +
-            moved);
+    const bool plain = coupled && !plan.lanes.on;
+    const std::string fused = "in lanes";
+    add(Stage::midpoint, plain, plain ? "every scene" + moved : coupled ? fused : solver);
+    add(Stage::body_loads, plain,
+        plain     ? "every scene" + (plan.forces ? "; " + forces : "")
+        : coupled ? fused
+                  : solver);
+    add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
+    add(Stage::lanes, plan.lanes.on,
+        plan.lanes.on
+            ? std::string("SIMD ") + fast::target_name(plan.target) + (plan.forces ? "; " + forces : "") + moved
+            : "plain path: " + plan.lanes.reason);
+    add(Stage::state_update, !plan.lanes.on,
+        plan.lanes.on
+            ? "when poses are read" + moved
+            : std::string(!plan.velocity
+                              ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
+                                           : "every scene (poses; no wind, no output field velocity: no velocities)")
+                          : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
+                                            : "every scene (poses; velocities for /wind)") +
+                  moved);
     State<T> empty;
     visit_arrays(plan, empty, [&](const char* name, auto& array, bool on, const std::string& reason) {
         plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
@@ -245,7 +258,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
 
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme) {
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd) {
     Tree tree = drawn;
     for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
     for (double& beta : tree.damping) beta *= scene.damping_scale;
@@ -271,13 +284,18 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     if (plan.wind) plan_surfaces(plan, tree, scene);
     if (solver == Solver::analytic) plan_modes(plan, tree, scene);
     if (solver == Solver::coupled && plan.gravity) plan_carried_moments(plan, tree);
+    plan.lanes.reason = "not asked for";
+    if (simd) {
+        plan.target = *simd;
+        fast::plan_lanes(plan);
+    }
     explain(plan, wishes);
     return plan;
 }
 
 template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                               Scheme);
+                               Scheme, std::optional<fast::Target>);
 template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                                Scheme);
+                                Scheme, std::optional<fast::Target>);
 
 } // namespace bough

@@ -3,11 +3,14 @@
 // said in `stages` and `arrays`, which `treesim --explain` prints and the tests hold against what really happened.
 #pragma once
 #include "../coupled/scheme.h"
+#include "../fast/lanes.h"
+#include "../fast/targets.h"
 #include "../model/root_motion.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +27,10 @@ enum class Stage : std::uint8_t {
     midpoint,
     body_loads,
     resolvent,
+    lanes,
     state_update
 };
-constexpr std::size_t stage_count = 11;
+constexpr std::size_t stage_count = 12;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
@@ -116,14 +120,20 @@ template <class T> struct Plan {
     double top = 0;                              // [m] highest point, for the wind's table
 
     std::vector<PlannedPull<T>> pulls;
+
+    // The fast path (lib/fast/lanes.h), where the caller asked for it and it holds all that the scene has.
+    fast::PlannedLanes<T> lanes;
+    fast::Target target = fast::Target::baseline; // what its code is compiled for
 };
 
 // tree: joined and checked; ranges: of each of the scene's trees in it (one range for a tree on its own). Scales K and
 // beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).
 // Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow,
 // for one that starts beyond a joint limit (its body and angle), and for joint limits with an articulated solver.
+// simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
-                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12);
+                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
+                  std::optional<fast::Target> simd = std::nullopt);
 
 } // namespace bough

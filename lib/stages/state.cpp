@@ -1,4 +1,5 @@
 #include "state.h"
+#include "../fast/coupled_lanes_step.h"
 #include "root_term.h"
 #include "spring.h"
 #include "state_arrays.h"
@@ -42,10 +43,22 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     }
     state.ground.resize(plan.splines.size());
     state.root_load.resize(plan.splines.size());
-    move_ground(plan, state, 0);
+    restart(plan, state);
+    return state;
+}
+
+template <class T> void restart(const Plan<T>& plan, State<T>& state) {
+    move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
-    return state;
+    if (plan.lanes.on) fast::pack(plan, state);
+}
+
+template <class T> void make_room_for_plain_step(const Plan<T>& plan, State<T>& state) {
+    if (!plan.lanes.on) return;
+    state.coupled.resize(plan.bodies);
+    state.resolvent.resize(plan.bodies);
+    state.guard.resize(plan.bodies);
 }
 
 template <class T> std::size_t State<T>::bytes() const {
@@ -53,6 +66,9 @@ template <class T> std::size_t State<T>::bytes() const {
     visit_arrays(Plan<T>(), *this, [&](const char*, const auto& array, bool, const std::string&) {
         sum += array.capacity() * sizeof(array[0]);
     });
+    for (const auto* rows : {&lanes.now, &lanes.next, &lanes.solved, &lanes.outward, &lanes.inward, &lanes.accelerated})
+        sum += rows->capacity() * sizeof(fast::Row<T>);
+    for (const auto& rows : lanes.scratch) sum += rows.capacity() * sizeof(fast::Row<T>);
     for (const ArticulatedPass& pass : articulated) sum += pass.body.capacity() * sizeof(ArticulatedBody);
     return sum;
 }
@@ -85,6 +101,10 @@ template struct State<float>;
 template struct State<double>;
 template State<float> make_state(const Plan<float>&);
 template State<double> make_state(const Plan<double>&);
+template void restart(const Plan<float>&, State<float>&);
+template void restart(const Plan<double>&, State<double>&);
+template void make_room_for_plain_step(const Plan<float>&, State<float>&);
+template void make_room_for_plain_step(const Plan<double>&, State<double>&);
 template std::uint64_t state_hash(const State<float>&);
 template std::uint64_t state_hash(const State<double>&);
 template std::optional<std::size_t> first_non_finite(const State<float>&);

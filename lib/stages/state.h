@@ -82,6 +82,10 @@ template <class T> struct State {
     WindTable<T> wind_change;           // [m/s] of the wind over the step
     std::vector<GroundStep<T>> coupled_ground;
 
+    // The fast path's rows, where the plan has lanes: then these are the state proper, and the arrays above are brought up to date when
+    // they are read (fast/coupled_lanes_step.h, present).
+    fast::Lanes<T> lanes;
+
     // articulated solvers: a pass each, or as many as rows of the extrapolation
     std::vector<ArticulatedPass> articulated;
     double articulated_step = 0; // [s] what articulated_reference proposes for its next inner step; 0: none yet
@@ -99,6 +103,13 @@ constexpr std::size_t articulated_passes(Solver solver) {
 
 // At the plan's start pose, at rest, kinematics up to date.
 template <class T> State<T> make_state(const Plan<T>&);
+
+// Brings the rates' last changes, the ground, kinematics and the fast path's rows to what theta and theta_dot, their changes and the
+// number of steps say: after they were set from outside (a saved state). O(n).
+template <class T> void restart(const Plan<T>&, State<T>&);
+
+// Allocates what the plain coupled step works in, where the plan has lanes and left it out.
+template <class T> void make_room_for_plain_step(const Plan<T>&, State<T>&);
 
 // 64 bits (FNV-1a over little-endian bytes) of theta and theta_dot in document order.
 template <class T> std::uint64_t state_hash(const State<T>&);

@@ -11,7 +11,8 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     const std::string always = "every scene", solver = std::string("solver ") + solver_name(plan.solver);
     const bool analytic = plan.solver == Solver::analytic, coupled = plan.solver == Solver::coupled;
     const std::string composite = analytic ? always : solver, pass = coupled ? always : solver;
-    const bool real = scheme_of(plan.scheme).real;
+    const bool real = scheme_of(plan.scheme).real, plain = coupled && !plan.lanes.on;
+    const std::string work = plan.lanes.on ? "the fast path (until a step needs the energy guard)" : pass;
     const bool air = analytic && plan.wind, loads = analytic && plan.forces;
     const std::string wind = !plan.wind ? "no wind" : analytic ? "/wind" : solver;
     const std::string forces = plan.forces && !analytic           ? solver
@@ -51,14 +52,14 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("c_wind_row", s.c_wind_row, air, wind);
     visit("c_turn", s.c_turn, air, wind);
     visit("c_turn_row", s.c_turn_row, air, wind);
-    visit("coupled", s.coupled, coupled, pass);
-    visit("resolvent", s.resolvent, coupled && !real, coupled && real ? "a scheme of a real pole" : pass);
+    visit("coupled", s.coupled, plain, work);
+    visit("resolvent", s.resolvent, plain && !real, coupled && real ? "a scheme of a real pole" : work);
     visit("resolvent_real", s.resolvent_real, coupled && (real || plan.joint_limit),
           !coupled           ? solver
           : real             ? pass
           : plan.joint_limit ? "/joint_limit"
                              : "a scheme of complex poles, no joint limit");
-    visit("guard", s.guard, coupled, pass);
+    visit("guard", s.guard, plain, work);
     visit("torque_j", s.torque_j, plan.torque, torque);
 }
 

@@ -1,0 +1,17 @@
+// own_inertia.h: a body's inertia about its joint as the coupled step takes it.
+#pragma once
+#include "../model/math.h"
+#include <limits>
+
+namespace bough {
+
+// A body without extent about some axis (a thin rod about itself) would make the joint's inertia singular: four roundings
+// of its trace are added, below any inertia that its arithmetic can tell from none.
+template <class T> Matrix3<T> own_inertia(const Matrix3<T>& J) {
+    constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
+    const T size = J.trace();
+    if (J.determinant() > rounding / 8 * size * size * size) return J;
+    return J + rounding * size * Matrix3<T>::Identity();
+}
+
+} // namespace bough

@@ -1,0 +1,28 @@
+// coupled_lanes_step.h: the coupled step (coupled_step.h) by the fast path's sweeps, and what moves between its rows and the
+// state's arrays in document order.
+//
+// Order. The top outward; each block outward and inward, blocks shared out among threads; the blocks' roots, in a fixed order, into the top;
+// the top inward and outward again; the blocks outward again, last one first. Sums stand in the layout's order: one result for any
+// number of threads.
+// Where a body turns by more than 0.3 rad in the step (energy_guard.h), what the sweeps have found is dropped and the plain step,
+// with its guard, makes that step.
+#pragma once
+#include "../stages/step.h"
+
+namespace bough::fast {
+
+// The state's rows from its arrays in document order. O(n).
+template <class T> void pack(const Plan<T>&, State<T>&);
+
+// Advances the rows by plan.dt; the arrays in document order are left behind. Needs a plan with lanes.on.
+template <class T> void coupled_lanes_step(const Plan<T>&, State<T>&, StageClock* clock);
+
+} // namespace bough::fast
+
+namespace bough {
+
+// Brings the state's arrays in document order (theta, theta_dot, their changes, poses, and what the plan's wishes add) up to date.
+// Nothing to do where the plan has no lanes, or they are. O(n).
+template <class T> void present(const Plan<T>&, State<T>&);
+
+} // namespace bough

@@ -1,0 +1,34 @@
+// lanes.h: what the fast path keeps beside plan and state: the layout, constants and motion in rows (coupled_rows.h).
+#pragma once
+#include "coupled_rows.h"
+#include "layout.h"
+#include "row.h"
+#include <string>
+#include <vector>
+
+namespace bough::fast {
+
+// In the plan. Constant after make_plan.
+template <class T> struct PlannedLanes {
+    bool on = false;
+    std::string reason; // why, or why not
+    Layout layout;
+    RowVector<T> constants;
+    std::vector<std::int32_t> pull_of_row; // empty without pulls
+    std::vector<std::size_t> pull;         // Plan::pulls in the order of rows
+    std::vector<T> profile;                // [1] the wind's, over height
+    T per_metre = 0;
+};
+
+// In the state.
+template <class T> struct Lanes {
+    RowVector<T> now, next, solved;
+    RowVector<T> outward, inward, accelerated; // a record a joint
+    std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
+    std::vector<PullOnLane<T>> pulls;
+    std::vector<SweepFlags> flags; // one a block
+    bool presented = true;         // the state's arrays in document order hold what `now` holds
+    bool finite = true;            // no theta or theta_dot has become non-finite
+};
+
+} // namespace bough::fast

@@ -1,0 +1,98 @@
+#include "plan_lanes.h"
+#include "../coupled/own_inertia.h"
+#include "../stages/wind.h"
+#include <algorithm>
+
+namespace bough::fast {
+namespace {
+
+template <class T> class Filler {
+public:
+    Filler(RowVector<T>& rows, std::size_t slot) : at(&rows[slot / lanes * constant::count].lane[slot % lanes]) {}
+    void put(int quantity, T value) { at[std::size_t(quantity) * lanes] = value; }
+    void put(int quantity, const Vector3<T>& v) {
+        for (int k = 0; k < 3; ++k) put(quantity + k, v[k]);
+    }
+    void put(int quantity, const Matrix3<T>& m) {
+        constexpr int place[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+        for (int k = 0; k < 6; ++k) put(quantity + k, m(place[k][0], place[k][1]));
+    }
+
+private:
+    static constexpr std::size_t lanes = Row<T>::lanes;
+    T* at;
+};
+
+// A pad goes with its parent, held by a stiffness that its inertia is nothing beside, and hands on as good as nothing.
+template <class T> constexpr T pad_inertia = T(1e-20);
+
+template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
+    lanes.constants.assign(std::size_t(lanes.layout.rows) * constant::count, Row<T>{});
+    for (std::size_t slot = 0; slot < lanes.layout.body.size(); ++slot) {
+        Filler<T> row(lanes.constants, slot);
+        const std::int32_t body = lanes.layout.body[slot];
+        if (body < 0) {
+            row.put(constant::R_pj, T(1));
+            row.put(constant::inertia_joint, Matrix3<T>(pad_inertia<T> * Matrix3<T>::Identity()));
+            row.put(constant::K, Vector3<T>(Vector3<T>::Ones()));
+            continue;
+        }
+        const auto i = std::size_t(body);
+        const Eigen::Quaternion<double> q(Mat3(plan.R_pj[i].template cast<double>()));
+        row.put(constant::R_pj, T(q.w()));
+        row.put(constant::R_pj + 1, Vector3<T>(q.vec().template cast<T>()));
+        row.put(constant::joint_position, plan.joint_position[i]);
+        row.put(constant::com, plan.com[i]);
+        row.put(constant::mass, plan.mass[i]);
+        row.put(constant::inertia_joint, own_inertia(plan.inertia_joint[i]));
+        row.put(constant::K, plan.K[i]);
+        row.put(constant::beta, plan.beta[i]);
+        if (plan.gravity) row.put(constant::carried_moment, plan.carried_moment[i]);
+        if (plan.wind) row.put(constant::drag_area, plan.drag_area[i]);
+    }
+}
+
+template <class T> void fill_pulls(const Plan<T>& plan, PlannedLanes<T>& lanes) {
+    if (plan.pulls.empty()) return;
+    lanes.pull_of_row.assign(lanes.layout.rows, -1);
+    for (std::size_t k = 0; k < plan.pulls.size(); ++k) lanes.pull.push_back(k);
+    const auto slot = [&](std::size_t k) { return lanes.layout.slot[plan.pulls[k].body]; };
+    std::stable_sort(lanes.pull.begin(), lanes.pull.end(),
+                     [&](std::size_t a, std::size_t b) { return slot(a) < slot(b); });
+    for (std::size_t k = lanes.pull.size(); k-- > 0;)
+        lanes.pull_of_row[slot(lanes.pull[k]) / std::size_t(Row<T>::lanes)] = std::int32_t(k);
+}
+
+template <class T> std::string reason_against(const Plan<T>& plan) {
+    if (plan.solver != Solver::coupled) return std::string("solver ") + solver_name(plan.solver);
+    const RationalScheme& scheme = scheme_of(plan.scheme);
+    if (scheme.real || scheme.poles > 1) return std::string("scheme ") + scheme.name;
+    if (plan.joint_limit) return "/joint_limit";
+    return {};
+}
+
+} // namespace
+
+template <class T> void plan_lanes(Plan<T>& plan) {
+    PlannedLanes<T>& lanes = plan.lanes;
+    lanes.reason = reason_against(plan);
+    lanes.on = lanes.reason.empty();
+    if (!lanes.on) return;
+    std::vector<std::uint32_t> ground; // of each root: 0, or 1 + its spline
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (plan.parent[i] < 0) ground.push_back(plan.root_motion ? std::uint32_t(spline_under(plan.moved, i) + 1) : 0);
+    const std::vector<Kind> branches(plan.wind ? 0 : plan.bodies, Kind::branch); // without wind all are alike
+    lanes.layout = make_layout(plan.parent, plan.wind ? plan.kind : branches, ground,
+                               std::uint32_t(plan.splines.size() + 1), Row<T>::lanes);
+    fill(plan, lanes);
+    fill_pulls(plan, lanes);
+    if (!plan.wind) return;
+    const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top);
+    lanes.profile = table.profile;
+    lanes.per_metre = table.per_metre;
+}
+
+template void plan_lanes(Plan<float>&);
+template void plan_lanes(Plan<double>&);
+
+} // namespace bough::fast

@@ -1,0 +1,11 @@
+// plan_lanes.h: fills in Plan::lanes: the layout, and the bodies' constants in rows. O(n log n).
+#pragma once
+#include "../stages/plan.h"
+
+namespace bough::fast {
+
+// Whether the fast path holds all that the plan asks for: the coupled step by one pair of complex poles, no joint limits. Sets
+// lanes.on and lanes.reason; where on, the rest of lanes. Reads the plan's constants.
+template <class T> void plan_lanes(Plan<T>&);
+
+} // namespace bough::fast

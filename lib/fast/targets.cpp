@@ -1,0 +1,67 @@
+#include "targets.h"
+#include <stdexcept>
+
+namespace bough::fast {
+
+namespace baseline {
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
+}
+#ifdef BOUGH_X86_TARGETS
+namespace avx2 {
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
+}
+namespace avx512 {
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
+}
+#endif
+
+const char* target_name(Target target) {
+    static constexpr const char* names[] = {"baseline", "avx2", "avx512"};
+    return names[std::size_t(target)];
+}
+
+std::optional<Target> target_named(const std::string& name) {
+    for (Target target : all_targets)
+        if (name == target_name(target)) return target;
+    return std::nullopt;
+}
+
+bool available(Target target) {
+#ifdef BOUGH_X86_TARGETS
+    switch (target) {
+    case Target::avx512:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") && available(Target::avx2);
+    case Target::avx2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case Target::baseline:
+        break;
+    }
+    return true;
+#else
+    return target == Target::baseline;
+#endif
+}
+
+Target best_target() {
+    Target best = Target::baseline;
+    for (Target target : all_targets)
+        if (available(target)) best = target;
+    return best;
+}
+
+template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity) {
+    if (!available(target))
+        throw std::invalid_argument(std::string("SIMD target ") + target_name(target) + " is not there, the best is " +
+                                    target_name(best_target()));
+#ifdef BOUGH_X86_TARGETS
+    if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity);
+    if (target == Target::avx2) return avx2::coupled_sweeps<T>(wind, gravity);
+#endif
+    return baseline::coupled_sweeps<T>(wind, gravity);
+}
+
+template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool);
+template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool);
+
+} // namespace bough::fast

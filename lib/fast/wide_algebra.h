@@ -1,0 +1,158 @@
+// wide_algebra.h: 3-vectors and 3x3 matrices whose elements are registers of lanes (wide.h), real or complex. Complex elements
+// are two real registers; a product of a real and a complex one costs half.
+#pragma once
+#include "wide.h"
+
+namespace bough::fast {
+inline namespace BOUGH_TARGET {
+
+#define BOUGH_FORCE [[gnu::always_inline]] inline
+
+template <class W> struct Complex { W re, im; };
+template <class W> BOUGH_FORCE Complex<W> operator+(const Complex<W>& a, const Complex<W>& b) {
+    return {a.re + b.re, a.im + b.im};
+}
+template <class W> BOUGH_FORCE Complex<W> operator-(const Complex<W>& a, const Complex<W>& b) {
+    return {a.re - b.re, a.im - b.im};
+}
+template <class W> BOUGH_FORCE Complex<W> operator-(const Complex<W>& a) {
+    return {-a.re, -a.im};
+}
+template <class W> BOUGH_FORCE Complex<W> operator+(const Complex<W>& a, const W& b) {
+    return {a.re + b, a.im};
+}
+template <class W> BOUGH_FORCE Complex<W> operator*(const Complex<W>& a, const Complex<W>& b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+template <class W> BOUGH_FORCE Complex<W> operator*(const W& a, const Complex<W>& b) {
+    return {a * b.re, a * b.im};
+}
+template <class W> BOUGH_FORCE Complex<W> operator*(const Complex<W>& a, const W& b) {
+    return {a.re * b, a.im * b};
+}
+template <class W> BOUGH_FORCE Complex<W> inverse(const Complex<W>& a) {
+    const W scale = 1 / (a.re * a.re + a.im * a.im);
+    return {a.re * scale, -a.im * scale};
+}
+
+template <class X> struct V3 { X x, y, z; };
+template <class X> BOUGH_FORCE V3<X> operator+(const V3<X>& a, const V3<X>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class X> BOUGH_FORCE V3<X> operator-(const V3<X>& a, const V3<X>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class X> BOUGH_FORCE V3<X> operator-(const V3<X>& a) {
+    return {-a.x, -a.y, -a.z};
+}
+template <class S, class X> BOUGH_FORCE auto operator*(const S& s, const V3<X>& a) -> V3<decltype(s * a.x)> {
+    return {s * a.x, s * a.y, s * a.z};
+}
+template <class X, class Y> BOUGH_FORCE auto dot(const V3<X>& a, const V3<Y>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class X, class Y> BOUGH_FORCE auto cross(const V3<X>& a, const V3<Y>& b) -> V3<decltype(a.x * b.x)> {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class W> BOUGH_FORCE V3<Complex<W>> complex(const V3<W>& re, const V3<W>& im) {
+    return {{re.x, im.x}, {re.y, im.y}, {re.z, im.z}};
+}
+
+// By columns: a matrix times a vector is a sum of them.
+template <class X> struct M3 { V3<X> x, y, z; };
+template <class X, class Y> BOUGH_FORCE auto operator*(const M3<X>& m, const V3<Y>& v) -> V3<decltype(m.x.x * v.x)> {
+    return {m.x.x * v.x + m.y.x * v.y + m.z.x * v.z, m.x.y * v.x + m.y.y * v.y + m.z.y * v.z,
+            m.x.z * v.x + m.y.z * v.y + m.z.z * v.z};
+}
+template <class X, class Y> BOUGH_FORCE auto operator*(const M3<X>& a, const M3<Y>& b) -> M3<decltype(a.x.x * b.x.x)> {
+    return {a * b.x, a * b.y, a * b.z};
+}
+template <class X, class Y>
+BOUGH_FORCE auto transposed_times(const M3<X>& m, const V3<Y>& v) -> V3<decltype(m.x.x * v.x)> {
+    return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
+}
+template <class X> BOUGH_FORCE M3<X> transposed(const M3<X>& m) {
+    return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
+}
+template <class X> BOUGH_FORCE M3<X> operator+(const M3<X>& a, const M3<X>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+template <class X> struct Symmetric { X xx, xy, xz, yy, yz, zz; };
+template <class X> BOUGH_FORCE M3<X> full(const Symmetric<X>& s) {
+    return {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
+}
+template <class X> BOUGH_FORCE Symmetric<X> operator+(const Symmetric<X>& a, const Symmetric<X>& b) {
+    return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+}
+template <class S, class X>
+BOUGH_FORCE auto operator*(const S& s, const Symmetric<X>& a) -> Symmetric<decltype(s * a.xx)> {
+    return {s * a.xx, s * a.xy, s * a.xz, s * a.yy, s * a.yz, s * a.zz};
+}
+template <class X, class Y>
+BOUGH_FORCE auto operator*(const Symmetric<X>& s, const V3<Y>& v) -> V3<decltype(s.xx * v.x)> {
+    return {s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z,
+            s.xz * v.x + s.yz * v.y + s.zz * v.z};
+}
+template <class X, class Y>
+BOUGH_FORCE auto operator*(const Symmetric<X>& s, const M3<Y>& m) -> M3<decltype(s.xx * m.x.x)> {
+    return {s * m.x, s * m.y, s * m.z};
+}
+// R s R^T.
+template <class W> BOUGH_FORCE Symmetric<W> turned(const M3<W>& R, const Symmetric<W>& s) {
+    const M3<W> q = transposed(R * full(s)); // rows of R s
+    const M3<W> rows = transposed(R);
+    return {dot(q.x, rows.x), dot(q.x, rows.y), dot(q.x, rows.z), dot(q.y, rows.y), dot(q.y, rows.z), dot(q.z, rows.z)};
+}
+// The symmetric product of a and b: its upper half, b's symmetric part taken where rounding has left another.
+template <class X, class Y> BOUGH_FORCE auto symmetric_product(const Symmetric<X>& a, const M3<Y>& b) {
+    const V3<X> rx{a.xx, a.xy, a.xz}, ry{a.xy, a.yy, a.yz}, rz{a.xz, a.yz, a.zz};
+    using R = decltype(a.xx * b.x.x);
+    return Symmetric<R>{dot(rx, b.x), dot(rx, b.y), dot(rx, b.z), dot(ry, b.y), dot(ry, b.z), dot(rz, b.z)};
+}
+// a^T b where that is symmetric.
+template <class X> BOUGH_FORCE Symmetric<X> symmetric_transposed_product(const M3<X>& a, const M3<X>& b) {
+    return {dot(a.x, b.x), dot(a.x, b.y), dot(a.x, b.z), dot(a.y, b.y), dot(a.y, b.z), dot(a.z, b.z)};
+}
+template <class X> BOUGH_FORCE Symmetric<X> operator-(const Symmetric<X>& a, const Symmetric<X>& b) {
+    return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
+}
+
+// [r]* m, column by column.
+template <class W, class X> BOUGH_FORCE M3<X> cross_left(const V3<W>& r, const M3<X>& m) {
+    return {cross(r, m.x), cross(r, m.y), cross(r, m.z)};
+}
+// [r]* m + ([r]* m)^T.
+template <class X> BOUGH_FORCE Symmetric<X> twice_symmetric(const M3<X>& m) {
+    return {m.x.x + m.x.x, m.y.x + m.x.y, m.z.x + m.x.z, m.y.y + m.y.y, m.z.y + m.y.z, m.z.z + m.z.z};
+}
+template <class X> BOUGH_FORCE Symmetric<X> upper(const M3<X>& m) {
+    return {m.x.x, m.y.x, m.z.x, m.y.y, m.z.y, m.z.z};
+}
+
+// The inverse of a complex symmetric matrix = L D L^T, L with unit diagonal; scaled first, as what a float's square loses would
+// make 1/0 of the lightest leaves.
+template <class W> BOUGH_FORCE Symmetric<Complex<W>> inverse(const Symmetric<Complex<W>>& given) {
+    using X = Complex<W>;
+    const auto size = [](const X& z) { return larger(z.re, W(-z.re)) + larger(z.im, W(-z.im)); };
+    const W scale = 1 / (size(given.xx) + size(given.yy) + size(given.zz));
+    const Symmetric<X> s = scale * given;
+    const X d0 = inverse(s.xx);
+    const X l10 = s.xy * d0, l20 = s.xz * d0;
+    const X d1 = inverse(s.yy - l10 * s.xy);
+    const X y21 = s.yz - l20 * s.xy;
+    const X l21 = y21 * d1;
+    const X d2 = inverse(s.zz - l20 * s.xz - l21 * y21);
+    const X m20 = l10 * l21 - l20; // L^-1 has -l10, -l21 and this below its diagonal
+    Symmetric<X> e;
+    e.zz = d2;
+    e.yz = -(l21 * d2);
+    e.xz = m20 * d2;
+    e.yy = d1 - l21 * e.yz;
+    e.xy = -(l10 * d1) - l21 * e.xz;
+    e.xx = d0 + l10 * l10 * d1 + m20 * e.xz;
+    return scale * e;
+}
+
+} // namespace BOUGH_TARGET
+} // namespace bough::fast
