@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <vector>
+#include <memory>
 
 namespace bough {
 
@@ -15,7 +15,7 @@ namespace bough {
 // add(), end_line(), room() and hand_on() throw OutputError.
 class Text {
 public:
-    explicit Text(Output& output) : output_(output), buffer_(size + margin) {}
+    explicit Text(Output& output) : output_(output), buffer_(new char[size + margin]) {}
 
     void add(std::string_view text) {
         if (text.size() >= margin) {
@@ -23,14 +23,14 @@ public:
             output_.write(text);
             return;
         }
-        std::memcpy(buffer_.data() + used_, text.data(), text.size());
+        std::memcpy(buffer_.get() + used_, text.data(), text.size());
         used_ += text.size();
         room();
     }
     // Shortest digits that read back as the same number, at most 25 bytes.
     template <class Number> void add_number(Number value) {
-        char* const begin = buffer_.data() + used_;
-        used_ += std::size_t(std::to_chars(begin, buffer_.data() + buffer_.size(), value).ptr - begin);
+        char* const begin = buffer_.get() + used_;
+        used_ += std::size_t(std::to_chars(begin, buffer_.get() + size + margin, value).ptr - begin);
     }
     // The same as JSON, where "-0" would be read as an integer, which has no such zero.
     void add_json(double value) {
@@ -46,13 +46,13 @@ public:
     // A number of magnitude up to 1 with 4 decimals: normals need no more.
     void add_unit(double value) {
         const int scaled = int(std::lround(value * 10000));
-        char* p = buffer_.data() + used_;
+        char* p = buffer_.get() + used_;
         if (scaled < 0) *p++ = '-';
         const unsigned digits = unsigned(std::abs(scaled));
         *p++ = char('0' + digits / 10000);
         *p++ = '.';
         for (const unsigned unit : {1000u, 100u, 10u, 1u}) *p++ = char('0' + digits / unit % 10);
-        used_ = std::size_t(p - buffer_.data());
+        used_ = std::size_t(p - buffer_.get());
     }
     void put(char c) { buffer_[used_++] = c; }
     void end_line() {
@@ -63,14 +63,14 @@ public:
         if (used_ >= size) hand_on();
     }
     void hand_on() {
-        output_.write({buffer_.data(), used_});
+        output_.write({buffer_.get(), used_});
         used_ = 0;
     }
 
 private:
     static constexpr std::size_t size = std::size_t(1) << 16, margin = 256;
     Output& output_;
-    std::vector<char> buffer_;
+    std::unique_ptr<char[]> buffer_;
     std::size_t used_ = 0;
 };
 
