@@ -56,7 +56,7 @@ template <> struct Entry<Mat3> {
     }
 };
 
-template <class T> auto& numbers_of(Numbers& numbers) {
+template <class T, class N> auto& numbers_of(N& numbers) {
     if constexpr (Entry<T>::dtype == Dtype::f64)
         return numbers.reals;
     else
@@ -65,17 +65,22 @@ template <class T> auto& numbers_of(Numbers& numbers) {
 
 template <class T> Field make(const std::string& name, std::vector<T>& values, const Per& per) {
     constexpr std::size_t components = Entry<T>::components;
-    Array array{Entry<T>::dtype, components, {}, {}, {}, {}, per};
+    Array array{Entry<T>::dtype, components, {}, {}, {}, {}, {}, per};
     array.entries = [&values] { return values.size(); };
     array.get = [&values](std::size_t first, std::size_t count, Numbers& numbers) {
         auto& to = numbers_of<T>(numbers);
         to.resize(count * components);
         for (std::size_t i = 0; i < count; ++i) Entry<T>::put(values[first + i], to.data() + components * i);
     };
-    array.set = [&values](Numbers& numbers) {
+    array.start = [&values](std::size_t count) {
+        values.clear();
+        values.reserve(count);
+    };
+    array.add = [&values](const Numbers& numbers) {
         const auto& from = numbers_of<T>(numbers);
-        values.resize(from.size() / components);
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = Entry<T>::take(from.data() + components * i);
+        const std::size_t before = values.size(), count = from.size() / components;
+        values.resize(before + count);
+        for (std::size_t i = 0; i < count; ++i) values[before + i] = Entry<T>::take(from.data() + components * i);
     };
     return Field{name, std::move(array)};
 }

@@ -17,6 +17,9 @@
 
 namespace bough {
 
+// Entries of an array on their way at a time.
+constexpr std::size_t block_entries = 4096;
+
 // What one number of an array is in the binary form: F64, I64, I32, U8 there.
 enum class Dtype : std::uint8_t { f64, i64, i32, u8 };
 
@@ -32,15 +35,17 @@ struct Per {
     std::function<std::size_t()> count;
 };
 
-// A std::vector of numbers, vectors, quaternions (x y z w), matrices (xx yy zz xy xz yz) or kinds, as flat numbers.
+// A std::vector of numbers, vectors, quaternions (x y z w), matrices (xx yy zz xy xz yz) or kinds, as flat numbers. They
+// pass through Numbers a block of entries at a time, which stays in cache and holds no field twice.
 struct Array {
     Dtype dtype;
     std::size_t components;                                                  // numbers of one entry
     std::function<std::size_t()> entries;                                    // in memory
     std::function<void(std::size_t first, std::size_t count, Numbers&)> get; // entries from `first`, replacing Numbers
-    std::function<void(Numbers&)> set;
-    std::function<void(std::size_t count)> fill; // by its default when absent; empty: must be there if Per counts any
-    Per per;                                     // count empty: any number of entries
+    std::function<void(std::size_t count)> start; // empty, with room for about `count` entries
+    std::function<void(const Numbers&)> add;      // whole entries after those that are there
+    std::function<void(std::size_t count)> fill;  // by its default when absent; empty: must be there if Per counts any
+    Per per;                                      // count empty: any number of entries
 };
 
 struct Field;
@@ -77,7 +82,7 @@ struct DocumentType {
 };
 
 // Reads either form into the fields' targets: format, version, names, types, lengths, finite numbers; rules between
-// fields are check()'s. Cost O(size), one field's numbers held twice.
+// fields are check()'s. Cost O(size).
 void read_document(std::string_view content, const std::string& name, const DocumentType&, std::vector<Field>);
 // Writes either form. A number that is not finite is an OutputError. (The fields are only looked at.)
 void write_document(Output&, Form, const DocumentType&, const std::vector<Field>&);

@@ -24,6 +24,11 @@ void check_format(const std::string& name, const std::string& format, const Docu
 void check_complete(std::vector<Field>&, const std::string& name, const std::string& at);
 std::vector<std::string> names(const std::vector<Field>&);
 
+// ---- finite.cpp ----
+bool all_finite(const double* values, std::size_t count);
+// Throws OutputError naming the first number of a field that is not finite; `first`: the index of values[0] in it.
+void require_finite(const Output&, const std::string& field, const std::vector<double>& values, std::size_t first);
+
 // ---- json_reader.cpp ----
 // Fields of one JSON object by SAX: of a document (type given) or of a part of one. `line` > 0: the text is this line
 // of the file (JSON lines).
@@ -71,7 +76,9 @@ void read_metadata(const Safetensors&, const std::string& name, const DocumentTy
 // Throws unless the tensor has this dtype and shape; -1 stands for any length.
 void check_tensor(const std::string& name, const std::string& field, const Tensor&, Dtype,
                   const std::vector<std::int64_t>& shape);
-void check_finite(const std::string& name, const std::string& field, const double* values, std::size_t count);
+// `first`: the index of values[0] in the field, for the message.
+void check_finite(const std::string& name, const std::string& field, const double* values, std::size_t count,
+                  std::size_t first = 0);
 void read_safetensors(std::string_view content, const std::string& name, const DocumentType&, std::vector<Field>&);
 void write_safetensors(Output&, const DocumentType&, const std::vector<Field>&);
 const char* dtype_name(Dtype);

@@ -105,10 +105,12 @@ public:
         Level& level = levels_.back();
         if (level.list || !is_list(*level.field)) wrong_type("an array");
         level.list = true;
-        numbers_ = {};
-        if (const Array* array = std::get_if<Array>(&level.field->value)) {
-            reals_ = array->dtype == Dtype::f64;
+        if ((array_ = std::get_if<Array>(&level.field->value))) {
+            reals_ = array_->dtype == Dtype::f64;
             integers_ = !reals_;
+            block_ = block_entries * array_->components;
+            set_range(array_->dtype);
+            array_->start(array_->per.count ? array_->per.count() : 0);
         }
         return true;
     }
@@ -116,10 +118,9 @@ public:
     bool end_array() override {
         Level& level = levels_.back();
         level.list = false;
-        if (Array* array = std::get_if<Array>(&level.field->value)) {
-            level.field->numbers = reals_ ? numbers_.reals.size() : numbers_.integers.size();
-            array->set(numbers_);
-            numbers_ = {};
+        if (array_) {
+            hand_on();
+            array_ = nullptr;
             reals_ = integers_ = false;
         }
         return true;
@@ -141,8 +142,8 @@ private:
         if (!level.field) return level.at;
         const std::string at = pointer(level.at, level.field->name);
         if (!level.list) return at;
-        if (reals_) return at + "/" + std::to_string(numbers_.reals.size());
-        if (integers_) return at + "/" + std::to_string(numbers_.integers.size());
+        if (array_)
+            return at + "/" + std::to_string(level.field->numbers + numbers_.reals.size() + numbers_.integers.size());
         if (auto* texts = std::get_if<std::vector<std::string>*>(&level.field->value))
             return at + "/" + std::to_string((*texts)->size());
         return at + "/" + std::to_string(level.objects);
@@ -164,18 +165,34 @@ private:
 
     bool push(double value) {
         numbers_.reals.push_back(value);
+        if (numbers_.reals.size() == block_) hand_on();
         return true;
     }
 
     bool push(std::int64_t value) {
-        const Dtype dtype = std::get<Array>(levels_.back().field->value).dtype;
-        const std::int64_t low = dtype == Dtype::u8 ? 0 : std::numeric_limits<std::int32_t>::min();
-        const std::int64_t high = dtype == Dtype::u8 ? 255 : std::numeric_limits<std::int32_t>::max();
-        if (dtype != Dtype::i64 && (value < low || value > high))
+        if (value < low_ || value > high_)
             throw InputError(place(), "is " + std::to_string(value) + ", expected an integer from " +
-                                          std::to_string(low) + " to " + std::to_string(high));
+                                          std::to_string(low_) + " to " + std::to_string(high_));
         numbers_.integers.push_back(value);
+        if (numbers_.integers.size() == block_) hand_on();
         return true;
+    }
+
+    void set_range(Dtype dtype) {
+        low_ = dtype == Dtype::i64   ? std::numeric_limits<std::int64_t>::min()
+               : dtype == Dtype::i32 ? std::numeric_limits<std::int32_t>::min()
+                                     : 0;
+        high_ = dtype == Dtype::i64   ? std::numeric_limits<std::int64_t>::max()
+                : dtype == Dtype::i32 ? std::numeric_limits<std::int32_t>::max()
+                                      : 255;
+    }
+
+    // Numbers read so far go to where they belong.
+    void hand_on() {
+        levels_.back().field->numbers += numbers_.reals.size() + numbers_.integers.size();
+        array_->add(numbers_);
+        numbers_.reals.clear();
+        numbers_.integers.clear();
     }
 
     // A value that is no number of an array: a field's own, or one that does not belong where it stands.
@@ -201,8 +218,11 @@ private:
     std::vector<Field>& fields_;
     std::vector<Field> part_;
     std::vector<Level> levels_;
-    Numbers numbers_;
-    bool reals_ = false, integers_ = false; // inside an array of these
+    const Array* array_ = nullptr;          // of numbers, inside which we are
+    bool reals_ = false, integers_ = false; // what they are
+    Numbers numbers_;                       // a block of it
+    std::size_t block_ = 0;                 // numbers of a whole block
+    std::int64_t low_ = 0, high_ = 0;       // of its integers
 };
 
 bool put_integer(const json& value, std::int64_t low, std::int64_t high, std::int64_t& to) {

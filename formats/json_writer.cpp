@@ -1,11 +1,10 @@
 #include "document_parts.h"
+#include "text.h"
 #include <array>
-#include <charconv>
 
 namespace bough {
 namespace {
 
-constexpr std::size_t block = 4096;        // entries of an array on their way at a time
 constexpr std::size_t numbers_a_line = 12; // whole entries a line of a document: 12 numbers, 4 vectors, 3 quaternions
 
 template <class T> void append_digits(std::string& to, T value) {
@@ -14,39 +13,32 @@ template <class T> void append_digits(std::string& to, T value) {
     to.append(digits.data(), end);
 }
 
-void append_value(std::string& to, double value, const Output& output, const std::string& field, std::size_t index) {
-    if (!std::isfinite(value))
-        throw OutputError(output.name(), "/" + field + "/" + std::to_string(index) +
-                                             " is not finite, and documents hold finite numbers only");
-    append_number(to, value);
-}
-
 // The array as flat numbers, a line end before each `numbers_a_line` of them where `lines` is set.
 void write_array(Output& output, const std::string& field, const Array& array, bool lines) {
-    std::string text = "[";
+    Text text(output);
     Numbers numbers;
+    std::size_t index = 0, in_line = 0;
+    const auto add_all = [&](const auto& values) {
+        for (const auto value : values) {
+            if (index++ > 0) text.put(',');
+            if (lines && in_line-- == 0) {
+                text.put('\n');
+                in_line = numbers_a_line - 1;
+            }
+            text.add_json(value);
+            text.room();
+        }
+    };
+    text.put('[');
     const std::size_t entries = array.entries();
-    std::size_t index = 0;
-    for (std::size_t first = 0; first < entries; first += block) {
-        array.get(first, std::min(block, entries - first), numbers);
-        const auto separate = [&] {
-            if (index > 0) text += ',';
-            if (lines && index % numbers_a_line == 0) text += '\n';
-        };
-        for (const double value : numbers.reals) {
-            separate();
-            append_value(text, value, output, field, index++);
-        }
-        for (const std::int64_t value : numbers.integers) {
-            separate();
-            append_digits(text, value);
-            ++index;
-        }
-        output.write(text);
-        text.clear();
+    for (std::size_t first = 0; first < entries; first += block_entries) {
+        array.get(first, std::min(block_entries, entries - first), numbers);
+        require_finite(output, field, numbers.reals, first * array.components);
+        add_all(numbers.reals);
+        add_all(numbers.integers);
     }
-    text += ']';
-    output.write(text);
+    text.put(']');
+    text.hand_on();
 }
 
 std::string checked_text(const Output& output, const Field& field) {

@@ -25,9 +25,9 @@ public:
         if (file_ >= 0) ::close(file_);
     }
 
-    void write(const std::string& bytes) {
-        for (std::size_t done = 0; done < bytes.size();) {
-            const ssize_t n = ::write(file_, bytes.data() + done, bytes.size() - done);
+    void write(const void* bytes, std::size_t size) {
+        for (std::size_t done = 0; done < size;) {
+            const ssize_t n = ::write(file_, static_cast<const char*>(bytes) + done, size - done);
             if (n < 0 && errno != EINTR) fail();
             if (n > 0) done += std::size_t(n);
         }
@@ -55,18 +55,18 @@ private:
     int file_ = -1;
 };
 
-void append_frame(std::string& bytes, const FrameArray& array, const MotionFrame& frame, const std::string& output) {
-    const auto add = [&](const double* values, std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i)
-            if (!std::isfinite(values[i]))
-                throw OutputError(output, "/" + std::string(array.name) + " of frame " + std::to_string(frame.frame) +
-                                              " is not finite, and documents hold finite numbers only");
-        bytes.append(reinterpret_cast<const char*>(values), count * sizeof(double));
-    };
-    if (array.vectors)
-        for (const Vec3& v : frame.*array.vectors) add(v.data(), 3);
-    else
-        for (const Quat& q : frame.*array.rotations) add(q.coeffs().data(), 4); // Eigen keeps x y z w
+// Vectors and quaternions (Eigen keeps x y z w) lie in memory as they do in the file.
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quat) == 4 * sizeof(double));
+
+void spool_frame(Spool& spool, const FrameArray& array, const MotionFrame& frame, const std::string& output) {
+    const std::size_t count = array.size(frame) * array.components();
+    if (count == 0) return;
+    const double* values =
+        array.vectors ? (frame.*array.vectors).front().data() : (frame.*array.rotations).front().coeffs().data();
+    if (!all_finite(values, count))
+        throw OutputError(output, "/" + std::string(array.name) + " of frame " + std::to_string(frame.frame) +
+                                      " is not finite, and documents hold finite numbers only");
+    spool.write(values, count * sizeof(double));
 }
 
 [[maybe_unused]] bool holds_just(const MotionFrame& frame, const MotionHeader& header) {
@@ -108,9 +108,7 @@ struct MotionWriter::Implementation {
 
     void write_binary(const MotionFrame& f) {
         if (!std::isfinite(f.time)) throw OutputError(output.name(), "/time is not finite");
-        std::string bytes;
-        for (const FrameArray* array : arrays) append_frame(bytes, *array, f, output.name());
-        spool->write(bytes);
+        for (const FrameArray* array : arrays) spool_frame(*spool, *array, f, output.name());
         frame.push_back(f.frame);
         time.push_back(f.time);
     }

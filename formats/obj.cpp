@@ -1,65 +1,15 @@
 #include "obj.h"
+#include "text.h"
 #include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 
 namespace bough {
 
 namespace {
-
-// Text gathered in a block and handed on when it is full. A line is never longer than `margin`.
-class Text {
-public:
-    explicit Text(Output& output) : output_(output), buffer_(size + margin) {}
-
-    void add(std::string_view text) {
-        if (text.size() >= margin) {
-            hand_on();
-            output_.write(text);
-            return;
-        }
-        std::memcpy(buffer_.data() + used_, text.data(), text.size());
-        used_ += text.size();
-        room();
-    }
-    template <class Number> void add_number(Number value) {
-        char* const begin = buffer_.data() + used_;
-        used_ += std::size_t(std::to_chars(begin, buffer_.data() + buffer_.size(), value).ptr - begin);
-    }
-    // A number of magnitude up to 1 with 4 decimals: normals need no more.
-    void add_unit(double value) {
-        const int scaled = int(std::lround(value * 10000));
-        char* p = buffer_.data() + used_;
-        if (scaled < 0) *p++ = '-';
-        const unsigned digits = unsigned(std::abs(scaled));
-        *p++ = char('0' + digits / 10000);
-        *p++ = '.';
-        for (const unsigned unit : {1000u, 100u, 10u, 1u}) *p++ = char('0' + digits / unit % 10);
-        used_ = std::size_t(p - buffer_.data());
-    }
-    void put(char c) { buffer_[used_++] = c; }
-    void end_line() {
-        put('\n');
-        room();
-    }
-    void hand_on() {
-        output_.write({buffer_.data(), used_});
-        used_ = 0;
-    }
-
-private:
-    static constexpr std::size_t size = std::size_t(1) << 16, margin = 256;
-    void room() {
-        if (used_ >= size) hand_on();
-    }
-    Output& output_;
-    std::vector<char> buffer_;
-    std::size_t used_ = 0;
-};
 
 // Floats keep 7 digits of a coordinate. Far from the origin (laser scans) that is coarse against the mesh's own size;
 // there coordinates are written in double.

@@ -121,11 +121,19 @@ json parse_header(std::string_view content, const std::string& name, std::string
     return header;
 }
 
-template <class T> void take_numbers(const Tensor& tensor, std::vector<std::int64_t>& to) {
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        T value;
-        std::memcpy(&value, tensor.data.data() + i * sizeof(T), sizeof(T));
-        to[i] = value;
+// `count` numbers from the tensor's number `first` on.
+template <class T> void take_numbers(const Tensor& tensor, std::size_t first, std::size_t count, Numbers& numbers) {
+    const char* const from = tensor.data.data() + first * sizeof(T);
+    if constexpr (std::is_same_v<T, double>) {
+        numbers.reals.resize(count);
+        std::memcpy(numbers.reals.data(), from, count * sizeof(T));
+    } else {
+        numbers.integers.resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            T value;
+            std::memcpy(&value, from + i * sizeof(T), sizeof(T));
+            numbers.integers[i] = value;
+        }
     }
 }
 
@@ -133,45 +141,50 @@ void read_array(Field& field, const Array& array, const Tensor& tensor, const st
     const bool flat = array.components == 1;
     check_tensor(name, field.name, tensor, array.dtype,
                  flat ? std::vector<std::int64_t>{-1} : std::vector<std::int64_t>{-1, std::int64_t(array.components)});
-    Numbers numbers;
     field.numbers = tensor.bytes / dtype_size(array.dtype);
-    if (array.dtype == Dtype::f64) {
-        numbers.reals.resize(field.numbers);
-        if (tensor.bytes > 0) std::memcpy(numbers.reals.data(), tensor.data.data(), tensor.bytes);
-        check_finite(name, field.name, numbers.reals.data(), field.numbers);
-    } else {
-        numbers.integers.resize(field.numbers);
-        if (array.dtype == Dtype::i64) take_numbers<std::int64_t>(tensor, numbers.integers);
-        if (array.dtype == Dtype::i32) take_numbers<std::int32_t>(tensor, numbers.integers);
-        if (array.dtype == Dtype::u8) take_numbers<std::uint8_t>(tensor, numbers.integers);
-    }
     field.seen = true;
-    array.set(numbers);
+    array.start(field.numbers / array.components);
+    Numbers numbers;
+    const std::size_t block = block_entries * array.components;
+    for (std::size_t first = 0; first < field.numbers; first += block) {
+        const std::size_t count = std::min(block, field.numbers - first);
+        if (array.dtype == Dtype::f64) {
+            take_numbers<double>(tensor, first, count, numbers);
+            check_finite(name, field.name, numbers.reals.data(), count, first);
+        }
+        if (array.dtype == Dtype::i64) take_numbers<std::int64_t>(tensor, first, count, numbers);
+        if (array.dtype == Dtype::i32) take_numbers<std::int32_t>(tensor, first, count, numbers);
+        if (array.dtype == Dtype::u8) take_numbers<std::uint8_t>(tensor, first, count, numbers);
+        array.add(numbers);
+    }
 }
 
 template <class T> void append_bytes(std::string& to, T value) {
     to.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+// The numbers as they lie in the file, replacing `bytes`.
+template <class T, class From> void bytes_of(const std::vector<From>& numbers, std::string& bytes) {
+    bytes.resize(numbers.size() * sizeof(T));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const T value = T(numbers[i]);
+        std::memcpy(bytes.data() + i * sizeof(T), &value, sizeof(T));
+    }
+}
+
 void write_array(Output& output, const Field& field, const Array& array) {
-    constexpr std::size_t block = 4096;
     Numbers numbers;
     std::string bytes;
     const std::size_t entries = array.entries();
-    for (std::size_t first = 0; first < entries; first += block) {
-        array.get(first, std::min(block, entries - first), numbers);
-        bytes.clear();
-        for (std::size_t i = 0; i < numbers.reals.size(); ++i) {
-            if (!std::isfinite(numbers.reals[i]))
-                throw OutputError(output.name(), "/" + field.name + "/" + std::to_string(first * array.components + i) +
-                                                     " is not finite, and documents hold finite numbers only");
-            append_bytes(bytes, numbers.reals[i]);
+    for (std::size_t first = 0; first < entries; first += block_entries) {
+        array.get(first, std::min(block_entries, entries - first), numbers);
+        if (array.dtype == Dtype::f64) {
+            require_finite(output, field.name, numbers.reals, first * array.components);
+            bytes_of<double>(numbers.reals, bytes);
         }
-        for (const std::int64_t value : numbers.integers) {
-            if (array.dtype == Dtype::i64) append_bytes(bytes, value);
-            if (array.dtype == Dtype::i32) append_bytes(bytes, std::int32_t(value));
-            if (array.dtype == Dtype::u8) append_bytes(bytes, std::uint8_t(value));
-        }
+        if (array.dtype == Dtype::i64) bytes_of<std::int64_t>(numbers.integers, bytes);
+        if (array.dtype == Dtype::i32) bytes_of<std::int32_t>(numbers.integers, bytes);
+        if (array.dtype == Dtype::u8) bytes_of<std::uint8_t>(numbers.integers, bytes);
         output.write(bytes);
     }
 }
@@ -231,10 +244,12 @@ void check_tensor(const std::string& name, const std::string& field, const Tenso
                      "is [" + found.substr(0, 80) + "], expected [" + expected + "]");
 }
 
-void check_finite(const std::string& name, const std::string& field, const double* values, std::size_t count) {
+void check_finite(const std::string& name, const std::string& field, const double* values, std::size_t count,
+                  std::size_t first) {
+    if (all_finite(values, count)) return;
     for (std::size_t i = 0; i < count; ++i)
         if (!std::isfinite(values[i]))
-            throw InputError(name + ": " + pointer("", field) + "/" + std::to_string(i),
+            throw InputError(name + ": " + pointer("", field) + "/" + std::to_string(first + i),
                              std::string("is ") + (std::isnan(values[i]) ? "NaN" : "infinite") +
                                  ", expected a finite number");
 }

@@ -1,6 +1,7 @@
 #include "simulation.h"
 #include "formats/scene.h"
 #include "formats/tree.h"
+#include "lib/model/place.h"
 #include "lib/stages/state_arrays.h"
 #include <algorithm>
 #include <array>
@@ -42,13 +43,21 @@ void apply(const RunOptions& o, Scene& scene) {
     }
 }
 
-void stand(Setting& setting, const Tree& tree, const Placement& place) {
+// The first tree, often the only one and large, is taken as it is; others are copied behind it.
+void stand(Setting& setting, Tree tree, const Placement& at) {
     const std::vector<std::int32_t>& branch = setting.tree.branch;
     const std::int32_t first_branch = branch.empty() ? 0 : *std::max_element(branch.begin(), branch.end()) + 1;
-    const std::size_t first = append(setting.tree, tree, place.position, place.yaw * 3.14159265358979323846 / 180);
-    setting.ranges.push_back({first, tree.size_bodies(), first_branch});
+    const std::size_t first = setting.tree.size_bodies(), bodies = tree.size_bodies();
     if (!tree.source.empty() && setting.source.find(tree.source) == std::string::npos)
         setting.source += (setting.source.empty() ? "" : "\n") + tree.source;
+    const double yaw = at.yaw * 3.14159265358979323846 / 180;
+    if (first == 0) {
+        setting.tree = std::move(tree);
+        place(setting.tree, at.position, yaw);
+    } else {
+        append(setting.tree, tree, at.position, yaw);
+    }
+    setting.ranges.push_back({first, bodies, first_branch});
 }
 
 void read_scene_trees(Setting& setting, const std::string& scene_file) {

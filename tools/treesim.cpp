@@ -2,6 +2,7 @@
 #include "error_line.h"
 #include "formats/motion.h"
 #include "formats/obj.h"
+#include "frame_queue.h"
 #include "frame_sink.h"
 #include "lib/stages/root_term.h"
 #include "lib/stages/spring.h"
@@ -232,7 +233,8 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
 template <class T>
 std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state, FrameSink* sink,
                         ErrorEstimate<T>* estimate, const MotionFields& fields, std::int64_t first, std::int64_t last) {
-    MotionFrame frame;
+    std::optional<FrameQueue> queue;
+    if (sink) queue.emplace(*sink, o.common.threads > 1 ? 2 : 1);
     Progress progress(o.common, "frame", last - first + 1);
     std::int64_t done = first - 1;
     try {
@@ -240,22 +242,22 @@ std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>&
             if (interrupted()) throw Interrupted("interrupted after frame " + std::to_string(done));
             if (f > 0) advance_frame(plan, state, setting.tree, f, o.run.substeps);
             if (f > 0 && estimate) estimate->follow(state);
-            if (sink) {
-                fill_frame(state, f, o.run.fps, fields, frame);
-                sink->write(frame);
+            if (queue) {
+                fill_frame(state, f, o.run.fps, fields, queue->next());
+                queue->push();
             }
             done = f;
             progress.at(f - first + 1);
         }
     } catch (const PromiseError&) {
-        if (sink) sink->finish();
+        if (queue) queue->finish();
         throw;
     } catch (const Interrupted&) {
-        if (sink) sink->finish();
+        if (queue) queue->finish();
         if (!o.save_state.empty() && done >= 0) save(o, setting, plan, state, done);
         throw;
     }
-    if (sink) sink->finish();
+    if (queue) queue->finish();
     return done;
 }
 

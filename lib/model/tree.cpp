@@ -1,4 +1,5 @@
 #include "tree.h"
+#include "place.h"
 #include <algorithm>
 
 namespace bough {
@@ -49,16 +50,10 @@ std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double ya
     add(tree.level, more.level);
     add(tree.s, more.s);
 
-    // Only roots are placed in the world; every other body hangs in its parent's frame and comes along.
-    const Quat turn(Eigen::AngleAxisd(yaw, Vec3::UnitY()));
+    place(tree, position, yaw, first);
     for (std::size_t i = first; i < tree.size_bodies(); ++i) {
         tree.branch[i] += first_branch;
-        if (tree.parent[i] >= 0) {
-            tree.parent[i] += std::int32_t(first);
-            continue;
-        }
-        tree.joint_position[i] = turn * tree.joint_position[i] + position;
-        tree.joint_rotation[i] = (turn * tree.joint_rotation[i]).normalized();
+        if (tree.parent[i] >= 0) tree.parent[i] += std::int32_t(first);
     }
     return first;
 }
