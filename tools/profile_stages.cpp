@@ -46,6 +46,7 @@ Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& pl
         }
         require_finite(plan, state, setting.tree, f);
     }
+    present(plan, state);
     Report report;
     report.bodies = std::int64_t(plan.bodies);
     report.frames = frames - 2;

@@ -231,6 +231,11 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
                        "frequencies, two solves a step; LIE, midpoint, for comparison: first order; no damping at all")
         ->option_text("NAME")
         ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
+    app.add_option("--simd", o.simd,
+                   "Which SIMD code coupled steps with: auto (default): the widest of avx512, avx2 and baseline that "
+                   "this machine has; off: the plain step, body by body")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
     app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
         ->option_text("RAD")
         ->check(positive_number());
@@ -271,6 +276,16 @@ Scheme chosen_scheme(const RunOptions& o) {
     for (const Scheme scheme : all_schemes)
         if (o.scheme == scheme_of(scheme).name) return scheme;
     throw UsageError("--scheme is '" + o.scheme + "', which is unknown");
+}
+
+std::optional<fast::Target> chosen_simd(const RunOptions& o) {
+    if (o.simd == "off") return std::nullopt;
+    if (o.simd == "auto") return fast::best_target();
+    const std::optional<fast::Target> target = fast::target_named(o.simd);
+    if (!target || !fast::available(*target))
+        throw UsageError("--simd " + o.simd + ": this machine or build does not have it; the best here is " +
+                         fast::target_name(fast::best_target()));
+    return target;
 }
 
 std::string scheme_name(const RunOptions& o) {
@@ -314,7 +329,7 @@ std::uint64_t fingerprint(const Setting& setting) {
 template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
         Plan<T> plan = make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
-                                    chosen_solver(o), chosen_scheme(o));
+                                    chosen_solver(o), chosen_scheme(o), chosen_simd(o));
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {
@@ -333,8 +348,9 @@ void advance_frame(const Plan<T>& plan, State<T>& state, const Tree& tree, std::
     }
 }
 
-template <class T>
-void require_finite(const Plan<T>& plan, const State<T>& state, const Tree& tree, std::int64_t frame) {
+template <class T> void require_finite(const Plan<T>& plan, State<T>& state, const Tree& tree, std::int64_t frame) {
+    if (plan.lanes.on && state.lanes.finite) return; // seen by the step itself
+    present(plan, state);
     if (first_non_finite(state)) name_non_finite(plan, state, tree, frame);
 }
 
@@ -376,8 +392,8 @@ template Plan<float> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template Plan<double> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template void advance_frame(const Plan<float>&, State<float>&, const Tree&, std::int64_t, int, StageClock*);
 template void advance_frame(const Plan<double>&, State<double>&, const Tree&, std::int64_t, int, StageClock*);
-template void require_finite(const Plan<float>&, const State<float>&, const Tree&, std::int64_t);
-template void require_finite(const Plan<double>&, const State<double>&, const Tree&, std::int64_t);
+template void require_finite(const Plan<float>&, State<float>&, const Tree&, std::int64_t);
+template void require_finite(const Plan<double>&, State<double>&, const Tree&, std::int64_t);
 template void fill_frame(const State<float>&, std::int64_t, double, const MotionFields&, MotionFrame&);
 template void fill_frame(const State<double>&, std::int64_t, double, const MotionFields&, MotionFrame&);
 

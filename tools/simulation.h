@@ -20,6 +20,7 @@ struct RunOptions {
     int substeps = 1;
     std::string wind, gravity, solver = solver_name(default_solver), precision = "double", pose, joint_inertia;
     std::string scheme; // of the coupled solver; empty: its default
+    std::string simd = "auto";
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
 };
@@ -33,6 +34,9 @@ std::int64_t frames_of(const RunOptions&, double seconds_default);
 // The one that --scheme names, or the coupled solver's default; its name, empty for all other solvers.
 Scheme chosen_scheme(const RunOptions&);
 std::string scheme_name(const RunOptions&);
+
+// The SIMD target that --simd names; none for the plain path. Throws UsageError for one that this machine lacks.
+std::optional<fast::Target> chosen_simd(const RunOptions&);
 
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {
@@ -56,7 +60,7 @@ void advance_frame(const Plan<T>&, State<T>&, const Tree&, std::int64_t frame, i
                    StageClock* clock = nullptr);
 
 // Throws that PromiseError where theta or theta_dot is non-finite.
-template <class T> void require_finite(const Plan<T>&, const State<T>&, const Tree&, std::int64_t frame);
+template <class T> void require_finite(const Plan<T>&, State<T>&, const Tree&, std::int64_t frame);
 
 // The frame's arrays, as far as `fields` asks for them. Throws PromiseError where a pose is non-finite.
 template <class T>

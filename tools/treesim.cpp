@@ -4,9 +4,6 @@
 #include "formats/obj.h"
 #include "frame_queue.h"
 #include "frame_sink.h"
-#include "lib/stages/root_term.h"
-#include "lib/stages/spring.h"
-#include "lib/stages/state_update.h"
 #include "simulation.h"
 #include <algorithm>
 #include <filesystem>
@@ -167,13 +164,12 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     });
     state.articulated_step = saved.articulated_step;
     state.step = saved.frame * o.run.substeps;
-    move_ground(plan, state, double(state.step) * plan.dt);
-    state_update(plan, state);
-    if (plan.torque) spring_torque(plan, state);
+    restart(plan, state);
 }
 
 template <class T>
-void save(const Options& o, const Setting& setting, const Plan<T>& plan, const State<T>& state, std::int64_t frame) {
+void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state, std::int64_t frame) {
+    present(plan, state);
     SavedState saved;
     saved.frame = frame;
     saved.fps = o.run.fps;
@@ -241,8 +237,12 @@ std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>&
         for (std::int64_t f = first; f <= last; ++f) {
             if (interrupted()) throw Interrupted("interrupted after frame " + std::to_string(done));
             if (f > 0) advance_frame(plan, state, setting.tree, f, o.run.substeps);
-            if (f > 0 && estimate) estimate->follow(state);
+            if (f > 0 && estimate) {
+                present(plan, state);
+                estimate->follow(state);
+            }
             if (queue) {
+                present(plan, state);
                 fill_frame(state, f, o.run.fps, fields, queue->next());
                 queue->push();
             }
@@ -284,6 +284,7 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
             std::cerr << "calls " << stage_name(Stage(k)) << " " << state.calls[k] << "\n";
         std::cerr << "allocated " << state.bytes() << " bytes\n";
     }
+    present(plan, state);
     if (o.hash) std::cerr << "hash " << hash_text(state_hash(state)) << "\n";
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(state.flags, o.common.notes);

@@ -129,7 +129,8 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
     if (plan.wind) account.gained -= air_work(plan, s, i, moved, own);
 }
 
-// The factors that leave as much kinetic energy as there may be.
+} // namespace
+
 void settle(EnergyAccount& a) {
     const double now = a.slow + 2 * a.mixed + a.fast, excess = now - a.kinetic + a.gained;
     if (!(excess > tolerance * now)) return;
@@ -146,8 +147,6 @@ void settle(EnergyAccount& a) {
     a.keep_slow = at_least > 0 ? std::sqrt(std::max(0.0, target) / at_least) : 1;
     a.keep_fast *= a.keep_slow;
 }
-
-} // namespace
 
 template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, double time) {
     for (std::size_t i = 0; i < plan.bodies; ++i)

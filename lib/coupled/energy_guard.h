@@ -25,4 +25,7 @@ template <class T> bool weigh_start(const Plan<T>&, State<T>&, double time);
 // After it, kinematics (poses) up to date: scales rates.
 template <class T> void guard_energy(const Plan<T>&, State<T>&, double time);
 
+// Finds the account's factors, which leave as much kinetic energy as there may be.
+void settle(EnergyAccount&);
+
 } // namespace bough

@@ -6,6 +6,8 @@
 #include "../stages/root_term.h"
 #include "../stages/spring.h"
 #include "../stages/state_update.h"
+#include "energy_lanes.h"
+#include "present.h"
 #include "targets.h"
 #include <algorithm>
 #ifdef _OPENMP
@@ -125,6 +127,7 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     rows.pull_of_row = plan.lanes.pull_of_row.empty() ? nullptr : plan.lanes.pull_of_row.data();
     rows.pulls = lanes.pulls.empty() ? nullptr : lanes.pulls.data();
     rows.pull_count = lanes.pulls.size();
+    rows.watched = lanes.watched.data();
     rows.stream = lanes.solved.size() * sizeof(Row<T>) > cache;
     rows.h = T(h);
     put(rows.s1, h / pole.p);
@@ -220,6 +223,7 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     const auto records = [&](RowVector<T>& rows, int count) {
         rows.resize(layout.joints * record(count, Row<T>::lanes) / Row<T>::lanes);
     };
+    lanes.watched.assign(layout.base.size(), 0);
     records(lanes.outward, outward::count);
     records(lanes.inward, inward::count);
     records(lanes.accelerated, accelerated::count);
@@ -246,8 +250,14 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
 template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
     const double time = double(state.step) * plan.dt;
     SweepFlags flags;
-    run_stage(Stage::lanes, state, clock, [&] { flags = sweep(plan, state, rows_of(plan, state, time)); });
-    if (flags.fast) {
+    run_stage(Stage::lanes, state, clock, [&] {
+        const CoupledRows<T> rows = rows_of(plan, state, time);
+        flags = sweep(plan, state, rows);
+        if (!flags.fast) return;
+        if (!plan.root_motion) guard_lanes(plan, state, rows);
+        std::fill(state.lanes.watched.begin(), state.lanes.watched.end(), std::uint8_t(0));
+    });
+    if (flags.fast && plan.root_motion) {
         present(plan, state);
         make_room_for_plain_step(plan, state);
         coupled_step(plan, state, clock);

@@ -4,8 +4,8 @@
 // Order. The top outward; each block outward and inward, blocks shared out among threads; the blocks' roots, in a fixed order, into the top;
 // the top inward and outward again; the blocks outward again, last one first. Sums stand in the layout's order: one result for any
 // number of threads.
-// Where a body turns by more than 0.3 rad in the step (energy_guard.h), what the sweeps have found is dropped and the plain step,
-// with its guard, makes that step.
+// Where a body turns by more than 0.3 rad in the step, the energy guard looks at its tree (energy_lanes.h). On a moved ground, whose
+// work the guard's sweep does not book, what the sweeps have found is dropped and the plain step, with its guard, makes that step.
 #pragma once
 #include "../stages/step.h"
 
@@ -18,11 +18,3 @@ template <class T> void pack(const Plan<T>&, State<T>&);
 template <class T> void coupled_lanes_step(const Plan<T>&, State<T>&, StageClock* clock);
 
 } // namespace bough::fast
-
-namespace bough {
-
-// Brings the state's arrays in document order (theta, theta_dot, their changes, poses, and what the plan's wishes add) up to date.
-// Nothing to do where the plan has no lanes, or they are. O(n).
-template <class T> void present(const Plan<T>&, State<T>&);
-
-} // namespace bough

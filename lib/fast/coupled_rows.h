@@ -98,6 +98,8 @@ template <class T> struct CoupledRows {
     T *outward_records, *inward_records, *accelerated_records;
     const std::int32_t* pull_of_row; // first in pulls, -1: none; null: no pulls at all
     const PullOnLane<T>* pulls;      // rising by row
+    std::uint8_t*
+        watched; // of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard
     std::size_t pull_count;
 
     bool stream;              // solved_rows are more than the caches hold

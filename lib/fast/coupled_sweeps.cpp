@@ -1,41 +1,26 @@
 // Compiled once for each target (CMakeLists.txt), with BOUGH_TARGET its name.
 #include "coupled_sweeps.h"
-#include "wide_maps.h"
-#include "wide_rows.h"
+#include "sweep_parts.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 namespace {
 
-template <class T> struct Sweep {
-    using W = Wide<T>;
-    using C = Complex<W>;
-    static constexpr int L = lanes<T>;
+template <class T> struct Sweep : SweepParts<T> {
+    using Parts = SweepParts<T>;
+    using Parts::constants;
+    using Parts::L;
+    using Parts::next;
+    using Parts::now;
+    using Parts::number;
+    using Parts::prefetch;
+    using Parts::rows;
+    using Parts::solved_row;
+    using Parts::vector;
+    using typename Parts::C;
+    using typename Parts::W;
 
-    const CoupledRows<T>& rows;
-
-    explicit Sweep(const CoupledRows<T>& r) : rows(r) {}
-
-    static C number(const T (&z)[2]) { return {all(z[0]), all(z[1])}; }
-    static V3<W> vector(const T (&v)[3]) { return {all(v[0]), all(v[1]), all(v[2])}; }
-
-    // What the next row will read; beyond the last one, nothing happens.
-    BOUGH_FORCE static void prefetch(const T* at, int reals) {
-        for (int k = 0; k < reals; k += L) __builtin_prefetch(at + k);
-    }
-
-    Rows<const T> constants(std::uint32_t row, int lane) const {
-        return {rows.constants + (row * std::size_t(constant::count)) * L + lane};
-    }
-    Rows<const T> now(std::uint32_t row, int lane) const {
-        return {rows.now + (row * std::size_t(motion::count)) * L + lane};
-    }
-    Rows<T> next(std::uint32_t row, int lane) const {
-        return {rows.next + (row * std::size_t(motion::count)) * L + lane};
-    }
-    Rows<T> solved_row(std::uint32_t row, int lane) const {
-        return {rows.solved_rows + (row * std::size_t(solved::count)) * L + lane};
-    }
+    explicit Sweep(const CoupledRows<T>& r) : Parts(r) {}
 
     // ---- outward: where the body is half a step on, and what it is loaded with
 
@@ -67,6 +52,14 @@ template <class T> struct Sweep {
         q.set(outward::a, f.a);
     }
 
+    // Square of the rate from which on the energy guard looks at a tree.
+    W fast2() const { return all(T(0.3) / rows.h * (T(0.3) / rows.h)); }
+    [[gnu::noinline]] void mark(std::uint32_t base, int lane, W rate2, SweepFlags& flags) const {
+        flags.fast = true;
+        for (int l = 0; l < width<T>; ++l)
+            if (rate2[l] > fast2()[l]) rows.watched[base + std::uint32_t(lane + l)] = 1;
+    }
+
     // resolved_turn.h
     [[gnu::noinline]] static V3<W> bounded(const V3<W>& omega, W turn2, W mass, std::uint64_t& count) {
         V3<W> out = omega;
@@ -83,58 +76,6 @@ template <class T> struct Sweep {
     BOUGH_FORCE static V3<W> resolved(const V3<W>& omega, T h, W mass, std::uint64_t& count) {
         const W turn2 = (h * h) * dot(omega, omega);
         return any_above(turn2, all(T(1))) ? bounded(omega, turn2, mass, count) : omega;
-    }
-
-    // Wind's profile at height y: linear between even heights, constant beyond.
-    BOUGH_FORCE W profile(W y) const {
-        const std::size_t last = rows.profile_entries - 1;
-        if (last == 0) return all(rows.profile[0]);
-        W place = larger(W(y * rows.per_metre), W{});
-        W low, high;
-        for (int l = 0; l < width<T>; ++l) {
-            const T at = place[l] < T(last) ? place[l] : T(last); // NaN: the last, to be found where it came from
-            const std::size_t k = std::size_t(at) < last ? std::size_t(at) : last - 1;
-            low[l] = rows.profile[k];
-            high[l] = rows.profile[k + 1];
-            place[l] = at - T(k);
-        }
-        return low + place * (high - low);
-    }
-
-    struct Air {
-        V3<W> force; // [N] with the drag of the velocity ahead
-        Symmetric<W> D;
-    };
-
-    // air.h
-    template <Kind kind>
-    BOUGH_FORCE Air air(const V3<W>& u, const V3<W>& ahead, const M3<W>& R, W scale, Symmetric<W>& H, W arm) const {
-        Air out;
-        if constexpr (kind == Kind::leaf) {
-            const V3<W>&n = R.y, &x = R.x;
-            const W speed2 = dot(u, u), speed = root(speed2), along = dot(u, n);
-            const W d = scale * (speed + along * along / larger(speed, all(T(1e-30))));
-            const V3<W> dn = d * n;
-            out.D = {dn.x * n.x, dn.x * n.y, dn.x * n.z, dn.y * n.y, dn.y * n.z, dn.z * n.z};
-            out.force = W(scale * speed * along + d * dot(n, ahead)) * n;
-            const V3<W> hx = W(2 * scale * arm * speed2) * x;
-            H = H + Symmetric<W>{hx.x * x.x, hx.x * x.y, hx.x * x.z, hx.y * x.y, hx.y * x.z, hx.z * x.z};
-        } else {
-            V3<W> across = u;
-            const V3<W>& t = R.z;
-            if constexpr (kind == Kind::branch) across = u - dot(u, t) * t;
-            const W speed = root(dot(across, across));
-            const W one = scale * speed, more = scale / larger(speed, all(T(1e-30)));
-            const V3<W> m = more * across;
-            out.D = {one + m.x * across.x, m.x * across.y, m.x * across.z,
-                     one + m.y * across.y, m.y * across.z, one + m.z * across.z};
-            if constexpr (kind == Kind::branch) {
-                const V3<W> s = one * t;
-                out.D = out.D - Symmetric<W>{s.x * t.x, s.x * t.y, s.x * t.z, s.y * t.y, s.y * t.z, s.z * t.z};
-            }
-            out.force = one * across + out.D * ahead;
-        }
-        return out;
     }
 
     [[gnu::noinline]] void add_pulls(std::uint32_t row, int lane, const M3<W>& R, V3<C>& N, V3<C>& F) const {
@@ -158,7 +99,8 @@ template <class T> struct Sweep {
 
     // One row: the frame of its bodies from their parents'.
     template <bool wind, bool gravity, Kind kind>
-    BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane, const Rows<T>& out, SweepFlags& flags) const {
+    BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
+                              SweepFlags& flags) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         prefetch(k.at + constant::count * L, constant::count * L);
         prefetch(y0.at + motion::count * L, motion::count * L);
@@ -166,25 +108,9 @@ template <class T> struct Sweep {
         const W mass = k.real(constant::mass);
         const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
 
-        // G = R_p R_pj
-        const W qw = k.real(constant::R_pj), qx = k.real(constant::R_pj + 1), qy = k.real(constant::R_pj + 2),
-                qz = k.real(constant::R_pj + 3);
-        const W x2 = qx + qx, y2 = qy + qy, z2 = qz + qz;
-        const M3<W> R_pj{{1 - qy * y2 - qz * z2, qx * y2 + qw * z2, qx * z2 - qw * y2},
-                         {qx * y2 - qw * z2, 1 - qx * x2 - qz * z2, qy * z2 + qw * x2},
-                         {qx * z2 + qw * y2, qy * z2 - qw * x2, 1 - qx * x2 - qy * y2}};
-        const M3<W> G = f.R * R_pj;
-
-        // y*, but for joints whose way on cannot be told (midpoint.h)
-        V3<W> half = T(0.5) * y0.vector(motion::theta_change), half_rate = T(0.5) * y0.vector(motion::theta_dot_change);
-        const V3<W> half_turn = f.turn + G * half;
-        const W own_way = dot(half, half), way = dot(half_turn, half_turn);
-        if (any_above(own_way, all(T(0.15) * T(0.15))) || any_above(way, all(T(0.3) * T(0.3)))) {
-            const W one =
-                where_above(all(T(0.15) * T(0.15)), own_way, where_above(all(T(0.3) * T(0.3)), way, all(T(1))));
-            half = one * half;
-            half_rate = one * half_rate;
-        }
+        const M3<W> G = f.R * this->joint_rotation(k);
+        V3<W> half, half_rate;
+        this->halfway(y0, G, f.turn, half, half_rate);
         const V3<W> theta = theta_0 + half, eta = eta_0 + half_rate;
         const WideMaps<T> maps = wide_maps<T>(theta);
         const M3<W> GJ = G * maps.J;
@@ -209,7 +135,7 @@ template <class T> struct Sweep {
         f.R = R;
         if constexpr (wind) f.y = f.y + r.y;
         const W omega2 = dot(f.omega, f.omega);
-        if (any_above(omega2, all(T(0.3) / h * (T(0.3) / h)))) flags.fast = true;
+        if (any_above(omega2, fast2())) mark(row_base, lane, omega2, flags);
 
         // body_load.h
         V3<W> spin = f.omega;
@@ -232,12 +158,12 @@ template <class T> struct Sweep {
         V3<W> N = J * alpha + cross(spin, J * spin) + mass * cross(c, a0);
         V3<C> Fc, Nc;
         if constexpr (wind) {
-            const W p = profile(f.y + c.y);
+            const W p = this->profile(f.y + c.y);
             const V3<W> u = p * vector(rows.wind) - f.v - cross(f.omega, c);
             const V3<W> ahead = f.ahead_v + cross(f.ahead_omega, c);
             const V3<W> com = k.vector(constant::com);
             const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
-            const Air air_on = air<kind>(u, ahead, R, k.real(constant::drag_area), H, arm);
+            const auto air_on = this->template air<kind>(u, ahead, R, k.real(constant::drag_area), H, arm);
             F = F - air_on.force;
             N = N - cross(c, air_on.force);
             const V3<W> slope_F = -(air_on.D * (p * vector(rows.wind_change)));
@@ -383,8 +309,9 @@ template <class T> struct Sweep {
             base.gather(rows.outward_records, &rows.base[g.first_base + std::size_t(lane)]);
             Frame f = read_frame(base);
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step_out<wind, gravity, kind>(
-                    f, row, lane, {scratch + std::size_t(row - block.first_row) * loaded::count * L + lane}, flags);
+                step_out<wind, gravity, kind>(f, row, g.first_base, lane,
+                                              {scratch + std::size_t(row - block.first_row) * loaded::count * L + lane},
+                                              flags);
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
                 base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
@@ -463,7 +390,7 @@ template <class T> struct Sweep {
                 y1.set(motion::theta_dot_change, rate_change);
                 const W angle2 = dot(theta, theta), rate2 = dot(eta, eta);
                 // As the plain step looks at theta_dot at the start and its change: the rate at the end.
-                if (any_above(rate2, all(T(0.3) / rows.h * (T(0.3) / rows.h)))) flags.fast = true;
+                if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
                 if (!(total(W(angle2 + rate2)) < T(1e30))) flags.finite = false;
                 if (any_above(angle2, all(T(9.869)))) turn_back(y1, flags, constants(row, lane).real(constant::mass));
                 if (rows.fork_of_row[row] < 0) continue;

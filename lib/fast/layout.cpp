@@ -184,17 +184,18 @@ private:
                 }
             block.end_fork = out.joints;
         }
-        std::vector<std::uint32_t> stands_on(n, 0); // roots: which ground
-        std::size_t root = 0;
-        for (std::size_t i = 0; i < n; ++i)
-            if (parent[i] < 0) stands_on[i] = ground[root++];
+        std::vector<std::uint32_t> tree(n);
+        std::uint32_t roots = 0;
+        for (std::size_t i = 0; i < n; ++i) tree[i] = parent[i] < 0 ? roots++ : tree[std::size_t(parent[i])];
         out.landing.assign(out.base.size(), nothing);
+        out.tree.assign(out.base.size(), nothing);
         for (const Group& g : out.groups)
             for (std::size_t l = 0; l < lanes; ++l) {
                 const std::int32_t i = out.body[g.first_row * lanes + l];
                 if (i < 0) continue;
                 const std::int32_t p = parent[std::size_t(i)];
-                out.base[g.first_base + l] = p < 0 ? stands_on[std::size_t(i)] : joint[std::size_t(p)];
+                out.tree[g.first_base + l] = tree[std::size_t(i)];
+                out.base[g.first_base + l] = p < 0 ? ground[tree[std::size_t(i)]] : joint[std::size_t(p)];
                 if (p < 0) continue;
                 if (block_of[std::size_t(i)] == block_of[std::size_t(p)]) {
                     out.landing[g.first_base + l] = joint[std::size_t(p)];

@@ -33,6 +33,7 @@ struct Layout {
     std::vector<std::uint32_t> slot; // of body
     std::vector<std::uint32_t> base; // a group's lanes: the joint that the chain begins on, outward (ground 0: a pad's)
     std::vector<std::uint32_t> landing;    // ... and the joint that takes what it hands inward, or nothing
+    std::vector<std::uint32_t> tree;       // ... and the tree that it belongs to, counted by roots, or nothing
     std::vector<std::int32_t> fork_of_row; // index into fork times lanes, -1: no lane of the row is a fork
     std::vector<std::uint32_t> fork;       // joint of each lane's body; ground 0 where it is none
 };

@@ -5,14 +5,17 @@ namespace bough::fast {
 
 namespace baseline {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
-}
+template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+} // namespace baseline
 #ifdef BOUGH_X86_TARGETS
 namespace avx2 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
-}
+template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+} // namespace avx2
 namespace avx512 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
-}
+template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+} // namespace avx512
 #endif
 
 const char* target_name(Target target) {
@@ -50,10 +53,18 @@ Target best_target() {
     return best;
 }
 
-template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity) {
+namespace {
+
+void require(Target target) {
     if (!available(target))
         throw std::invalid_argument(std::string("SIMD target ") + target_name(target) + " is not there, the best is " +
                                     target_name(best_target()));
+}
+
+} // namespace
+
+template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity) {
+    require(target);
 #ifdef BOUGH_X86_TARGETS
     if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity);
     if (target == Target::avx2) return avx2::coupled_sweeps<T>(wind, gravity);
@@ -61,7 +72,18 @@ template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind,
     return baseline::coupled_sweeps<T>(wind, gravity);
 }
 
+template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
+    require(target);
+#ifdef BOUGH_X86_TARGETS
+    if (target == Target::avx512) return avx512::energy_sweep<T>(wind);
+    if (target == Target::avx2) return avx2::energy_sweep<T>(wind);
+#endif
+    return baseline::energy_sweep<T>(wind);
+}
+
 template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool);
 template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool);
+template EnergySweepOf<float> energy_sweep_for<float>(Target, bool);
+template EnergySweepOf<double> energy_sweep_for<double>(Target, bool);
 
 } // namespace bough::fast

@@ -1,6 +1,7 @@
 // targets.h: which of the compiled SIMD targets a run uses: chosen when the program starts, by what the machine has.
 #pragma once
 #include "coupled_sweeps.h"
+#include "energy_sweep.h"
 #include <array>
 #include <optional>
 #include <string>
@@ -21,5 +22,6 @@ std::optional<Target> target_named(const std::string&);
 
 // The target's code, which must be available.
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, bool wind, bool gravity);
+template <class T> EnergySweepOf<T> energy_sweep_for(Target, bool wind);
 
 } // namespace bough::fast

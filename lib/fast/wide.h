@@ -135,6 +135,9 @@ template <class W> [[gnu::always_inline]] inline auto total(W w) { // NaN if any
     for (unsigned k = 1; k < sizeof(W) / sizeof(w[0]); ++k) sum += w[k];
     return sum;
 }
+template <class W> [[gnu::always_inline]] inline W smaller(W a, W b) {
+    return a < b ? a : b;
+}
 template <class W> [[gnu::always_inline]] inline W larger(W a, W b) {
     return a > b ? a : b;
 }

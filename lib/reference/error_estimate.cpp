@@ -1,6 +1,4 @@
 #include "error_estimate.h"
-#include "../stages/root_term.h"
-#include "../stages/state_update.h"
 #include "advance.h"
 #include "trajectory.h"
 #include <algorithm>
@@ -43,8 +41,7 @@ template <class T> void ErrorEstimate<T>::begin(const State<T>& run) {
     state_.theta_change = twice(run.theta_change);
     state_.theta_dot_change = twice(run.theta_dot_change);
     state_.step = run.step / 2;
-    move_ground(plan_, state_, double(state_.step) * plan_.dt);
-    state_update(plan_, state_);
+    restart(plan_, state_);
     begun_ = true;
 }
 
@@ -55,6 +52,7 @@ template <class T> void ErrorEstimate<T>::follow(const State<T>& run) {
     }
     while (found_.finite && 2 * state_.step + 2 <= run.step) {
         advance(plan_, state_);
+        present(plan_, state_);
         found_.finite = !first_non_finite(state_);
     }
     if (found_.finite && 2 * state_.step == run.step) compare(run);

@@ -1,0 +1,109 @@
+#include "energy_lanes.h"
+#include "../coupled/energy_guard.h"
+#include "targets.h"
+
+namespace bough::fast {
+namespace {
+
+// Which trees a fast body belongs to, and which blocks have part in one.
+template <class T> std::vector<bool> watch(const Plan<T>& plan, State<T>& state) {
+    const Layout& layout = plan.lanes.layout;
+    for (EnergyAccount& account : state.account) account = {};
+    for (std::size_t k = 0; k < layout.tree.size(); ++k)
+        if (state.lanes.watched[k] && layout.tree[k] != nothing) state.account[layout.tree[k]].watched = true;
+    std::vector<bool> blocks(layout.blocks.size(), false);
+    for (std::size_t b = 0; b < layout.blocks.size(); ++b)
+        for (std::uint32_t g = layout.blocks[b].first_group; g < layout.blocks[b].end_group && !blocks[b]; ++g)
+            for (std::size_t l = 0; l < std::size_t(layout.lanes); ++l) {
+                const std::uint32_t tree = layout.tree[layout.groups[g].first_base + l];
+                if (tree != nothing && state.account[tree].watched) blocks[b] = true;
+            }
+    return blocks;
+}
+
+template <class T> EnergyRows<T> make_room(const Plan<T>& plan, Lanes<T>& lanes) {
+    const Layout& layout = plan.lanes.layout;
+    if (lanes.energy_records.empty()) {
+        const std::size_t size = record(energy::count, Row<T>::lanes);
+        lanes.energy_records.assign(layout.joints * size / Row<T>::lanes, Row<T>{});
+        lanes.energy_sums.resize(layout.base.size() / Row<T>::lanes * energy::sums);
+        lanes.energy_fast.resize(layout.rows);
+        T* rest = lanes.energy_records.front().lane; // the resting ground: no turn, no motion
+        for (const int R : {int(energy::start), int(energy::end), int(energy::R)})
+            for (int k = 0; k < 3; ++k) rest[R + 4 * k] = 1;
+    }
+    return {lanes.energy_records.front().lane, lanes.energy_sums.front().lane, lanes.energy_fast.front().lane};
+}
+
+// A group's bodies: the rates of those that their tree's account takes from.
+template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, const Group& g) {
+    constexpr std::size_t L = Row<T>::lanes;
+    const Layout& layout = plan.lanes.layout;
+    const T h = T(plan.dt);
+    std::uint64_t count = 0;
+    for (std::size_t l = 0; l < L; ++l) {
+        const std::uint32_t tree = layout.tree[g.first_base + l];
+        if (tree == nothing) continue;
+        const EnergyAccount& account = state.account[tree];
+        if (!(account.keep_fast < 1 || account.keep_slow < 1)) continue;
+        for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
+            const double keep = state.lanes.energy_fast[row].lane[l] > 0 ? account.keep_fast : account.keep_slow;
+            if (!(keep < 1) || layout.body[row * L + l] < 0) continue;
+            Row<T>* motion = &state.lanes.next[row * std::size_t(motion::count)];
+            for (std::size_t k = 0; k < 3; ++k) {
+                T& rate = motion[motion::theta_dot + k].lane[l];
+                rate *= T(keep);
+                motion[motion::theta_change + k].lane[l] = h * rate;
+                motion[motion::theta_dot_change + k].lane[l] = 0;
+            }
+            ++count;
+        }
+    }
+    return count;
+}
+
+} // namespace
+
+template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
+    const Layout& layout = plan.lanes.layout;
+    const std::vector<bool> blocks = watch(plan, state);
+    const EnergyRows<T> energies = make_room(plan, state.lanes);
+    const EnergySweepOf<T> weigh = energy_sweep_for<T>(plan.target, plan.wind);
+    if (blocks[0]) weigh(rows, energies, layout.blocks[0]);
+    const auto n = std::int64_t(layout.blocks.size());
+#pragma omp parallel for schedule(dynamic, 1) if (n > 2)
+    for (std::int64_t b = 1; b < n; ++b)
+        if (blocks[std::size_t(b)]) weigh(rows, energies, layout.blocks[std::size_t(b)]);
+    constexpr std::size_t L = Row<T>::lanes;
+    for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
+        if (!blocks[b]) continue;
+        for (std::uint32_t k = layout.blocks[b].first_group; k < layout.blocks[b].end_group; ++k)
+            for (std::size_t l = 0; l < L; ++l) {
+                const std::uint32_t base = layout.groups[k].first_base;
+                const std::uint32_t tree = layout.tree[base + l];
+                if (tree == nothing || !state.account[tree].watched) continue;
+                const T* sum = energies.sums + base * std::size_t(energy::sums) + l;
+                EnergyAccount& account = state.account[tree];
+                account.kinetic += double(sum[energy::kinetic * L]);
+                account.gained += double(sum[energy::gained * L]);
+                account.slow += double(sum[energy::slow * L]);
+                account.mixed += double(sum[energy::mixed * L]);
+                account.fast += double(sum[energy::fast * L]);
+            }
+    }
+    bool any = false;
+    for (EnergyAccount& account : state.account) {
+        if (account.watched) settle(account);
+        any = any || account.keep_fast < 1 || account.keep_slow < 1;
+    }
+    if (!any) return;
+    for (std::size_t b = 0; b < layout.blocks.size(); ++b)
+        if (blocks[b])
+            for (std::uint32_t k = layout.blocks[b].first_group; k < layout.blocks[b].end_group; ++k)
+                state.flags.energy_guard += scale(plan, state, layout.groups[k]);
+}
+
+template void guard_lanes(const Plan<float>&, State<float>&, const CoupledRows<float>&);
+template void guard_lanes(const Plan<double>&, State<double>&, const CoupledRows<double>&);
+
+} // namespace bough::fast

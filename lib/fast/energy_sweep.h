@@ -1,0 +1,36 @@
+// energy_sweep.h: the energy guard's weighing (coupled/energy_guard.h) in one sweep over a block's rows: what a step has changed of each
+// chain's energies, from the motion at its start and at its end, both still there.
+//
+// Three poses go outward side by side: the start's, the end's, and with wind that of y*, in which the step took the air's force.
+// Sums go over a lane's chain, in its order; the caller adds them up by trees, group by group. Cost about that of the outward sweep, and only
+// in steps in which something turned fast.
+#pragma once
+#include "coupled_rows.h"
+
+namespace bough::fast {
+
+namespace energy {
+enum : int {   // a record a joint
+    start = 0, // R, x, omega, v
+    end = 18,
+    fast_omega = 36,
+    fast_v = 39,
+    R = 42,
+    y = 51,
+    omega = 52,
+    v = 55,
+    turn = 58,
+    count = 61
+};
+enum : int { kinetic = 0, gained = 1, slow = 2, mixed = 3, fast = 4, sums = 5 }; // of EnergyAccount [J]
+} // namespace energy
+
+template <class T> struct EnergyRows {
+    T* records;
+    T* sums; // of a group: energy::sums rows of lanes, at first_base * energy::sums
+    T* fast; // a row of lanes for each row: 1 where the body turns fast
+};
+
+template <class T> using EnergySweepOf = void (*)(const CoupledRows<T>&, const EnergyRows<T>&, const Block&);
+
+} // namespace bough::fast

@@ -1,0 +1,117 @@
+// sweep_parts.h: what the sweeps over lanes share: their rows, the wind and the air, and where a joint is half a step on.
+#pragma once
+#include "wide_maps.h"
+#include "wide_rows.h"
+
+namespace bough::fast {
+inline namespace BOUGH_TARGET {
+
+template <class T> struct SweepParts {
+    using W = Wide<T>;
+    using C = Complex<W>;
+    static constexpr int L = lanes<T>;
+
+    const CoupledRows<T>& rows;
+
+    explicit SweepParts(const CoupledRows<T>& r) : rows(r) {}
+
+    static C number(const T (&z)[2]) { return {all(z[0]), all(z[1])}; }
+    static V3<W> vector(const T (&v)[3]) { return {all(v[0]), all(v[1]), all(v[2])}; }
+
+    // What the next row will read; beyond the last one, nothing happens.
+    BOUGH_FORCE static void prefetch(const T* at, int reals) {
+        for (int k = 0; k < reals; k += L) __builtin_prefetch(at + k);
+    }
+
+    Rows<const T> constants(std::uint32_t row, int lane) const {
+        return {rows.constants + (row * std::size_t(constant::count)) * L + lane};
+    }
+    Rows<const T> now(std::uint32_t row, int lane) const {
+        return {rows.now + (row * std::size_t(motion::count)) * L + lane};
+    }
+    Rows<T> next(std::uint32_t row, int lane) const {
+        return {rows.next + (row * std::size_t(motion::count)) * L + lane};
+    }
+    Rows<T> solved_row(std::uint32_t row, int lane) const {
+        return {rows.solved_rows + (row * std::size_t(solved::count)) * L + lane};
+    }
+
+    // Parent's body frame from joint frame.
+    BOUGH_FORCE static M3<W> joint_rotation(const Rows<const T>& k) {
+        const W w = k.real(constant::R_pj), x = k.real(constant::R_pj + 1), y = k.real(constant::R_pj + 2),
+                z = k.real(constant::R_pj + 3);
+        const W x2 = x + x, y2 = y + y, z2 = z + z;
+        return {{1 - y * y2 - z * z2, x * y2 + w * z2, x * z2 - w * y2},
+                {x * y2 - w * z2, 1 - x * x2 - z * z2, y * z2 + w * x2},
+                {x * z2 + w * y2, y * z2 - w * x2, 1 - x * x2 - y * y2}};
+    }
+
+    // Half of the last changes, but for joints whose way on cannot be told (midpoint.h). turn: the parent's.
+    BOUGH_FORCE static void halfway(const Rows<const T>& y0, const M3<W>& G, const V3<W>& turn, V3<W>& half,
+                                    V3<W>& half_rate) {
+        half = T(0.5) * y0.vector(motion::theta_change);
+        half_rate = T(0.5) * y0.vector(motion::theta_dot_change);
+        const V3<W> half_turn = turn + G * half;
+        const W own_way = dot(half, half), way = dot(half_turn, half_turn);
+        const W own_most = all(T(0.15) * T(0.15)), most = all(T(0.3) * T(0.3));
+        if (!any_above(own_way, own_most) && !any_above(way, most)) return;
+        const W one = where_above(own_most, own_way, where_above(most, way, all(T(1))));
+        half = one * half;
+        half_rate = one * half_rate;
+    }
+
+    // Wind's profile at height y: linear between even heights, constant beyond.
+    BOUGH_FORCE W profile(W y) const {
+        const std::size_t last = rows.profile_entries - 1;
+        if (last == 0) return all(rows.profile[0]);
+        W place = larger(W(y * rows.per_metre), W{});
+        W low, high;
+        for (int l = 0; l < width<T>; ++l) {
+            const T at = place[l] < T(last) ? place[l] : T(last); // NaN: the last, to be found where it came from
+            const std::size_t k = std::size_t(at) < last ? std::size_t(at) : last - 1;
+            low[l] = rows.profile[k];
+            high[l] = rows.profile[k + 1];
+            place[l] = at - T(k);
+        }
+        return low + place * (high - low);
+    }
+
+    struct Air {
+        V3<W> force; // [N] with the drag of the velocity ahead
+        Symmetric<W> D;
+    };
+
+    // air.h
+    template <Kind kind>
+    BOUGH_FORCE Air air(const V3<W>& u, const V3<W>& ahead, const M3<W>& R, W scale, Symmetric<W>& H, W arm) const {
+        Air out;
+        if constexpr (kind == Kind::leaf) {
+            const V3<W>&n = R.y, &x = R.x;
+            const W speed2 = dot(u, u), speed = root(speed2), along = dot(u, n);
+            const W d = scale * (speed + along * along / larger(speed, all(T(1e-30))));
+            const V3<W> dn = d * n;
+            out.D = {dn.x * n.x, dn.x * n.y, dn.x * n.z, dn.y * n.y, dn.y * n.z, dn.z * n.z};
+            out.force = W(scale * speed * along + d * dot(n, ahead)) * n;
+            const V3<W> hx = W(2 * scale * arm * speed2) * x;
+            H = H + Symmetric<W>{hx.x * x.x, hx.x * x.y, hx.x * x.z, hx.y * x.y, hx.y * x.z, hx.z * x.z};
+        } else {
+            V3<W> across = u;
+            const V3<W>& t = R.z;
+            if constexpr (kind == Kind::branch) across = u - dot(u, t) * t;
+            const W speed = root(dot(across, across));
+            const W one = scale * speed, more = scale / larger(speed, all(T(1e-30)));
+            const V3<W> m = more * across;
+            out.D = {one + m.x * across.x, m.x * across.y, m.x * across.z,
+                     one + m.y * across.y, m.y * across.z, one + m.z * across.z};
+            if constexpr (kind == Kind::branch) {
+                const V3<W> s = one * t;
+                out.D = out.D - Symmetric<W>{s.x * t.x, s.x * t.y, s.x * t.z, s.y * t.y, s.y * t.z, s.z * t.z};
+            }
+            out.force = one * across + out.D * ahead;
+        }
+        return out;
+    }
+};
+
+} // namespace BOUGH_TARGET
+} // namespace bough::fast
