@@ -166,7 +166,8 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     const auto threads = std::size_t(most_threads());
     if (lanes.scratch.size() < threads + 1) lanes.scratch.resize(threads + 1);
     const auto room = [](RowVector<T>& scratch, std::size_t rows_of_block) {
-        if (scratch.size() < rows_of_block * loaded::count) scratch.resize(rows_of_block * loaded::count);
+        const std::size_t size = rows_of_block * (std::size_t(loaded::count) + solved::count);
+        if (scratch.size() < size) scratch.resize(size);
         return data(scratch);
     };
     SweepFlags top;
@@ -177,9 +178,18 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     const auto n = std::int64_t(blocks.size());
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
     for (std::int64_t b = 1; b < n; ++b) {
+        const Block& block = blocks[std::size_t(b)];
+        SweepFlags& met = flags[std::size_t(b)];
         T* scratch = room(lanes.scratch[std::size_t(this_thread())], most);
-        sweeps.outward(rows, blocks[std::size_t(b)], scratch, flags[std::size_t(b)]);
-        sweeps.inward(rows, blocks[std::size_t(b)], scratch);
+        CoupledRows<T> mine = rows;
+        if (block.whole) { // nothing to wait for: what is solved stays in the cache
+            mine.solved_rows = scratch + most * std::size_t(loaded::count) * Row<T>::lanes;
+            mine.solved_first = block.first_row;
+            mine.stream = false;
+        }
+        sweeps.outward(mine, block, scratch, met);
+        sweeps.inward(mine, block, scratch);
+        if (block.whole) sweeps.accelerate(mine, block, met);
     }
     for (const Port& port : plan.lanes.layout.ports)
         for (int k = 0; k < inward::count; ++k) {
@@ -190,7 +200,8 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     sweeps.inward(rows, blocks[0], top_scratch);
     sweeps.accelerate(rows, blocks[0], top);
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
-    for (std::int64_t b = n - 1; b > 0; --b) sweeps.accelerate(rows, blocks[std::size_t(b)], flags[std::size_t(b)]);
+    for (std::int64_t b = n - 1; b > 0; --b)
+        if (!blocks[std::size_t(b)].whole) sweeps.accelerate(rows, blocks[std::size_t(b)], flags[std::size_t(b)]);
     for (const SweepFlags& f : flags) top = top + f;
     return top;
 }
@@ -219,7 +230,9 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     Lanes<T>& lanes = state.lanes;
     lanes.now.resize(std::size_t(layout.rows) * motion::count);
     lanes.next.resize(lanes.now.size());
-    lanes.solved.resize(std::size_t(layout.rows) * solved::count);
+    const auto whole = [](const Block& block) { return block.whole || block.first_row == block.end_row; };
+    if (!std::all_of(layout.blocks.begin(), layout.blocks.end(), whole))
+        lanes.solved.resize(std::size_t(layout.rows) * solved::count);
     const auto records = [&](RowVector<T>& rows, int count) {
         rows.resize(layout.joints * record(count, Row<T>::lanes) / Row<T>::lanes);
     };

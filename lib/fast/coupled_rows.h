@@ -92,9 +92,10 @@ template <class T> struct CoupledRows {
     const std::int32_t* fork_of_row;
 
     const T* constants;
-    const T* now; // motion at the step's start
-    T* next;      // and at its end
-    T* solved_rows;
+    const T* now;   // motion at the step's start
+    T* next;        // and at its end
+    T* solved_rows; // from row solved_first on
+    std::uint32_t solved_first;
     T *outward_records, *inward_records, *accelerated_records;
     const std::int32_t* pull_of_row; // first in pulls, -1: none; null: no pulls at all
     const PullOnLane<T>* pulls;      // rising by row

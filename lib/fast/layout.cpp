@@ -51,7 +51,7 @@ private:
 
     // Whole subtrees, in document order, until a block is full.
     void cut_blocks() {
-        const std::size_t full = std::clamp(n / 8, smallest_block, largest_block);
+        const std::size_t full = std::clamp(n / 6, smallest_block, largest_block);
         std::vector<std::uint32_t> size(n, 1);
         for (std::size_t i = n; i-- > 0;)
             if (parent[i] >= 0) size[std::size_t(parent[i])] += size[i];
@@ -163,6 +163,7 @@ private:
     }
 
     void number_joints() {
+        for (std::size_t b = 1; b < out.blocks.size(); ++b) out.blocks[b].whole = true;
         const auto lanes = std::size_t(out.lanes);
         std::vector<bool> is_fork(n, false);
         for (const Chain& c : chains)
@@ -200,6 +201,7 @@ private:
                 if (block_of[std::size_t(i)] == block_of[std::size_t(p)]) {
                     out.landing[g.first_base + l] = joint[std::size_t(p)];
                 } else {
+                    out.blocks[block_of[std::size_t(i)]].whole = false;
                     out.ports.push_back({out.joints, joint[std::size_t(p)]});
                     out.landing[g.first_base + l] = out.joints++;
                 }

@@ -33,7 +33,7 @@ template <class T> struct SweepParts {
         return {rows.next + (row * std::size_t(motion::count)) * L + lane};
     }
     Rows<T> solved_row(std::uint32_t row, int lane) const {
-        return {rows.solved_rows + (row * std::size_t(solved::count)) * L + lane};
+        return {rows.solved_rows + (std::size_t(row - rows.solved_first) * solved::count) * L + lane};
     }
 
     // Parent's body frame from joint frame.
