@@ -1,6 +1,7 @@
 // colonize.h: the nodes against a plain O(points * nodes) run of the same rules, and against what filling a volume means.
 #include "lib/growth/colonize.h"
 #include "lib/growth/segment.h"
+#include "sanitized.h"
 #include "solids.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -353,7 +354,7 @@ TEST_CASE("Same seed, same tree; another seed, another") {
 
 TEST_CASE("The number of bodies asked for, within a tenth") {
     for (const ColonizeParameters& p : {in_shape(EnvelopeShape::sphere, 1), in_mesh(solids::l_prism(), 1)})
-        for (const std::int64_t bodies : {100, 777, 5000, 60000})
+        for (const std::int64_t bodies : cases<std::int64_t>(3, {100, 777, 5000, 60000}))
             for (const bool leaves : {false, true}) {
                 const Splines s = colonize_bodies(p, 5, leaves, leaves, bodies);
                 const auto found = static_cast<double>(count_bodies(s, SegmentOptions()));

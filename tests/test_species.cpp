@@ -3,6 +3,7 @@
 #include "lib/growth/segment.h"
 #include "lib/model/sway.h"
 #include "lib/stages/pose.h"
+#include "sanitized.h"
 #include "simulate.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -80,7 +81,7 @@ TEST_CASE("The paper's four species and four more are there") {
 
 TEST_CASE("Each species has the number of bodies asked for, with and without leaves") {
     for (const Species& species : all_species())
-        for (const std::int64_t bodies : {100, 700, 5000, 60000})
+        for (const std::int64_t bodies : cases<std::int64_t>(3, {100, 700, 5000, 60000}))
             for (const bool leaves : {false, true}) {
                 INFO(species.name << " " << bodies << (leaves ? " with leaves" : ""));
                 const Splines s = grow_bodies(species.growth, 3, {leaves, false, leaves}, bodies);

@@ -89,10 +89,6 @@ template <class T> Matrix3<T> body_rate_jacobian_inverse(const Vector3<T>& theta
 
 // A frame whose z axis is `axis` (unit length not needed), turned the least from `near`'s own z axis. Branch bodies
 // take their frames this way along the branch, so that x and y do not spin about it (a twist-free frame).
-inline Quat least_turn(const Quat& near, const Vec3& axis) {
-    const Vec3 z = near * Vec3::UnitZ();
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(z, axis);
-    return Quat((turn * Eigen::Quaterniond(near)).normalized());
-}
+Quat least_turn(const Quat& near, const Vec3& axis);
 
 } // namespace bough

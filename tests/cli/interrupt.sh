@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 treegen --bodies 3000 --seed 3 | treeconvert - -o tree.json
 
 # stop FILE COMMAND...: starts it as a shell starts a foreground job (SIGINT not ignored), interrupts it once FILE says
-# that it runs, and checks the code.
+# that it runs (it is not empty; a .glb is empty until its end, so 3 s after it is there), and checks the code.
 stop() {
     local code=0
     python3 - "$@" <<'END' || code=$?
@@ -15,9 +15,10 @@ child = subprocess.Popen(command, stderr=open("err", "wb"), stdout=open("out", "
                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
 import glob, os
 end = time.time() + 60
-while child.poll() is None and time.time() < end and not any(os.path.getsize(f) > 0 for f in glob.glob(watched)):
+empty_until_done = command[-1].endswith(".glb")
+while child.poll() is None and time.time() < end and not any(empty_until_done or os.path.getsize(f) > 0 for f in glob.glob(watched)):
     time.sleep(0.01)
-time.sleep(0.3)
+time.sleep(3 if empty_until_done else 0.3)
 child.send_signal(signal.SIGINT)
 sys.exit(child.wait())
 END

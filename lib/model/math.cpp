@@ -1,0 +1,13 @@
+// math.cpp: what is not a template, and out of the header for the compiler's time: Eigen's turn of two vectors brings a
+// singular value decomposition, several seconds in each source that includes it.
+#include "math.h"
+
+namespace bough {
+
+Quat least_turn(const Quat& near, const Vec3& axis) {
+    const Vec3 z = near * Vec3::UnitZ();
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(z, axis);
+    return Quat((turn * Eigen::Quaterniond(near)).normalized());
+}
+
+} // namespace bough
