@@ -107,7 +107,8 @@ void work(ErrorCommand& o) {
     reading.scheme.clear();
     Setting setting = read_setting(reading);
     let_move(o, setting.scene);
-    const Problem problem{setting.tree, setting.ranges, setting.scene, o.run.fps, frames_of(o.run, seconds_default)};
+    const Problem problem{
+        setting.tree, setting.ranges, setting.scene, o.run.fps, frames_of(o.run, seconds_default), chosen_simd(o.run)};
     const double coarsest = std::max(1.0, 1 / options.steps_per_frame.front());
     if (double(problem.frames - 1) < 2 * coarsest)
         throw UsageError("--frames: at least two of the longest steps are needed");

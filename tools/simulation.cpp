@@ -204,6 +204,14 @@ template <class T>
 
 } // namespace
 
+void add_simd_option(CLI::App& app, RunOptions& o) {
+    app.add_option("--simd", o.simd,
+                   "Which SIMD code coupled steps with: auto (default): the widest of avx512, avx2 and baseline that "
+                   "this machine has; off: the plain step, body by body")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
+}
+
 void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
     const std::string seconds_text = std::to_string(int(seconds_default));
     app.add_option("INPUT", o.input, "A tree or a scene; - for stdin");
@@ -231,11 +239,7 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
                        "frequencies, two solves a step; LIE, midpoint, for comparison: first order; no damping at all")
         ->option_text("NAME")
         ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
-    app.add_option("--simd", o.simd,
-                   "Which SIMD code coupled steps with: auto (default): the widest of avx512, avx2 and baseline that "
-                   "this machine has; off: the plain step, body by body")
-        ->option_text("NAME")
-        ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
+    add_simd_option(app, o);
     app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
         ->option_text("RAD")
         ->check(positive_number());

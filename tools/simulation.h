@@ -28,6 +28,8 @@ struct RunOptions {
 // seconds_default: what runs without --seconds and --frames.
 void add_run_options(CLI::App&, RunOptions&, double seconds_default);
 
+void add_simd_option(CLI::App&, RunOptions&);
+
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
 std::int64_t frames_of(const RunOptions&, double seconds_default);
 

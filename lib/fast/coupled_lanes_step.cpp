@@ -230,9 +230,7 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     Lanes<T>& lanes = state.lanes;
     lanes.now.resize(std::size_t(layout.rows) * motion::count);
     lanes.next.resize(lanes.now.size());
-    const auto whole = [](const Block& block) { return block.whole || block.first_row == block.end_row; };
-    if (!std::all_of(layout.blocks.begin(), layout.blocks.end(), whole))
-        lanes.solved.resize(std::size_t(layout.rows) * solved::count);
+    if (waits(layout)) lanes.solved.resize(std::size_t(layout.rows) * solved::count);
     const auto records = [&](RowVector<T>& rows, int count) {
         rows.resize(layout.joints * record(count, Row<T>::lanes) / Row<T>::lanes);
     };

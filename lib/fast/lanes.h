@@ -20,6 +20,19 @@ template <class T> struct PlannedLanes {
     T per_metre = 0;
 };
 
+// Whether some block's accelerations have to wait for others: then what is solved is kept for all rows.
+inline bool waits(const Layout& layout) {
+    for (const Block& block : layout.blocks)
+        if (!block.whole && block.first_row < block.end_row) return true;
+    return false;
+}
+
+// [rows] that the three records of a joint take.
+template <class T> constexpr int records_of_joint() {
+    constexpr int L = Row<T>::lanes;
+    return int((record(outward::count, L) + record(inward::count, L) + record(accelerated::count, L)) / L);
+}
+
 // In the state.
 template <class T> struct Lanes {
     RowVector<T> now, next, solved;

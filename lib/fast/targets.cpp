@@ -7,7 +7,7 @@ namespace baseline {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
 } // namespace baseline
-#ifdef BOUGH_X86_TARGETS
+#ifdef BOUGH_HAS_AVX2
 namespace avx2 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
@@ -30,20 +30,25 @@ std::optional<Target> target_named(const std::string& name) {
 }
 
 bool available(Target target) {
-#ifdef BOUGH_X86_TARGETS
     switch (target) {
     case Target::avx512:
+#ifdef BOUGH_HAS_AVX512
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") && available(Target::avx2);
+               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+               __builtin_cpu_supports("fma");
+#else
+        return false;
+#endif
     case Target::avx2:
+#ifdef BOUGH_HAS_AVX2
         return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+        return false;
+#endif
     case Target::baseline:
         break;
     }
     return true;
-#else
-    return target == Target::baseline;
-#endif
 }
 
 Target best_target() {
@@ -65,8 +70,10 @@ void require(Target target) {
 
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity) {
     require(target);
-#ifdef BOUGH_X86_TARGETS
+#ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity);
+#endif
+#ifdef BOUGH_HAS_AVX2
     if (target == Target::avx2) return avx2::coupled_sweeps<T>(wind, gravity);
 #endif
     return baseline::coupled_sweeps<T>(wind, gravity);
@@ -74,8 +81,10 @@ template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind,
 
 template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
     require(target);
-#ifdef BOUGH_X86_TARGETS
+#ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::energy_sweep<T>(wind);
+#endif
+#ifdef BOUGH_HAS_AVX2
     if (target == Target::avx2) return avx2::energy_sweep<T>(wind);
 #endif
     return baseline::energy_sweep<T>(wind);

@@ -128,7 +128,8 @@ RingDown ring_down(const Problem& problem, const Variant& how, double dt, const 
     scene.gravity.setZero();
     scene.pose = Pose::rest;
     scene.joint_inertia = how.inertia;
-    Plan<double> plan = make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme);
+    Plan<double> plan =
+        make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd);
     plan.tolerance = how.tolerance;
     for (const Vec3& K : plan.K)
         if (!(K.minCoeff() > 0)) return {};
@@ -139,10 +140,11 @@ RingDown ring_down(const Problem& problem, const Variant& how, double dt, const 
     for (const Vec3& turn : mode.shape) largest = std::max(largest, turn.norm());
     State<double> state = make_state(plan);
     for (std::size_t i = 0; i < plan.bodies; ++i) state.theta[i] = mode.shape[i] * (amplitude / largest);
-    state_update(plan, state);
+    restart(plan, state);
     std::vector<double> y;
     for (std::int64_t k = 0; k < samples; ++k) {
         if (k > 0) advance(plan, state);
+        present(plan, state);
         tick();
         if (first_non_finite(state)) return {};
         y.push_back(product(mode.moment, state.theta) / (amplitude / largest));

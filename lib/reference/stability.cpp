@@ -129,13 +129,15 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
     cell.solver = solver_name(solver);
     cell.precision = sizeof(T) == 4 ? "float" : "double";
     cell.promised = what.promised && !is_articulated(solver);
-    const Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver);
+    const Plan<T> plan =
+        make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver, Scheme::p12, setup.simd);
     State<T> state = make_state(plan);
     Audit<T> audit(plan, state, setup.tree, frames);
     cell.finite = true;
     for (std::int64_t k = 0; k < frames && cell.finite; ++k) {
         tick();
         advance(plan, state);
+        present(plan, state);
         cell.frames = k + 1;
         cell.finite = !first_non_finite(state);
         if (cell.finite) audit.after_step(state);

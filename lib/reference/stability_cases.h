@@ -5,6 +5,7 @@
 // Promised (the analytic solver, float and double): stiffness x 1e-3 to 1e6, beta 0 to 1 s, dt 1/240 to 1/10 s, wind to 50 m/s,
 // mass ratios to 1e6, chains to 1e5 deep, degenerate pieces; beyond that the cases are run to say where it ends.
 #pragma once
+#include "../fast/targets.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
 #include <functional>
@@ -17,7 +18,8 @@ struct StabilitySetup {
     Tree tree;
     std::vector<TreeRange> ranges;
     Scene scene;
-    double dt = 1.0 / 30; // [s]
+    double dt = 1.0 / 30;                            // [s]
+    std::optional<fast::Target> simd = std::nullopt; // the fast path, for what it holds; none: the plain path
 };
 
 struct StabilityCase {

@@ -32,7 +32,7 @@ Trajectory run(const Problem& problem, const Variant& how, bool keep_theta, int 
     Scene scene = problem.scene;
     scene.joint_inertia = how.inertia;
     const double dt = 1 / (problem.fps * how.steps_per_frame);
-    Plan<T> plan = make_plan<T>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme);
+    Plan<T> plan = make_plan<T>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd);
     plan.tolerance = how.tolerance;
     const std::vector<std::size_t> tips = tip_bodies(problem.tree);
     const auto stride = std::int64_t(std::max(1.0, 1 / how.steps_per_frame));
@@ -48,6 +48,7 @@ Trajectory run(const Problem& problem, const Variant& how, bool keep_theta, int 
             const Time::time_point start = Time::now();
             for (std::int64_t s = 0; s < substeps; ++s) advance(plan, state);
             now.seconds += std::chrono::duration<double>(Time::now() - start).count();
+            present(plan, state);
             now.finite = sample(plan, state, problem.tree, tips, keep_theta, now);
         }
         now.hash = state_hash(state);

@@ -15,6 +15,7 @@ struct Problem {
     Scene scene;
     double fps = 30;
     std::int64_t frames = 61;
+    std::optional<fast::Target> simd = std::nullopt; // the fast path, for what it holds; none: the plain path
 };
 
 // How: one row of a work-precision table.

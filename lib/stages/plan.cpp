@@ -249,6 +249,16 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     visit_arrays(plan, empty, [&](const char* name, auto& array, bool on, const std::string& reason) {
         plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
     });
+    if (plan.lanes.on) {
+        const fast::Layout& layout = plan.lanes.layout;
+        const auto rows = [&](const char* name, std::size_t count, int quantities) {
+            plan.arrays.push_back(
+                {name, true, count * std::size_t(quantities) * sizeof(fast::Row<T>), "the fast path"});
+        };
+        rows("lanes.now, next", 2 * std::size_t(layout.rows), fast::motion::count);
+        rows("lanes.solved", fast::waits(layout) ? layout.rows : 0, fast::solved::count);
+        rows("lanes.outward, inward, accelerated", layout.joints, fast::records_of_joint<T>());
+    }
     plan.arrays.push_back(
         {"articulated", is_articulated(plan.solver),
          plan.bodies * sizeof(ArticulatedBody) * std::max<std::size_t>(1, articulated_passes(plan.solver)), solver});

@@ -68,7 +68,6 @@ template <class T> std::size_t State<T>::bytes() const {
     });
     for (const auto* rows : {&lanes.now, &lanes.next, &lanes.solved, &lanes.outward, &lanes.inward, &lanes.accelerated})
         sum += rows->capacity() * sizeof(fast::Row<T>);
-    for (const auto& rows : lanes.scratch) sum += rows.capacity() * sizeof(fast::Row<T>);
     for (const ArticulatedPass& pass : articulated) sum += pass.body.capacity() * sizeof(ArticulatedBody);
     return sum;
 }

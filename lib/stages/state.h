@@ -93,7 +93,8 @@ template <class T> struct State {
     std::array<std::uint64_t, stage_count> calls{}; // how often each stage ran
     StepFlags flags;
 
-    std::size_t bytes() const; // allocated by all arrays
+    // Allocated by all arrays but what the fast path's threads work in, and its energy guard once something has turned fast.
+    std::size_t bytes() const;
 };
 
 // Passes that a solver runs side by side.
