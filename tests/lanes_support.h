@@ -94,7 +94,7 @@ inline Wind gusts() {
 inline std::vector<Pull> pulls() {
     std::vector<Pull> all{coupled::pull_on(3, Vec3(1, 0, -4), Vec3(-8, 1, 2)),
                           coupled::pull_on(3, Vec3(-1, 2, 0), Vec3(2, 2, 2)),
-                          coupled::pull_on(11, Vec3(0, -1, 1), Vec3(0, 1, 0))};
+                          coupled::pull_on(7, Vec3(0, -1, 1), Vec3(0, 1, 0))};
     Pull level;
     level.on.by = Selector::By::level;
     level.on.level = 1;
