@@ -63,9 +63,9 @@ struct Problem {
     std::vector<bough::Vec3> theta, rate;
     Real time = 0;
     bool air = false;
-    V3 wind = V3::Zero();  // everywhere, at the time that the air is taken
+    V3 wind = V3::Zero();    // everywhere, at the time that the air is taken
     std::vector<V3> pulls{}; // [N] of plan.pulls, likewise
-    GroundMotion ground{}; // a alone where h > 0
+    GroundMotion ground{};   // a alone where h > 0
     Real h = 0;
 };
 

@@ -50,7 +50,8 @@ void MergeError::add(const std::vector<Quat>& R_wb, const std::vector<Vec3>& x_w
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         R_wg_[g] = R_wb[std::size_t(groups_.lead[g])].toRotationMatrix();
         const std::int32_t p = groups_.parent[g];
-        x_w_[g] = p < 0 ? x_w[std::size_t(groups_.first[g])] : Vec3(x_w_[std::size_t(p)] + R_wg_[std::size_t(p)] * drawn_.position[g]);
+        x_w_[g] = p < 0 ? x_w[std::size_t(groups_.first[g])]
+                        : Vec3(x_w_[std::size_t(p)] + R_wg_[std::size_t(p)] * drawn_.position[g]);
     }
     for (const End& end : ends_) {
         const std::size_t i = std::size_t(end.body), g = std::size_t(groups_.group[i]);

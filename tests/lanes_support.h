@@ -1,0 +1,116 @@
+// lanes_support.h: the coupled step on the plain path or in lanes, on trees and scenes in which the two are compared.
+#pragma once
+#include "coupled_cases.h"
+#include "lib/fast/present.h"
+#include "lib/growth/grow.h"
+#include "lib/growth/segment.h"
+#include "lib/reference/advance.h"
+#include "tests/solver_support.h"
+#include <catch2/catch.hpp>
+
+namespace lanes {
+
+using namespace bough;
+using fast::Target;
+
+using Simd = std::optional<Target>; // none: the plain path
+
+struct Case {
+    std::string name;
+    Tree tree;
+    Scene scene;
+    double angle = 0, rate = 0; // [rad], [rad/s] at random at the start
+    std::vector<TreeRange> ranges{};
+    std::vector<TreeRange> all_ranges() const {
+        return ranges.empty() ? std::vector<TreeRange>{{0, tree.size_bodies(), 0}} : ranges;
+    }
+};
+
+template <class T = double> struct Run {
+    Plan<T> plan;
+    State<T> state;
+    Run(const Case& c, Simd simd, Scheme scheme = Scheme::p12, const Wishes& wishes = {},
+        Solver solver = Solver::coupled)
+        : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver, scheme, simd)),
+          state(make_state(plan)) {
+        if (c.angle == 0 && c.rate == 0) return;
+        make_tree::Dice dice{std::mt19937(5)};
+        for (std::size_t i = 0; i < plan.bodies; ++i) {
+            state.theta[i] += solver::random_vector(dice, c.angle).template cast<T>();
+            state.theta_dot[i] = solver::random_vector(dice, c.rate).template cast<T>();
+            state.theta_change[i] = T(plan.dt) * state.theta_dot[i];
+        }
+        restart(plan, state);
+    }
+    void steps(int n) {
+        for (int k = 0; k < n; ++k) advance(plan, state);
+    }
+    void frame() {
+        advance(plan, state);
+        present(plan, state);
+    }
+    std::uint64_t hash() {
+        present(plan, state);
+        return state_hash(state);
+    }
+    std::uint64_t calls(Stage stage) const { return state.calls[std::size_t(stage)]; }
+};
+
+inline std::vector<Target> targets() {
+    std::vector<Target> there;
+    for (const Target target : fast::all_targets)
+        if (fast::available(target)) there.push_back(target);
+    return there;
+}
+
+inline Tree grown(std::int64_t bodies) {
+    return segment(grow_bodies(default_growth(), 7, {true, false, true}, bodies), wood_presets().front(), {});
+}
+
+// Moves and turns a tree.
+inline RootMotion carried_about(std::int32_t tree = 0) {
+    RootMotion keys;
+    keys.tree = tree;
+    keys.time = {0, 1, 2, 3};
+    keys.position = {Vec3::Zero(), Vec3(0.1, 0.02, -0.1), Vec3(0.15, 0, 0), Vec3::Zero()};
+    keys.rotation = {Quat::Identity(), make_tree::turn(0.2, Vec3(1, 2, 0)), make_tree::turn(0.1, Vec3(0, 2, 1)),
+                     Quat::Identity()};
+    return keys;
+}
+
+inline RootMotion shifted(std::int32_t tree = 0) {
+    RootMotion keys = carried_about(tree);
+    keys.rotation.clear();
+    return keys;
+}
+
+inline Wind gusts() {
+    Wind wind = *wind_preset("gusty");
+    wind.turbulence = 0.2;
+    return wind;
+}
+
+// Several on one body, and on many bodies at once.
+inline std::vector<Pull> pulls() {
+    std::vector<Pull> all{coupled::pull_on(3, Vec3(1, 0, -4), Vec3(-8, 1, 2)),
+                          coupled::pull_on(3, Vec3(-1, 2, 0), Vec3(2, 2, 2)),
+                          coupled::pull_on(7, Vec3(0, -1, 1), Vec3(0, 1, 0))};
+    Pull level;
+    level.on.by = Selector::By::level;
+    level.on.level = 1;
+    level.time = {0, 0.7, 3};
+    level.force = {Vec3(0, 0, 0.1), Vec3(0.1, 0.05, -0.2), Vec3::Zero()};
+    all.push_back(level);
+    return all;
+}
+
+// Wind, pulls, gravity, a moving ground.
+inline Scene everything() {
+    Scene scene;
+    scene.wind = gusts();
+    scene.pulls = pulls();
+    scene.root_motion = {carried_about()};
+    return scene;
+}
+
+} // namespace lanes
