@@ -50,6 +50,13 @@ Shape bare_star(std::int32_t chains) {
     return {"star of one kind", parent, std::vector<Kind>(parent.size(), Kind::branch)};
 }
 
+// A body with chains a little longer than a block may be.
+Shape comb(std::int32_t chains, std::int32_t pieces) {
+    std::vector<std::int32_t> parent{-1};
+    for (std::int32_t k = 0; k < chains * pieces; ++k) parent.push_back(k % pieces == 0 ? 0 : k);
+    return {"comb", parent, std::vector<Kind>(parent.size(), Kind::branch)};
+}
+
 // One chain, a leaf on each body where asked for.
 Shape deep(std::int32_t pieces, bool leaves) {
     std::vector<std::int32_t> parent;
@@ -90,6 +97,8 @@ std::vector<Shape> shapes() {
                            {"one leaf", {-1}, {Kind::leaf}},
                            star(5000),
                            bare_star(5000),
+                           bare_star(50000),
+                           comb(9, 4150),
                            deep(3000, false),
                            deep(9000, true),
                            binary(),
