@@ -289,3 +289,18 @@ TEMPLATE_TEST_CASE("half turns of free bodies are those of a rigid body", "", fl
     CHECK(plain.state.flags.half_turns > expected); // and the tumbling ones
     CHECK(lanes.calls(Stage::resolvent) == 0);
 }
+
+// A spin about y or z leaves theta's x at zero exactly.
+TEMPLATE_TEST_CASE("half turns are counted about whatever axis they are", "", float, double) {
+    for (const Vec3& spin : {Vec3(2.5, 0, 0), Vec3(0, 2.5, 0), Vec3(0, 0, 2.5)}) {
+        Case c{"free body", make_tree::chain(1, 0.5, 0.03, 0.02), solver::empty_scene()};
+        c.tree.stiffness[0].setZero();
+        c.tree.joint_rotation[0] = Quat::Identity();
+        Run<TestType> lanes(c, fast::best_target());
+        lanes.state.theta_dot[0] = spin.cast<TestType>();
+        restart(lanes.plan, lanes.state);
+        lanes.steps(120); // 10 rad: past pi and 3 pi
+        CAPTURE(spin.transpose());
+        CHECK(lanes.state.flags.half_turns == 2);
+    }
+}

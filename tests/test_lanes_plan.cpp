@@ -1,4 +1,4 @@
-// What a plan with lanes promises: which stages run, which arrays exist; what present() fills.
+// What a plan with lanes promises: which stages run, which arrays exist and how large all of them are; what present() fills.
 #include "lanes_support.h"
 #include "lib/stages/state_arrays.h"
 #include <map>
@@ -69,6 +69,18 @@ TEMPLATE_TEST_CASE("lanes run alone and leave the plain step's arrays empty", ""
             }
             CHECK(on == expected);
         }
+}
+
+TEMPLATE_TEST_CASE("a state in lanes is as large as its plan says", "", float, double) {
+    using T = TestType;
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        Run<T> run(c, fast::best_target());
+        for (int k = 0; k < 10; ++k) run.frame();
+        std::size_t sum = 0;
+        for (const PlannedArray& array : run.plan.arrays) sum += array.on ? array.bytes : 0;
+        CHECK(run.state.bytes() == sum);
+    }
 }
 
 TEMPLATE_TEST_CASE("what was wished for is there when it is presented, and only then", "", float, double) {
