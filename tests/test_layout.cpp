@@ -357,12 +357,14 @@ void check_bases(const Found& f) {
     CHECK(used == f.out.ports.size());
 }
 
-// Of each lane: the tree, counted by roots.
+// Of each lane: the tree, counted by roots, and the ground of each; of each block: whether it waits for another.
 void check_trees(const Found& f) {
     std::vector<std::uint32_t> tree(f.n);
     std::uint32_t roots = 0;
+    std::vector<bool> whole(f.out.blocks.size(), true);
     for (std::size_t i = 0; i < f.n; ++i) {
         const std::int32_t p = f.shape.parent[i];
+        if (p >= 0 && f.block[std::size_t(p)] != f.block[i]) whole[f.block[i]] = false;
         tree[i] = p < 0 ? roots++ : tree[std::size_t(p)];
     }
     REQUIRE(f.out.tree.size() == f.out.base.size());
@@ -373,6 +375,9 @@ void check_trees(const Found& f) {
             wrong += f.out.tree[g.first_base + l] != (i < 0 ? nothing : tree[std::size_t(i)]);
         }
     CHECK(wrong == 0);
+    CHECK(f.out.ground == f.shape.ground);
+    CHECK_FALSE(f.out.blocks[0].whole); // the top waits for the others
+    for (std::size_t b = 1; b < whole.size(); ++b) CHECK(f.out.blocks[b].whole == whole[b]);
 }
 
 void check_layout(const Shape& shape, int lanes) {

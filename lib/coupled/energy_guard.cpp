@@ -29,21 +29,12 @@ template <class T> Vector3<T> joint_spin(const State<T>& s, std::size_t i) {
     return s.R_wb[i] * (body_rate_jacobian(s.theta[i]) * s.theta_dot[i]);
 }
 
-template <class T> bool turns(const GroundStep<T>* g) {
-    return g && !(g->omega.isZero(0) && g->omega_0.isZero(0));
-}
-
-// How far the ground goes in the step [m]: Simpson's rule.
-template <class T> Vector3<T> carried(const GroundStep<T>& g, T h) {
-    return h * ((2 * g.v_0 + h * g.a) + 4 * g.v) / 6;
-}
-
 // The pulls' work, from their points at the start (sign 1) to those at the end (-1), as seen from the ground.
 template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, double time, double sign) {
     for (const PlannedPull<T>& pull : plan.pulls) {
         Vector3<T> point = s.x_w[pull.body] + s.R_wb[pull.body] * pull.point_b;
         const GroundStep<T>* ground = ground_step_of(plan, s, pull.body);
-        if (ground && sign < 0) point -= carried(*ground, T(plan.dt));
+        if (ground && sign < 0) point -= carried_by(*ground, T(plan.dt));
         const Vec3 f = pull_force(plan.scene.pulls[pull.source], time + plan.dt / 2);
         s.account[s.guard[pull.body].tree].gained += sign * f.dot(point.template cast<double>());
     }
@@ -122,7 +113,7 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
     account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
     Vector3<T> own = moved, g = plan.scene.gravity.template cast<T>();
     if (const GroundStep<T>* ground = ground_step_of(plan, s, i)) {
-        own -= carried(*ground, T(plan.dt));
+        own -= carried_by(*ground, T(plan.dt));
         g -= ground->a;
     }
     account.gained += elastic(plan, i, s.theta[i]) - double(plan.mass[i] * g.dot(own));

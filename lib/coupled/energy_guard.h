@@ -25,6 +25,15 @@ template <class T> bool weigh_start(const Plan<T>&, State<T>&, double time);
 // After it, kinematics (poses) up to date: scales rates.
 template <class T> void guard_energy(const Plan<T>&, State<T>&, double time);
 
+template <class T> bool turns(const GroundStep<T>* g) {
+    return g && !(g->omega.isZero(0) && g->omega_0.isZero(0));
+}
+
+// How far the ground goes in the step [m]: Simpson's rule.
+template <class T> Vector3<T> carried_by(const GroundStep<T>& g, T h) {
+    return h * ((2 * g.v_0 + h * g.a) + 4 * g.v) / 6;
+}
+
 // Finds the account's factors, which leave as much kinetic energy as there may be.
 void settle(EnergyAccount&);
 

@@ -1,5 +1,4 @@
 #include "coupled_lanes_step.h"
-#include "../coupled/coupled_step.h"
 #include "../coupled/midpoint.h"
 #include "../model/resolved_turn.h"
 #include "../stages/external_forces.h"
@@ -56,10 +55,10 @@ template <class T> void put(RowVector<T>& rows, std::size_t joint, int count, in
 }
 
 template <class T>
-void shorten(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h) { // as coupled_step.cpp, take
+bool shorten(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h) { // as coupled_step.cpp, take
     Vector3<T> t(theta[0], theta[1], theta[2]);
     const Vector3<T> long_way = t, rate(theta_dot[0], theta_dot[1], theta_dot[2]);
-    if (!shorten_rotation(t)) return;
+    if (!shorten_rotation(t)) return false;
     const Vector3<T> eta = body_rate_jacobian_inverse(t) * (body_rate_jacobian(long_way) * rate);
     for (int k = 0; k < 3; ++k) {
         theta[k] = t[k];
@@ -67,6 +66,7 @@ void shorten(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h) 
         theta_change[k] = h * eta[k];
         theta_dot_change[k] = 0;
     }
+    return true;
 }
 
 template <class T> void place_grounds(const Plan<T>& plan, State<T>& state, double time, std::complex<double> slope) {
@@ -265,16 +265,9 @@ template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state,
         const CoupledRows<T> rows = rows_of(plan, state, time);
         flags = sweep(plan, state, rows);
         if (!flags.fast) return;
-        if (!plan.root_motion) guard_lanes(plan, state, rows);
+        guard_lanes(plan, state, rows);
         std::fill(state.lanes.watched.begin(), state.lanes.watched.end(), std::uint8_t(0));
     });
-    if (flags.fast && plan.root_motion) {
-        present(plan, state);
-        make_room_for_plain_step(plan, state);
-        coupled_step(plan, state, clock);
-        pack(plan, state);
-        return;
-    }
     state.lanes.now.swap(state.lanes.next);
     state.lanes.presented = false;
     state.lanes.finite = flags.finite;

@@ -4,8 +4,7 @@
 // Order. The top outward; each block outward and inward, blocks shared out among threads; the blocks' roots, in a fixed order, into the top;
 // the top inward and outward again; the blocks outward again, last one first. Sums stand in the layout's order: one result for any
 // number of threads.
-// Where a body turns by more than 0.3 rad in the step, the energy guard looks at its tree (energy_lanes.h). On a moved ground, whose
-// work the guard's sweep does not book, what the sweeps have found is dropped and the plain step, with its guard, makes that step.
+// Where a body turns by more than 0.3 rad in the step, the energy guard looks at its tree (energy_lanes.h).
 #pragma once
 #include "../stages/step.h"
 

@@ -113,8 +113,8 @@ template <class T> struct CoupledRows {
     const T* profile;          // [1] factors over height
     std::size_t profile_entries;
     T per_metre;
-    // theta past half a turn, of one body: the shorter way round and rates to match (coupled_step.cpp).
-    void (*shorten)(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h);
+    // theta past half a turn, of one body: the shorter way round and rates to match (coupled_step.cpp). False where it was not.
+    bool (*shorten)(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h);
 };
 
 // What a sweep over a block met with.

@@ -351,10 +351,10 @@ template <class T> struct Sweep : SweepParts<T> {
             T v[motion::count];
             for (int k = 0; k < motion::count; ++k) v[k] = out.at[k * L + l];
             if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] > T(9.869))) continue;
-            const T before = v[0];
-            rows.shorten(v + motion::theta, v + motion::theta_dot, v + motion::theta_change,
-                         v + motion::theta_dot_change, rows.h);
-            if (v[0] != before && mass[l] > 0) ++flags.half_turns;
+            if (!rows.shorten(v + motion::theta, v + motion::theta_dot, v + motion::theta_change,
+                              v + motion::theta_dot_change, rows.h))
+                continue;
+            if (mass[l] > 0) ++flags.half_turns;
             for (int k = 0; k < motion::count; ++k) out.at[k * L + l] = v[k];
         }
     }

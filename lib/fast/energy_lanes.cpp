@@ -9,8 +9,11 @@ namespace {
 template <class T> std::vector<bool> watch(const Plan<T>& plan, State<T>& state) {
     const Layout& layout = plan.lanes.layout;
     for (EnergyAccount& account : state.account) account = {};
-    for (std::size_t k = 0; k < layout.tree.size(); ++k)
-        if (state.lanes.watched[k] && layout.tree[k] != nothing) state.account[layout.tree[k]].watched = true;
+    for (std::size_t k = 0; k < layout.tree.size(); ++k) {
+        if (!state.lanes.watched[k] || layout.tree[k] == nothing) continue;
+        const std::uint32_t ground = layout.ground[layout.tree[k]];
+        state.account[layout.tree[k]].watched = ground == 0 || !turns(&state.coupled_ground[ground - 1]);
+    }
     std::vector<bool> blocks(layout.blocks.size(), false);
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)
         for (std::uint32_t g = layout.blocks[b].first_group; g < layout.blocks[b].end_group && !blocks[b]; ++g)
@@ -31,8 +34,42 @@ template <class T> EnergyRows<T> make_room(const Plan<T>& plan, Lanes<T>& lanes)
         T* rest = lanes.energy_records.front().lane; // the resting ground: no turn, no motion
         for (const int R : {int(energy::start), int(energy::end), int(energy::R)})
             for (int k = 0; k < 3; ++k) rest[R + 4 * k] = 1;
+        if (plan.root_motion) lanes.energy_ground.assign(layout.base.size() / Row<T>::lanes * 6, Row<T>{});
     }
-    return {lanes.energy_records.front().lane, lanes.energy_sums.front().lane, lanes.energy_fast.front().lane};
+    return {lanes.energy_records.front().lane, lanes.energy_sums.front().lane, lanes.energy_fast.front().lane,
+            lanes.energy_ground.empty() ? nullptr : lanes.energy_ground.front().lane};
+}
+
+// The moved grounds as the step takes them: their records, and what each lane's is.
+template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
+    const Layout& layout = plan.lanes.layout;
+    constexpr std::size_t L = Row<T>::lanes;
+    const std::size_t size = record(energy::count, int(L));
+    T* records = state.lanes.energy_records.front().lane;
+    for (std::size_t joint = 1; joint < layout.grounds; ++joint) {
+        const GroundStep<T>& g = state.coupled_ground[joint - 1];
+        T* at = records + joint * size;
+        for (int k = 0; k < 9; ++k) // by columns, as Eigen has them
+            at[energy::start + k] = at[energy::end + k] = at[energy::R + k] = g.R.data()[k];
+        at[energy::y] = g.x.y();
+        for (int k = 0; k < 3; ++k) {
+            at[energy::omega + k] = g.omega[k];
+            at[energy::v + k] = g.v[k];
+        }
+    }
+    T* lanes = state.lanes.energy_ground.front().lane;
+    for (std::size_t k = 0; k < layout.tree.size(); ++k) {
+        if (layout.tree[k] == nothing) continue;
+        const std::uint32_t joint = layout.ground[layout.tree[k]];
+        if (joint == 0) continue;
+        const GroundStep<T>& g = state.coupled_ground[joint - 1];
+        const Vector3<T> carried = carried_by(g, T(plan.dt));
+        T* at = lanes + k / L * L * 6 + k % L;
+        for (std::size_t j = 0; j < 3; ++j) {
+            at[j * L] = carried[Eigen::Index(j)];
+            at[(3 + j) * L] = g.a[Eigen::Index(j)];
+        }
+    }
 }
 
 // A group's bodies: the rates of those that their tree's account takes from.
@@ -68,6 +105,7 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
     const Layout& layout = plan.lanes.layout;
     const std::vector<bool> blocks = watch(plan, state);
     const EnergyRows<T> energies = make_room(plan, state.lanes);
+    if (plan.root_motion) place_grounds(plan, state);
     const EnergySweepOf<T> weigh = energy_sweep_for<T>(plan.target, plan.wind);
     if (blocks[0]) weigh(rows, energies, layout.blocks[0]);
     const auto n = std::int64_t(layout.blocks.size());

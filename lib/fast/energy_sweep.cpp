@@ -106,7 +106,12 @@ template <class T> struct EnergySweep : SweepParts<T> {
         }
     }
 
-    template <bool wind, Kind kind> BOUGH_FORCE void step(Frame& f, Sums& sums, std::uint32_t row, int lane) const {
+    struct OnGround {
+        V3<W> carried, a;
+    };
+
+    template <bool wind, Kind kind>
+    BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         const Rows<T> y1 = next(row, lane);
         const Body b{k.real(constant::mass), k.vector(constant::com), k.vector(constant::K),
@@ -154,14 +159,15 @@ template <class T> struct EnergySweep : SweepParts<T> {
         sums.quantity[energy::mixed] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.fast_v, f.fast_omega);
         sums.quantity[energy::fast] += kinetic(b, f.end.R, c_1, f.fast_v, f.fast_omega, f.fast_v, f.fast_omega);
 
-        const V3<W> moved = f.end.x + c_1 - (f.start.x + c_0);
-        W gained = elastic(b, theta_1) - elastic(b, theta_0) - b.mass * dot(vector(rows.gravity), moved);
+        const V3<W> own = f.end.x + c_1 - (f.start.x + c_0); // as seen from the ground
+        W gained = elastic(b, theta_1) - elastic(b, theta_0) - b.mass * dot(vector(rows.gravity) - ground.a, own);
         if constexpr (wind) { // air_work of energy_guard.cpp
             const W scale = k.real(constant::drag_area);
-            const V3<W> mean = (1 / rows.h) * moved, ahead = mean - rate_at_com;
+            const V3<W> mean = (1 / rows.h) * (own + ground.carried), ahead = mean - rate_at_com;
             Symmetric<W> unused{};
             const auto air_on = this->template air<kind>(air_velocity - rate_at_com, -ahead, f.R, scale, unused, W{});
-            const W speed2 = dot(air_velocity, air_velocity);
+            const V3<W> U = air_velocity - (1 / rows.h) * ground.carried;
+            const W speed2 = dot(U, U);
             W most;
             if constexpr (kind == Kind::leaf) {
                 const V3<W> relative = air_velocity - mean;
@@ -169,7 +175,7 @@ template <class T> struct EnergySweep : SweepParts<T> {
             } else {
                 most = T(4.0 / 27) * root(speed2) * speed2;
             }
-            gained -= smaller(dot(air_on.force, moved), W(rows.h * scale * most));
+            gained -= smaller(dot(air_on.force, own), W(rows.h * scale * most));
         }
         if (rows.pulls && rows.pull_of_row[row] >= 0) book_pulls(row, lane, f, gained);
         sums.quantity[energy::gained] += gained;
@@ -180,9 +186,14 @@ template <class T> struct EnergySweep : SweepParts<T> {
             Records<T, energy::count> base;
             base.gather(out.records, &rows.base[g.first_base + std::size_t(lane)]);
             Frame f = read_frame(base);
+            OnGround ground{};
+            if (out.ground) {
+                const Rows<const T> at{out.ground + g.first_base * std::size_t(6) + lane};
+                ground = {at.vector(0), at.vector(3)};
+            }
             Sums sums;
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step<wind, kind>(f, sums, row, lane);
+                step<wind, kind>(f, sums, ground, row, lane);
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
                 base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,

@@ -1,7 +1,7 @@
 // energy_sweep.h: the energy guard's weighing (coupled/energy_guard.h) in one sweep over a block's rows: what a step has changed of each
 // chain's energies, from the motion at its start and at its end, both still there.
 //
-// Three poses go outward side by side: the start's, the end's, and with wind that of y*, in which the step took the air's force.
+// Three poses go outward side by side: the start's and the end's, as seen from the ground, and with wind that of y*, in which the step took the air's force.
 // Sums go over a lane's chain, in its order; the caller adds them up by trees, group by group. Cost about that of the outward sweep, and only
 // in steps in which something turned fast.
 #pragma once
@@ -29,6 +29,9 @@ template <class T> struct EnergyRows {
     T* records;
     T* sums; // of a group: energy::sums rows of lanes, at first_base * energy::sums
     T* fast; // a row of lanes for each row: 1 where the body turns fast
+    const T*
+        ground; // where the ground is moved, of a group: 6 rows of lanes, at first_base * 6: how far it goes in the step [m], and
+        // its acceleration [m/s^2]; null: all of it rests
 };
 
 template <class T> using EnergySweepOf = void (*)(const CoupledRows<T>&, const EnergyRows<T>&, const Block&);

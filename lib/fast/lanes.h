@@ -39,11 +39,12 @@ template <class T> struct Lanes {
     RowVector<T> outward, inward, accelerated; // a record a joint
     std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
     std::vector<PullOnLane<T>> pulls;
-    std::vector<SweepFlags> flags;                         // one a block
-    std::vector<std::uint8_t> watched;                     // CoupledRows
-    RowVector<T> energy_records, energy_sums, energy_fast; // EnergyRows; empty until something turns fast
-    bool presented = true;                                 // the state's arrays in document order hold what `now` holds
-    bool finite = true;                                    // no theta or theta_dot has become non-finite
+    std::vector<SweepFlags> flags;     // one a block
+    std::vector<std::uint8_t> watched; // CoupledRows
+    RowVector<T> energy_records, energy_sums, energy_fast,
+        energy_ground;     // EnergyRows; empty until something turns fast
+    bool presented = true; // the state's arrays in document order hold what `now` holds
+    bool finite = true;    // no theta or theta_dot has become non-finite
 };
 
 } // namespace bough::fast

@@ -32,6 +32,7 @@ public:
         find_chains();
         place_groups();
         number_joints();
+        out.ground = ground;
         return std::move(out);
     }
 

@@ -3,8 +3,8 @@
 // A row is 64 bytes of one quantity: 16 bodies in float, 8 in double (its lanes), whatever the machine's registers.
 //   chain   bodies one upon the other, all branches, or one leaf, petal or fruit. At a fork the chain goes on into the child of
 //           the highest level, of these the longest: levels are few (Strahler's order)
-//   group   as many chains side by side as a row has lanes, of one level and kind of body, sorted by length. Its row k holds
-//           their k-th bodies; where a chain has ended, or is missing, stand bodies of no mass and no stiffness (pads)
+//   group   as many chains side by side as a row has lanes, of one kind of body: of one level, longest first, and where these leave
+//           lanes empty, of lower levels. Its row k holds their k-th bodies; where a chain has ended, or is missing, stand bodies of no mass and no stiffness (pads)
 //   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; blocks are what threads
 //           share out. What remains above, the bodies that carry more than a block, is the first block, the top
 //   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for
@@ -33,6 +33,7 @@ struct Layout {
     std::vector<std::uint32_t> slot; // of body
     std::vector<std::uint32_t> base; // a group's lanes: the joint that the chain begins on, outward (ground 0: a pad's)
     std::vector<std::uint32_t> landing;    // ... and the joint that takes what it hands inward, or nothing
+    std::vector<std::uint32_t> ground;     // of each root: the joint that it stands on
     std::vector<std::uint32_t> tree;       // ... and the tree that it belongs to, counted by roots, or nothing
     std::vector<std::int32_t> fork_of_row; // index into fork times lanes, -1: no lane of the row is a fork
     std::vector<std::uint32_t> fork;       // joint of each lane's body; ground 0 where it is none

@@ -24,7 +24,7 @@ private:
 };
 
 // A pad goes with its parent, held by a stiffness that its inertia is nothing beside, and hands on as good as nothing.
-template <class T> constexpr T pad_inertia = T(1e-20);
+template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
 
 template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
     lanes.constants.assign(std::size_t(lanes.layout.rows) * constant::count, Row<T>{});

@@ -54,13 +54,6 @@ template <class T> void restart(const Plan<T>& plan, State<T>& state) {
     if (plan.lanes.on) fast::pack(plan, state);
 }
 
-template <class T> void make_room_for_plain_step(const Plan<T>& plan, State<T>& state) {
-    if (!plan.lanes.on) return;
-    state.coupled.resize(plan.bodies);
-    state.resolvent.resize(plan.bodies);
-    state.guard.resize(plan.bodies);
-}
-
 template <class T> std::size_t State<T>::bytes() const {
     std::size_t sum = 0;
     visit_arrays(Plan<T>(), *this, [&](const char*, const auto& array, bool, const std::string&) {
@@ -102,8 +95,6 @@ template State<float> make_state(const Plan<float>&);
 template State<double> make_state(const Plan<double>&);
 template void restart(const Plan<float>&, State<float>&);
 template void restart(const Plan<double>&, State<double>&);
-template void make_room_for_plain_step(const Plan<float>&, State<float>&);
-template void make_room_for_plain_step(const Plan<double>&, State<double>&);
 template std::uint64_t state_hash(const State<float>&);
 template std::uint64_t state_hash(const State<double>&);
 template std::optional<std::size_t> first_non_finite(const State<float>&);

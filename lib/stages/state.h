@@ -109,9 +109,6 @@ template <class T> State<T> make_state(const Plan<T>&);
 // number of steps say: after they were set from outside (a saved state). O(n).
 template <class T> void restart(const Plan<T>&, State<T>&);
 
-// Allocates what the plain coupled step works in, where the plan has lanes and left it out.
-template <class T> void make_room_for_plain_step(const Plan<T>&, State<T>&);
-
 // 64 bits (FNV-1a over little-endian bytes) of theta and theta_dot in document order.
 template <class T> std::uint64_t state_hash(const State<T>&);
 

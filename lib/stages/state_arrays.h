@@ -12,7 +12,7 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     const bool analytic = plan.solver == Solver::analytic, coupled = plan.solver == Solver::coupled;
     const std::string composite = analytic ? always : solver, pass = coupled ? always : solver;
     const bool real = scheme_of(plan.scheme).real, plain = coupled && !plan.lanes.on;
-    const std::string work = plan.lanes.on ? "the fast path (until a step needs the energy guard)" : pass;
+    const std::string work = plan.lanes.on ? "the fast path" : pass;
     const bool air = analytic && plan.wind, loads = analytic && plan.forces;
     const std::string wind = !plan.wind ? "no wind" : analytic ? "/wind" : solver;
     const std::string forces = plan.forces && !analytic           ? solver

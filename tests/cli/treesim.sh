@@ -204,7 +204,15 @@ assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "--joint-
 done
 limited --joint-limit 3 --no-output -q --save-state limited.state
 refused 2 "limited.state" treesim tree.json --solver analytic --pose rest --wind storm --frames 20 --resume limited.state
-[[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20) ]] || fail "a limit far off is felt"
+# The fast path: one hash a target, said by --explain; what it does not hold runs the plain step.
+for simd in auto off baseline; do
+    [[ $(hash tree.json --frames 20 --simd $simd) == $(hash tree.json --frames 20 --simd $simd --threads 1) ]] || fail "--simd $simd: threads"
+done
+treesim tree.json --frames 3 --no-output --explain --simd baseline 2>err && grep -q '^stage lanes on: SIMD baseline' err || fail "--simd baseline"
+treesim tree.json --frames 3 --no-output --explain --simd off 2>err && grep -q '^stage lanes left out: plain path' err || fail "--simd off"
+treesim tree.json --frames 3 --no-output --explain --scheme P34 2>err && grep -q '^stage lanes left out: plain path: scheme P34' err || fail "P34"
+refused 1 "--simd" treesim tree.json --frames 3 --no-output --simd sse
+[[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20 --simd off) ]] || fail "a limit far off is felt"
 
 # One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
 cat >glb.py <<'END'
