@@ -10,8 +10,6 @@ using namespace simulate;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 RootMotion two_keys() {
     RootMotion m;
     m.time = {0, 1};

@@ -41,23 +41,20 @@ template <class T> [[gnu::always_inline]] inline Wide<T> read(const T* at) {
 template <class T> [[gnu::always_inline]] inline void write(T* at, Wide<T> w) {
     std::memcpy(at, &w, sizeof w);
 }
-// Past the caches, for what is not read again soon; `at` is aligned to the register.
-#if defined(__AVX512F__)
+// Past the caches, for what is not read again soon; `at` is aligned. Whole lines only: where a register is a part of one, its
+// other parts come much later, and memory would be written twice (measured with AVX2: half as fast as through the caches).
+#if BOUGH_WIDTH == 64
 [[gnu::always_inline]] inline void stream(float* at, WideFloat w) {
     _mm512_stream_ps(at, __m512(w));
 }
 [[gnu::always_inline]] inline void stream(double* at, WideDouble w) {
     _mm512_stream_pd(at, __m512d(w));
 }
-#elif defined(__AVX2__)
+#else
 [[gnu::always_inline]] inline void stream(float* at, WideFloat w) {
-    _mm256_stream_ps(at, __m256(w));
+    write(at, w);
 }
 [[gnu::always_inline]] inline void stream(double* at, WideDouble w) {
-    _mm256_stream_pd(at, __m256d(w));
-}
-#else
-template <class T, class W> [[gnu::always_inline]] inline void stream(T* at, W w) {
     write(at, w);
 }
 #endif
