@@ -299,6 +299,8 @@ expect 0 treesim place/moved.json --frames 20 -q --wind breeze -o moved.glb
 treesim place/moved.json --solver analytic --frames 2 --no-output --explain 2>&1 |
     grep -q '^stage root_motion on: /root_motion$' || fail "--explain says nothing of root motion"
 treesim place/moved.json --solver coupled --frames 2 --no-output --explain 2>&1 |
+    grep -q '^stage lanes on: SIMD [a-z0-9]*; roots moved by /root_motion$' || fail "--explain says nothing of root motion"
+treesim place/moved.json --solver coupled --simd off --frames 2 --no-output --explain 2>&1 |
     grep -q '^stage midpoint on: every scene; roots moved by /root_motion$' || fail "--explain says nothing of root motion"
 broken() { # sed script, pointer
     sed "$1" place/moved.json >place/broken.json
@@ -315,6 +317,11 @@ broken 's/"rotation"/"turn"/' /root_motion/0/turn
 # --explain says what is left out.
 treesim tree.json --frames 3 --explain --no-output 2>still
 treesim tree.json --frames 3 --explain --no-output --wind calm 2>windy
+grep -q '^stage lanes on: SIMD [a-z0-9]*$' still && grep -q '^stage lanes on: SIMD [a-z0-9]*; /wind$' windy ||
+    fail "--explain says nothing of the wind in lanes"
+grep -q '^calls lanes 2$' still && grep -q '^calls midpoint 0$' windy || fail "calls of lanes are not as explained"
+treesim tree.json --frames 3 --explain --no-output --simd off 2>still
+treesim tree.json --frames 3 --explain --no-output --simd off --wind calm 2>windy
 grep -q 'wind_field left out' still && grep -q 'wind_field on' windy || fail "--explain says nothing of the wind"
 grep -q '^calls wind_field 0$' still && grep -q '^calls wind_field 2$' windy || fail "calls are not as explained"
 
