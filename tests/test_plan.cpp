@@ -14,7 +14,7 @@
 
 namespace {
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef BOUGH_SANITIZED
 std::atomic<std::size_t> allocations{0};
 
 void* counted(std::size_t bytes) {
@@ -27,7 +27,7 @@ void* counted(std::size_t bytes) {
 } // namespace
 
 // The address sanitizer has its own; there nothing is counted.
-#ifndef __SANITIZE_ADDRESS__
+#ifndef BOUGH_SANITIZED
 void* operator new(std::size_t bytes) {
     return counted(bytes);
 }
@@ -230,7 +230,7 @@ TEST_CASE("the constants of wind and gravity exist only with them") {
           0);
 }
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef BOUGH_SANITIZED
 TEST_CASE("a step allocates nothing, on one thread or several") {
     for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(3000, 1)})
         for (const Method& method : methods)

@@ -42,10 +42,11 @@ TEST_CASE("the keys are met exactly, about the tree's own place") {
 TEST_CASE("velocities and accelerations are the derivatives of the pose, everywhere") {
     const RootSpline s = make_root_spline(wild(), Vec3(3, 0.5, -2));
     const double h = 1e-4;
-    std::vector<double> at = wild().time; // continuous at keys and ends too
+    const std::vector<double> keys = wild().time;
+    std::vector<double> at = keys; // continuous at keys and ends too
     for (double t = 0.1; t < 2.6; t += 0.0173) at.push_back(t);
     for (const double t : at) {
-        const bool is_key = std::find(wild().time.begin(), wild().time.end(), t) != wild().time.end();
+        const bool is_key = std::find(keys.begin(), keys.end(), t) != keys.end();
         const Ground g = ground_at(s, t), up = ground_at(s, t + h), down = ground_at(s, t - h);
         const double size = 1 + g.alpha.norm() + g.a.norm();
         const Mat3 rate = (up.R - down.R) / (2 * h);
