@@ -1,4 +1,5 @@
 #include "common.h"
+#include "lib/fast/targets.h"
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -365,7 +366,7 @@ const char* compiler_flags() {
     return BOUGH_FLAGS;
 }
 const char* simd_target() {
-    return "none (scalar)";
+    return fast::target_name(fast::best_target());
 }
 int machine_threads() {
     return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads);

@@ -109,7 +109,7 @@ private:
 const char* bough_version();
 const char* compiler_name();  // "GNU 12.2.0"
 const char* compiler_flags(); // of the library
-const char* simd_target();    // "none (scalar)"
+const char* simd_target();    // what --simd auto takes: baseline, avx2, avx512
 int machine_threads();
 
 } // namespace bough

@@ -51,6 +51,7 @@ Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& pl
     report.bodies = std::int64_t(plan.bodies);
     report.frames = frames - 2;
     report.hash = hash_text(state_hash(state));
+    report.simd = plan.lanes.on ? fast::target_name(plan.target) : "none";
     const double ns = 1e9 / double(report.bodies) / double(report.frames);
     double inside = 0;
     const auto add = [&](const char* name, std::uint64_t calls, double seconds) {
@@ -103,7 +104,6 @@ void work_stages(StagesOptions& o) {
     report.version = bough_version();
     report.compiler = compiler_name();
     report.flags = compiler_flags();
-    report.simd = simd_target();
     report.solver = o.run.solver;
     report.scheme = scheme_name(o.run);
     report.precision = o.run.precision;

@@ -284,8 +284,10 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
             std::cerr << "calls " << stage_name(Stage(k)) << " " << state.calls[k] << "\n";
         std::cerr << "allocated " << state.bytes() << " bytes\n";
     }
-    present(plan, state);
-    if (o.hash) std::cerr << "hash " << hash_text(state_hash(state)) << "\n";
+    if (o.hash) {
+        present(plan, state);
+        std::cerr << "hash " << hash_text(state_hash(state)) << "\n";
+    }
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(state.flags, o.common.notes);
 }

@@ -4,6 +4,7 @@
 #include "../stages/state_update.h"
 #include "body_load.h"
 #include "energy_guard.h"
+#include "half_turn.h"
 #include "limits.h"
 #include "midpoint.h"
 #include "resolvent.h"
@@ -23,12 +24,8 @@ template <class T> void take(const Plan<T>& plan, State<T>& state) {
         Vector3<T>&theta = state.theta[i], &eta = state.theta_dot[i];
         theta += state.theta_change[i];
         eta += state.theta_dot_change[i];
-        const Vector3<T> long_way = theta;
-        if (!shorten_rotation(theta)) continue;
-        ++state.flags.half_turns;
-        eta = body_rate_jacobian_inverse(theta) * (body_rate_jacobian(long_way) * eta);
-        state.theta_change[i] = T(plan.dt) * eta;
-        state.theta_dot_change[i].setZero();
+        if (take_shorter_way(theta, eta, state.theta_change[i], state.theta_dot_change[i], T(plan.dt)))
+            ++state.flags.half_turns;
     }
 }
 

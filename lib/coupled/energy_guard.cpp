@@ -1,13 +1,13 @@
 #include "energy_guard.h"
 #include "../stages/external_forces.h"
 #include "midpoint.h"
+#include "turn_bounds.h"
 #include <algorithm>
 #include <cmath>
 
 namespace bough {
 namespace {
 
-constexpr double fast_turn = 0.3;  // [rad] a step
 constexpr double tolerance = 1e-3; // of the kinetic energy
 
 // Kinetic energy's bilinear form over one body: velocities at its joint, c its centre of mass from there.
@@ -43,7 +43,7 @@ template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, double time
 } // namespace
 
 template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s, double time) {
-    const T limit = T(fast_turn / plan.dt);
+    const T limit = T(watched_turn / plan.dt);
     for (EnergyAccount& account : s.account) account = {};
     std::uint32_t trees = 0;
     bool any = false;
@@ -106,7 +106,7 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
         b.v_fast = p.v_fast + p.omega_fast.cross(arm);
     }
     const Vector3<T> spin = joint_spin(s, i);
-    b.fast = (b.omega + b.omega_fast + spin).norm() * T(plan.dt) > T(fast_turn);
+    b.fast = (b.omega + b.omega_fast + spin).norm() * T(plan.dt) > T(watched_turn);
     (b.fast ? b.omega_fast : b.omega) += spin;
     account.slow += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
     account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);

@@ -1,6 +1,7 @@
 #include "midpoint.h"
 #include "../model/resolved_turn.h"
 #include "../model/rotation_maps.h"
+#include "turn_bounds.h"
 
 namespace bough {
 
@@ -26,8 +27,6 @@ template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, d
 
 namespace {
 
-template <class T> constexpr T most_turn = T(0.3); // [rad] of a joint in a step; of a body twice that
-
 template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const State<T>& state, std::size_t i) {
     CoupledBody<T> b;
     b.R.setIdentity();
@@ -51,7 +50,7 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
     Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
     Vector3<T> half_change = state.theta_change[i] / 2;
     const Vector3<T> half_turn = p.turn + p.R * (plan.R_pj[i] * half_change);
-    if (half_change.norm() > most_turn<T> / 2 || half_turn.norm() > most_turn<T>) halfway = false;
+    if (half_change.norm() > T(extrapolated_turn / 2) || half_turn.norm() > T(extrapolated_turn)) halfway = false;
     if (halfway) {
         theta += half_change;
         eta += state.theta_dot_change[i] / 2;

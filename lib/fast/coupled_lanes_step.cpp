@@ -1,6 +1,6 @@
 #include "coupled_lanes_step.h"
+#include "../coupled/half_turn.h"
 #include "../coupled/midpoint.h"
-#include "../model/resolved_turn.h"
 #include "../stages/external_forces.h"
 #include "../stages/root_term.h"
 #include "../stages/spring.h"
@@ -54,18 +54,15 @@ template <class T> void put(RowVector<T>& rows, std::size_t joint, int count, in
     for (int k = 0; k < 3; ++k) entry(rows, joint, count, quantity + k) = v[k];
 }
 
-template <class T>
-bool shorten(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h) { // as coupled_step.cpp, take
-    Vector3<T> t(theta[0], theta[1], theta[2]);
-    const Vector3<T> long_way = t, rate(theta_dot[0], theta_dot[1], theta_dot[2]);
-    if (!shorten_rotation(t)) return false;
-    const Vector3<T> eta = body_rate_jacobian_inverse(t) * (body_rate_jacobian(long_way) * rate);
-    for (int k = 0; k < 3; ++k) {
-        theta[k] = t[k];
-        theta_dot[k] = eta[k];
-        theta_change[k] = h * eta[k];
-        theta_dot_change[k] = 0;
-    }
+// take_shorter_way for one body's numbers.
+template <class T> bool shorten(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h) {
+    using Map = Eigen::Map<Vector3<T>>;
+    Vector3<T> t = Map(theta), rate = Map(theta_dot), change = Map(theta_change), rate_change = Map(theta_dot_change);
+    if (!take_shorter_way(t, rate, change, rate_change, h)) return false;
+    Map(theta, 3) = t;
+    Map(theta_dot, 3) = rate;
+    Map(theta_change, 3) = change;
+    Map(theta_dot_change, 3) = rate_change;
     return true;
 }
 

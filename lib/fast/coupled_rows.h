@@ -99,21 +99,21 @@ template <class T> struct CoupledRows {
     T *outward_records, *inward_records, *accelerated_records;
     const std::int32_t* pull_of_row; // first in pulls, -1: none; null: no pulls at all
     const PullOnLane<T>* pulls;      // rising by row
-    std::uint8_t*
-        watched; // of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard
+    // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard.
+    std::uint8_t* watched;
     std::size_t pull_count;
 
     bool stream;              // solved_rows are more than the caches hold
     T h;                      // [s]
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2
-    T of_rate[2], of_angle[2],
-        eta;                   // x's weights in the changes of theta_dot and theta, and theta_dot's in that of theta
+    // x's weights in the changes of theta_dot and theta, and theta_dot's in that of theta.
+    T of_rate[2], of_angle[2], eta;
     T gravity[3];              // [m/s^2]
     T wind[3], wind_change[3]; // [m/s] where the profile is 1, at the step's middle and over it
     const T* profile;          // [1] factors over height
     std::size_t profile_entries;
     T per_metre;
-    // theta past half a turn, of one body: the shorter way round and rates to match (coupled_step.cpp). False where it was not.
+    // theta past half a turn, of one body: the shorter way round (coupled/half_turn.h). False where it was not.
     bool (*shorten)(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h);
 };
 

@@ -53,7 +53,9 @@ template <class T> struct Sweep : SweepParts<T> {
     }
 
     // Square of the rate from which on the energy guard looks at a tree.
-    W fast2() const { return all(T(0.3) / rows.h * (T(0.3) / rows.h)); }
+    W fast2() const { return all(T(watched_turn) / rows.h * (T(watched_turn) / rows.h)); }
+    // Of an angle that may be past half a turn: a little below pi squared, the rest is seen body by body.
+    static constexpr T about_half_turn2 = T(9.869);
     [[gnu::noinline]] void mark(std::uint32_t base, int lane, W rate2, SweepFlags& flags) const {
         flags.fast = true;
         for (int l = 0; l < width<T>; ++l)
@@ -138,11 +140,8 @@ template <class T> struct Sweep : SweepParts<T> {
         if (any_above(omega2, fast2())) mark(row_base, lane, omega2, flags);
 
         // body_load.h
-        V3<W> spin = f.omega;
-        if (any_above(W((h * h) * omega2), all(T(1)))) {
-            std::uint64_t seen = 0;
-            spin = resolved(f.omega, h, mass, seen);
-        }
+        std::uint64_t seen = 0; // counted at the next body's turn about it
+        const V3<W> spin = resolved(f.omega, h, mass, seen);
         const V3<W> g = vector(rows.gravity);
         const Symmetric<W> J = turned(R, k.symmetric(constant::inertia_joint));
         Symmetric<W> H{};
@@ -350,7 +349,7 @@ template <class T> struct Sweep : SweepParts<T> {
         for (int l = 0; l < width<T>; ++l) {
             T v[motion::count];
             for (int k = 0; k < motion::count; ++k) v[k] = out.at[k * L + l];
-            if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] > T(9.869))) continue;
+            if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] > about_half_turn2)) continue;
             if (!rows.shorten(v + motion::theta, v + motion::theta_dot, v + motion::theta_change,
                               v + motion::theta_dot_change, rows.h))
                 continue;
@@ -392,7 +391,8 @@ template <class T> struct Sweep : SweepParts<T> {
                 // As the plain step looks at theta_dot at the start and its change: the rate at the end.
                 if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
                 if (!(total(W(angle2 + rate2)) < T(1e30))) flags.finite = false;
-                if (any_above(angle2, all(T(9.869)))) turn_back(y1, flags, constants(row, lane).real(constant::mass));
+                if (any_above(angle2, all(about_half_turn2)))
+                    turn_back(y1, flags, constants(row, lane).real(constant::mass));
                 if (rows.fork_of_row[row] < 0) continue;
                 Records<T, accelerated::count> forks;
                 for (int k = accelerated::count; k < forks.quantities; ++k) forks.rows().set(k, W{});

@@ -150,7 +150,8 @@ template <class T> struct EnergySweep : SweepParts<T> {
         const V3<W> spin_1 = move(f.end, R_pj, d, theta_1, y1.vector(motion::theta_dot), arm);
         f.fast_v = f.fast_v + cross(f.fast_omega, arm);
         const V3<W> omega = f.end.omega + f.fast_omega + spin_1;
-        const W fast = where_above(W((rows.h * rows.h) * dot(omega, omega)), all(T(0.3) * T(0.3)), all(T(1)));
+        const W fast =
+            where_above(W((rows.h * rows.h) * dot(omega, omega)), all(T(watched_turn) * T(watched_turn)), all(T(1)));
         f.fast_omega = f.fast_omega + fast * spin_1;
         f.end.omega = f.end.omega + W(1 - fast) * spin_1;
         write(out.fast + row * std::size_t(L) + std::size_t(lane), fast);

@@ -1,5 +1,6 @@
 // sweep_parts.h: what the sweeps over lanes share: their rows, the wind and the air, and where a joint is half a step on.
 #pragma once
+#include "../coupled/turn_bounds.h"
 #include "wide_maps.h"
 #include "wide_rows.h"
 
@@ -53,7 +54,8 @@ template <class T> struct SweepParts {
         half_rate = T(0.5) * y0.vector(motion::theta_dot_change);
         const V3<W> half_turn = turn + G * half;
         const W own_way = dot(half, half), way = dot(half_turn, half_turn);
-        const W own_most = all(T(0.15) * T(0.15)), most = all(T(0.3) * T(0.3));
+        const W own_most = all(T(extrapolated_turn / 2) * T(extrapolated_turn / 2)),
+                most = all(T(extrapolated_turn) * T(extrapolated_turn));
         if (!any_above(own_way, own_most) && !any_above(way, most)) return;
         const W one = where_above(own_most, own_way, where_above(most, way, all(T(1))));
         half = one * half;

@@ -12,6 +12,8 @@ namespace avx2 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
 } // namespace avx2
+#endif
+#ifdef BOUGH_HAS_AVX512
 namespace avx512 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);

@@ -5,7 +5,8 @@
 // articulated_explicit  articulated_step.h, Euler forward
 // articulated_implicit  articulated_step.h, linearly implicit
 // articulated_reference extrapolation.h, to the plan's tolerance
-// Needs a state of this plan with kinematics up to date. Leaves one; where the plan has lanes, by way of present(). The articulated solvers exist in double alone.
+// Needs a state of this plan with kinematics up to date; leaves one, but where the plan has lanes: there present() does. The
+// articulated solvers exist in double alone.
 #pragma once
 #include "../fast/present.h"
 #include "../stages/step.h"

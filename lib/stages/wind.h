@@ -23,7 +23,8 @@ template <class T> struct WindTable {
     std::vector<T> profile;           // factor at each entry, set up once
 
     Vector3<T> at(T y) const {
-        const T place = std::min(std::max(y * per_metre, T(0)), T(velocity.size() - 1));
+        // A y that is not a number, in a run that diverges, is the ground: max keeps its first argument.
+        const T place = std::min(std::max(T(0), y * per_metre), T(velocity.size() - 1));
         const auto k = std::min(std::size_t(place), velocity.size() - 1 - (velocity.size() > 1));
         if (velocity.size() == 1) return velocity[0];
         const T w = place - T(k);

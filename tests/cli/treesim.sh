@@ -212,6 +212,8 @@ treesim tree.json --frames 3 --no-output --explain --simd baseline 2>err && grep
 treesim tree.json --frames 3 --no-output --explain --simd off 2>err && grep -q '^stage lanes left out: plain path' err || fail "--simd off"
 treesim tree.json --frames 3 --no-output --explain --scheme P34 2>err && grep -q '^stage lanes left out: plain path: scheme P34' err || fail "P34"
 refused 1 "--simd" treesim tree.json --frames 3 --no-output --simd sse
+simd=$(treesim --version | sed -n 's/^simd //p')
+[[ $(hash tree.json --frames 20 --simd "$simd") == $(hash tree.json --frames 20) ]] || fail "--version says simd $simd"
 [[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20 --simd off) ]] || fail "a limit far off is felt"
 
 # One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
