@@ -5,50 +5,23 @@
 #include "../stages/root_term.h"
 #include "../stages/spring.h"
 #include "../stages/state_update.h"
+#include "analytic_lanes_step.h"
 #include "energy_lanes.h"
+#include "lane_memory.h"
 #include "present.h"
 #include "targets.h"
 #include <algorithm>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace bough::fast {
 namespace {
 
-int most_threads() {
-#ifdef _OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-}
-int this_thread() {
-#ifdef _OPENMP
-    return omp_get_thread_num();
-#else
-    return 0;
-#endif
-}
-
 // [bytes] of a core's own cache on the machines of these years: what is larger goes through memory in any case.
 constexpr std::size_t cache = std::size_t(2) << 20;
 
-template <class T> T* data(RowVector<T>& rows) {
-    return rows.empty() ? nullptr : rows.front().lane;
-}
-
+using fast::put;
 template <class T> void put(T (&to)[2], std::complex<double> z) {
     to[0] = T(z.real());
     to[1] = T(z.imag());
-}
-template <class T> void put(T (&to)[3], const Vec3& v) {
-    for (int k = 0; k < 3; ++k) to[k] = T(v[k]);
-}
-
-// One value of one record.
-template <class T> T& entry(RowVector<T>& rows, std::size_t joint, int count, int quantity) {
-    return data(rows)[joint * record(count, Row<T>::lanes) + std::size_t(quantity)];
 }
 template <class T> void put(RowVector<T>& rows, std::size_t joint, int count, int quantity, const Vector3<T>& v) {
     for (int k = 0; k < 3; ++k) entry(rows, joint, count, quantity + k) = v[k];
@@ -150,7 +123,12 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
 }
 
 SweepFlags operator+(const SweepFlags& a, const SweepFlags& b) {
-    return {a.fast_turns + b.fast_turns, a.half_turns + b.half_turns, a.fast || b.fast, a.finite && b.finite};
+    SweepFlags s;
+    s.fast_turns = a.fast_turns + b.fast_turns;
+    s.half_turns = a.half_turns + b.half_turns;
+    s.fast = a.fast || b.fast;
+    s.finite = a.finite && b.finite;
+    return s;
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
@@ -284,7 +262,10 @@ namespace bough {
 
 template <class T> void present(const Plan<T>& plan, State<T>& state) {
     if (!plan.lanes.on || state.lanes.presented) return;
-    fast::unpack(plan, state);
+    if (plan.solver == Solver::analytic)
+        fast::unpack_analytic(plan, state);
+    else
+        fast::unpack(plan, state);
     move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);

@@ -6,17 +6,20 @@ namespace bough::fast {
 namespace baseline {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 } // namespace baseline
 #ifdef BOUGH_HAS_AVX2
 namespace avx2 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 } // namespace avx2
 #endif
 #ifdef BOUGH_HAS_AVX512
 namespace avx512 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 } // namespace avx512
 #endif
 
@@ -92,9 +95,22 @@ template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
     return baseline::energy_sweep<T>(wind);
 }
 
+template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target target, AnalyticLoads loads) {
+    require(target);
+#ifdef BOUGH_HAS_AVX512
+    if (target == Target::avx512) return avx512::analytic_sweeps<T>(loads);
+#endif
+#ifdef BOUGH_HAS_AVX2
+    if (target == Target::avx2) return avx2::analytic_sweeps<T>(loads);
+#endif
+    return baseline::analytic_sweeps<T>(loads);
+}
+
 template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool);
 template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool);
 template EnergySweepOf<float> energy_sweep_for<float>(Target, bool);
 template EnergySweepOf<double> energy_sweep_for<double>(Target, bool);
+template AnalyticSweeps<float> analytic_sweeps_for(Target, AnalyticLoads);
+template AnalyticSweeps<double> analytic_sweeps_for(Target, AnalyticLoads);
 
 } // namespace bough::fast
