@@ -50,8 +50,7 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
     static constexpr bool forces = wind || pulls;
     static constexpr bool placed = forces || gravity; // something of the world's is felt
     static constexpr int constant_count = analytic::constants(wind), inward_count = analytic::inward_count(wind, pulls);
-    // Two rows at a time where there are registers for it.
-    using Work = std::conditional_t<BOUGH_WIDTH == 64, Pair<W>, W>;
+    using Work = Pair<W>; // two rows at a time
 
     const Block& block;
     T* scratch;
@@ -82,10 +81,22 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
         W y;
     };
 
+    // As SweepParts' profile, the lanes' places looked up at once.
+    BOUGH_FORCE W profile_at(const W& y) const {
+        using B = Bits<T>;
+        const std::size_t last = rows.profile_entries - 1;
+        if (last == 0) return all(rows.profile[0]);
+        const W place = smaller(larger(W(y * rows.per_metre), W{}), all(T(last))); // NaN: 0
+        const W rounded = smaller(W(place - T(0.5)), all(T(last - 1))) + B::rounder;
+        const typename B::Wide k = typename B::Wide(rounded) & 0x3fffff;
+        const W low = look_up(rows.profile, k), high = look_up(rows.profile + 1, k);
+        return low + (place - (rounded - B::rounder)) * (high - low);
+    }
+
     // The air's force over kappa rho A, and its speed (air.h).
     template <Kind kind> BOUGH_FORCE static V3<W> air_force(const V3<W>& u, W& speed) {
         if constexpr (kind == Kind::branch) {
-            speed = root(u.x * u.x + u.y * u.y);
+            speed = root(W(u.x * u.x + u.y * u.y));
             return {speed * u.x, speed * u.y, W{}};
         } else {
             speed = root(dot(u, u));
@@ -131,7 +142,7 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
         if constexpr (gravity) out.set(loaded::g, f.R_bw * vector(rows.gravity));
         if constexpr (wind) {
             const V3<W> c = k.vector(constant::com);
-            const W p = this->profile(f.y + dot(f.R_bw.y, c));
+            const W p = profile_at(f.y + dot(f.R_bw.y, c));
             const V3<W> still = p * (f.R_bw * vector(rows.wind)), moving = still - f.v - cross(f.omega, c);
             const W scale = k.real(constant::drag_area);
             const W still2 = dot(still, still), still_speed = root(still2);
@@ -304,9 +315,7 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
                          });
         }
         for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-            if constexpr (Registers<Work>::count == 1) {
-                step_joints<W>(row, row);
-            } else if (waiting == nothing) {
+            if (waiting == nothing) {
                 waiting = row;
             } else {
                 step_joints<Work>(waiting, row);
@@ -317,7 +326,7 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
 
     // ---- the joints' own steps (spring.h)
 
-    static void count(const W& value, T above, const W& mass, std::uint64_t& number) {
+    [[gnu::noinline]] static void count(const W& value, T above, const W& mass, std::uint64_t& number) {
         for (int l = 0; l < width<T>; ++l)
             if (value[l] > above && mass[l] > 0) ++number;
     }

@@ -92,6 +92,26 @@ template <class T> struct Bits {
     static constexpr T rounder = sizeof(T) == 4 ? T(12582912) : T(6755399441055744);
 };
 
+// table[index], each lane its own; 0 <= index < 2^22.
+BOUGH_FORCE WideFloat look_up(const float* table, const Bits<float>::Wide& index) {
+#if defined(__AVX512F__)
+    return WideFloat(_mm512_mask_i32gather_ps(__m512(WideFloat{}), 0xffff, __m512i(index), table, 4));
+#elif defined(__AVX2__)
+    return WideFloat(_mm256_i32gather_ps(table, __m256i(index), 4));
+#else
+    return WideFloat{table[index[0]], table[index[1]], table[index[2]], table[index[3]]};
+#endif
+}
+BOUGH_FORCE WideDouble look_up(const double* table, const Bits<double>::Wide& index) {
+#if defined(__AVX512F__)
+    return WideDouble(_mm512_mask_i64gather_pd(__m512d(WideDouble{}), 0xff, __m512i(index), table, 8));
+#elif defined(__AVX2__)
+    return WideDouble(_mm256_i64gather_pd(table, __m256i(index), 8));
+#else
+    return WideDouble{table[index[0]], table[index[1]]};
+#endif
+}
+
 // x with its sign turned where s is negative.
 template <class W> BOUGH_FORCE W with_sign_of(const W& x, const W& s) {
     using B = Bits<RealOf<W>>;
@@ -118,6 +138,20 @@ BOUGH_FORCE X series(const Coefficients<RealOf<X>, n>& c, const X& x) { // its f
     X sum = each<X>(c.of[terms - 1]);
     for (int k = terms - 2; k >= 0; --k) sum = sum * x + c.of[k];
     return sum;
+}
+
+// The power of two at or below |x|, and one over it.
+template <class X> struct Scale { X power, inverse; };
+template <class W> BOUGH_FORCE Scale<W> scale_of(const W& x) {
+    using B = Bits<RealOf<W>>;
+    using I = typename B::WideUnsigned;
+    constexpr auto exponents = typename B::Unsigned(2 * B::bias + 1) << B::mantissa;
+    const I bits = I(x) & exponents;
+    return {W(bits), W((typename B::Unsigned(2 * B::bias) << B::mantissa) - bits)};
+}
+template <class W> BOUGH_FORCE Scale<Pair<W>> scale_of(const Pair<W>& x) {
+    const Scale<W> a = scale_of(x.a), b = scale_of(x.b);
+    return {{a.power, b.power}, {a.inverse, b.inverse}};
 }
 
 // 1 / sqrt(x), x > 0 and normal, to a rounding or two: a first guess from the exponent's half and two or three iterations of third

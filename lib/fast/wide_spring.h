@@ -21,17 +21,19 @@ template <class T> struct TurnSeries {
     // (s - 2 c1) / q = -2 t2 c1
     static constexpr auto dc1 =
         coefficients<T, many>([](int k) { return (k % 2 ? 2 : -2) * (k + 1) / factorial(2 * k + 4); });
-    // 2 zeta(2k + 2) / (2 pi)^(2k + 2)
-    static constexpr auto t2 = coefficients<T, few_t2>([](int k) {
-        double zeta = 0, power = 1;
-        for (int n = 400; n > 0; --n) {
-            double term = 1;
-            for (int j = 0; j < 2 * k + 2; ++j) term /= n;
-            zeta += term;
-        }
-        if (k == 0) zeta = 1.6449340668482264; // the one that converges slowly
-        for (int j = 0; j < 2 * k + 2; ++j) power /= 6.283185307179586;
-        return 2 * zeta * power;
+    static constexpr auto t2 = coefficients<T, few_t2>([](int k) { // |B_2n| / (2n)!, Bernoulli's numbers, n = k + 1
+        constexpr double c[] = {1. / 12,
+                                1. / 720,
+                                1. / 30240,
+                                1. / 1209600,
+                                1. / 47900160,
+                                691. / 1307674368000,
+                                1. / 74724249600,
+                                3617. / 10670622842880000,
+                                43867. / 5109094217170944000,
+                                174611. / 802857662698291200000.,
+                                77683. / 14101100039391805440000.};
+        return c[k];
     });
 };
 
@@ -64,7 +66,8 @@ template <class W> BOUGH_FORCE WidePropagator<W> propagate(const W& b, const W& 
     using B = Bits<T>;
     constexpr int terms = sizeof(T) == 4 ? 6 : 10;
     constexpr T edge = T(0.6168502750680849); // (pi/4)^2
-    const W y = (h / 2) * b, x = (h * h) * lambda, z = x - y * y, m = root(magnitude(z));
+    const W y = (h / 2) * b, x = (h * h) * lambda, z = x - y * y;
+    const W size = magnitude(z), m = root(size), inverse_m = 1 / m;
 
     // sqrt z = n pi/2 + r
     constexpr T most = sizeof(T) == 4 ? T(1 << 21) : T(1e15); // where no digit of the phase is left
@@ -79,30 +82,32 @@ template <class W> BOUGH_FORCE WidePropagator<W> propagate(const W& b, const W& 
     const auto quadrant = typename B::Wide(rounded);
     const auto odd = (quadrant & 1) != 0;
     const W sine = odd ? Q : rP, cosine = odd ? rP : Q;
-    W S = near ? P : ((quadrant & 2) != 0 ? -sine : sine) / m;
+    W S = near ? P : ((quadrant & 2) != 0 ? -sine : sine) * inverse_m;
     W c = ((quadrant + 1) & 2) != 0 ? -cosine : cosine;
 
     W slow = -y; // what decays the slowest
     const auto far = z < -edge;
     const bool any_far = any_above(all(-edge), z);
-    W sum = W{};
+    W sum = W{}, inverse_sum = W{};
     if (any_far) {
         const W fast = exponential(W(-2 * m));
         sum = y + m;
-        S = far ? (1 - fast) / (2 * m) : S;
-        slow = far ? -x / sum : slow;
+        inverse_sum = 1 / sum;
+        S = far ? T(0.5) * inverse_m * (1 - fast) : S;
+        slow = far ? -x * inverse_sum : slow;
         c = far ? fast : c;
     }
     const W decay = exponential(slow);
     WidePropagator<W> p;
     p.B = decay * S;
     p.C = decay * c + slow * p.B;
-    p.E = (1 - (p.C + 2 * y * p.B)) / x;
+    const W inverse_x = 1 / x;
+    p.E = (1 - (p.C + 2 * y * p.B)) * inverse_x;
     if (any_far) {
         static constexpr auto growth = coefficients<T, 14>([](int k) { return 1 / factorial(k + 1); });
         const W near_zero = series < sizeof(T) == 4 ? 8 : 14 > (growth, slow);
-        const W grown = magnitude(slow) < T(0.35) ? near_zero : (decay - 1) / slow;
-        p.E = far ? (grown - p.B) / sum : p.E;
+        const W grown = magnitude(slow) < T(0.35) ? near_zero : (1 - decay) * sum * inverse_x;
+        p.E = far ? (grown - p.B) * inverse_sum : p.E;
     }
     const W small = z < -edge ? all(T(1)) : magnitude(x);
     if (any_above(all(T(0.2)), small)) {
@@ -138,7 +143,7 @@ template <class X> BOUGH_FORCE Rotation<X> rotate(X& pp, X& qq, X& pq, X& rp, X&
     const X o = pq + pq, d = qq - pp;
     const X present = pq * pq, least = negligible2<X>() * magnitude(pp * qq);
     const X across = choose_above(present, least, with_sign_of(o, d), X{});
-    const X along = magnitude(d) + root(d * d + o * o);
+    const X along = magnitude(d) + root(X(d * d + o * o));
     const X scale = inverse_root(along * along + across * across);
     Rotation<X> turn{choose_above(present, least, along * scale, each<X>(1)), across * scale};
     const X e = turn.s * (turn.s * d - turn.c * o);
@@ -293,12 +298,13 @@ BOUGH_FORCE JointStep<X> step_joint(const JointLoad<X>& in, RealOf<X> h, RealOf<
         KG.yz = KG.yz - T(0.5) * (in.h.y * in.g.z + in.h.z * in.g.y);
     }
 
-    // Scaled, so that in float no square of a stiffness overflows.
-    constexpr T unit = sizeof(T) == 4 ? T(1 << 20) : T(1);
-    Symmetric<X> A = reduced(L, (1 / unit) * KG);
+    // Scaled, exactly, so that no stiffness' square overflows.
+    Symmetric<X> A = reduced(L, KG);
+    const Scale<X> unit = scale_of(larger(larger(magnitude(A.xx), magnitude(A.yy)), magnitude(A.zz)));
+    A = unit.inverse * A;
     const M3<X> V = symmetric_eigen(A);
     const M3<X> U{back(L, V.x), back(L, V.y), back(L, V.z)};
-    out.lambda[0] = unit * A.xx, out.lambda[1] = unit * A.yy, out.lambda[2] = unit * A.zz;
+    out.lambda[0] = unit.power * A.xx, out.lambda[1] = unit.power * A.yy, out.lambda[2] = unit.power * A.zz;
 
     const V3<X>* columns[3] = {&U.x, &U.y, &U.z};
     const X r[3] = {dot(U.x, residual), dot(U.y, residual), dot(U.z, residual)};
