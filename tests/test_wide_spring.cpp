@@ -34,6 +34,20 @@ template <class T> void set(wide::Symmetric<Pair<T>>& s, int lane, const Matrix3
     set<T>(s.yy, lane, m(1, 1)), set<T>(s.yz, lane, m(1, 2)), set<T>(s.zz, lane, m(2, 2));
 }
 
+template <class T> using Register = wide::Wide<T>;
+template <class T> wide::WidePropagator<Register<T>> propagated(const Register<T>& b, const Register<T>& lambda, T h) {
+    const Register<T> both[2][2] = {{b, wide::all(T(1))}, {lambda, wide::all(T(1))}};
+    wide::WidePropagator<Register<T>> p[2];
+    wide::propagate(both[0], both[1], h, p);
+    return p[0];
+}
+template <class T> T exponential(T x) {
+    const Register<T> given[1] = {wide::all(x)};
+    Register<T> e[1];
+    wide::exponentials(given, e);
+    return e[0][0];
+}
+
 // At random, with equal and nearly equal values, of no, negative and widely spread values.
 template <class T> std::vector<Matrix3<T>> matrices() {
     std::vector<Matrix3<T>> all;
@@ -114,8 +128,8 @@ TEMPLATE_TEST_CASE("a lane does not depend on its neighbours", "", float, double
             b[l] = T(cases[k + std::size_t(l) % 4].b);
             lambda[l] = T(cases[k + std::size_t(l) % 4].lambda);
         }
-        const auto together = wide::propagate(b, lambda, T(1));
-        const auto alone = wide::propagate(wide::all(b[0]), wide::all(lambda[0]), T(1));
+        const auto together = propagated<T>(b, lambda, T(1));
+        const auto alone = propagated<T>(wide::all(b[0]), wide::all(lambda[0]), T(1));
         CAPTURE(cases[k].b, cases[k].lambda);
         CHECK(together.B[0] == alone.B[0]);
         CHECK(together.C[0] == alone.C[0]);
@@ -132,7 +146,7 @@ TEMPLATE_TEST_CASE("lanes step the oscillator by its closed form in every case o
         for (const oscillator_truth::Case& c : oscillator_truth::cases()) {
             const T b = T(c.b / h), lambda = T(c.lambda / (h * h));
             CAPTURE(h, c.b, c.lambda);
-            const wide::WidePropagator<wide::Wide<T>> p = wide::propagate(wide::all(b), wide::all(lambda), T(h));
+            const wide::WidePropagator<wide::Wide<T>> p = propagated<T>(wide::all(b), wide::all(lambda), T(h));
             const Real t = Real(T(h)), B = oscillator_truth::impulse_response(b, lambda, t),
                        C = oscillator_truth::rate_response(b, lambda, t),
                        E = oscillator_truth::step_response(b, lambda, t);
@@ -152,7 +166,7 @@ TEMPLATE_TEST_CASE("the stiffest oscillators stay bounded in lanes", "", float, 
         for (const double zeta : {0.0, 1e-9, 1e-3, 0.7, 1.0, 30.0}) {
             const double lambda = std::pow(10, power), h = 1.0 / 30, rate = std::sqrt(lambda);
             if (2 * zeta * rate > (sizeof(T) == 4 ? 1e16 : 1e150)) continue;
-            const auto p = wide::propagate(wide::all(T(2 * zeta * rate)), wide::all(T(lambda)), T(h));
+            const auto p = propagated<T>(wide::all(T(2 * zeta * rate)), wide::all(T(lambda)), T(h));
             CAPTURE(power, zeta);
             CHECK(std::abs(p.B[0]) * rate <= 1.001);
             CHECK(std::abs(p.C[0]) <= 1.001);
@@ -167,10 +181,10 @@ TEMPLATE_TEST_CASE("lanes' elementary functions are the standard library's to a 
     for (double x = sizeof(T) == 4 ? -86 : -700; x < (sizeof(T) == 4 ? 88 : 708); x += 0.0137) {
         const double given = T(x);
         CAPTURE(given);
-        REQUIRE(double(wide::exponential(wide::all(T(x)))[0]) == Approx(std::exp(given)).epsilon(4 * e).margin(0));
+        REQUIRE(double(exponential(T(x))) == Approx(std::exp(given)).epsilon(4 * e).margin(0));
     }
-    CHECK(wide::exponential(wide::all(T(-1e6)))[0] == 0);
-    CHECK(std::isinf(wide::exponential(wide::all(T(1e6)))[0]));
+    CHECK(exponential(T(-1e6)) < 2 * std::numeric_limits<T>::min());
+    CHECK(std::isinf(exponential(T(1e6))));
     for (double power = sizeof(T) == 4 ? -36 : -300; power < (sizeof(T) == 4 ? 37 : 300); power += 0.0173) {
         const double given = T(std::pow(10, power));
         REQUIRE(double(wide::inverse_root(wide::all(T(given)))[0]) ==

@@ -304,6 +304,7 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
                     add(q, forks.rows());
                 }
                 step_in(q, row, lane);
+                if ((g.length - k) % 2 == 0) step_joints<Work>(row, row + 1, lane); // while both are at hand
             }
             Records<T, inward_count> base;
             keep(q, base.rows());
@@ -314,14 +315,13 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
                              write(at, read(at) + w);
                          });
         }
-        for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-            if (waiting == nothing) {
-                waiting = row;
-            } else {
-                step_joints<Work>(waiting, row);
-                waiting = nothing;
-            }
+        if (g.length % 2 == 0) return;
+        if (waiting == nothing) {
+            waiting = g.first_row;
+            return;
         }
+        for (int lane = 0; lane < L; lane += width<T>) step_joints<Work>(waiting, g.first_row, lane);
+        waiting = nothing;
     }
 
     // ---- the joints' own steps (spring.h)
@@ -379,77 +379,74 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
     static constexpr T guarded2 = T(guarded_turn) * T(guarded_turn);
     static constexpr T about_half_turn2 = T(9.869); // a little below pi squared; the rest is seen body by body
 
-    template <class X> void step_joints(std::uint32_t one, std::uint32_t other) {
+    template <class X> [[gnu::noinline]] void step_joints(std::uint32_t one, std::uint32_t other, int lane) {
         using P = Registers<X>;
-        for (int lane = 0; lane < L; lane += width<T>) {
-            Across<X> k, y, l;
-            for (int j = 0; j < P::count; ++j) {
-                const std::uint32_t row = j ? other : one;
-                k.at[j] = constants_at(row, lane);
-                y.at[j] = motion_at(row, lane);
-                l.at[j] = loaded_at(row, lane);
-            }
-            JointLoad<X> in;
-            in.J = l.symmetric(loaded::J);
-            if constexpr (gravity) {
-                in.h = l.vector(loaded::h);
-                in.g = l.vector(loaded::g);
-                in.gravity_row = k.real(constant::gravity_row);
-            }
-            if constexpr (forces) in.tau = l.vector(loaded::tau);
-            if constexpr (wind) {
-                in.drag_tau = l.vector(loaded::drag_f);
-                in.drag_row = l.real(loaded::drag);
-                in.wind_row = l.real(loaded::wind);
-                in.turn_row = l.real(loaded::turn);
-                in.inverse_weight = k.real(constant::inverse_weight);
-            }
-            in.theta = y.vector(motion::theta);
-            in.rate = y.vector(motion::scaled_rate);
-            in.K = k.vector(constant::K);
-            in.beta = k.real(constant::beta);
-            in.bend = k.real(constant::bend);
-            in.twist = k.real(constant::twist);
-            JointStep<X> step = step_joint<wind, gravity, forces>(in, rows.h, largest_lambda<T>());
-
-            const X none{};
-            for (int m = 0; m < 3; ++m) {
-                if (any_above(none, step.lambda[m]))
-                    for (int j = 0; j < P::count; ++j)
-                        count(-P::part(step.lambda[m], j), 0, read<T>(k.at[j] + constant::mass * L), flags.buckling);
-                if (any_above(step.with_air[m], each<X>(largest_lambda<T>())))
-                    for (int j = 0; j < P::count; ++j)
-                        count(P::part(step.with_air[m], j), largest_lambda<T>(), read<T>(k.at[j] + constant::mass * L),
-                              flags.bounded_lambda);
-            }
-            V3<X> theta = step.theta;
-            X q = dot(theta, theta);
-            if (any_above(q, each<X>(about_half_turn2))) {
-                for (int j = 0; j < P::count; ++j) {
-                    const V3<W> t{P::part(theta.x, j), P::part(theta.y, j), P::part(theta.z, j)};
-                    const V3<W> s = shorter(t, read<T>(k.at[j] + constant::mass * L));
-                    P::part(theta.x, j) = s.x, P::part(theta.y, j) = s.y, P::part(theta.z, j) = s.z;
-                }
-                q = dot(theta, theta);
-            }
-            if (any_above(dot(step.phi, step.phi), each<X>(guarded2))) {
-                const X mass = k.real(constant::mass), keep = kept(in, step, theta, &mass);
-                step.rate = keep * step.rate;
-                step.omega = keep * step.omega;
-            }
-            const V3<X> theta_dot = turn_form(theta, q, each<X>(T(0.5)), t2_of(q)) * step.omega;
-            y.set(motion::theta, theta);
-            y.set(motion::theta_dot, theta_dot);
-            y.set(motion::scaled_rate, step.rate);
-            const X all_of_it = q + dot(theta_dot, theta_dot);
-            for (int j = 0; j < P::count; ++j) size = size + P::part(all_of_it, j);
+        Across<X> k, y, l;
+        for (int j = 0; j < P::count; ++j) {
+            const std::uint32_t row = j ? other : one;
+            k.at[j] = constants_at(row, lane);
+            y.at[j] = motion_at(row, lane);
+            l.at[j] = loaded_at(row, lane);
         }
+        JointLoad<X> in;
+        in.J = l.symmetric(loaded::J);
+        if constexpr (gravity) {
+            in.h = l.vector(loaded::h);
+            in.g = l.vector(loaded::g);
+            in.gravity_row = k.real(constant::gravity_row);
+        }
+        if constexpr (forces) in.tau = l.vector(loaded::tau);
+        if constexpr (wind) {
+            in.drag_tau = l.vector(loaded::drag_f);
+            in.drag_row = l.real(loaded::drag);
+            in.wind_row = l.real(loaded::wind);
+            in.turn_row = l.real(loaded::turn);
+            in.inverse_weight = k.real(constant::inverse_weight);
+        }
+        in.theta = y.vector(motion::theta);
+        in.rate = y.vector(motion::scaled_rate);
+        in.K = k.vector(constant::K);
+        in.beta = k.real(constant::beta);
+        in.bend = k.real(constant::bend);
+        in.twist = k.real(constant::twist);
+        JointStep<X> step = step_joint<wind, gravity, forces>(in, rows.h, largest_lambda<T>());
+
+        const X softest = -larger(larger(-step.lambda[0], -step.lambda[1]), -step.lambda[2]);
+        if (any_above(X{}, softest) | step.bounded)
+            for (int m = 0; m < 3; ++m)
+                for (int j = 0; j < Registers<X>::count; ++j) {
+                    const W mass = read<T>(k.at[j] + constant::mass * L);
+                    count(-Registers<X>::part(step.lambda[m], j), 0, mass, flags.buckling);
+                    count(Registers<X>::part(step.with_air[m], j), largest_lambda<T>(), mass, flags.bounded_lambda);
+                }
+        V3<X> theta = step.theta;
+        X q = dot(theta, theta);
+        if (any_above(q, each<X>(about_half_turn2))) {
+            for (int j = 0; j < P::count; ++j) {
+                const V3<W> t{P::part(theta.x, j), P::part(theta.y, j), P::part(theta.z, j)};
+                const V3<W> s = shorter(t, read<T>(k.at[j] + constant::mass * L));
+                P::part(theta.x, j) = s.x, P::part(theta.y, j) = s.y, P::part(theta.z, j) = s.z;
+            }
+            q = dot(theta, theta);
+        }
+        if (any_above(dot(step.phi, step.phi), each<X>(guarded2))) {
+            const X mass = k.real(constant::mass), keep = kept(in, step, theta, &mass);
+            step.rate = keep * step.rate;
+            step.omega = keep * step.omega;
+        }
+        const V3<X> theta_dot = rate_of(theta, q, step.omega);
+        y.set(motion::theta, theta);
+        y.set(motion::theta_dot, theta_dot);
+        y.set(motion::scaled_rate, step.rate);
+        const X all_of_it = q + dot(theta_dot, theta_dot);
+        for (int j = 0; j < P::count; ++j) size = size + P::part(all_of_it, j);
     }
 
     // ---- a block
 
     void finish() {
-        if (waiting != nothing) step_joints<W>(waiting, waiting);
+        if (waiting != nothing)
+            for (int lane = 0; lane < L; lane += width<T>) step_joints<W>(waiting, waiting, lane);
         waiting = nothing;
         if (!(total(size) < T(1e30))) flags.finite = false;
     }

@@ -74,12 +74,6 @@ template <class W>
 BOUGH_FORCE Pair<W> choose_above(const Pair<W>& a, const Pair<W>& b, const Pair<W>& yes, const Pair<W>& no) {
     return {choose_above(a.a, b.a, yes.a, no.a), choose_above(a.b, b.b, yes.b, no.b)};
 }
-template <class W> BOUGH_FORCE W magnitude(const W& x) {
-    return larger(x, W(-x));
-}
-template <class W> BOUGH_FORCE Pair<W> magnitude(const Pair<W>& x) {
-    return {magnitude(x.a), magnitude(x.b)};
-}
 
 // The integers as wide as a register's reals.
 template <class T> struct Bits {
@@ -112,6 +106,13 @@ BOUGH_FORCE WideDouble look_up(const double* table, const Bits<double>::Wide& in
 #endif
 }
 
+template <class W> BOUGH_FORCE W magnitude(const W& x) {
+    using B = Bits<RealOf<W>>;
+    return W(typename B::WideUnsigned(x) & (typename B::Unsigned(-1) >> 1));
+}
+template <class W> BOUGH_FORCE Pair<W> magnitude(const Pair<W>& x) {
+    return {magnitude(x.a), magnitude(x.b)};
+}
 // x with its sign turned where s is negative.
 template <class W> BOUGH_FORCE W with_sign_of(const W& x, const W& s) {
     using B = Bits<RealOf<W>>;
@@ -171,25 +172,31 @@ template <class W> BOUGH_FORCE Pair<W> inverse_root(const Pair<W>& x) {
     return {inverse_root(x.a), inverse_root(x.b)};
 }
 
-// e^x. 0 far below, infinite far above.
-template <class W> BOUGH_FORCE W exponential(const W& x) {
+// A power series in each of n numbers, term by term in all of them.
+template <int terms, class X, int n, int count>
+BOUGH_FORCE void series(const Coefficients<RealOf<X>, count>& c, const X (&x)[n], X (&sum)[n]) {
+    for (int i = 0; i < n; ++i) sum[i] = each<X>(c.of[terms - 1]);
+    for (int k = terms - 2; k >= 0; --k)
+        for (int i = 0; i < n; ++i) sum[i] = sum[i] * x[i] + c.of[k];
+}
+
+// e^x of each. Far below it stays the smallest number there is, far above (88 in float, 709 in double) it is infinite.
+template <class W, int n> BOUGH_FORCE void exponentials(const W (&x)[n], W (&e)[n]) {
     using T = RealOf<W>;
     using B = Bits<T>;
     constexpr int terms = sizeof(T) == 4 ? 8 : 14;
-    constexpr T most = sizeof(T) == 4 ? T(88) : T(709);
-    const W inside = smaller(larger(x, all(-most + 1)), all(most));
-    const W rounded = inside * T(1.4426950408889634) + B::rounder;
-    const W n = rounded - B::rounder;
-    // ln 2 in two parts, the first short enough for n times it to be exact.
-    const W r = (inside - n * T(0.693145751953125)) - n * T(1.42860682030941723e-6);
+    constexpr T least = sizeof(T) == 4 ? T(-87) : T(-708), most = sizeof(T) == 4 ? T(88.7) : T(709.7);
+    W rounded[n], r[n];
+    for (int i = 0; i < n; ++i) {
+        const W inside = smaller(larger(x[i], all(least)), all(most));
+        rounded[i] = inside * T(1.4426950408889634) + B::rounder;
+        const W m = rounded[i] - B::rounder;
+        // ln 2 in two parts, the first short enough for m times it to be exact.
+        r[i] = (inside - m * T(0.693145751953125)) - m * T(1.42860682030941723e-6);
+    }
     static constexpr auto taylor = coefficients<T, terms>([](int k) { return 1 / factorial(k); });
-    const W sum = series<terms>(taylor, r);
-    const typename B::Wide power = (typename B::Wide(rounded) + B::bias) << B::mantissa;
-    const W e = sum * W(power);
-    return x > most ? all(std::numeric_limits<T>::infinity()) : x < 1 - most ? W{} : e;
-}
-template <class W> BOUGH_FORCE Pair<W> exponential(const Pair<W>& x) {
-    return {exponential(x.a), exponential(x.b)};
+    series<terms>(taylor, r, e);
+    for (int i = 0; i < n; ++i) e[i] = e[i] * W((typename B::Wide(rounded[i]) + B::bias) << B::mantissa);
 }
 
 } // namespace BOUGH_TARGET

@@ -59,75 +59,96 @@ template <class X> BOUGH_FORCE X t2_of(const X& q) {
 
 template <class W> struct WidePropagator { W B, C, E; };
 
+// Of n oscillators side by side: each waits for its own roots and series, which is long, and meanwhile the others go on.
 // In units of the step: y = b h / 2, x = lambda h^2, z = x - y^2. Up to z = -(pi/4)^2 sine and cosine of sqrt z are their power series in z,
-// on both sides of critical damping; below, both roots' exponentials. |x| < 0.2 there: E is its own series in x and y.
-template <class W> BOUGH_FORCE WidePropagator<W> propagate(const W& b, const W& lambda, RealOf<W> h) {
+// on both sides of critical damping; below, both roots' exponentials. Where |x| < 0.2 there, E is its own series in x and y.
+template <class W, int n>
+BOUGH_FORCE void propagate(const W (&b)[n], const W (&lambda)[n], RealOf<W> h, WidePropagator<W> (&p)[n]) {
     using T = RealOf<W>;
     using B = Bits<T>;
-    constexpr int terms = sizeof(T) == 4 ? 6 : 10;
-    constexpr T edge = T(0.6168502750680849); // (pi/4)^2
-    const W y = (h / 2) * b, x = (h * h) * lambda, z = x - y * y;
-    const W size = magnitude(z), m = root(size), inverse_m = 1 / m;
-
-    // sqrt z = n pi/2 + r
+    constexpr int terms = sizeof(T) == 4 ? 6 : 10;            // of the cosine; of the sine one less
+    constexpr T edge = T(0.6168502750680849);                 // (pi/4)^2
     constexpr T most = sizeof(T) == 4 ? T(1 << 21) : T(1e15); // where no digit of the phase is left
-    const W angle = z > 0 ? smaller(m, all(most)) : W{};
-    const W rounded = angle * T(0.6366197723675814) + B::rounder, n = rounded - B::rounder;
-    const W r = ((angle - n * T(1.5703125)) - n * T(4.837512969970703125e-4)) - n * T(7.54978995489188216e-8);
-    const auto near = n == 0;
-    const W square = near ? z : r * r;
-    static constexpr auto sines = coefficients<T, terms>([](int k) { return (k % 2 ? -1 : 1) / factorial(2 * k + 1); });
-    static constexpr auto cosines = coefficients<T, terms>([](int k) { return (k % 2 ? -1 : 1) / factorial(2 * k); });
-    const W P = series<terms>(sines, square), Q = series<terms>(cosines, square), rP = r * P;
-    const auto quadrant = typename B::Wide(rounded);
-    const auto odd = (quadrant & 1) != 0;
-    const W sine = odd ? Q : rP, cosine = odd ? rP : Q;
-    W S = near ? P : ((quadrant & 2) != 0 ? -sine : sine) * inverse_m;
-    W c = ((quadrant + 1) & 2) != 0 ? -cosine : cosine;
-
-    W slow = -y; // what decays the slowest
-    const auto far = z < -edge;
-    const bool any_far = any_above(all(-edge), z);
-    W sum = W{}, inverse_sum = W{};
-    if (any_far) {
-        const W fast = exponential(W(-2 * m));
-        sum = y + m;
-        inverse_sum = 1 / sum;
-        S = far ? T(0.5) * inverse_m * (1 - fast) : S;
-        slow = far ? -x * inverse_sum : slow;
-        c = far ? fast : c;
+    W y[n], x[n], z[n], m[n], inverse_m[n], rounded[n], r[n], square[n], P[n], Q[n];
+    for (int i = 0; i < n; ++i) {
+        y[i] = (h / 2) * b[i];
+        x[i] = (h * h) * lambda[i];
+        z[i] = x[i] - y[i] * y[i];
+        m[i] = root(magnitude(z[i]));
     }
-    const W decay = exponential(slow);
-    WidePropagator<W> p;
-    p.B = decay * S;
-    p.C = decay * c + slow * p.B;
-    const W inverse_x = 1 / x;
-    p.E = (1 - (p.C + 2 * y * p.B)) * inverse_x;
+    // sqrt z = k pi/2 + r
+    for (int i = 0; i < n; ++i) {
+        inverse_m[i] = 1 / m[i];
+        const W angle = z[i] > 0 ? smaller(m[i], all(most)) : W{};
+        rounded[i] = angle * T(0.6366197723675814) + B::rounder;
+        const W k = rounded[i] - B::rounder;
+        r[i] = ((angle - k * T(1.5703125)) - k * T(4.837512969970703125e-4)) - k * T(7.54978995489188216e-8);
+        square[i] = k == 0 ? z[i] : r[i] * r[i];
+    }
+    static constexpr auto sines =
+        coefficients<T, terms - 1>([](int k) { return (k % 2 ? -1 : 1) / factorial(2 * k + 1); });
+    static constexpr auto cosines = coefficients<T, terms>([](int k) { return (k % 2 ? -1 : 1) / factorial(2 * k); });
+    series<terms - 1>(sines, square, P);
+    series<terms>(cosines, square, Q);
+    W S[n], c[n], slow[n], sum[n], inverse_sum[n], decay[n]; // slow: what decays the slowest
+    bool any_far = false;
+    for (int i = 0; i < n; ++i) {
+        const W rP = r[i] * P[i];
+        const auto quadrant = typename B::Wide(rounded[i]);
+        const auto odd = (quadrant & 1) != 0;
+        const W sine = odd ? Q[i] : rP, cosine = odd ? rP : Q[i];
+        S[i] = rounded[i] == B::rounder ? P[i] : ((quadrant & 2) != 0 ? -sine : sine) * inverse_m[i];
+        c[i] = ((quadrant + 1) & 2) != 0 ? -cosine : cosine;
+        slow[i] = -y[i];
+        any_far |= any_above(all(-edge), z[i]);
+    }
+    if (any_far) {
+        W twice[n], fast[n];
+        for (int i = 0; i < n; ++i) twice[i] = -2 * m[i];
+        exponentials(twice, fast);
+        for (int i = 0; i < n; ++i) {
+            sum[i] = y[i] + m[i];
+            inverse_sum[i] = 1 / sum[i];
+            const auto far = z[i] < -edge;
+            S[i] = far ? T(0.5) * inverse_m[i] * (1 - fast[i]) : S[i];
+            slow[i] = far ? -x[i] * inverse_sum[i] : slow[i];
+            c[i] = far ? fast[i] : c[i];
+        }
+    }
+    exponentials(slow, decay);
+    W inverse_x[n];
+    for (int i = 0; i < n; ++i) {
+        inverse_x[i] = 1 / x[i];
+        p[i].B = decay[i] * S[i];
+        p[i].C = decay[i] * c[i] + slow[i] * p[i].B;
+        p[i].E = (1 - (p[i].C + 2 * y[i] * p[i].B)) * inverse_x[i];
+    }
     if (any_far) {
         static constexpr auto growth = coefficients<T, 14>([](int k) { return 1 / factorial(k + 1); });
-        const W near_zero = series < sizeof(T) == 4 ? 8 : 14 > (growth, slow);
-        const W grown = magnitude(slow) < T(0.35) ? near_zero : (1 - decay) * sum * inverse_x;
-        p.E = far ? (grown - p.B) * inverse_sum : p.E;
+        W near_zero[n];
+        series<sizeof(T) == 4 ? 8 : 14>(growth, slow, near_zero);
+        for (int i = 0; i < n; ++i) {
+            const W grown = magnitude(slow[i]) < T(0.35) ? near_zero[i] : (1 - decay[i]) * sum[i] * inverse_x[i];
+            p[i].E = z[i] < -edge ? (grown - p[i].B) * inverse_sum[i] : p[i].E;
+        }
     }
-    const W small = z < -edge ? all(T(1)) : magnitude(x);
-    if (any_above(all(T(0.2)), small)) {
+    for (int i = 0; i < n; ++i) {
+        const W small = z[i] < -edge ? all(T(1)) : magnitude(x[i]);
+        if (!any_above(all(T(0.2)), small)) continue;
         W a0, a1{}, a2 = all(T(0.5)), total = a2;
-        const W y2 = 2 * y;
+        const W y2 = 2 * y[i];
         for (int k = 1; k < (sizeof(T) == 4 ? 14 : 24); ++k) {
             a0 = a1;
             a1 = a2;
-            a2 = (y2 * a1) * (-1 / T(k + 2)) + (x * a0) * (-1 / T((k + 1) * (k + 2)));
+            a2 = (y2 * a1) * (-1 / T(k + 2)) + (x[i] * a0) * (-1 / T((k + 1) * (k + 2)));
             total = total + a2;
         }
-        p.E = small < T(0.2) ? total : p.E;
+        p[i].E = small < T(0.2) ? total : p[i].E;
     }
-    p.B = h * p.B;
-    p.E = (h * h) * p.E;
-    return p;
-}
-template <class W> BOUGH_FORCE WidePropagator<Pair<W>> propagate(const Pair<W>& b, const Pair<W>& lambda, RealOf<W> h) {
-    const WidePropagator<W> p = propagate(b.a, lambda.a, h), q = propagate(b.b, lambda.b, h);
-    return {{p.B, q.B}, {p.C, q.C}, {p.E, q.E}};
+    for (int i = 0; i < n; ++i) {
+        p[i].B = h * p[i].B;
+        p[i].E = (h * h) * p[i].E;
+    }
 }
 
 // ---- eigenvectors
@@ -164,14 +185,18 @@ template <class X> BOUGH_FORCE void rotate_columns(const Rotation<X>& turn, V3<X
 // Of A, which becomes diagonal: the columns of what is returned. As symmetric_eigen (spring.h), but that a lane is left alone once
 // its elements off the diagonal are below half a rounding error. Elements whose squares are no normal numbers are not looked at.
 template <class X> BOUGH_FORCE M3<X> symmetric_eigen(Symmetric<X>& A) {
-    const X one = each<X>(1), zero{};
-    M3<X> V{{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
-    for (int sweep = 0; sweep < 6; ++sweep) {
+    // The first sweep, of which the axes are still what they were.
+    const Rotation<X> a = rotate(A.xx, A.yy, A.xy, A.xz, A.yz), b = rotate(A.xx, A.zz, A.xz, A.xy, A.yz),
+                      c = rotate(A.yy, A.zz, A.yz, A.xy, A.xz);
+    const V3<X> z{b.s * a.c, -b.s * a.s, b.c};
+    M3<X> V{{b.c * a.c, -b.c * a.s, -b.s},
+            {c.c * a.s - c.s * z.x, c.c * a.c - c.s * z.y, -c.s * z.z},
+            {c.s * a.s + c.c * z.x, c.s * a.c + c.c * z.y, c.c * z.z}};
+    for (int sweep = 1; sweep < 6; ++sweep) { // yz is 0 after each
         constexpr auto share = negligible2<X>();
-        const bool rest = any_above(A.xy * A.xy, share * magnitude(A.xx * A.yy)) |
-                          any_above(A.xz * A.xz, share * magnitude(A.xx * A.zz)) |
-                          any_above(A.yz * A.yz, share * magnitude(A.yy * A.zz));
-        if (!rest) break;
+        if (!(any_above(A.xy * A.xy, share * magnitude(A.xx * A.yy)) |
+              any_above(A.xz * A.xz, share * magnitude(A.xx * A.zz))))
+            break;
         rotate_columns(rotate(A.xx, A.yy, A.xy, A.xz, A.yz), V.x, V.y);
         rotate_columns(rotate(A.xx, A.zz, A.xz, A.xy, A.yz), V.x, V.z);
         rotate_columns(rotate(A.yy, A.zz, A.yz, A.xy, A.xz), V.y, V.z);
@@ -194,6 +219,7 @@ template <class X> struct JointStep {
     V3<X> phi, theta;         // [rad] turn in the step, theta after it, however long
     V3<X> rate, omega;        // scaled_rate, and [rad/s] the joint's rate in the axes of its body
     V3<X> rate_before;        // with the drag
+    bool bounded = false;     // some lambda was
     X lambda[3], with_air[3]; // [1/s^2]
 };
 
@@ -258,6 +284,12 @@ template <class X> BOUGH_FORCE M3<X> turn_form(const V3<X>& t, const X& q, const
             {xz + s.y, yz - s.x, d + bt.z * t.z}};
 }
 
+// T v, v the body's rate.
+template <class X> BOUGH_FORCE V3<X> rate_of(const V3<X>& theta, const X& q, const V3<X>& v) {
+    const V3<X> across = cross(theta, v);
+    return v + RealOf<X>(0.5) * across + t2_of(q) * cross(theta, across);
+}
+
 // largest: largest_lambda (oscillator.h).
 template <bool wind, bool gravity, bool forces, class X>
 BOUGH_FORCE JointStep<X> step_joint(const JointLoad<X>& in, RealOf<X> h, RealOf<X> largest) {
@@ -314,6 +346,8 @@ BOUGH_FORCE JointStep<X> step_joint(const JointLoad<X>& in, RealOf<X> h, RealOf<
         const X xy = magnitude(dot(U.x, U.y)), xz = magnitude(dot(U.x, U.z)), yz = magnitude(dot(U.y, U.z));
         row[0] = dot(U.x, U.x) + xy + xz, row[1] = dot(U.y, U.y) + xy + yz, row[2] = dot(U.z, U.z) + xz + yz;
     }
+    constexpr int parts = Registers<X>::count;
+    using W = std::remove_cvref_t<decltype(Registers<X>::part(row[0], 0))>;
     X dq[3], v_new[3];
     for (int k = 0; k < 3; ++k) {
         X b, l = out.lambda[k], force = r[k];
@@ -329,14 +363,24 @@ BOUGH_FORCE JointStep<X> step_joint(const JointLoad<X>& in, RealOf<X> h, RealOf<
         }
         out.with_air[k] = l;
         if (any_above(l, each<X>(largest))) {
+            out.bounded = true;
             const X most = each<X>(largest), ratio = choose_above(l, most, largest / l, each<X>(1));
             b = ratio * b;
             l = choose_above(l, most, most, l);
             force = ratio * force;
         }
-        const WidePropagator<X> p = propagate(b, l, h);
-        dq[k] = p.E * force + p.B * v[k];
-        v_new[k] = p.B * force + p.C * v[k];
+        W damping[parts], stiffness[parts];
+        for (int j = 0; j < parts; ++j) {
+            damping[j] = Registers<X>::part(b, j);
+            stiffness[j] = Registers<X>::part(l, j);
+        }
+        WidePropagator<W> p[parts];
+        propagate(damping, stiffness, h, p);
+        X B, C, E;
+        for (int j = 0; j < parts; ++j)
+            Registers<X>::part(B, j) = p[j].B, Registers<X>::part(C, j) = p[j].C, Registers<X>::part(E, j) = p[j].E;
+        dq[k] = E * force + B * v[k];
+        v_new[k] = B * force + C * v[k];
     }
     const V3<X> modes{v_new[0], v_new[1], v_new[2]};
     out.phi = U * V3<X>{dq[0], dq[1], dq[2]};
