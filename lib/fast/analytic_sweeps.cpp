@@ -412,7 +412,7 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
         JointStep<X> step = step_joint<wind, gravity, forces>(in, rows.h, largest_lambda<T>());
 
         const X softest = -larger(larger(-step.lambda[0], -step.lambda[1]), -step.lambda[2]);
-        if (any_above(X{}, softest) | step.bounded)
+        if (any_above(X{}, softest) || step.bounded)
             for (int m = 0; m < 3; ++m)
                 for (int j = 0; j < Registers<X>::count; ++j) {
                     const W mass = read<T>(k.at[j] + constant::mass * L);

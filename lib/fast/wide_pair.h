@@ -64,7 +64,7 @@ template <class W> BOUGH_FORCE Pair<W> larger(const Pair<W>& x, const Pair<W>& y
     return {larger(x.a, y.a), larger(x.b, y.b)};
 }
 template <class W> BOUGH_FORCE bool any_above(const Pair<W>& x, const Pair<W>& y) {
-    return any_above(x.a, y.a) | any_above(x.b, y.b);
+    return any_above(x.a, y.a) || any_above(x.b, y.b);
 }
 // yes where a > b, else no.
 template <class W> BOUGH_FORCE W choose_above(const W& a, const W& b, const W& yes, const W& no) {

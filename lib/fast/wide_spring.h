@@ -3,8 +3,9 @@
 //
 // X is a register or a pair of them (wide_pair.h). What lanes do depends on what stands in them alone, never on their neighbours: a branch
 // here leaves out what no lane asks for, and where one does, the others keep theirs by a choice. So registers of all widths come to the same.
-// Cost about 1100 operations a register with wind and gravity, of which 150 are a sweep of three Jacobi rotations; two or three
-// sweeps in float, three or four in double.
+// Cost about 1100 operations a register with wind and gravity, of which 150 are a sweep of three Jacobi rotations; mostly two
+// sweeps in float, three in double. Each operation of a rotation waits for the one before: hence pairs, and there the machine's
+// square roots, which are there sooner than an iteration's result.
 #pragma once
 #include "wide_pair.h"
 
@@ -163,10 +164,10 @@ template <class X> constexpr RealOf<X> negligible2() { // square of an element o
 template <class X> BOUGH_FORCE Rotation<X> rotate(X& pp, X& qq, X& pq, X& rp, X& rq) {
     const X o = pq + pq, d = qq - pp;
     const X present = pq * pq, least = negligible2<X>() * magnitude(pp * qq);
-    const X across = choose_above(present, least, with_sign_of(o, d), X{});
-    const X along = magnitude(d) + root(X(d * d + o * o));
-    const X scale = inverse_root(along * along + across * across);
-    Rotation<X> turn{choose_above(present, least, along * scale, each<X>(1)), across * scale};
+    const X hypotenuse = root(X(d * d + o * o)), along = magnitude(d) + hypotenuse;
+    const X scale = 1 / root(X(2 * hypotenuse * along)); // along^2 + o^2
+    Rotation<X> turn{choose_above(present, least, along * scale, each<X>(1)),
+                     choose_above(present, least, with_sign_of(o, d) * scale, X{})};
     const X e = turn.s * (turn.s * d - turn.c * o);
     pp = pp + e;
     qq = qq - e;
@@ -194,7 +195,7 @@ template <class X> BOUGH_FORCE M3<X> symmetric_eigen(Symmetric<X>& A) {
             {c.s * a.s + c.c * z.x, c.s * a.c + c.c * z.y, c.c * z.z}};
     for (int sweep = 1; sweep < 6; ++sweep) { // yz is 0 after each
         constexpr auto share = negligible2<X>();
-        if (!(any_above(A.xy * A.xy, share * magnitude(A.xx * A.yy)) |
+        if (!(any_above(A.xy * A.xy, share * magnitude(A.xx * A.yy)) ||
               any_above(A.xz * A.xz, share * magnitude(A.xx * A.zz))))
             break;
         rotate_columns(rotate(A.xx, A.yy, A.xy, A.xz, A.yz), V.x, V.y);
@@ -316,43 +317,50 @@ BOUGH_FORCE JointStep<X> step_joint(const JointLoad<X>& in, RealOf<X> h, RealOf<
 
     const X q = dot(in.theta, in.theta);
     const M3<X> rates = turn_form(in.theta, q, each<X>(T(0.5)), t2_of(q));
-    const Symmetric<X> K = sandwiched(rates, in.K);
-    Symmetric<X> KG = K;
+    Symmetric<X> KG = sandwiched(rates, in.K);
+    X weight; // g.h and the row
     const V3<X> spring{in.K.x * in.theta.x, in.K.y * in.theta.y, in.K.z * in.theta.z};
     V3<X> residual = -transposed_times(rates, spring);
     if constexpr (forces) residual = residual + in.tau;
     if constexpr (gravity) {
         residual = residual + cross(in.h, in.g);
-        const X x = in.h.x * in.g.x, y = in.h.y * in.g.y, z = in.h.z * in.g.z, row = in.gravity_row;
-        KG.xx = KG.xx + (row + (y + z)), KG.yy = KG.yy + (row + (x + z)), KG.zz = KG.zz + (row + (x + y));
+        const X x = in.h.x * in.g.x, y = in.h.y * in.g.y, z = in.h.z * in.g.z;
+        weight = in.gravity_row + (x + y + z);
+        KG.xx = KG.xx + (weight - x), KG.yy = KG.yy + (weight - y), KG.zz = KG.zz + (weight - z);
         KG.xy = KG.xy - T(0.5) * (in.h.x * in.g.y + in.h.y * in.g.x);
         KG.xz = KG.xz - T(0.5) * (in.h.x * in.g.z + in.h.z * in.g.x);
         KG.yz = KG.yz - T(0.5) * (in.h.y * in.g.z + in.h.z * in.g.y);
     }
 
-    // Scaled, exactly, so that no stiffness' square overflows.
     Symmetric<X> A = reduced(L, KG);
-    const Scale<X> unit = scale_of(larger(larger(magnitude(A.xx), magnitude(A.yy)), magnitude(A.zz)));
-    A = unit.inverse * A;
+    const X biggest = larger(larger(magnitude(A.xx), magnitude(A.yy)), magnitude(A.zz));
+    const bool huge = any_above(biggest, each<X>(sizeof(T) == 4 ? T(1e15) : T(1e150)));
+    Scale<X> unit;
+    if (huge) { // scaled, exactly, so that no square overflows
+        unit = scale_of(biggest);
+        A = unit.inverse * A;
+    }
     const M3<X> V = symmetric_eigen(A);
+    if (huge) A.xx = unit.power * A.xx, A.yy = unit.power * A.yy, A.zz = unit.power * A.zz;
     const M3<X> U{back(L, V.x), back(L, V.y), back(L, V.z)};
-    out.lambda[0] = unit.power * A.xx, out.lambda[1] = unit.power * A.yy, out.lambda[2] = unit.power * A.zz;
+    out.lambda[0] = A.xx, out.lambda[1] = A.yy, out.lambda[2] = A.zz;
 
     const V3<X>* columns[3] = {&U.x, &U.y, &U.z};
     const X r[3] = {dot(U.x, residual), dot(U.y, residual), dot(U.z, residual)};
     const X v[3] = {dot(V.x, w), dot(V.y, w), dot(V.z, w)};
+    const X size2[3] = {dot(U.x, U.x), dot(U.y, U.y), dot(U.z, U.z)};
     X row[3];
     if constexpr (wind) {
         const X xy = magnitude(dot(U.x, U.y)), xz = magnitude(dot(U.x, U.z)), yz = magnitude(dot(U.y, U.z));
-        row[0] = dot(U.x, U.x) + xy + xz, row[1] = dot(U.y, U.y) + xy + yz, row[2] = dot(U.z, U.z) + xz + yz;
+        row[0] = size2[0] + xy + xz, row[1] = size2[1] + xy + yz, row[2] = size2[2] + xz + yz;
     }
     constexpr int parts = Registers<X>::count;
     using W = std::remove_cvref_t<decltype(Registers<X>::part(row[0], 0))>;
     X dq[3], v_new[3];
     for (int k = 0; k < 3; ++k) {
         X b, l = out.lambda[k], force = r[k];
-        if constexpr (gravity)
-            b = in.beta * dot(*columns[k], K * *columns[k]);
+        if constexpr (gravity) // U^T K U = lambda - U^T G U
+            b = in.beta * larger(l - (weight * size2[k] - dot(in.h, *columns[k]) * dot(in.g, *columns[k])), X{});
         else
             b = in.beta * l;
         if constexpr (wind) {
