@@ -22,7 +22,7 @@ const auto no_progress = [](std::int64_t, std::int64_t) {};
 } // namespace
 
 TEST_CASE("every promised cell holds, float and double") {
-    // The fast path is what runs by default; the plain one gives the same to rounding (test_coupled_lanes) and is gone through once.
+    // The fast path is what runs by default; the plain one gives the same to rounding (test_coupled_lanes, test_analytic_lanes) and is gone through once.
     const auto on = [](const Tree& tree, std::optional<fast::Target> simd) {
         StabilitySetup setup = setup_of(tree);
         setup.simd = simd;

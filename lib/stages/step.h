@@ -1,4 +1,5 @@
-// step.h: one step of the analytic method (§4): the order of the stages, on one screen.
+// step.h: one step of the analytic method (§4): the order of the stages, on one screen. (The same in SIMD lanes:
+// fast/analytic_lanes_step.h.)
 #pragma once
 #include "plan.h"
 #include "state.h"
