@@ -11,7 +11,8 @@ namespace {
 constexpr double settled_time = 1;  // [s] below the rate before a block sleeps
 constexpr double carried_time = 10; // [s] of the rate that what carries sleepers may turn by
 
-std::string reason_against(const Scene& scene) {
+std::string reason_against(const Scene& scene, Solver solver) {
+    if (solver != Solver::coupled) return std::string("solver ") + solver_name(solver);
     if (scene.wind && scene.wind->turbulence > 0) return "/wind/turbulence";
     if (scene.wind && scene.wind->gust_factor > 1) return "/wind/gust_factor";
     if (!scene.root_motion.empty()) return "/root_motion";
@@ -41,7 +42,8 @@ template <class T> void set_rates_to_zero(RowVector<T>& motion_rows, const Block
 // A port's record stands for its block until it wakes; awake, the block adds to it anew.
 template <class LanesType> auto port_record(LanesType& lanes, std::uint32_t joint) {
     auto& rows = lanes.inward;
-    return rows.front().lane + joint * record(inward::count, int(std::size(rows.front().lane)));
+    auto* const first = rows.front().lane;
+    return first + joint * record(inward::count, int(std::size(rows.front().lane)));
 }
 template <class Visit>
 void visit_ports(const PlannedSleep& sleep, const Layout& layout, std::size_t block, Visit&& visit) {
@@ -63,7 +65,7 @@ template <class T> void wake(const Plan<T>& plan, State<T>& state, std::size_t b
 template <class T> void plan_sleep(Plan<T>& plan, double rate) {
     PlannedSleep& sleep = plan.lanes.sleep;
     if (!plan.lanes.on) return;
-    sleep.reason = rate > 0 ? reason_against(plan.scene) : "not asked for";
+    sleep.reason = rate > 0 ? reason_against(plan.scene, plan.solver) : "not asked for";
     sleep.on = sleep.reason.empty();
     if (!sleep.on) return;
     sleep.rate = rate;
