@@ -103,10 +103,11 @@ template <class T> void place_pulls(const Plan<T>& plan, State<T>& state, double
     }
 }
 
-template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, double time) {
+// For the solve of the scheme's pole k.
+template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, double time, int k) {
     Lanes<T>& lanes = state.lanes;
     const Layout& layout = plan.lanes.layout;
-    const Pole pole = scheme_of(plan.scheme).pole[0];
+    const Pole pole = scheme_of(plan.scheme).pole[std::size_t(k)];
     const double h = plan.dt;
     const std::complex<double> slope = 1.0 / pole.p - 0.5;
     CoupledRows<T> rows{};
@@ -127,6 +128,8 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     rows.pull_count = lanes.pulls.size();
     rows.watched = lanes.watched.data();
     rows.stream = lanes.solved.size() * sizeof(Row<T>) > cache;
+    rows.adds = k > 0;
+    rows.ends = k + 1 == scheme_of(plan.scheme).poles;
     rows.h = T(h);
     put(rows.s1, h / pole.p);
     put(rows.s2, h / pole.p * h / pole.p);
@@ -285,8 +288,15 @@ template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state,
     }
     SweepFlags flags;
     run_stage(Stage::lanes, state, clock, [&] {
-        const CoupledRows<T> rows = rows_of(plan, state, time);
+        CoupledRows<T> rows = rows_of(plan, state, time, 0);
         flags = sweep(plan, state, rows);
+        for (int k = 1; k < scheme_of(plan.scheme).poles; ++k) {
+            rows = rows_of(plan, state, time, k);
+            const SweepFlags solved = sweep(plan, state, rows); // its way outward has met with the same as the first
+            flags.half_turns = solved.half_turns;
+            flags.fast = solved.fast;
+            flags.finite = solved.finite;
+        }
         rest_blocks(plan, state, state.lanes.flags);
         if (!flags.fast) return;
         guard_lanes(plan, state, rows);

@@ -103,6 +103,7 @@ template <class T> struct CoupledRows {
     std::uint8_t* watched;
     std::size_t pull_count;
 
+    bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
     bool stream;              // solved_rows are more than the caches hold
     T h;                      // [s]
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2

@@ -384,19 +384,25 @@ template <class T> struct Sweep : SweepParts<T> {
                     return V3<W>{k.re * v.x.re - k.im * v.x.im, k.re * v.y.re - k.im * v.y.im,
                                  k.re * v.z.re - k.im * v.z.im};
                 };
-                const V3<W> rate_change = weighed(of_rate, x), change = weighed(of_angle, x) + rows.eta * eta_0;
-                const V3<W> theta = theta_0 + change, eta = eta_0 + rate_change;
+                V3<W> rate_change = weighed(of_rate, x), change = weighed(of_angle, x) + rows.eta * eta_0;
                 const Rows<T> y1 = next(row, lane);
+                if (rows.adds) {
+                    rate_change = y1.vector(motion::theta_dot_change) + rate_change;
+                    change = y1.vector(motion::theta_change) + change;
+                }
+                const V3<W> theta = theta_0 + change, eta = eta_0 + rate_change;
                 y1.set(motion::theta, theta);
                 y1.set(motion::theta_dot, eta);
                 y1.set(motion::theta_change, change);
                 y1.set(motion::theta_dot_change, rate_change);
                 const W angle2 = dot(theta, theta), rate2 = dot(eta, eta);
-                // As the plain step looks at theta_dot at the start and its change: the rate at the end.
-                if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
-                if (!(total(W(angle2 + rate2)) < T(1e30))) flags.finite = false;
-                if (any_above(angle2, all(about_half_turn2)))
-                    turn_back(y1, flags, constants(row, lane).real(constant::mass));
+                if (rows.ends) {
+                    // As the plain step looks at theta_dot at the start and its change: the rate at the end.
+                    if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
+                    if (!(total(W(angle2 + rate2)) < T(1e30))) flags.finite = false;
+                    if (any_above(angle2, all(about_half_turn2)))
+                        turn_back(y1, flags, constants(row, lane).real(constant::mass));
+                }
                 if (rows.fork_of_row[row] < 0) continue;
                 Records<T, accelerated::count> forks;
                 for (int k = accelerated::count; k < forks.quantities; ++k) forks.rows().set(k, W{});

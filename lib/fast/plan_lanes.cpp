@@ -66,7 +66,7 @@ template <class T> void fill_pulls(const Plan<T>& plan, PlannedLanes<T>& lanes) 
 template <class T> std::string reason_against(const Plan<T>& plan) {
     if (plan.solver != Solver::coupled) return std::string("solver ") + solver_name(plan.solver);
     const RationalScheme& scheme = scheme_of(plan.scheme);
-    if (scheme.real || scheme.poles > 1) return std::string("scheme ") + scheme.name;
+    if (scheme.real) return std::string("scheme ") + scheme.name;
     if (plan.joint_limit) return "/joint_limit";
     return {};
 }

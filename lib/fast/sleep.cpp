@@ -11,8 +11,11 @@ namespace {
 constexpr double settled_time = 1;  // [s] below the rate before a block sleeps
 constexpr double carried_time = 10; // [s] of the rate that what carries sleepers may turn by
 
-std::string reason_against(const Scene& scene, Solver solver) {
-    if (solver != Solver::coupled) return std::string("solver ") + solver_name(solver);
+template <class T> std::string reason_against(const Plan<T>& plan) {
+    const Scene& scene = plan.scene;
+    if (plan.solver != Solver::coupled) return std::string("solver ") + solver_name(plan.solver);
+    // What a sleeper hands inward would be one record a pole.
+    if (scheme_of(plan.scheme).poles > 1) return std::string("scheme ") + scheme_of(plan.scheme).name;
     if (scene.wind && scene.wind->turbulence > 0) return "/wind/turbulence";
     if (scene.wind && scene.wind->gust_factor > 1) return "/wind/gust_factor";
     if (!scene.root_motion.empty()) return "/root_motion";
@@ -65,7 +68,7 @@ template <class T> void wake(const Plan<T>& plan, State<T>& state, std::size_t b
 template <class T> void plan_sleep(Plan<T>& plan, double rate) {
     PlannedSleep& sleep = plan.lanes.sleep;
     if (!plan.lanes.on) return;
-    sleep.reason = rate > 0 ? reason_against(plan.scene, plan.solver) : "not asked for";
+    sleep.reason = rate > 0 ? reason_against(plan) : "not asked for";
     sleep.on = sleep.reason.empty();
     if (!sleep.on) return;
     sleep.rate = rate;

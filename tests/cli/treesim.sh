@@ -210,7 +210,7 @@ for simd in auto off baseline; do
 done
 treesim tree.json --frames 3 --no-output --explain --simd baseline 2>err && grep -q '^stage lanes on: SIMD baseline' err || fail "--simd baseline"
 treesim tree.json --frames 3 --no-output --explain --simd off 2>err && grep -q '^stage lanes left out: plain path' err || fail "--simd off"
-treesim tree.json --frames 3 --no-output --explain --scheme P34 2>err && grep -q '^stage lanes left out: plain path: scheme P34' err || fail "P34"
+treesim tree.json --frames 3 --no-output --explain --scheme LIE 2>err && grep -q '^stage lanes left out: plain path: scheme LIE' err || fail "LIE"
 refused 1 "--simd" treesim tree.json --frames 3 --no-output --simd sse
 simd=$(treesim --version | sed -n 's/^simd //p')
 [[ $(hash tree.json --frames 20 --simd "$simd") == $(hash tree.json --frames 20) ]] || fail "--version says simd $simd"
