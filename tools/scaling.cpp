@@ -41,7 +41,7 @@ template <class T> void count_operations(Plan<T>& plan, std::int64_t frames, Sca
     advance(plan, state); // the one of warm-up
     plan.target = fast::counted_target;
     fast::counted_operations() = {};
-    const std::int64_t steps = std::clamp<std::int64_t>(20000 / std::int64_t(plan.bodies), 1, frames);
+    const std::int64_t steps = std::clamp<std::int64_t>(400000 / std::int64_t(plan.bodies), 1, frames);
     for (std::int64_t k = 0; k < steps; ++k) advance(plan, state);
     plan.target = target;
     const fast::Operations& done = fast::counted_operations();

@@ -12,8 +12,8 @@ struct ScalingTree {
     Setting setting;
 };
 
-// One kept species each (bushy: apple, willow: willow; seed 1, bare, as `treegen --species NAME --bodies N --seed 1 | treeconvert -` makes them),
-// or "chain": a straight upright pole of 20 m and 0.2 m radius, cut into `bodies` pieces.
+// bushy: an apple tree, willow: a willow, both bare, as `treegen --species NAME --bodies N --seed 1 | treeconvert -` makes them; chain: a straight
+// upright pole of 20 m and 0.2 m radius, cut into `bodies` pieces. Throws UsageError for a number that cannot be grown.
 Tree scaling_tree(const std::string& shape, std::int64_t bodies, CommonOptions&);
 
 struct ScalingChoice {
