@@ -30,8 +30,8 @@ template <class T = double> struct Run {
     Plan<T> plan;
     State<T> state;
     Run(const Case& c, Simd simd, Scheme scheme = Scheme::p12, const Wishes& wishes = {},
-        Solver solver = Solver::coupled)
-        : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver, scheme, simd)),
+        Solver solver = Solver::coupled, double sleep = 0)
+        : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver, scheme, simd, sleep)),
           state(make_state(plan)) {
         if (c.angle == 0 && c.rate == 0) return;
         make_tree::Dice dice{std::mt19937(5)};

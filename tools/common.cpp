@@ -177,15 +177,6 @@ int parse_and_work(const ToolInfo& info, int argc, char** argv, CommonOptions& c
     return work_and_report(info, work);
 }
 
-std::optional<double> parse_number(const std::string& text) {
-    double value = 0;
-    const char* first = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
-    const char* last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
 CLI::Validator number_check(const char* expected, bool (*accepts)(double)) {
     return CLI::Validator(
         [=](const std::string& text) {
@@ -201,6 +192,15 @@ std::int64_t now_ms() {
 }
 
 } // namespace
+
+std::optional<double> parse_number(const std::string& text) {
+    double value = 0;
+    const char* first = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
 
 int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
              const std::function<void(CLI::App&)>& declare, const std::function<void()>& work) {

@@ -122,6 +122,7 @@ struct SweepFlags {
     std::uint64_t fast_turns = 0, half_turns = 0;
     bool fast = false;  // a body turned by more than the energy guard lets pass unseen (energy_guard.h)
     bool finite = true; // of theta and theta_dot
+    double omega2 = 0;  // [rad^2/s^2] the fastest body's (sleep.h)
 };
 
 } // namespace bough::fast
