@@ -10,7 +10,8 @@
 //   solved      out (streamed), or in and out; in once more. None where the block is of whole trees
 //   records     of each joint (outward, inward, accelerated): in and out
 //   indices     of rows and of chains' lanes (fork_of_row; base, landing): in with each sweep that reads them
-// Not counted: the energy guard's sweep, pulls, the wind's table, groups and blocks: nothing beside these, or not in every step.
+// Every block is awake (sleep.h). Not counted: the energy guard's sweep, pulls, the wind's table, groups and blocks: nothing beside these,
+// or not in every step.
 #pragma once
 #include "lanes.h"
 
