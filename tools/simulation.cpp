@@ -345,6 +345,14 @@ Setting read_setting(const RunOptions& o) {
     return setting;
 }
 
+Scene chosen_scene(const RunOptions& o) {
+    Scene scene;
+    apply(o, scene);
+    if (const std::optional<Defect> defect = check(scene))
+        throw UsageError("the scene's " + defect->field + " " + defect->message);
+    return scene;
+}
+
 std::uint64_t fingerprint(const Setting& setting) {
     Fingerprint f;
     f.add(setting.tree);

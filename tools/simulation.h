@@ -57,6 +57,9 @@ struct Setting {
 // Reads a tree, or a scene and its trees. Throws UsageError, InputError.
 Setting read_setting(const RunOptions&);
 
+// What the options make of an empty scene, without trees. Throws UsageError, InputError.
+Scene chosen_scene(const RunOptions&);
+
 // 64 bits of all that decides how a run goes on: the joined tree's numbers and the scene's.
 std::uint64_t fingerprint(const Setting&);
 

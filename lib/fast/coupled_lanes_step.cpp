@@ -8,6 +8,7 @@
 #include "energy_lanes.h"
 #include "present.h"
 #include "sleep.h"
+#include "step_bytes.h"
 #include "targets.h"
 #include <algorithm>
 #ifdef _OPENMP
@@ -31,9 +32,6 @@ int this_thread() {
     return 0;
 #endif
 }
-
-// [bytes] of a core's own cache on the machines of these years: what is larger goes through memory in any case.
-constexpr std::size_t cache = std::size_t(2) << 20;
 
 template <class T> T* data(RowVector<T>& rows) {
     return rows.empty() ? nullptr : rows.front().lane;
@@ -127,7 +125,7 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     rows.pulls = lanes.pulls.empty() ? nullptr : lanes.pulls.data();
     rows.pull_count = lanes.pulls.size();
     rows.watched = lanes.watched.data();
-    rows.stream = lanes.solved.size() * sizeof(Row<T>) > cache;
+    rows.stream = streams(layout);
     rows.adds = k > 0;
     rows.ends = k + 1 == scheme_of(plan.scheme).poles;
     rows.h = T(h);

@@ -1,4 +1,6 @@
 #include "targets.h"
+#include "machine_kernels.h"
+#include "operations.h"
 #include <stdexcept>
 
 namespace bough::fast {
@@ -6,22 +8,32 @@ namespace bough::fast {
 namespace baseline {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+MemoryKernels memory_kernels();
+template <class T> ArithmeticKernel<T> arithmetic_kernel();
 } // namespace baseline
+namespace counted {
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
+template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+} // namespace counted
 #ifdef BOUGH_HAS_AVX2
 namespace avx2 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+MemoryKernels memory_kernels();
+template <class T> ArithmeticKernel<T> arithmetic_kernel();
 } // namespace avx2
 #endif
 #ifdef BOUGH_HAS_AVX512
 namespace avx512 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+MemoryKernels memory_kernels();
+template <class T> ArithmeticKernel<T> arithmetic_kernel();
 } // namespace avx512
 #endif
 
 const char* target_name(Target target) {
-    static constexpr const char* names[] = {"baseline", "avx2", "avx512"};
+    static constexpr const char* names[] = {"baseline", "avx2", "avx512", "counted"};
     return names[std::size_t(target)];
 }
 
@@ -72,6 +84,7 @@ void require(Target target) {
 
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity) {
     require(target);
+    if (target == counted_target) return counted::coupled_sweeps<T>(wind, gravity);
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity);
 #endif
@@ -83,6 +96,7 @@ template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind,
 
 template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
     require(target);
+    if (target == counted_target) return counted::energy_sweep<T>(wind);
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::energy_sweep<T>(wind);
 #endif
@@ -92,9 +106,33 @@ template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
     return baseline::energy_sweep<T>(wind);
 }
 
+MemoryKernels memory_kernels_for(Target target) {
+    require(target);
+#ifdef BOUGH_HAS_AVX512
+    if (target == Target::avx512) return avx512::memory_kernels();
+#endif
+#ifdef BOUGH_HAS_AVX2
+    if (target == Target::avx2) return avx2::memory_kernels();
+#endif
+    return baseline::memory_kernels();
+}
+
+template <class T> ArithmeticKernel<T> arithmetic_kernel_for(Target target) {
+    require(target);
+#ifdef BOUGH_HAS_AVX512
+    if (target == Target::avx512) return avx512::arithmetic_kernel<T>();
+#endif
+#ifdef BOUGH_HAS_AVX2
+    if (target == Target::avx2) return avx2::arithmetic_kernel<T>();
+#endif
+    return baseline::arithmetic_kernel<T>();
+}
+
 template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool);
 template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool);
 template EnergySweepOf<float> energy_sweep_for<float>(Target, bool);
 template EnergySweepOf<double> energy_sweep_for<double>(Target, bool);
+template ArithmeticKernel<float> arithmetic_kernel_for(Target);
+template ArithmeticKernel<double> arithmetic_kernel_for(Target);
 
 } // namespace bough::fast
