@@ -1,4 +1,4 @@
-// lanes_support.h: the coupled step on the plain path or in lanes, on trees and scenes in which the two are compared.
+// lanes_support.h: a step on the plain path or in lanes, on trees and scenes in which the two are compared.
 #pragma once
 #include "coupled_cases.h"
 #include "lib/fast/present.h"
@@ -21,6 +21,7 @@ struct Case {
     Scene scene;
     double angle = 0, rate = 0; // [rad], [rad/s] at random at the start
     std::vector<TreeRange> ranges{};
+    Solver solver = Solver::coupled;
     std::vector<TreeRange> all_ranges() const {
         return ranges.empty() ? std::vector<TreeRange>{{0, tree.size_bodies(), 0}} : ranges;
     }
@@ -30,15 +31,19 @@ template <class T = double> struct Run {
     Plan<T> plan;
     State<T> state;
     Run(const Case& c, Simd simd, Scheme scheme = Scheme::p12, const Wishes& wishes = {},
-        Solver solver = Solver::coupled, double sleep = 0)
-        : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver, scheme, simd, sleep)),
+        std::optional<Solver> solver = std::nullopt, double sleep = 0)
+        : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver.value_or(c.solver), scheme, simd,
+                            sleep)),
           state(make_state(plan)) {
         if (c.angle == 0 && c.rate == 0) return;
         make_tree::Dice dice{std::mt19937(5)};
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             state.theta[i] += solver::random_vector(dice, c.angle).template cast<T>();
             state.theta_dot[i] = solver::random_vector(dice, c.rate).template cast<T>();
-            state.theta_change[i] = T(plan.dt) * state.theta_dot[i];
+            if (plan.solver == Solver::coupled)
+                state.theta_change[i] = T(plan.dt) * state.theta_dot[i];
+            else // about what the composites of tips carry of it
+                state.scaled_rate[i] = std::sqrt(plan.inertia_joint[i].trace()) * state.theta_dot[i];
         }
         restart(plan, state);
     }
@@ -111,6 +116,63 @@ inline Scene everything() {
     scene.pulls = pulls();
     scene.root_motion = {carried_about()};
     return scene;
+}
+
+inline Scene in_wind(const Wind& wind) {
+    Scene scene;
+    scene.wind = wind;
+    return scene;
+}
+
+// So soft that it swings about once in ten seconds.
+inline Scene slack() {
+    Scene scene = solver::empty_scene();
+    scene.stiffness_scale = 1e-7;
+    return scene;
+}
+
+// Leaves that hold their own weight, and do not turn too fast for a step to resolve.
+inline Tree firm(Tree tree) {
+    for (Vec3& K : tree.stiffness) K *= 10;
+    return tree;
+}
+
+inline Tree three_trees(std::vector<TreeRange>& ranges) {
+    const std::vector<Tree> trees{firm(make_tree::branched()), coupled::leafy(1e9, 0.01), firm(grown(200))};
+    std::size_t first = 0;
+    std::int32_t branch = 0;
+    for (const Tree& tree : trees) {
+        ranges.push_back({first, tree.size_bodies(), branch});
+        first += tree.size_bodies();
+        branch += *std::max_element(tree.branch.begin(), tree.branch.end()) + 1;
+    }
+    return make_tree::forest(trees);
+}
+
+struct Apart {
+    double theta = 0, theta_dot = 0, x = 0; // [rad], [rad/s], [m], the most of all bodies and frames
+};
+
+template <class T> double most(const std::vector<Vector3<T>>& a, const std::vector<Vector3<T>>& b) {
+    double d = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double here = double((a[i] - b[i]).norm());
+        if (!(here <= d)) d = here; // NaN is the most
+    }
+    return d;
+}
+
+template <class T> Apart run_apart(Run<T>& a, Run<T>& b, int frames) {
+    Apart d;
+    for (int k = 0; k < frames; ++k) {
+        a.frame();
+        b.frame();
+        d.theta = std::max(d.theta, most(a.state.theta, b.state.theta));
+        d.theta_dot = std::max(d.theta_dot, most(a.state.theta_dot, b.state.theta_dot));
+        d.x = std::max(d.x, most(a.state.x_w, b.state.x_w));
+        if (!std::isfinite(most(a.state.theta, b.state.theta))) d.theta = INFINITY;
+    }
+    return d;
 }
 
 } // namespace lanes

@@ -7,37 +7,6 @@ using namespace lanes;
 
 namespace {
 
-Scene in_wind(const Wind& wind) {
-    Scene scene;
-    scene.wind = wind;
-    return scene;
-}
-
-// So soft that it swings about once in ten seconds.
-Scene slack() {
-    Scene scene = solver::empty_scene();
-    scene.stiffness_scale = 1e-7;
-    return scene;
-}
-
-// Leaves that hold their own weight, and do not turn too fast for a step to resolve.
-Tree firm(Tree tree) {
-    for (Vec3& K : tree.stiffness) K *= 10;
-    return tree;
-}
-
-Tree three_trees(std::vector<TreeRange>& ranges) {
-    const std::vector<Tree> trees{firm(make_tree::branched()), coupled::leafy(1e9, 0.01), firm(grown(200))};
-    std::size_t first = 0;
-    std::int32_t branch = 0;
-    for (const Tree& tree : trees) {
-        ranges.push_back({first, tree.size_bodies(), branch});
-        first += tree.size_bodies();
-        branch += *std::max_element(tree.branch.begin(), tree.branch.end()) + 1;
-    }
-    return make_tree::forest(trees);
-}
-
 std::vector<Case> cases() {
     const Tree large = firm(grown(600)), leafy = coupled::leafy(1e9, 0.01);
     std::vector<Case> all;
@@ -69,32 +38,6 @@ std::vector<Case> cases() {
     all.push_back({"large turns", make_tree::chain(6, 3, 0.03, 0.02), slack(), 1.2, 0.1});
     all.push_back({"several blocks", firm(grown(3000)), in_wind(gusts())});
     return all;
-}
-
-struct Apart {
-    double theta = 0, theta_dot = 0, x = 0; // [rad], [rad/s], [m], the most of all bodies and frames
-};
-
-template <class T> double most(const std::vector<Vector3<T>>& a, const std::vector<Vector3<T>>& b) {
-    double d = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double here = double((a[i] - b[i]).norm());
-        if (!(here <= d)) d = here; // NaN is the most
-    }
-    return d;
-}
-
-template <class T> Apart run_apart(Run<T>& a, Run<T>& b, int frames) {
-    Apart d;
-    for (int k = 0; k < frames; ++k) {
-        a.frame();
-        b.frame();
-        d.theta = std::max(d.theta, most(a.state.theta, b.state.theta));
-        d.theta_dot = std::max(d.theta_dot, most(a.state.theta_dot, b.state.theta_dot));
-        d.x = std::max(d.x, most(a.state.x_w, b.state.x_w));
-        if (!std::isfinite(most(a.state.theta, b.state.theta))) d.theta = INFINITY;
-    }
-    return d;
 }
 
 } // namespace
@@ -243,7 +186,6 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
     };
     refused(Solver::coupled, Scheme::lie, "scheme LIE");
     refused(Solver::coupled, Scheme::midpoint, "scheme midpoint");
-    refused(Solver::analytic, Scheme::p12, "solver analytic");
     refused(Solver::articulated_implicit, Scheme::p12, "solver articulated-implicit");
     c.scene.joint_limit = JointLimit{};
     refused(Solver::coupled, Scheme::p12, "/joint_limit");

@@ -1,4 +1,4 @@
-// The bits of the coupled step in lanes: the same for any number of threads, for a run cut in two, for the same run twice, and
+// The bits of a step in lanes, coupled and analytic: the same for any number of threads, for a run cut in two, for the same run twice, and
 // whenever the arrays in document order are brought up to date.
 #include "lanes_support.h"
 #ifdef _OPENMP
@@ -28,6 +28,18 @@ const Case& flapping() {
     return c;
 }
 
+// The analytic step's: gusts and pulls, leaves that the energy guard and half turns have to do with.
+const Case& paper() {
+    static const Case c = [] {
+        Case made{"analytic", grown(20000), {}, 0.1, 20};
+        made.scene.wind = gusts();
+        made.scene.pulls = pulls();
+        made.solver = Solver::analytic;
+        return made;
+    }();
+    return c;
+}
+
 template <class T> Run<T> run_of(const Case& c) {
     return Run<T>(c, fast::best_target());
 }
@@ -35,7 +47,7 @@ template <class T> Run<T> run_of(const Case& c) {
 } // namespace
 
 TEMPLATE_TEST_CASE("the same run in lanes twice is the same", "", float, double) {
-    for (const Case* c : {&large(), &flapping()}) {
+    for (const Case* c : {&large(), &flapping(), &paper()}) {
         CAPTURE(c->name);
         Run<TestType> one = run_of<TestType>(*c), other = run_of<TestType>(*c);
         REQUIRE(one.plan.lanes.on);
@@ -52,19 +64,22 @@ TEMPLATE_TEST_CASE("the same run in lanes twice is the same", "", float, double)
 }
 
 TEMPLATE_TEST_CASE("reading the arrays at each step changes nothing", "", float, double) {
-    Run<TestType> watched = run_of<TestType>(large()), alone = run_of<TestType>(large());
-    for (int k = 0; k < frames; ++k) watched.frame();
-    alone.steps(frames);
-    CHECK(watched.hash() == alone.hash());
-    // Poses too, and a second time brings nothing new.
-    for (std::size_t i = 0; i < alone.plan.bodies; ++i) REQUIRE(watched.state.x_w[i] == alone.state.x_w[i]);
-    const std::uint64_t hash = alone.hash();
-    present(alone.plan, alone.state);
-    CHECK(state_hash(alone.state) == hash);
+    for (const Case* c : {&large(), &paper()}) {
+        CAPTURE(c->name);
+        Run<TestType> watched = run_of<TestType>(*c), alone = run_of<TestType>(*c);
+        for (int k = 0; k < frames; ++k) watched.frame();
+        alone.steps(frames);
+        CHECK(watched.hash() == alone.hash());
+        // Poses too, and a second time brings nothing new.
+        for (std::size_t i = 0; i < alone.plan.bodies; ++i) REQUIRE(watched.state.x_w[i] == alone.state.x_w[i]);
+        const std::uint64_t hash = alone.hash();
+        present(alone.plan, alone.state);
+        CHECK(state_hash(alone.state) == hash);
+    }
 }
 
 TEMPLATE_TEST_CASE("a run in lanes cut in two goes on as if it had not been", "", float, double) {
-    for (const Case* c : {&large(), &flapping()}) {
+    for (const Case* c : {&large(), &flapping(), &paper()}) {
         CAPTURE(c->name);
         Run<TestType> whole = run_of<TestType>(*c), forgetful = run_of<TestType>(*c);
         Case calm = *c; // a fresh state, not shaken
@@ -79,6 +94,7 @@ TEMPLATE_TEST_CASE("a run in lanes cut in two goes on as if it had not been", ""
             if (run == &resumed) {
                 run->state.theta_change = whole.state.theta_change;
                 run->state.theta_dot_change = whole.state.theta_dot_change;
+                run->state.scaled_rate = whole.state.scaled_rate;
             }
             restart(run->plan, run->state);
             CHECK(run->hash() == cut);
@@ -91,7 +107,7 @@ TEMPLATE_TEST_CASE("a run in lanes cut in two goes on as if it had not been", ""
             CHECK(whole.hash() == resumed.hash());
             CHECK(whole.state.x_w[777] == resumed.state.x_w[777]);
         }
-        // The last changes are state.
+        // The last changes are state, or the scaled rates.
         CHECK(whole.hash() != forgetful.hash());
     }
 }
@@ -99,7 +115,7 @@ TEMPLATE_TEST_CASE("a run in lanes cut in two goes on as if it had not been", ""
 #ifdef _OPENMP
 TEMPLATE_TEST_CASE("the number of threads does not change a bit of what lanes find", "", float, double) {
     const int threads_before = omp_get_max_threads();
-    for (const Case* c : {&large(), &flapping()}) {
+    for (const Case* c : {&large(), &flapping(), &paper()}) {
         std::uint64_t one_thread = 0, guarded = 0;
         for (const int threads : {1, 2, 3, 8, 15}) {
             omp_set_num_threads(threads);

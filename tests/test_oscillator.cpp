@@ -1,5 +1,6 @@
 // One step of the damped oscillator against its closed forms in long double, and against Runge-Kutta.
 #include "lib/stages/oscillator.h"
+#include "oscillator_truth.h"
 #include <catch2/catch.hpp>
 #include <complex>
 #include <vector>
@@ -8,74 +9,8 @@ using namespace bough;
 
 namespace {
 
-using Wide = long double;
-
-struct Solution {
-    Wide B, C, E;
-};
-
-// B by the textbook cases, with the series of sinh(x)/x beside the critical one. E by the two roots, where they are
-// apart and away from zero, else by Simpson's rule over B.
-Wide impulse_response(Wide b, Wide lambda, Wide t) {
-    const Wide g = b / 2, D = g * g - lambda, z = D * t * t;
-    if (std::abs(z) < 0.1L) {
-        Wide sum = 1, term = 1;
-        for (int k = 1; k < 14; ++k) sum += term *= z / ((2 * k) * (2 * k + 1));
-        return std::exp(-g * t) * t * sum;
-    }
-    if (D < 0) return std::exp(-g * t) * std::sin(std::sqrt(-D) * t) / std::sqrt(-D);
-    const Wide mu = std::sqrt(D), slow = lambda > 0 ? -lambda / (g + mu) : mu - g;
-    return (std::exp(slow * t) - std::exp(-(g + mu) * t)) / (2 * mu);
-}
-
-Wide step_response(Wide b, Wide lambda, Wide h) {
-    const Wide x = std::abs(lambda) * h * h, y = b * h;
-    if (x < 1 && y < 20) { // Simpson over B, smooth here
-        const int n = 4000;
-        Wide sum = 0;
-        for (int k = 0; k <= n; ++k)
-            sum += Wide(k == 0 || k == n ? 1 : k % 2 ? 4 : 2) * impulse_response(b, lambda, h * k / n);
-        return sum * h / (3 * n);
-    }
-    const Wide B = impulse_response(b, lambda, h), g = b / 2, D = g * g - lambda;
-    if (x < 1) { // far from critical: integrate both exponentials
-        const Wide mu = std::sqrt(D), slow = -lambda / (g + mu), fast = -(g + mu);
-        const Wide grown = slow == 0 ? h : std::expm1(slow * h) / slow;
-        return (grown - std::expm1(fast * h) / fast) / (2 * mu);
-    }
-    const Wide z = D * h * h;
-    Wide C = 0;
-    if (std::abs(z) < 0.1L) {
-        Wide sum = 1, term = 1;
-        for (int k = 1; k < 14; ++k) sum += term *= z / ((2 * k) * (2 * k - 1));
-        C = std::exp(-g * h) * sum - g * B;
-    } else if (D < 0)
-        C = std::exp(-g * h) * std::cos(std::sqrt(-D) * h) - g * B;
-    else
-        C = (std::exp(-(g - std::sqrt(D)) * h) + std::exp(-(g + std::sqrt(D)) * h)) / 2 - g * B;
-    return (1 - C - b * B) / lambda;
-}
-
-Wide rate_response(Wide b, Wide lambda, Wide h) { // C = dB/dt, from 1 - lambda E = A = C + b B
-    return 1 - lambda * step_response(b, lambda, h) - b * impulse_response(b, lambda, h);
-}
-
-struct Case {
-    double b, lambda;
-};
-
-// In units of 1/h: every damping from none to far over critical, on both sides of critical, and buckling.
-std::vector<Case> cases() {
-    std::vector<Case> all;
-    for (double x : {0.0, 1e-12, 1e-6, 1e-3, 0.1, 0.2499, 0.2501, 1.0, 9.0, 100.0, 1e4}) {
-        for (double zeta : {0.0, 1e-6, 0.01, 0.5, 0.999, 1 - 1e-8, 1 - 1e-14, 1.0, 1 + 1e-14, 1 + 1e-8, 1.001, 3.0})
-            all.push_back({2 * zeta * std::sqrt(x), x});
-        for (double y : {1e-9, 1e-3, 0.24, 0.26, 3.0, 50.0}) all.push_back({y, x});
-        if (x <= 100)
-            for (double y : {0.0, 1e-6, 0.1, 3.0, 50.0}) all.push_back({y, -x});
-    }
-    return all;
-}
+using namespace oscillator_truth;
+using Wide = Real;
 
 } // namespace
 

@@ -54,11 +54,13 @@ template <class T> void count_operations(Plan<T>& plan, std::int64_t frames, Sca
 }
 
 template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
-    if (plan.solver != Solver::coupled) return;
     const fast::Layout& layout = plan.lanes.layout;
     // wide.h writes past the caches where a register is a line.
     const bool streamed = plan.target == fast::Target::avx512 && fast::streams(layout);
-    const fast::StepBytes bytes = fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed);
+    const fast::StepBytes bytes =
+        plan.solver == Solver::coupled
+            ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed)
+            : fast::analytic_step_bytes(layout, plan.wind, !plan.pulls.empty(), plan.gravity, sizeof(T));
     const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
     cost.slots = each(std::uint64_t(layout.rows) * std::uint64_t(layout.lanes));
     cost.constants_in = each(bytes.constants.in);

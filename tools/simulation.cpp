@@ -207,7 +207,8 @@ template <class T>
 
 void add_simd_option(CLI::App& app, RunOptions& o) {
     app.add_option("--simd", o.simd,
-                   "Which SIMD code coupled steps with: auto (default): the widest of avx512, avx2 and baseline that "
+                   "Which SIMD code coupled and analytic step with: auto (default): the widest of avx512, avx2 and "
+                   "baseline that "
                    "this machine has; off: the plain step, body by body")
         ->option_text("NAME")
         ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));

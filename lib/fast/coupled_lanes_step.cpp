@@ -5,49 +5,22 @@
 #include "../stages/root_term.h"
 #include "../stages/spring.h"
 #include "../stages/state_update.h"
+#include "analytic_lanes_step.h"
 #include "energy_lanes.h"
+#include "lane_memory.h"
 #include "present.h"
 #include "sleep.h"
 #include "step_bytes.h"
 #include "targets.h"
 #include <algorithm>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace bough::fast {
 namespace {
 
-int most_threads() {
-#ifdef _OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-}
-int this_thread() {
-#ifdef _OPENMP
-    return omp_get_thread_num();
-#else
-    return 0;
-#endif
-}
-
-template <class T> T* data(RowVector<T>& rows) {
-    return rows.empty() ? nullptr : rows.front().lane;
-}
-
+using fast::put;
 template <class T> void put(T (&to)[2], std::complex<double> z) {
     to[0] = T(z.real());
     to[1] = T(z.imag());
-}
-template <class T> void put(T (&to)[3], const Vec3& v) {
-    for (int k = 0; k < 3; ++k) to[k] = T(v[k]);
-}
-
-// One value of one record.
-template <class T> T& entry(RowVector<T>& rows, std::size_t joint, int count, int quantity) {
-    return data(rows)[joint * record(count, Row<T>::lanes) + std::size_t(quantity)];
 }
 template <class T> void put(RowVector<T>& rows, std::size_t joint, int count, int quantity, const Vector3<T>& v) {
     for (int k = 0; k < 3; ++k) entry(rows, joint, count, quantity + k) = v[k];
@@ -319,7 +292,10 @@ namespace bough {
 
 template <class T> void present(const Plan<T>& plan, State<T>& state) {
     if (!plan.lanes.on || state.lanes.presented) return;
-    fast::unpack(plan, state);
+    if (plan.solver == Solver::analytic)
+        fast::unpack_analytic(plan, state);
+    else
+        fast::unpack(plan, state);
     move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);

@@ -121,6 +121,7 @@ template <class T> struct CoupledRows {
 // What a sweep over a block met with.
 struct SweepFlags {
     std::uint64_t fast_turns = 0, half_turns = 0;
+    std::uint64_t buckling = 0, bounded_lambda = 0, energy_guard = 0; // of the analytic step (StepFlags)
     bool fast = false;  // a body turned by more than the energy guard lets pass unseen (energy_guard.h)
     bool finite = true; // of theta and theta_dot
     double omega2 = 0;  // [rad^2/s^2] the fastest body's (sleep.h)

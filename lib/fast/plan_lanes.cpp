@@ -1,27 +1,12 @@
 #include "plan_lanes.h"
 #include "../coupled/own_inertia.h"
 #include "../stages/wind.h"
+#include "analytic_lanes_step.h"
+#include "lane_memory.h"
 #include <algorithm>
 
 namespace bough::fast {
 namespace {
-
-template <class T> class Filler {
-public:
-    Filler(RowVector<T>& rows, std::size_t slot) : at(&rows[slot / lanes * constant::count].lane[slot % lanes]) {}
-    void put(int quantity, T value) { at[std::size_t(quantity) * lanes] = value; }
-    void put(int quantity, const Vector3<T>& v) {
-        for (int k = 0; k < 3; ++k) put(quantity + k, v[k]);
-    }
-    void put(int quantity, const Matrix3<T>& m) {
-        constexpr int place[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
-        for (int k = 0; k < 6; ++k) put(quantity + k, m(place[k][0], place[k][1]));
-    }
-
-private:
-    static constexpr std::size_t lanes = Row<T>::lanes;
-    T* at;
-};
 
 // A pad goes with its parent, held by a stiffness that its inertia is nothing beside, and hands on as good as nothing.
 template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
@@ -29,7 +14,7 @@ template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40
 template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
     lanes.constants.assign(std::size_t(lanes.layout.rows) * constant::count, Row<T>{});
     for (std::size_t slot = 0; slot < lanes.layout.body.size(); ++slot) {
-        Filler<T> row(lanes.constants, slot);
+        const Slot<T> row(lanes.constants, constant::count, slot);
         const std::int32_t body = lanes.layout.body[slot];
         if (body < 0) {
             row.put(constant::R_pj, T(1));
@@ -64,10 +49,11 @@ template <class T> void fill_pulls(const Plan<T>& plan, PlannedLanes<T>& lanes) 
 }
 
 template <class T> std::string reason_against(const Plan<T>& plan) {
-    if (plan.solver != Solver::coupled) return std::string("solver ") + solver_name(plan.solver);
+    if (is_articulated(plan.solver)) return std::string("solver ") + solver_name(plan.solver);
+    if (plan.joint_limit) return "/joint_limit";
+    if (plan.solver == Solver::analytic) return plan.root_motion ? "/root_motion" : "";
     const RationalScheme& scheme = scheme_of(plan.scheme);
     if (scheme.real) return std::string("scheme ") + scheme.name;
-    if (plan.joint_limit) return "/joint_limit";
     return {};
 }
 
@@ -84,7 +70,10 @@ template <class T> void plan_lanes(Plan<T>& plan) {
     const std::vector<Kind> branches(plan.wind ? 0 : plan.bodies, Kind::branch); // without wind all are alike
     lanes.layout = make_layout(plan.parent, plan.wind ? plan.kind : branches, ground,
                                std::uint32_t(plan.splines.size() + 1), Row<T>::lanes);
-    fill(plan, lanes);
+    if (plan.solver == Solver::analytic)
+        fill_analytic(plan, lanes);
+    else
+        fill(plan, lanes);
     fill_pulls(plan, lanes);
     if (!plan.wind) return;
     const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top);

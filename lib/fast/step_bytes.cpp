@@ -1,5 +1,5 @@
 #include "step_bytes.h"
-#include "coupled_rows.h"
+#include "analytic_rows.h"
 
 namespace bough::fast {
 namespace {
@@ -44,6 +44,24 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     bytes.indices.in = index * (rows + waiting + 2 * bases + waiting_bases + forks);
     bytes.tables = rows * std::uint64_t(constant::count + 2 * motion::count) * line + waiting * solved::count * line +
                    records + index * (rows + 2 * bases + forks);
+    return bytes;
+}
+
+StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, std::size_t real) {
+    const std::uint64_t rows = layout.rows, top = layout.blocks[0].end_row - layout.blocks[0].first_row;
+    const auto constants = std::uint64_t(analytic::constants(wind)), read = constants - (gravity ? 0 : 1);
+    const std::uint64_t records =
+        layout.joints * real *
+        (record(analytic::outward::count, layout.lanes) + record(analytic::inward_count(wind, pulls), layout.lanes));
+    constexpr std::uint64_t index = sizeof(std::uint32_t);
+    const std::uint64_t lanes = layout.base.size() + layout.landing.size() + layout.fork.size();
+    StepBytes bytes;
+    bytes.constants.in = (rows + top) * read * line;
+    bytes.now.in = (rows + top) * analytic::motion::count * line;
+    bytes.next.out = rows * analytic::motion::count * line;
+    bytes.records.in = bytes.records.out = records;
+    bytes.indices.in = index * (rows + top + lanes);
+    bytes.tables = rows * (constants + analytic::motion::count) * line + records + index * (rows + lanes);
     return bytes;
 }
 

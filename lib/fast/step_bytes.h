@@ -34,6 +34,10 @@ struct StepBytes {
 // real: sizeof of the precision. streamed: `solved` goes past the caches.
 StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t real, bool streamed);
 
+// The analytic step's (analytic_rows.h), which changes the motion where it stands: `next` goes out and need not come in. The top is visited twice, every
+// other block once; nothing waits.
+StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, std::size_t real);
+
 // Whether `solved` of a layout is more than a core's own cache holds, and is written past the caches where the target can.
 bool streams(const Layout&);
 

@@ -7,14 +7,15 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
-template <class T> struct SweepParts {
+// Given: what the sweeps of one step read and write, as CoupledRows.
+template <class T, class Given = CoupledRows<T>> struct SweepParts {
     using W = Wide<T>;
     using C = Complex<W>;
     static constexpr int L = lanes<T>;
 
-    const CoupledRows<T>& rows;
+    const Given& rows;
 
-    explicit SweepParts(const CoupledRows<T>& r) : rows(r) {}
+    explicit SweepParts(const Given& r) : rows(r) {}
 
     static C number(const T (&z)[2]) { return {all(z[0]), all(z[1])}; }
     static V3<W> vector(const T (&v)[3]) { return {all(v[0]), all(v[1]), all(v[2])}; }

@@ -1,7 +1,10 @@
 // wide_counted.h: wide.h for the target that counts (operations.h): a register of one number.
 #pragma once
 #include "operations.h"
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
@@ -11,6 +14,16 @@ template <class T> struct Counted {
 
     Counted() = default;
     Counted(T v) : value(v) {}
+    // Its bits as a whole number (wide_pair.h), and back.
+    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    using UnsignedBits = std::make_unsigned_t<Bits>;
+    explicit Counted(Bits b) : value(std::bit_cast<T>(b)) {}
+    explicit Counted(UnsignedBits b) : value(std::bit_cast<T>(b)) {}
+    explicit operator Bits() const { return std::bit_cast<Bits>(value); }
+    explicit operator UnsignedBits() const { return std::bit_cast<UnsignedBits>(value); }
+    friend bool operator>(Counted a, Counted b) { return a.value > b.value; }
+    friend bool operator<(Counted a, Counted b) { return a.value < b.value; }
+    friend bool operator==(Counted a, Counted b) { return a.value == b.value; }
     T& operator[](int) { return value; }
     const T& operator[](int) const { return value; }
 

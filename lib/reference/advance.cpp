@@ -1,5 +1,6 @@
 #include "advance.h"
 #include "../coupled/coupled_step.h"
+#include "../fast/analytic_lanes_step.h"
 #include "../fast/coupled_lanes_step.h"
 #include "../stages/root_term.h"
 #include "../stages/spring.h"
@@ -45,8 +46,10 @@ void articulated(const Plan<double>& plan, State<double>& state) {
 } // namespace
 
 template <class T> void advance(const Plan<T>& plan, State<T>& state, StageClock* clock) {
-    if (plan.solver == Solver::analytic) return step(plan, state, clock);
+    const bool analytic = plan.solver == Solver::analytic;
+    if (plan.lanes.on && analytic) return fast::analytic_lanes_step(plan, state, clock);
     if (plan.lanes.on) return fast::coupled_lanes_step(plan, state, clock);
+    if (analytic) return step(plan, state, clock);
     if (plan.solver == Solver::coupled) return coupled_step(plan, state, clock);
     if constexpr (std::is_same_v<T, double>) {
         run_stage(Stage::articulated, state, clock, [&] { articulated(plan, state); });

@@ -213,20 +213,20 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
         : plan.lanes.on       ? "in lanes"
         : analytic || coupled ? "/wind"
                               : own);
-    add(Stage::external_forces, analytic && plan.forces, analytic || !plan.forces ? forces : own);
-    add(Stage::composite, analytic, analytic ? "every scene" : solver);
-    add(Stage::drag, analytic && plan.wind, !plan.wind ? "no wind" : analytic ? "/wind" : own);
-    add(Stage::root_motion, analytic && plan.root_motion,
-        !plan.root_motion ? "no root motion"
-        : analytic        ? "/root_motion"
-                          : own);
-    add(Stage::spring, analytic,
-        !analytic
-            ? solver
-            : std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") + limited);
+    const std::string fused = "in lanes";
+    const bool joints = analytic && !plan.lanes.on; // one by one, by the plain step
+    const auto why = [&](const std::string& plainly, const std::string& other) {
+        return joints ? plainly : analytic ? fused : other;
+    };
+    add(Stage::external_forces, joints && plan.forces, plan.forces ? why(forces, own) : forces);
+    add(Stage::composite, joints, why("every scene", solver));
+    add(Stage::drag, joints && plan.wind, plan.wind ? why("/wind", own) : "no wind");
+    add(Stage::root_motion, joints && plan.root_motion, plan.root_motion ? why("/root_motion", own) : "no root motion");
+    add(Stage::spring, joints,
+        why(std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") + limited,
+            solver));
     add(Stage::articulated, is_articulated(plan.solver), solver);
     const bool plain = coupled && !plan.lanes.on;
-    const std::string fused = "in lanes";
     add(Stage::midpoint, plain, plain ? "every scene" + moved : coupled ? fused : solver);
     add(Stage::body_loads, plain,
         plain     ? "every scene" + (plan.forces ? "; " + forces : "")
@@ -258,9 +258,17 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
             plan.arrays.push_back(
                 {name, true, count * std::size_t(quantities) * sizeof(fast::Row<T>), "the fast path"});
         };
-        rows("lanes.now, next", 2 * std::size_t(layout.rows), fast::motion::count);
-        rows("lanes.solved", fast::waits(layout) ? layout.rows : 0, fast::solved::count);
-        rows("lanes.outward, inward, accelerated", layout.joints, fast::records_of_joint<T>());
+        if (analytic) {
+            constexpr int L = fast::Row<T>::lanes;
+            const int inward = fast::analytic::inward_count(plan.wind, !plan.pulls.empty());
+            rows("lanes.now", layout.rows, fast::analytic::motion::count);
+            rows("lanes.outward, inward", layout.joints,
+                 int(fast::record(fast::analytic::outward::count, L) + fast::record(inward, L)) / L);
+        } else {
+            rows("lanes.now, next", 2 * std::size_t(layout.rows), fast::motion::count);
+            rows("lanes.solved", fast::waits(layout) ? layout.rows : 0, fast::solved::count);
+            rows("lanes.outward, inward, accelerated", layout.joints, fast::records_of_joint<T>());
+        }
     }
     plan.arrays.push_back(
         {"articulated", is_articulated(plan.solver),
@@ -302,6 +310,7 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
         plan.target = *simd;
         fast::plan_lanes(plan);
         fast::plan_sleep(plan, sleep);
+        if (plan.lanes.on) plan.velocity = wishes.velocity; // the drag finds its own
     }
     explain(plan, wishes);
     return plan;

@@ -3,6 +3,7 @@
 #include "joint_limit.h"
 #include "oscillator.h"
 #include "root_term.h"
+#include "turn_guard.h"
 #include <Eigen/Cholesky>
 
 namespace bough {
@@ -38,9 +39,6 @@ template <class T> void symmetric_eigen(Matrix3<T> A, Matrix3<T>& V, Vector3<T>&
 }
 
 namespace {
-
-// [rad] a joint's turn in a step above which its energy is checked.
-template <class T> constexpr T guarded_turn = T(0.3);
 
 // One joint at the start of its step, in the axes of its body.
 template <class T> struct Joint {
@@ -138,7 +136,7 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
         v_new[k] = p.B * residual + p.C * v[k];
     }
     const Vector3<T> phi = U * dq, next = s.theta[i] + joint.T_tb * phi;
-    if (phi.squaredNorm() > guarded_turn<T> * guarded_turn<T>) {
+    if (phi.squaredNorm() > T(guarded_turn) * T(guarded_turn)) {
         const T after = v_new.squaredNorm(), before = v.squaredNorm();
         const T excess = energy_gained(plan, joint, i, s.theta[i], next, (after - before) / 2, phi);
         if (excess > 0) {

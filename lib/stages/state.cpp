@@ -1,4 +1,5 @@
 #include "state.h"
+#include "../fast/analytic_lanes_step.h"
 #include "../fast/coupled_lanes_step.h"
 #include "root_term.h"
 #include "spring.h"
@@ -51,7 +52,11 @@ template <class T> void restart(const Plan<T>& plan, State<T>& state) {
     move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
-    if (plan.lanes.on) fast::pack(plan, state);
+    if (!plan.lanes.on) return;
+    if (plan.solver == Solver::analytic)
+        fast::pack_analytic(plan, state);
+    else
+        fast::pack(plan, state);
 }
 
 template <class T> std::size_t State<T>::bytes() const {

@@ -10,12 +10,15 @@ namespace bough {
 template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>& plan, StateType& s, Visit&& visit) {
     const std::string always = "every scene", solver = std::string("solver ") + solver_name(plan.solver);
     const bool analytic = plan.solver == Solver::analytic, coupled = plan.solver == Solver::coupled;
-    const std::string composite = analytic ? always : solver, pass = coupled ? always : solver;
+    const std::string fast = "the fast path";
+    const std::string composite = !analytic ? solver : plan.lanes.on ? fast : always, pass = coupled ? always : solver;
     const bool real = scheme_of(plan.scheme).real, plain = coupled && !plan.lanes.on;
-    const std::string work = plan.lanes.on ? "the fast path" : pass;
-    const bool air = analytic && plan.wind, loads = analytic && plan.forces;
-    const std::string wind = !plan.wind ? "no wind" : analytic ? "/wind" : solver;
+    const std::string work = coupled && plan.lanes.on ? fast : pass;
+    const bool joints = analytic && !plan.lanes.on; // one by one, by the plain step
+    const bool air = joints && plan.wind, loads = joints && plan.forces;
+    const std::string wind = !plan.wind ? "no wind" : air ? "/wind" : analytic ? fast : solver;
     const std::string forces = plan.forces && !analytic           ? solver
+                               : plan.forces && !joints           ? fast
                                : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
                                : plan.wind                        ? "/wind"
                                : plan.forces                      ? "/pulls"
@@ -40,8 +43,8 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("drag_bound", s.drag_bound, air, wind);
     visit("wind_bound", s.wind_bound, air, wind);
     visit("turn_bound", s.turn_bound, air, wind);
-    visit("c_h_w", s.c_h_w, analytic, composite);
-    visit("c_J_w", s.c_J_w, analytic, composite);
+    visit("c_h_w", s.c_h_w, joints, composite);
+    visit("c_J_w", s.c_J_w, joints, composite);
     visit("c_f_w", s.c_f_w, loads, forces);
     visit("c_tau_w", s.c_tau_w, loads, forces);
     visit("c_drag_f_w", s.c_drag_f_w, air, wind);

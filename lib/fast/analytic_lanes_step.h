@@ -1,0 +1,22 @@
+// analytic_lanes_step.h: the analytic step (stages/step.h) by the fast path's sweeps, and what moves between its rows and the
+// state's arrays in document order.
+//
+// Order. The top outward; each block outward and inward, blocks shared out among threads; the blocks' roots, in a fixed order, into
+// the top; the top inward. Sums stand in the layout's order: one result for any number of threads. All that is carried is
+// theta, theta_dot and scaled_rate, in place: nothing that a step worked out is needed by the next.
+#pragma once
+#include "../stages/step.h"
+
+namespace bough::fast {
+
+// The bodies' constants in rows (analytic_rows.h), for a plan whose layout stands.
+template <class T> void fill_analytic(const Plan<T>&, PlannedLanes<T>&);
+
+// The state's rows from its arrays in document order, and back. O(n).
+template <class T> void pack_analytic(const Plan<T>&, State<T>&);
+template <class T> void unpack_analytic(const Plan<T>&, State<T>&);
+
+// Advances the rows by plan.dt; the arrays in document order are left behind. Needs a plan with lanes.on.
+template <class T> void analytic_lanes_step(const Plan<T>&, State<T>&, StageClock* clock);
+
+} // namespace bough::fast

@@ -1,0 +1,9 @@
+// turn_guard.h: from which turn on a joint's energy is checked (spring.h, "Large turns"). By itself, so that the SIMD sweeps, which
+// know nothing of Eigen, read the same number.
+#pragma once
+
+namespace bough {
+
+constexpr double guarded_turn = 0.3; // [rad] of a joint in a step
+
+} // namespace bough
