@@ -135,7 +135,7 @@ void check_complete(std::vector<Field>& fields, const std::string& name, const s
         if (field.required && !field.seen) missing_field(name, at, field.name);
         Array* array = std::get_if<Array>(&field.value);
         if (array && !field.seen && array->fill)
-            array->fill(array->per.count());
+            array->fill(array->per.count ? array->per.count() : 0);
         else if (array)
             check_length(field, *array, name, at);
     }

@@ -57,13 +57,21 @@ std::string csv_text(const ReportValue& value) {
 
 void write_rows_json(Output& output, const char* format, const ReportMeta& meta, const ReportRow& head,
                      const char* rows_name, const std::vector<ReportRow>& rows) {
+    write_lists_json(output, format, meta, head, {{rows_name, rows}});
+}
+
+void write_lists_json(Output& output, const char* format, const ReportMeta& meta, const ReportRow& head,
+                      const std::vector<ReportList>& lists) {
     const ReportRow top = {{"format", std::string(format)},        {"version", std::int64_t(1)}, {"tool", meta.tool},
                            {"tool_version", meta.version},         {"compiler", meta.compiler},  {"flags", meta.flags},
                            {"threads", std::int64_t(meta.threads)}};
-    output.write("{\n" + json_members(top, ",\n") + ",\n" + json_members(head, ",\n") + ",\n\"" + rows_name + "\": [");
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        output.write((i == 0 ? "\n{" : ",\n{") + json_members(rows[i], ", ") + "}");
-    output.write(rows.empty() ? "]" : "\n]");
+    output.write("{\n" + json_members(top, ",\n") + ",\n" + json_members(head, ",\n"));
+    for (const auto& [name, rows] : lists) {
+        output.write(std::string(",\n\"") + name + "\": [");
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            output.write((i == 0 ? "\n{" : ",\n{") + json_members(rows[i], ", ") + "}");
+        output.write(rows.empty() ? "]" : "\n]");
+    }
     if (!meta.source.empty()) output.write(",\n" + json_members({{"source", meta.source}}, ","));
     output.write("\n}\n");
 }

@@ -1,4 +1,4 @@
-// report_rows.h: what the reports of `treeprofile error` and `treeprofile stability` share: who made one, its rows as
+// report_rows.h: what the reports of treeprofile's subcommands share: who made one, its rows as
 // named values for JSON and CSV, and figures for people.
 #pragma once
 #include "open.h"
@@ -25,6 +25,10 @@ using ReportRow = std::vector<std::pair<const char*, ReportValue>>;
 // line], "source"}. Texts that are no UTF-8 are made so.
 void write_rows_json(Output&, const char* format, const ReportMeta&, const ReportRow& head, const char* rows_name,
                      const std::vector<ReportRow>& rows);
+// The same with several lists, each under its name.
+using ReportList = std::pair<const char*, std::vector<ReportRow>>;
+void write_lists_json(Output&, const char* format, const ReportMeta&, const ReportRow& head,
+                      const std::vector<ReportList>& lists);
 // A line of names, then a line a row; cells are quoted (RFC 4180) where they must be. Without rows, `names` alone.
 void write_rows_csv(Output&, const ReportRow& names, const std::vector<ReportRow>& rows);
 

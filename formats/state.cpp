@@ -8,11 +8,15 @@ namespace {
 
 constexpr DocumentType type{"bough-state", 1};
 
-// What one solver carries and another does not: may be absent (check_carried says when), and is then empty.
-Field carried(const std::string& name, std::vector<Vec3>& values, const Per& per) {
-    Field field = optional(array(name, values, per));
+// Absent, the array is empty.
+Field without_filling(Field field) {
     std::get<Array>(field.value).fill = [](std::size_t) {};
     return field;
+}
+
+// What one solver carries and another does not: may be absent (check_carried says when), and is then empty.
+Field carried(const std::string& name, std::vector<Vec3>& values, const Per& per) {
+    return without_filling(optional(array(name, values, per)));
 }
 
 // `fingerprint`: 16 hexadecimal digits, because JSON's numbers do not hold 64 bits everywhere.
@@ -31,7 +35,8 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             carried("theta_change", state.theta_change, body),
             carried("theta_dot_change", state.theta_dot_change, body),
             carried("scaled_rate", state.scaled_rate, body),
-            optional({"articulated_step", &state.articulated_step})};
+            optional({"articulated_step", &state.articulated_step}),
+            without_filling(optional(array("sleep", state.sleep, {})))};
 }
 
 std::string hexadecimal(std::uint64_t value) {

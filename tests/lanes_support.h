@@ -31,9 +31,9 @@ template <class T = double> struct Run {
     Plan<T> plan;
     State<T> state;
     Run(const Case& c, Simd simd, Scheme scheme = Scheme::p12, const Wishes& wishes = {},
-        std::optional<Solver> solver = std::nullopt)
-        : plan(
-              make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver.value_or(c.solver), scheme, simd)),
+        std::optional<Solver> solver = std::nullopt, double sleep = 0)
+        : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver.value_or(c.solver), scheme, simd,
+                            sleep)),
           state(make_state(plan)) {
         if (c.angle == 0 && c.rate == 0) return;
         make_tree::Dice dice{std::mt19937(5)};

@@ -45,7 +45,7 @@ std::vector<Case> cases() {
 TEST_CASE("in double, lanes and the plain step are the same to rounding") {
     constexpr int frames = 60;
     for (const Case& c : cases())
-        for (const Scheme scheme : {Scheme::p12, Scheme::p25, Scheme::p50}) {
+        for (const Scheme scheme : {Scheme::p12, Scheme::p25, Scheme::p50, Scheme::p34}) {
             if (scheme != Scheme::p12 && c.tree.size_bodies() > 1000) continue;
             Run<> plain(c, std::nullopt, scheme), lanes(c, fast::best_target(), scheme);
             CAPTURE(c.name, scheme_of(scheme).name);
@@ -54,9 +54,11 @@ TEST_CASE("in double, lanes and the plain step are the same to rounding") {
             const Apart d = run_apart(plain, lanes, frames);
             const double turned = most(start, plain.state.theta);
             REQUIRE(turned > 1e-3);
-            CHECK(d.theta < 1e-11);
-            CHECK(d.theta_dot < 1e-10);
-            CHECK(d.x < 1e-11);
+            // Where the energy guard acts, its factor is a root of a difference of energies, and may keep half of the digits alone.
+            const double kept = scheme == Scheme::p34 && plain.state.flags.energy_guard > 0 ? 1e3 : 1;
+            CHECK(d.theta < kept * 1e-11);
+            CHECK(d.theta_dot < kept * 1e-10);
+            CHECK(d.x < kept * 1e-11);
             CHECK(lanes.state.flags.fast_turns == plain.state.flags.fast_turns);
             CHECK(lanes.state.flags.half_turns == plain.state.flags.half_turns);
             CHECK(lanes.state.flags.energy_guard == plain.state.flags.energy_guard);
@@ -182,7 +184,6 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
         }
         CHECK(asked.calls(Stage::lanes) == 0);
     };
-    refused(Solver::coupled, Scheme::p34, "scheme P34");
     refused(Solver::coupled, Scheme::lie, "scheme LIE");
     refused(Solver::coupled, Scheme::midpoint, "scheme midpoint");
     refused(Solver::articulated_implicit, Scheme::p12, "solver articulated-implicit");

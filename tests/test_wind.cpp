@@ -2,6 +2,7 @@
 #include "lib/stages/wind.h"
 #include "tests/integrate.h"
 #include <catch2/catch.hpp>
+#include <limits>
 
 using namespace bough;
 
@@ -139,6 +140,7 @@ TEST_CASE("the table is the field at its entries, linear between, constant above
     }
     CHECK(table.at(-5) == Vec3::Zero());
     CHECK(table.at(100) == table.velocity.back());
+    CHECK(table.at(std::numeric_limits<double>::quiet_NaN()) == table.velocity.front()); // a run that diverges
 }
 
 TEST_CASE("a uniform wind's table is one entry, the same everywhere") {

@@ -34,20 +34,6 @@ extern "C" void on_signal(int signal) {
     _exit(128 + signal);
 }
 
-#ifdef _OPENMP
-constexpr int most_threads = 4096;
-#else
-constexpr int most_threads = 1; // built without OpenMP
-#endif
-
-void set_threads(int threads) {
-#ifdef _OPENMP
-    omp_set_num_threads(threads);
-#else
-    (void)threads;              // most_threads is 1
-#endif
-}
-
 // A standard stream that the caller closed must not become the next file we open: it is held by a descriptor on which
 // the use that would be made of it fails.
 void hold_standard_streams() {
@@ -116,9 +102,10 @@ void declare_common(CLI::App& app, const ToolInfo& info, CommonOptions& common) 
         "--version", [&info] { throw CLI::CallForVersion(version_text(info.name), 0); },
         "Print version, compiler, flags and SIMD target, and exit");
     app.add_flag("-q,--quiet", common.quiet, "No notes and no progress on stderr");
-    app.add_option("--threads", common.threads, "Threads to work with; all of the machine unless given")
-        ->option_text("N")
-        ->check(whole_number(1, most_threads));
+    if (info.has_threads)
+        app.add_option("--threads", common.threads, "Threads to work with; all of the machine unless given")
+            ->option_text("N")
+            ->check(whole_number(1, most_threads));
     app.add_option("-o,--output", common.output, "Output, - for stdout")->option_text("FILE")->check(file_name());
     if (!info.formats.empty()) {
         std::string names;
@@ -169,7 +156,7 @@ int parse_and_work(const ToolInfo& info, int argc, char** argv, CommonOptions& c
     declare(app);
     declare_common(app, info, common);
     try {
-        if (argc <= 1) throw UsageError("no arguments");
+        if (argc <= 1 && info.has_input) throw UsageError("no arguments");
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         std::cout << app.help();
@@ -185,18 +172,9 @@ int parse_and_work(const ToolInfo& info, int argc, char** argv, CommonOptions& c
         return exit_usage;
     }
     if (common.threads == 0) common.threads = machine_threads();
-    set_threads(common.threads);
+    use_threads(common.threads);
     common.command_line = joined(info.name, argc, argv);
     return work_and_report(info, work);
-}
-
-std::optional<double> parse_number(const std::string& text) {
-    double value = 0;
-    const char* first = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
-    const char* last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-    return value;
 }
 
 CLI::Validator number_check(const char* expected, bool (*accepts)(double)) {
@@ -214,6 +192,15 @@ std::int64_t now_ms() {
 }
 
 } // namespace
+
+std::optional<double> parse_number(const std::string& text) {
+    double value = 0;
+    const char* first = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
 
 int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
              const std::function<void(CLI::App&)>& declare, const std::function<void()>& work) {
@@ -367,6 +354,13 @@ const char* compiler_flags() {
 }
 const char* simd_target() {
     return fast::target_name(fast::best_target());
+}
+void use_threads(int threads) {
+#ifdef _OPENMP
+    omp_set_num_threads(threads);
+#else
+    (void)threads; // most_threads is 1
+#endif
 }
 int machine_threads() {
     return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads);

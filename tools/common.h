@@ -52,6 +52,8 @@ struct ToolInfo {
     const char* epilog;               // examples and details for --help
     std::vector<std::string> formats; // what --format takes; empty: no --format
     bool has_source = true;           // whether outputs record the command line (--no-source)
+    bool has_threads = true;          // --threads N; else the tool declares its own
+    bool has_input = true;            // whether it does nothing without an argument
 };
 
 // Runs a tool: declares the common options and the tool's own, parses, works, reports what went wrong in one line on
@@ -75,6 +77,8 @@ std::optional<double> unit_in_metres(const std::string& units);
 // "a,b,c" to numbers, for an option; throws UsageError that names it.
 std::vector<double> number_list(const std::string& option, const std::string& text, std::size_t count);
 std::vector<std::string> split_list(const std::string& text);
+
+std::optional<double> parse_number(const std::string& text); // the whole text, finite
 
 // The ending of a file's name in lower case, ".glb", or "".
 std::string ending(const std::string& path);
@@ -111,5 +115,13 @@ const char* compiler_name();  // "GNU 12.2.0"
 const char* compiler_flags(); // of the library
 const char* simd_target();    // what --simd auto takes: baseline, avx2, avx512
 int machine_threads();
+
+// --threads takes up to this many; 1 where built without OpenMP.
+#ifdef _OPENMP
+constexpr int most_threads = 4096;
+#else
+constexpr int most_threads = 1;
+#endif
+void use_threads(int); // from now on, in parallel loops of the calling thread
 
 } // namespace bough

@@ -9,7 +9,9 @@ struct Subcommand {
     const char* name; // first word of the command line
     std::function<void(CLI::App&)> declare;
     std::function<void()> work;
-    bool has_source = true; // --no-source
+    bool has_source = true;  // --no-source
+    bool has_threads = true; // --threads N; else its own
+    bool has_input = true;   // it does nothing without an argument
 };
 
 constexpr const char* profile_name = "treeprofile";
@@ -20,5 +22,6 @@ Subcommand profile_compare(CommonOptions&); // profile_compare.cpp: what became 
 
 Subcommand profile_error(CommonOptions&);     // profile_error.cpp: error against run time
 Subcommand profile_stability(CommonOptions&); // profile_stability.cpp: the grid of extremes
+Subcommand profile_scaling(CommonOptions&);   // profile_scaling.cpp: cost over size, held against the machine's limits
 
 } // namespace bough

@@ -70,6 +70,26 @@ void write_stability_report(const std::string& path, const StabilityReport& repo
     file.finish();
 }
 
+void write_scaling_report(const std::string& path, const ScalingReport& report, const ReportMeta& meta) {
+    const ReportForm form = form_of(path);
+    Output file(path);
+    switch (form) {
+    case ReportForm::json:
+        write_scaling_json(file, report, meta);
+        break;
+    case ReportForm::csv:
+        write_scaling_csv(file, report);
+        break;
+    case ReportForm::svg:
+        file.write(svg_file(scaling_svg(report, path)));
+        break;
+    case ReportForm::html:
+        write_scaling_html(file, report, meta);
+        break;
+    }
+    file.finish();
+}
+
 ReportMeta report_meta(const char* tool, const CommonOptions& common, const std::string& source) {
     return {
         tool, bough_version(), compiler_name(), compiler_flags(), common.threads, with_command_line(source, common)};

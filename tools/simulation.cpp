@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 namespace bough {
 namespace {
@@ -241,6 +242,11 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
         ->option_text("NAME")
         ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
     add_simd_option(app, o);
+    app.add_option("--sleep", o.sleep,
+                   "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
+                   "[rad/s] for a second, until they are moved again; or off (" +
+                       (o.sleep_default > 0 ? rate_text(o.sleep_default) : "off") + ")")
+        ->option_text("RATE|off");
     app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
         ->option_text("RAD")
         ->check(positive_number());
@@ -293,6 +299,22 @@ std::optional<fast::Target> chosen_simd(const RunOptions& o) {
     return target;
 }
 
+std::string rate_text(double rate) {
+    std::ostringstream text;
+    text << rate;
+    return text.str();
+}
+
+double chosen_sleep(const RunOptions& o) {
+    if (o.sleep.empty()) return o.simd == "off" ? 0 : o.sleep_default;
+    if (o.sleep == "off") return 0;
+    const std::optional<double> rate = parse_number(o.sleep);
+    if (!rate || !(*rate > 0))
+        throw UsageError("--sleep is '" + o.sleep + "', expected a rate above 0 [rad/s], or off");
+    if (o.simd == "off") throw UsageError("--sleep: not with --simd off, the plain step, in which nothing sleeps");
+    return *rate;
+}
+
 std::string scheme_name(const RunOptions& o) {
     return chosen_solver(o) == Solver::coupled ? scheme_of(chosen_scheme(o)).name : "";
 }
@@ -324,6 +346,14 @@ Setting read_setting(const RunOptions& o) {
     return setting;
 }
 
+Scene chosen_scene(const RunOptions& o) {
+    Scene scene;
+    apply(o, scene);
+    if (const std::optional<Defect> defect = check(scene))
+        throw UsageError("the scene's " + defect->field + " " + defect->message);
+    return scene;
+}
+
 std::uint64_t fingerprint(const Setting& setting) {
     Fingerprint f;
     f.add(setting.tree);
@@ -334,7 +364,7 @@ std::uint64_t fingerprint(const Setting& setting) {
 template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
         Plan<T> plan = make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
-                                    chosen_solver(o), chosen_scheme(o), chosen_simd(o));
+                                    chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o));
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {

@@ -21,6 +21,8 @@ struct RunOptions {
     std::string wind, gravity, solver = solver_name(default_solver), precision = "double", pose, joint_inertia;
     std::string scheme; // of the coupled solver; empty: its default
     std::string simd = "auto";
+    std::string sleep;        // as given: a rate or off; empty: sleep_default
+    double sleep_default = 0; // [rad/s] the tool's own
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
 };
@@ -40,6 +42,11 @@ std::string scheme_name(const RunOptions&);
 // The SIMD target that --simd names; none for the plain path. Throws UsageError for one that this machine lacks.
 std::optional<fast::Target> chosen_simd(const RunOptions&);
 
+// [rad/s] below which what has settled sleeps (lib/fast/sleep.h); 0: nothing does. Throws UsageError for what is no rate, and for
+// one given with --simd off.
+double chosen_sleep(const RunOptions&);
+std::string rate_text(double rate); // "1e-05"
+
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {
     Tree tree;
@@ -49,6 +56,9 @@ struct Setting {
 };
 // Reads a tree, or a scene and its trees. Throws UsageError, InputError.
 Setting read_setting(const RunOptions&);
+
+// What the options make of an empty scene, without trees. Throws UsageError, InputError.
+Scene chosen_scene(const RunOptions&);
 
 // 64 bits of all that decides how a run goes on: the joined tree's numbers and the scene's.
 std::uint64_t fingerprint(const Setting&);

@@ -4,6 +4,7 @@
 #include "formats/obj.h"
 #include "frame_queue.h"
 #include "frame_sink.h"
+#include "lib/fast/sleep.h"
 #include "simulation.h"
 #include <algorithm>
 #include <filesystem>
@@ -37,7 +38,10 @@ const ToolInfo info = {
     "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite, 4 output not written, 130 interrupted (frames so far stay).",
     {"jsonl", "json", "safetensors", "obj", "glb"}};
 
+constexpr double sleep_default = 1e-5; // [rad/s]
+
 void declare(CLI::App& app, Options& o) {
+    o.run.sleep_default = sleep_default;
     add_run_options(app, o.run, seconds_default);
     app.add_option("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
         ->option_text("LIST");
@@ -165,6 +169,11 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     state.articulated_step = saved.articulated_step;
     state.step = saved.frame * o.run.substeps;
     restart(plan, state);
+    try {
+        fast::restore_sleep(plan, state, saved.sleep);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(input_name(o.resume), std::string("/sleep: ") + error.what());
+    }
 }
 
 template <class T>
@@ -180,6 +189,7 @@ void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T
     saved.fingerprint = fingerprint(setting);
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
+    saved.sleep = fast::saved_sleep(plan, state);
     visit_carried(plan, state, saved, [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
         for (const Vector3<T>& v : from) to.push_back(v.template cast<double>());
     });
@@ -204,7 +214,8 @@ std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, const s
     return motion_sink(o.common.output, format, header);
 }
 
-void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
+template <class T>
+void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps, std::vector<std::string>& notes) {
     if (flags.buckling > 0)
         notes.push_back(std::to_string(flags.buckling) +
                         " times a joint was softer than gravity's pull on it (buckling)");
@@ -220,6 +231,10 @@ void note_flags(const StepFlags& flags, std::vector<std::string>& notes) {
         notes.push_back(std::to_string(flags.limited) + " times a joint was stopped at its limit, as asked");
     if (flags.fast_turns > 0)
         notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
+    if (flags.asleep > 0)
+        notes.push_back(std::to_string(flags.asleep) + " of " + std::to_string(std::uint64_t(steps) * plan.bodies) +
+                        " steps of a body were left out: at rest below " + rate_text(plan.lanes.sleep.rate) +
+                        " rad/s (--sleep)");
     if (flags.unresolved > 0)
         notes.push_back(std::to_string(flags.unresolved) + " of " + std::to_string(flags.inner_steps) +
                         " inner steps missed the tolerance: this is no reference solution");
@@ -272,6 +287,7 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
         first = state.step / o.run.substeps + 1;
         last += first - (o.run.frames ? 0 : 1); // --seconds counts the start, which is not written again
     }
+    const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
     interrupt_at_boundary();
@@ -289,7 +305,7 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
         std::cerr << "hash " << hash_text(state_hash(state)) << "\n";
     }
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
-    note_flags(state.flags, o.common.notes);
+    note_flags(plan, state.flags, state.step - started, o.common.notes);
 }
 
 void work(Options& o) {

@@ -9,14 +9,13 @@
 #include "energy_lanes.h"
 #include "lane_memory.h"
 #include "present.h"
+#include "sleep.h"
+#include "step_bytes.h"
 #include "targets.h"
 #include <algorithm>
 
 namespace bough::fast {
 namespace {
-
-// [bytes] of a core's own cache on the machines of these years: what is larger goes through memory in any case.
-constexpr std::size_t cache = std::size_t(2) << 20;
 
 using fast::put;
 template <class T> void put(T (&to)[2], std::complex<double> z) {
@@ -75,10 +74,11 @@ template <class T> void place_pulls(const Plan<T>& plan, State<T>& state, double
     }
 }
 
-template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, double time) {
+// For the solve of the scheme's pole k.
+template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, double time, int k) {
     Lanes<T>& lanes = state.lanes;
     const Layout& layout = plan.lanes.layout;
-    const Pole pole = scheme_of(plan.scheme).pole[0];
+    const Pole pole = scheme_of(plan.scheme).pole[std::size_t(k)];
     const double h = plan.dt;
     const std::complex<double> slope = 1.0 / pole.p - 0.5;
     CoupledRows<T> rows{};
@@ -98,7 +98,9 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     rows.pulls = lanes.pulls.empty() ? nullptr : lanes.pulls.data();
     rows.pull_count = lanes.pulls.size();
     rows.watched = lanes.watched.data();
-    rows.stream = lanes.solved.size() * sizeof(Row<T>) > cache;
+    rows.stream = streams(layout);
+    rows.adds = k > 0;
+    rows.ends = k + 1 == scheme_of(plan.scheme).poles;
     rows.h = T(h);
     put(rows.s1, h / pole.p);
     put(rows.s2, h / pole.p * h / pole.p);
@@ -123,12 +125,21 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
 }
 
 SweepFlags operator+(const SweepFlags& a, const SweepFlags& b) {
-    SweepFlags s;
-    s.fast_turns = a.fast_turns + b.fast_turns;
-    s.half_turns = a.half_turns + b.half_turns;
-    s.fast = a.fast || b.fast;
-    s.finite = a.finite && b.finite;
-    return s;
+    return {a.fast_turns + b.fast_turns, a.half_turns + b.half_turns, a.fast || b.fast, a.finite && b.finite,
+            std::max(a.omega2, b.omega2)};
+}
+
+// What blocks hand to the top. A sleeper's stands until it wakes.
+template <class T> void add_ports(const Plan<T>& plan, State<T>& state) {
+    const std::vector<Port>& ports = plan.lanes.layout.ports;
+    for (std::size_t p = 0; p < ports.size(); ++p) {
+        const bool stands = plan.lanes.sleep.on && rest_of(state, plan.lanes.sleep.block_of_port[p]) != Rest::awake;
+        for (int k = 0; k < inward::count; ++k) {
+            T& part = entry(state.lanes.inward, ports[p].joint, inward::count, k);
+            entry(state.lanes.inward, ports[p].fork, inward::count, k) += part;
+            if (!stands) part = 0;
+        }
+    }
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
@@ -145,15 +156,20 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         if (scratch.size() < size) scratch.resize(size);
         return data(scratch);
     };
-    SweepFlags top;
-    T* top_scratch = room(lanes.scratch[threads], blocks[0].end_row - blocks[0].first_row);
-    sweeps.outward(rows, blocks[0], top_scratch, top);
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
+    SweepFlags& top = flags[0];
+    const Rest rest_of_top = rest_of(state, 0);
+    T* top_scratch = room(lanes.scratch[threads], blocks[0].end_row - blocks[0].first_row);
+    if (rest_of_top == Rest::awake) sweeps.outward(rows, blocks[0], top_scratch, top);
+    if (rest_of_top == Rest::settling) keep_motion(state, blocks[0]);
     const auto n = std::int64_t(blocks.size());
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
     for (std::int64_t b = 1; b < n; ++b) {
         const Block& block = blocks[std::size_t(b)];
+        const Rest rest = rest_of(state, std::size_t(b));
+        if (rest == Rest::settling) keep_motion(state, block);
+        if (rest == Rest::asleep || (rest == Rest::settling && block.whole)) continue;
         SweepFlags& met = flags[std::size_t(b)];
         T* scratch = room(lanes.scratch[std::size_t(this_thread())], most);
         CoupledRows<T> mine = rows;
@@ -166,19 +182,18 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         sweeps.inward(mine, block, scratch);
         if (block.whole) sweeps.accelerate(mine, block, met);
     }
-    for (const Port& port : plan.lanes.layout.ports)
-        for (int k = 0; k < inward::count; ++k) {
-            T& part = entry(lanes.inward, port.joint, inward::count, k);
-            entry(lanes.inward, port.fork, inward::count, k) += part;
-            part = 0;
-        }
-    sweeps.inward(rows, blocks[0], top_scratch);
-    sweeps.accelerate(rows, blocks[0], top);
+    if (rest_of_top == Rest::awake) {
+        add_ports(plan, state);
+        sweeps.inward(rows, blocks[0], top_scratch);
+        sweeps.accelerate(rows, blocks[0], top);
+    }
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
     for (std::int64_t b = n - 1; b > 0; --b)
-        if (!blocks[std::size_t(b)].whole) sweeps.accelerate(rows, blocks[std::size_t(b)], flags[std::size_t(b)]);
-    for (const SweepFlags& f : flags) top = top + f;
-    return top;
+        if (!blocks[std::size_t(b)].whole && rest_of(state, std::size_t(b)) == Rest::awake)
+            sweeps.accelerate(rows, blocks[std::size_t(b)], flags[std::size_t(b)]);
+    SweepFlags all;
+    for (const SweepFlags& f : flags) all = all + f;
+    return all;
 }
 
 template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
@@ -210,6 +225,8 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
         rows.resize(layout.joints * record(count, Row<T>::lanes) / Row<T>::lanes);
     };
     lanes.watched.assign(layout.base.size(), 0);
+    if (plan.lanes.sleep.on) lanes.rest.assign(layout.blocks.size(), BlockRest{});
+    lanes.carried_turn = 0;
     records(lanes.outward, outward::count);
     records(lanes.inward, inward::count);
     records(lanes.accelerated, accelerated::count);
@@ -235,10 +252,23 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
 
 template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
     const double time = double(state.step) * plan.dt;
+    wake_blocks(plan, state, time);
+    if (all_asleep(state)) { // what present has made stays as it is
+        ++state.step;
+        return;
+    }
     SweepFlags flags;
     run_stage(Stage::lanes, state, clock, [&] {
-        const CoupledRows<T> rows = rows_of(plan, state, time);
+        CoupledRows<T> rows = rows_of(plan, state, time, 0);
         flags = sweep(plan, state, rows);
+        for (int k = 1; k < scheme_of(plan.scheme).poles; ++k) {
+            rows = rows_of(plan, state, time, k);
+            const SweepFlags solved = sweep(plan, state, rows); // its way outward has met with the same as the first
+            flags.half_turns = solved.half_turns;
+            flags.fast = solved.fast;
+            flags.finite = solved.finite;
+        }
+        rest_blocks(plan, state, state.lanes.flags);
         if (!flags.fast) return;
         guard_lanes(plan, state, rows);
         std::fill(state.lanes.watched.begin(), state.lanes.watched.end(), std::uint8_t(0));

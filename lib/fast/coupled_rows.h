@@ -103,6 +103,7 @@ template <class T> struct CoupledRows {
     std::uint8_t* watched;
     std::size_t pull_count;
 
+    bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
     bool stream;              // solved_rows are more than the caches hold
     T h;                      // [s]
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2
@@ -123,6 +124,7 @@ struct SweepFlags {
     std::uint64_t buckling = 0, bounded_lambda = 0, energy_guard = 0; // of the analytic step (StepFlags)
     bool fast = false;  // a body turned by more than the energy guard lets pass unseen (energy_guard.h)
     bool finite = true; // of theta and theta_dot
+    double omega2 = 0;  // [rad^2/s^2] the fastest body's (sleep.h)
 };
 
 } // namespace bough::fast

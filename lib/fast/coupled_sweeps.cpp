@@ -1,6 +1,7 @@
 // Compiled once for each target (CMakeLists.txt), with BOUGH_TARGET its name.
 #include "coupled_sweeps.h"
 #include "sweep_parts.h"
+#include <algorithm>
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
@@ -102,7 +103,7 @@ template <class T> struct Sweep : SweepParts<T> {
     // One row: the frame of its bodies from their parents'.
     template <bool wind, bool gravity, Kind kind>
     BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
-                              SweepFlags& flags) const {
+                              W& fastest, SweepFlags& flags) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         prefetch(k.at + constant::count * L, constant::count * L);
         prefetch(y0.at + motion::count * L, motion::count * L);
@@ -137,6 +138,7 @@ template <class T> struct Sweep : SweepParts<T> {
         f.R = R;
         if constexpr (wind) f.y = f.y + r.y;
         const W omega2 = dot(f.omega, f.omega);
+        fastest = larger(omega2, fastest);
         if (any_above(omega2, fast2())) mark(row_base, lane, omega2, flags);
 
         // body_load.h
@@ -307,10 +309,11 @@ template <class T> struct Sweep : SweepParts<T> {
             Records<T, outward::count> base;
             base.gather(rows.outward_records, &rows.base[g.first_base + std::size_t(lane)]);
             Frame f = read_frame(base);
+            W fastest{};
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 step_out<wind, gravity, kind>(f, row, g.first_base, lane,
                                               {scratch + std::size_t(row - block.first_row) * loaded::count * L + lane},
-                                              flags);
+                                              fastest, flags);
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
                 base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
@@ -318,6 +321,7 @@ template <class T> struct Sweep : SweepParts<T> {
                                  write(rows.outward_records + joint * record(outward::count, L) + std::size_t(k), w);
                              });
             }
+            for (int l = 0; l < width<T>; ++l) flags.omega2 = std::max(flags.omega2, double(fastest[l]));
         }
     }
 
@@ -380,19 +384,25 @@ template <class T> struct Sweep : SweepParts<T> {
                     return V3<W>{k.re * v.x.re - k.im * v.x.im, k.re * v.y.re - k.im * v.y.im,
                                  k.re * v.z.re - k.im * v.z.im};
                 };
-                const V3<W> rate_change = weighed(of_rate, x), change = weighed(of_angle, x) + rows.eta * eta_0;
-                const V3<W> theta = theta_0 + change, eta = eta_0 + rate_change;
+                V3<W> rate_change = weighed(of_rate, x), change = weighed(of_angle, x) + rows.eta * eta_0;
                 const Rows<T> y1 = next(row, lane);
+                if (rows.adds) {
+                    rate_change = y1.vector(motion::theta_dot_change) + rate_change;
+                    change = y1.vector(motion::theta_change) + change;
+                }
+                const V3<W> theta = theta_0 + change, eta = eta_0 + rate_change;
                 y1.set(motion::theta, theta);
                 y1.set(motion::theta_dot, eta);
                 y1.set(motion::theta_change, change);
                 y1.set(motion::theta_dot_change, rate_change);
                 const W angle2 = dot(theta, theta), rate2 = dot(eta, eta);
-                // As the plain step looks at theta_dot at the start and its change: the rate at the end.
-                if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
-                if (!(total(W(angle2 + rate2)) < T(1e30))) flags.finite = false;
-                if (any_above(angle2, all(about_half_turn2)))
-                    turn_back(y1, flags, constants(row, lane).real(constant::mass));
+                if (rows.ends) {
+                    // As the plain step looks at theta_dot at the start and its change: the rate at the end.
+                    if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
+                    if (!(total(W(angle2 + rate2)) < T(1e30))) flags.finite = false;
+                    if (any_above(angle2, all(about_half_turn2)))
+                        turn_back(y1, flags, constants(row, lane).real(constant::mass));
+                }
                 if (rows.fork_of_row[row] < 0) continue;
                 Records<T, accelerated::count> forks;
                 for (int k = accelerated::count; k < forks.quantities; ++k) forks.rows().set(k, W{});

@@ -8,6 +8,21 @@
 
 namespace bough::fast {
 
+// Which blocks may sleep, and when (sleep.h).
+struct PlannedSleep {
+    bool on = false;
+    std::string reason = "not asked for"; // why not
+    double rate = 0;                      // [rad/s]
+    std::uint32_t steps = 0;              // below it before a block sleeps
+    std::vector<std::uint32_t> bodies;    // of each block
+    std::vector<std::uint32_t> block_of_port, block_of_pull;
+};
+enum class Rest : std::uint8_t { awake, settling, asleep };
+struct BlockRest {
+    std::uint32_t settled = 0; // steps in a row below the rate, at most the plan's
+    Rest rest = Rest::awake;
+};
+
 // In the plan. Constant after make_plan.
 template <class T> struct PlannedLanes {
     bool on = false;
@@ -18,6 +33,7 @@ template <class T> struct PlannedLanes {
     std::vector<std::size_t> pull;         // Plan::pulls in the order of rows
     std::vector<T> profile;                // [1] the wind's, over height
     T per_metre = 0;
+    PlannedSleep sleep;
 };
 
 // Whether some block's accelerations have to wait for others: then what is solved is kept for all rows.
@@ -42,9 +58,11 @@ template <class T> struct Lanes {
     std::vector<SweepFlags> flags;     // one a block
     std::vector<std::uint8_t> watched; // CoupledRows
     RowVector<T> energy_records, energy_sums, energy_fast,
-        energy_ground;     // EnergyRows; empty until something turns fast
-    bool presented = true; // the state's arrays in document order hold what `now` holds
-    bool finite = true;    // no theta or theta_dot has become non-finite
+        energy_ground;           // EnergyRows; empty until something turns fast
+    std::vector<BlockRest> rest; // one a block; empty where nothing may sleep
+    double carried_turn = 0;     // [rad] of what sleepers stand on, at most, since the first fell asleep
+    bool presented = true;       // the state's arrays in document order hold what `now` holds
+    bool finite = true;          // no theta or theta_dot has become non-finite
 };
 
 } // namespace bough::fast

@@ -53,7 +53,7 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
     if (plan.joint_limit) return "/joint_limit";
     if (plan.solver == Solver::analytic) return plan.root_motion ? "/root_motion" : "";
     const RationalScheme& scheme = scheme_of(plan.scheme);
-    if (scheme.real || scheme.poles > 1) return std::string("scheme ") + scheme.name;
+    if (scheme.real) return std::string("scheme ") + scheme.name;
     return {};
 }
 

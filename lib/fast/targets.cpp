@@ -1,4 +1,6 @@
 #include "targets.h"
+#include "machine_kernels.h"
+#include "operations.h"
 #include <stdexcept>
 
 namespace bough::fast {
@@ -6,12 +8,21 @@ namespace bough::fast {
 namespace baseline {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+MemoryKernels memory_kernels();
+template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 } // namespace baseline
+namespace counted {
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
+template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
+} // namespace counted
 #ifdef BOUGH_HAS_AVX2
 namespace avx2 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+MemoryKernels memory_kernels();
+template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 } // namespace avx2
 #endif
@@ -19,12 +30,14 @@ template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 namespace avx512 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+MemoryKernels memory_kernels();
+template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 } // namespace avx512
 #endif
 
 const char* target_name(Target target) {
-    static constexpr const char* names[] = {"baseline", "avx2", "avx512"};
+    static constexpr const char* names[] = {"baseline", "avx2", "avx512", "counted"};
     return names[std::size_t(target)];
 }
 
@@ -75,6 +88,7 @@ void require(Target target) {
 
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity) {
     require(target);
+    if (target == counted_target) return counted::coupled_sweeps<T>(wind, gravity);
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity);
 #endif
@@ -86,6 +100,7 @@ template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind,
 
 template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
     require(target);
+    if (target == counted_target) return counted::energy_sweep<T>(wind);
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::energy_sweep<T>(wind);
 #endif
@@ -95,8 +110,31 @@ template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
     return baseline::energy_sweep<T>(wind);
 }
 
+MemoryKernels memory_kernels_for(Target target) {
+    require(target);
+#ifdef BOUGH_HAS_AVX512
+    if (target == Target::avx512) return avx512::memory_kernels();
+#endif
+#ifdef BOUGH_HAS_AVX2
+    if (target == Target::avx2) return avx2::memory_kernels();
+#endif
+    return baseline::memory_kernels();
+}
+
+template <class T> ArithmeticKernel<T> arithmetic_kernel_for(Target target) {
+    require(target);
+#ifdef BOUGH_HAS_AVX512
+    if (target == Target::avx512) return avx512::arithmetic_kernel<T>();
+#endif
+#ifdef BOUGH_HAS_AVX2
+    if (target == Target::avx2) return avx2::arithmetic_kernel<T>();
+#endif
+    return baseline::arithmetic_kernel<T>();
+}
+
 template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target target, AnalyticLoads loads) {
     require(target);
+    if (target == counted_target) return counted::analytic_sweeps<T>(loads);
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::analytic_sweeps<T>(loads);
 #endif
@@ -110,6 +148,8 @@ template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool);
 template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool);
 template EnergySweepOf<float> energy_sweep_for<float>(Target, bool);
 template EnergySweepOf<double> energy_sweep_for<double>(Target, bool);
+template ArithmeticKernel<float> arithmetic_kernel_for(Target);
+template ArithmeticKernel<double> arithmetic_kernel_for(Target);
 template AnalyticSweeps<float> analytic_sweeps_for(Target, AnalyticLoads);
 template AnalyticSweeps<double> analytic_sweeps_for(Target, AnalyticLoads);
 

@@ -8,7 +8,9 @@
 #pragma once
 #include <cmath>
 #include <cstring>
-#ifdef __AVX2__
+#ifdef BOUGH_COUNTED
+#include "wide_counted.h" // in place of all that is about registers
+#elif defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
@@ -23,15 +25,19 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
+#ifndef BOUGH_COUNTED
 typedef float WideFloat __attribute__((vector_size(BOUGH_WIDTH)));
 typedef double WideDouble __attribute__((vector_size(BOUGH_WIDTH)));
+#endif
 template <class T> struct WideOf;
 template <> struct WideOf<float> { using type = WideFloat; };
 template <> struct WideOf<double> { using type = WideDouble; };
 template <class T> using Wide = typename WideOf<T>::type;
 
+#ifndef BOUGH_COUNTED
 template <class T> constexpr int width = int(BOUGH_WIDTH / sizeof(T)); // reals in a register
-template <class T> constexpr int lanes = int(64 / sizeof(T));          // reals in a row (layout.h)
+#endif
+template <class T> constexpr int lanes = int(64 / sizeof(T)); // reals in a row (layout.h)
 
 template <class T> [[gnu::always_inline]] inline Wide<T> read(const T* at) {
     Wide<T> w;
@@ -41,6 +47,7 @@ template <class T> [[gnu::always_inline]] inline Wide<T> read(const T* at) {
 template <class T> [[gnu::always_inline]] inline void write(T* at, Wide<T> w) {
     std::memcpy(at, &w, sizeof w);
 }
+#ifndef BOUGH_COUNTED
 // Past the caches, for what is not read again soon; `at` is aligned. Whole lines only: where a register is a part of one, its
 // other parts come much later, and memory would be written twice (measured with AVX2: half as fast as through the caches).
 #if BOUGH_WIDTH == 64
@@ -100,6 +107,7 @@ template <class W> [[gnu::always_inline]] inline bool any_above(W a, W b) {
     return any;
 }
 #endif
+#endif // BOUGH_COUNTED
 
 // While it stands, results too small for a normal number are 0: what comes to rest would otherwise pass through numbers on which
 // every operation takes a hundred times as long.
@@ -123,6 +131,7 @@ public:
     FlushToZero& operator=(const FlushToZero&) = delete;
 };
 
+#ifndef BOUGH_COUNTED
 // value where a > b, else 0.
 template <class W> [[gnu::always_inline]] inline W where_above(W a, W b, W value) {
     return a > b ? value : W{};
@@ -223,6 +232,7 @@ template <class W> [[gnu::always_inline]] inline W larger(W a, W b) {
     }
 #endif
 }
+#endif // BOUGH_COUNTED
 
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

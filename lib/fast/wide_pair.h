@@ -79,8 +79,13 @@ BOUGH_FORCE Pair<W> choose_above(const Pair<W>& a, const Pair<W>& b, const Pair<
 template <class T> struct Bits {
     using Integer = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     using Unsigned = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+#ifdef BOUGH_COUNTED
+    using Wide = Integer;
+    using WideUnsigned = Unsigned;
+#else
     typedef Integer Wide __attribute__((vector_size(BOUGH_WIDTH)));
     typedef Unsigned WideUnsigned __attribute__((vector_size(BOUGH_WIDTH)));
+#endif
     static constexpr int mantissa = sizeof(T) == 4 ? 23 : 52, bias = sizeof(T) == 4 ? 127 : 1023;
     // Added to a number below half of it, leaves the nearest integer, also in the low bits.
     static constexpr T rounder = sizeof(T) == 4 ? T(12582912) : T(6755399441055744);
@@ -88,7 +93,9 @@ template <class T> struct Bits {
 
 // table[index], each lane its own; 0 <= index < 2^22.
 BOUGH_FORCE WideFloat look_up(const float* table, const Bits<float>::Wide& index) {
-#if defined(__AVX512F__)
+#if defined(BOUGH_COUNTED)
+    return table[index];
+#elif defined(__AVX512F__)
     return WideFloat(_mm512_mask_i32gather_ps(__m512(WideFloat{}), 0xffff, __m512i(index), table, 4));
 #elif defined(__AVX2__)
     return WideFloat(_mm256_i32gather_ps(table, __m256i(index), 4));
@@ -97,7 +104,9 @@ BOUGH_FORCE WideFloat look_up(const float* table, const Bits<float>::Wide& index
 #endif
 }
 BOUGH_FORCE WideDouble look_up(const double* table, const Bits<double>::Wide& index) {
-#if defined(__AVX512F__)
+#if defined(BOUGH_COUNTED)
+    return table[index];
+#elif defined(__AVX512F__)
     return WideDouble(_mm512_mask_i64gather_pd(__m512d(WideDouble{}), 0xff, __m512i(index), table, 8));
 #elif defined(__AVX2__)
     return WideDouble(_mm256_i64gather_pd(table, __m256i(index), 8));

@@ -1,5 +1,6 @@
 #include "plan.h"
 #include "../fast/plan_lanes.h"
+#include "../fast/sleep.h"
 #include "../model/body_shape.h"
 #include "../model/branch_mode.h"
 #include "pose.h"
@@ -234,7 +235,9 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, plan.lanes.on,
         plan.lanes.on
-            ? std::string("SIMD ") + fast::target_name(plan.target) + (plan.forces ? "; " + forces : "") + moved
+            ? std::string("SIMD ") + fast::target_name(plan.target) + (plan.forces ? "; " + forces : "") + moved +
+                  (plan.lanes.sleep.on ? "; asleep below " + text(plan.lanes.sleep.rate) + " rad/s"
+                                       : "; no sleep: " + plan.lanes.sleep.reason)
             : "plain path: " + plan.lanes.reason);
     add(Stage::state_update, !plan.lanes.on,
         plan.lanes.on
@@ -276,7 +279,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
 
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd) {
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep) {
     Tree tree = drawn;
     for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
     for (double& beta : tree.damping) beta *= scene.damping_scale;
@@ -306,6 +309,7 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     if (simd) {
         plan.target = *simd;
         fast::plan_lanes(plan);
+        fast::plan_sleep(plan, sleep);
         if (plan.lanes.on) plan.velocity = wishes.velocity; // the drag finds its own
     }
     explain(plan, wishes);
@@ -313,8 +317,8 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
 }
 
 template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                               Scheme, std::optional<fast::Target>);
+                               Scheme, std::optional<fast::Target>, double);
 template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                                Scheme, std::optional<fast::Target>);
+                                Scheme, std::optional<fast::Target>, double);
 
 } // namespace bough

@@ -131,9 +131,10 @@ template <class T> struct Plan {
 // Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow,
 // for one that starts beyond a joint limit (its body and angle), and for joint limits with an articulated solver.
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
+// sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
                   Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
-                  std::optional<fast::Target> simd = std::nullopt);
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0);
 
 } // namespace bough

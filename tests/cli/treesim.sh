@@ -210,7 +210,7 @@ for simd in auto off baseline; do
 done
 treesim tree.json --frames 3 --no-output --explain --simd baseline 2>err && grep -q '^stage lanes on: SIMD baseline' err || fail "--simd baseline"
 treesim tree.json --frames 3 --no-output --explain --simd off 2>err && grep -q '^stage lanes left out: plain path' err || fail "--simd off"
-treesim tree.json --frames 3 --no-output --explain --scheme P34 2>err && grep -q '^stage lanes left out: plain path: scheme P34' err || fail "P34"
+treesim tree.json --frames 3 --no-output --explain --scheme LIE 2>err && grep -q '^stage lanes left out: plain path: scheme LIE' err || fail "LIE"
 treesim tree.json --frames 3 --no-output --explain --solver analytic 2>err && grep -q '^stage lanes on: SIMD ' err || fail "analytic in lanes"
 grep -q '^stage spring left out: in lanes' err || fail "the plain spring beside the lanes"
 treesim tree.json --frames 3 --no-output --explain --solver analytic --simd off 2>err && grep -q '^stage spring on: ' err || fail "analytic, --simd off"
@@ -219,6 +219,19 @@ treesim tree.json --frames 3 --no-output --explain --solver analytic --joint-lim
 refused 1 "--simd" treesim tree.json --frames 3 --no-output --simd sse
 simd=$(treesim --version | sed -n 's/^simd //p')
 [[ $(hash tree.json --frames 20 --simd "$simd") == $(hash tree.json --frames 20) ]] || fail "--version says simd $simd"
+
+# Sleep: a still tree is left out after a second, and from a saved state goes on sleeping; wrong rates are refused.
+treesim tree.json --frames 90 --no-output --hash 2>err && grep -q ' steps of a body were left out: at rest below 1e-05 rad/s' err ||
+    fail "nothing slept: $(cat err)"
+whole=$(grep '^hash' err)
+expect 0 treesim tree.json --frames 50 --no-output --save-state asleep.json
+[[ $(hash tree.json --resume asleep.json --frames 40 --no-output) == "$whole" ]] || fail "asleep and cut is another run"
+refused 2 "/sleep" treesim tree.json --resume asleep.json --frames 40 --no-output --sleep off
+treesim tree.json --frames 90 --no-output --sleep off 2>err && ! grep -q 'left out' err || fail "--sleep off"
+treesim tree.json --frames 3 --no-output --explain --sleep 1e-3 2>err && grep -q '^stage lanes on: .*; asleep below 0.001 rad/s' err || fail "--sleep 1e-3"
+treesim tree.json --frames 3 --no-output --explain --wind gusty 2>err && grep -q '; no sleep: /wind/turbulence' err || fail "no sleep in gusts"
+refused 1 "--sleep" treesim tree.json --frames 3 --no-output --sleep -1
+refused 1 "--sleep" treesim tree.json --frames 3 --no-output --sleep 1e-3 --simd off
 [[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20 --simd off) ]] || fail "a limit far off is felt"
 
 # One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
@@ -306,7 +319,7 @@ expect 0 treesim place/moved.json --frames 20 -q --wind breeze -o moved.glb
 treesim place/moved.json --solver analytic --frames 2 --no-output --explain 2>&1 |
     grep -q '^stage root_motion on: /root_motion$' || fail "--explain says nothing of root motion"
 treesim place/moved.json --solver coupled --frames 2 --no-output --explain 2>&1 |
-    grep -q '^stage lanes on: SIMD [a-z0-9]*; roots moved by /root_motion$' || fail "--explain says nothing of root motion"
+    grep -q '^stage lanes on: SIMD [a-z0-9]*; roots moved by /root_motion; no sleep: /root_motion$' || fail "--explain says nothing of root motion"
 treesim place/moved.json --solver coupled --simd off --frames 2 --no-output --explain 2>&1 |
     grep -q '^stage midpoint on: every scene; roots moved by /root_motion$' || fail "--explain says nothing of root motion"
 broken() { # sed script, pointer
@@ -324,7 +337,7 @@ broken 's/"rotation"/"turn"/' /root_motion/0/turn
 # --explain says what is left out.
 treesim tree.json --frames 3 --explain --no-output 2>still
 treesim tree.json --frames 3 --explain --no-output --wind calm 2>windy
-grep -q '^stage lanes on: SIMD [a-z0-9]*$' still && grep -q '^stage lanes on: SIMD [a-z0-9]*; /wind$' windy ||
+grep -q '^stage lanes on: SIMD [a-z0-9]*; asleep' still && grep -q '^stage lanes on: SIMD [a-z0-9]*; /wind; no sleep' windy ||
     fail "--explain says nothing of the wind in lanes"
 grep -q '^calls lanes 2$' still && grep -q '^calls midpoint 0$' windy || fail "calls of lanes are not as explained"
 treesim tree.json --frames 3 --explain --no-output --simd off 2>still

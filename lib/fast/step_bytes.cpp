@@ -1,0 +1,72 @@
+#include "step_bytes.h"
+#include "analytic_rows.h"
+
+namespace bough::fast {
+namespace {
+
+constexpr std::uint64_t line = 64; // [bytes] of a row of one quantity
+
+Moved operator+(const Moved& a, const Moved& b) {
+    return {a.in + b.in, a.out + b.out};
+}
+
+} // namespace
+
+Moved StepBytes::total() const {
+    return constants + now + next + solved + records + indices;
+}
+
+StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std::size_t real, bool streamed) {
+    std::uint64_t rows = 0, waiting = 0, bases = 0, waiting_bases = 0;
+    for (const Block& block : layout.blocks) {
+        const std::uint64_t own = block.end_row - block.first_row;
+        const std::uint64_t own_bases =
+            std::uint64_t(block.end_group - block.first_group) * std::uint64_t(layout.lanes);
+        rows += own;
+        bases += own_bases;
+        if (block.whole) continue;
+        waiting += own;
+        waiting_bases += own_bases;
+    }
+    const std::uint64_t quantities = std::uint64_t(constant::count) - (wind ? 0 : 1) - (gravity ? 0 : 3);
+    const std::uint64_t record_reals = record(outward::count, layout.lanes) + record(inward::count, layout.lanes) +
+                                       record(accelerated::count, layout.lanes);
+    const std::uint64_t records = layout.joints * record_reals * real;
+    StepBytes bytes;
+    bytes.constants.in = rows * quantities * line;
+    bytes.now.in = (rows + waiting) * motion::count * line;
+    bytes.next.in = bytes.next.out = rows * motion::count * line;
+    bytes.solved.out = waiting * solved::count * line;
+    bytes.solved.in = bytes.solved.out * (streamed ? 1 : 2);
+    bytes.records.in = bytes.records.out = records;
+    constexpr std::uint64_t index = sizeof(std::uint32_t);
+    const std::uint64_t forks = layout.fork.size();
+    bytes.indices.in = index * (rows + waiting + 2 * bases + waiting_bases + forks);
+    bytes.tables = rows * std::uint64_t(constant::count + 2 * motion::count) * line + waiting * solved::count * line +
+                   records + index * (rows + 2 * bases + forks);
+    return bytes;
+}
+
+StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, std::size_t real) {
+    const std::uint64_t rows = layout.rows, top = layout.blocks[0].end_row - layout.blocks[0].first_row;
+    const auto constants = std::uint64_t(analytic::constants(wind)), read = constants - (gravity ? 0 : 1);
+    const std::uint64_t records =
+        layout.joints * real *
+        (record(analytic::outward::count, layout.lanes) + record(analytic::inward_count(wind, pulls), layout.lanes));
+    constexpr std::uint64_t index = sizeof(std::uint32_t);
+    const std::uint64_t lanes = layout.base.size() + layout.landing.size() + layout.fork.size();
+    StepBytes bytes;
+    bytes.constants.in = (rows + top) * read * line;
+    bytes.now.in = (rows + top) * analytic::motion::count * line;
+    bytes.next.out = rows * analytic::motion::count * line;
+    bytes.records.in = bytes.records.out = records;
+    bytes.indices.in = index * (rows + top + lanes);
+    bytes.tables = rows * (constants + analytic::motion::count) * line + records + index * (rows + lanes);
+    return bytes;
+}
+
+bool streams(const Layout& layout) {
+    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > core_cache;
+}
+
+} // namespace bough::fast

@@ -1,0 +1,54 @@
+// One step of 10 000 bodies in a gusty wind, on one thread, and what the fast path is laid out by. Items are bodies.
+#include "bench_tree.h"
+#include "lib/fast/layout.h"
+#include "lib/fast/targets.h"
+#include "lib/reference/advance.h"
+#include <benchmark/benchmark.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace {
+
+using namespace bough;
+
+enum class Path { lanes, plain };
+
+// path: lanes where they hold the solver; the label says which it was.
+template <class T> void step_of(benchmark::State& benchmark, Solver solver, Path path) {
+#ifdef _OPENMP
+    omp_set_num_threads(1);
+#endif
+    const Tree& tree = bench::tree();
+    Scene scene;
+    scene.wind = *wind_preset("gusty");
+    const std::optional<fast::Target> simd =
+        path == Path::lanes ? std::optional(fast::best_target()) : std::optional<fast::Target>();
+    const Plan<T> plan =
+        make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12, simd);
+    State<T> state = make_state(plan);
+    for (auto _ : benchmark) advance(plan, state);
+    benchmark.SetItemsProcessed(benchmark.iterations() * std::int64_t(plan.bodies));
+    benchmark.SetLabel(plan.lanes.on ? fast::target_name(plan.target) : "plain");
+}
+
+void layout(benchmark::State& benchmark) {
+    const Tree& tree = bench::tree();
+    for (auto _ : benchmark)
+        benchmark::DoNotOptimize(fast::make_layout(tree.parent, tree.kind, {0}, 1, int(benchmark.range(0))));
+    benchmark.SetItemsProcessed(benchmark.iterations() * std::int64_t(tree.size_bodies()));
+}
+
+const bool registered = [] {
+    using benchmark::RegisterBenchmark;
+    RegisterBenchmark("step/coupled/lanes/float", step_of<float>, Solver::coupled, Path::lanes);
+    RegisterBenchmark("step/coupled/lanes/double", step_of<double>, Solver::coupled, Path::lanes);
+    RegisterBenchmark("step/coupled/plain/double", step_of<double>, Solver::coupled, Path::plain);
+    RegisterBenchmark("step/analytic/lanes/float", step_of<float>, Solver::analytic, Path::lanes);
+    RegisterBenchmark("step/analytic/lanes/double", step_of<double>, Solver::analytic, Path::lanes);
+    RegisterBenchmark("step/analytic/plain/double", step_of<double>, Solver::analytic, Path::plain);
+    RegisterBenchmark("layout", layout)->Arg(16)->Arg(8)->ArgName("lanes");
+    return true;
+}();
+
+} // namespace

@@ -1,0 +1,265 @@
+#include "scaling.h"
+#include "growth.h"
+#include "lib/fast/operations.h"
+#include "lib/fast/step_bytes.h"
+#include "lib/growth/segment.h"
+#include "machine_limits.h"
+#include "resident.h"
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+namespace bough {
+namespace {
+
+double median(std::vector<double> values) {
+    if (values.empty()) return NAN;
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+// [bytes] of a tree's arrays.
+std::size_t size_of(const Tree& t) {
+    const auto bytes = [](const auto&... array) { return ((array.size() * sizeof(array[0])) + ...); };
+    return bytes(t.parent, t.kind, t.mass, t.com, t.inertia, t.joint_position, t.joint_rotation, t.stiffness, t.damping,
+                 t.size, t.branch, t.level, t.s);
+}
+
+// What code `plan` runs with, and by which target's limits it is held.
+template <class T> std::string simd_of(const Plan<T>& plan) {
+    return plan.lanes.on ? fast::target_name(plan.target) : "none";
+}
+fast::Target target_of(const RunOptions& way) {
+    return chosen_simd(way).value_or(fast::Target::baseline); // what the plain step is compiled for
+}
+
+template <class T> void count_operations(Plan<T>& plan, std::int64_t frames, ScalingCost& cost) {
+    const fast::Target target = plan.target;
+    use_threads(1);
+    State<T> state = make_state(plan);
+    advance(plan, state); // the one of warm-up
+    plan.target = fast::counted_target;
+    fast::counted_operations() = {};
+    const std::int64_t steps = std::clamp<std::int64_t>(400000 / std::int64_t(plan.bodies), 1, frames);
+    for (std::int64_t k = 0; k < steps; ++k) advance(plan, state);
+    plan.target = target;
+    const fast::Operations& done = fast::counted_operations();
+    if (done.total() == 0) return; // lanes that no counting code is compiled for
+    const double each = 1 / (double(plan.bodies) * double(steps));
+    cost.additions = double(done.additions) * each;
+    cost.multiplications = double(done.multiplications) * each;
+    cost.divisions = double(done.divisions) * each;
+    cost.roots = double(done.roots) * each;
+}
+
+template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
+    const fast::Layout& layout = plan.lanes.layout;
+    // wide.h writes past the caches where a register is a line.
+    const bool streamed = plan.target == fast::Target::avx512 && fast::streams(layout);
+    const fast::StepBytes bytes =
+        plan.solver == Solver::coupled
+            ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed)
+            : fast::analytic_step_bytes(layout, plan.wind, !plan.pulls.empty(), plan.gravity, sizeof(T));
+    const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
+    cost.slots = each(std::uint64_t(layout.rows) * std::uint64_t(layout.lanes));
+    cost.constants_in = each(bytes.constants.in);
+    cost.now_in = each(bytes.now.in);
+    cost.next_in = each(bytes.next.in);
+    cost.next_out = each(bytes.next.out);
+    cost.solved_in = each(bytes.solved.in);
+    cost.solved_out = each(bytes.solved.out);
+    cost.records_in = each(bytes.records.in);
+    cost.records_out = each(bytes.records.out);
+    cost.indices_in = each(bytes.indices.in);
+    cost.tables = double(bytes.tables);
+}
+
+class Measurement {
+public:
+    Measurement(const std::vector<ScalingTree>& t, const ScalingChoice& c,
+                const std::function<void(std::int64_t, std::int64_t)>& tick)
+        : trees(t), choice(c), tick_(tick) {}
+
+    ScalingReport run() {
+        report.repeat = choice.repeat;
+        report.array = double(choice.array);
+        report.last_cache = double(last_cache());
+        report.core_cache = double(core_cache());
+        for (round = 0; round < choice.repeat; ++round) {
+            at = 0;
+            limits_once();
+            for (const ScalingTree& tree : trees)
+                for (const RunOptions& way : choice.ways)
+                    if (way.precision == "float")
+                        plan_once<float>(tree, way);
+                    else
+                        plan_once<double>(tree, way);
+        }
+        finish();
+        return std::move(report);
+    }
+
+private:
+    const std::vector<ScalingTree>& trees;
+    const ScalingChoice& choice;
+    const std::function<void(std::int64_t, std::int64_t)>& tick_;
+    ScalingReport report;
+    std::map<std::pair<fast::Target, int>, std::vector<MachineLimits>> limits;
+    std::vector<std::vector<double>> ns; // of report.runs
+    std::vector<std::size_t> cost;       // of report.runs: index in report.costs
+    std::vector<fast::Target> target;    // of report.runs
+    std::size_t at = 0;                  // the run's place in this round
+    int round = 0;
+
+    void limits_once() {
+        for (const RunOptions& way : choice.ways)
+            for (const int threads : choice.threads) {
+                std::vector<MachineLimits>& of = limits[{target_of(way), threads}];
+                if (of.size() == std::size_t(round))
+                    of.push_back(measure_limits(target_of(way), threads, choice.array));
+            }
+    }
+
+    template <class T> void plan_once(const ScalingTree& tree, const RunOptions& way) {
+        const std::optional<std::size_t> before = resident();
+        const bool counts_peak = before && forget_peak();
+        use_threads(choice.threads.front());
+        Plan<T> plan = plan_run<T>(tree.setting, {}, way);
+        const std::size_t first = at;
+        for (const int threads : choice.threads) {
+            time_once(tree, way, plan, threads);
+            if (round == 0 && counts_peak && at == first + 1)
+                report.runs[first].memory = double(*peak_resident() - *before + size_of(tree.setting.tree));
+        }
+        if (round > 0) return;
+        ScalingCost c;
+        c.shape = tree.shape;
+        c.solver = way.solver;
+        c.precision = way.precision;
+        c.simd = simd_of(plan);
+        c.bodies = std::int64_t(plan.bodies);
+        if (plan.lanes.on) {
+            count_operations(plan, report.runs[first].frames, c);
+            count_bytes(plan, c);
+        }
+        for (std::size_t k = first; k < at; ++k) {
+            cost.push_back(report.costs.size());
+            report.runs[k].memory = report.runs[first].memory;
+        }
+        report.costs.push_back(c);
+    }
+
+    template <class T>
+    void time_once(const ScalingTree& tree, const RunOptions& way, const Plan<T>& plan, int threads) {
+        using Time = std::chrono::steady_clock;
+        tick_(std::int64_t(std::size_t(round) * all_runs() + at),
+              std::int64_t(std::size_t(choice.repeat) * all_runs()));
+        const auto bodies = std::int64_t(plan.bodies);
+        const std::int64_t frames = choice.frames > 0 ? choice.frames : scaling_frames(bodies);
+        use_threads(threads);
+        State<T> state = make_state(plan);
+        advance_frame(plan, state, tree.setting.tree, 1, 1);
+        double seconds = 0;
+        for (std::int64_t f = 0; f < frames; ++f) {
+            const Time::time_point start = Time::now();
+            advance(plan, state);
+            seconds += std::chrono::duration<double>(Time::now() - start).count();
+            require_finite(plan, state, tree.setting.tree, f + 2);
+        }
+        present(plan, state);
+        const std::string hash = hash_text(state_hash(state));
+        if (round == 0) {
+            ScalingRun run;
+            run.shape = tree.shape;
+            run.solver = way.solver;
+            run.scheme = scheme_name(way);
+            run.precision = way.precision;
+            run.simd = simd_of(plan);
+            run.threads = threads;
+            run.bodies = bodies;
+            run.frames = frames;
+            run.hash = hash;
+            report.runs.push_back(run);
+            ns.emplace_back();
+            target.push_back(target_of(way));
+            const ScalingRun& first = report.runs[at - at % choice.threads.size()];
+            if (hash != first.hash)
+                throw PromiseError(tree.shape + ", " + std::to_string(bodies) + " bodies: " + std::to_string(threads) +
+                                   " threads gave hash " + hash + ", " + std::to_string(first.threads) + " gave " +
+                                   first.hash);
+        } else if (hash != report.runs[at].hash) {
+            throw PromiseError(tree.shape + ", " + std::to_string(bodies) + " bodies: two runs of the same gave hash " +
+                               report.runs[at].hash + " and " + hash);
+        }
+        ns[at++].push_back(1e9 * seconds / double(bodies) / double(frames));
+    }
+
+    std::size_t all_runs() const { return trees.size() * choice.ways.size() * choice.threads.size(); }
+
+    void finish() {
+        const auto of = [](const std::vector<MachineLimits>& all, double MachineLimits::*figure) {
+            std::vector<double> values;
+            for (const MachineLimits& l : all) values.push_back(l.*figure);
+            return median(values);
+        };
+        const auto limits_of = [&](fast::Target simd, int threads) {
+            const std::vector<MachineLimits>& all = limits[{simd, threads}];
+            ScalingLimits l;
+            l.simd = fast::target_name(simd);
+            l.threads = threads;
+            l.read = of(all, &MachineLimits::read);
+            l.write = of(all, &MachineLimits::write);
+            l.copy = of(all, &MachineLimits::copy);
+            l.peak_float = of(all, &MachineLimits::peak_float);
+            l.peak_double = of(all, &MachineLimits::peak_double);
+            return l;
+        };
+        for (const auto& [key, all] : limits) report.limits.push_back(limits_of(key.first, key.second));
+        for (std::size_t k = 0; k < report.runs.size(); ++k) {
+            ScalingRun& run = report.runs[k];
+            run.ns = median(ns[k]);
+            run.ns_least = *std::min_element(ns[k].begin(), ns[k].end());
+            run.ns_most = *std::max_element(ns[k].begin(), ns[k].end());
+            hold_against_limits(run, report.costs[cost[k]], limits_of(target[k], run.threads), report.core_cache);
+        }
+        find_memory_slopes(report);
+    }
+};
+
+} // namespace
+
+Tree scaling_tree(const std::string& shape, std::int64_t bodies, CommonOptions& common) {
+    if (shape == "chain") {
+        constexpr double height = 20, radius = 0.2;
+        Splines pole;
+        pole.parent = {-1};
+        pole.parent_at = {0};
+        pole.level = {0};
+        pole.first_point = {0, 2};
+        pole.point = {Vec3::Zero(), Vec3(0, height, 0)};
+        pole.radius = {radius, radius};
+        pole.name = shape;
+        SegmentOptions options;
+        options.segment_length = height / (double(bodies) - 0.5); // the least number of even pieces no longer than this
+        return segment(pole, wood_presets().front(), options);
+    }
+    GrowthOptions growth;
+    growth.species = shape == "willow" ? "willow" : "apple";
+    growth.bodies = bodies;
+    growth.seed = 1;
+    const Splines splines = grow_tree(growth, {}, common);
+    const Material* wood = find_wood(splines.material);
+    return segment(splines, wood ? *wood : wood_presets().front(), {});
+}
+
+std::int64_t scaling_frames(std::int64_t bodies) {
+    return std::clamp<std::int64_t>(4000000 / bodies, 4, 240);
+}
+
+ScalingReport measure_scaling(const std::vector<ScalingTree>& trees, const ScalingChoice& choice,
+                              const std::function<void(std::int64_t, std::int64_t)>& tick) {
+    return Measurement(trees, choice, tick).run();
+}
+
+} // namespace bough
