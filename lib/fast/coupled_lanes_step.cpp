@@ -125,8 +125,13 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
 }
 
 SweepFlags operator+(const SweepFlags& a, const SweepFlags& b) {
-    return {a.fast_turns + b.fast_turns, a.half_turns + b.half_turns, a.fast || b.fast, a.finite && b.finite,
-            std::max(a.omega2, b.omega2)};
+    SweepFlags s;
+    s.fast_turns = a.fast_turns + b.fast_turns;
+    s.half_turns = a.half_turns + b.half_turns;
+    s.fast = a.fast || b.fast;
+    s.finite = a.finite && b.finite;
+    s.omega2 = std::max(a.omega2, b.omega2);
+    return s;
 }
 
 // What blocks hand to the top. A sleeper's stands until it wakes.
