@@ -280,9 +280,13 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
                   double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep) {
-    Tree tree = drawn;
-    for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
-    for (double& beta : tree.damping) beta *= scene.damping_scale;
+    Tree scaled; // a copy only where it differs
+    if (scene.stiffness_scale != 1 || scene.damping_scale != 1) {
+        scaled = drawn;
+        for (Vec3& K : scaled.stiffness) K *= scene.stiffness_scale;
+        for (double& beta : scaled.damping) beta *= scene.damping_scale;
+    }
+    const Tree& tree = scaled.size_bodies() > 0 ? scaled : drawn;
     Plan<T> plan;
     plan.bodies = tree.size_bodies();
     plan.dt = dt;
