@@ -55,10 +55,10 @@ TEST_CASE("in double, lanes and the plain step are the same to rounding") {
             const double turned = most(start, plain.state.theta);
             REQUIRE(turned > 1e-3);
             // Where the energy guard acts, its factor is a root of a difference of energies, and may keep half of the digits alone.
-            const double kept = scheme == Scheme::p34 && plain.state.flags.energy_guard > 0 ? 1e3 : 1;
-            CHECK(d.theta < kept * 1e-11);
-            CHECK(d.theta_dot < kept * 1e-10);
-            CHECK(d.x < kept * 1e-11);
+            const bool guarded = scheme == Scheme::p34 && plain.state.flags.energy_guard > 0;
+            CHECK(d.theta < (guarded ? 1e-9 : 1e-11));
+            CHECK(d.theta_dot < (guarded ? 1e-7 : 1e-10));
+            CHECK(d.x < 1e-11);
             CHECK(lanes.state.flags.fast_turns == plain.state.flags.fast_turns);
             CHECK(lanes.state.flags.half_turns == plain.state.flags.half_turns);
             CHECK(lanes.state.flags.energy_guard == plain.state.flags.energy_guard);

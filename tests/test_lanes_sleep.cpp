@@ -180,6 +180,24 @@ TEMPLATE_TEST_CASE("sleep's bits: any number of threads, a run cut anywhere", ""
     }
 }
 
+TEST_CASE("a state that slept and is started anew steps as one that did not") {
+    const Case c = damped(1e-3);
+    Run<> slept = sleeping(c), fresh = sleeping(c);
+    for (int k = 0; k < 3000 && !fast::all_asleep(slept.state); ++k) slept.steps(1);
+    REQUIRE(fast::all_asleep(slept.state));
+    present(slept.plan, slept.state);
+    fresh.state.theta = slept.state.theta;
+    fresh.state.theta_change = slept.state.theta_change;
+    fresh.state.theta_dot_change = slept.state.theta_dot_change;
+    for (Run<>* run : {&slept, &fresh}) {
+        run->state.step = 0;
+        for (Vec3& rate : run->state.theta_dot) rate = Vec3(0.1, -0.2, 0.05);
+        restart(run->plan, run->state);
+        run->steps(5);
+    }
+    CHECK(slept.hash() == fresh.hash());
+}
+
 TEST_CASE("what is no sleep of this plan's is refused") {
     const Case c = damped(1e-3);
     Run<> run = sleeping(c);

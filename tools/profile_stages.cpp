@@ -21,6 +21,7 @@ struct StagesOptions {
 
 void declare_stages(CLI::App& app, StagesOptions& o) {
     add_run_options(app, o.run, seconds_default);
+    add_sleep_option(app, o.run);
     app.add_option("--report", o.report, "Also write the figures, as JSON or (by its ending) CSV")
         ->option_text("FILE")
         ->check(file_name());

@@ -214,6 +214,14 @@ void add_simd_option(CLI::App& app, RunOptions& o) {
         ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
 }
 
+void add_sleep_option(CLI::App& app, RunOptions& o) {
+    app.add_option("--sleep", o.sleep,
+                   "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
+                   "[rad/s] for a second, until they are moved again; or off (" +
+                       (o.sleep_default > 0 ? rate_text(o.sleep_default) : "off") + ")")
+        ->option_text("RATE|off");
+}
+
 void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
     const std::string seconds_text = std::to_string(int(seconds_default));
     app.add_option("INPUT", o.input, "A tree or a scene; - for stdin");
@@ -242,11 +250,6 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
         ->option_text("NAME")
         ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
     add_simd_option(app, o);
-    app.add_option("--sleep", o.sleep,
-                   "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
-                   "[rad/s] for a second, until they are moved again; or off (" +
-                       (o.sleep_default > 0 ? rate_text(o.sleep_default) : "off") + ")")
-        ->option_text("RATE|off");
     app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
         ->option_text("RAD")
         ->check(positive_number());
@@ -312,6 +315,7 @@ double chosen_sleep(const RunOptions& o) {
     if (!rate || !(*rate > 0))
         throw UsageError("--sleep is '" + o.sleep + "', expected a rate above 0 [rad/s], or off");
     if (o.simd == "off") throw UsageError("--sleep: not with --simd off, the plain step, in which nothing sleeps");
+    if (chosen_solver(o) != Solver::coupled) throw UsageError("--sleep: only with --solver coupled");
     return *rate;
 }
 

@@ -31,6 +31,7 @@ struct RunOptions {
 void add_run_options(CLI::App&, RunOptions&, double seconds_default);
 
 void add_simd_option(CLI::App&, RunOptions&);
+void add_sleep_option(CLI::App&, RunOptions&); // with sleep_default as it stands
 
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
 std::int64_t frames_of(const RunOptions&, double seconds_default);

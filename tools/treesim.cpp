@@ -43,6 +43,7 @@ constexpr double sleep_default = 1e-5; // [rad/s]
 void declare(CLI::App& app, Options& o) {
     o.run.sleep_default = sleep_default;
     add_run_options(app, o.run, seconds_default);
+    add_sleep_option(app, o.run);
     app.add_option("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
         ->option_text("LIST");
     app.add_option("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
@@ -170,7 +171,7 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     state.step = saved.frame * o.run.substeps;
     restart(plan, state);
     try {
-        fast::restore_sleep(plan, state, saved.sleep);
+        if (plan.lanes.sleep.on) fast::restore_sleep(plan, state, saved.sleep); // else what slept goes on awake
     } catch (const std::invalid_argument& error) {
         throw InputError(input_name(o.resume), std::string("/sleep: ") + error.what());
     }

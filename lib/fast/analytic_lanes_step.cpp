@@ -8,9 +8,7 @@
 namespace bough::fast {
 namespace {
 
-// A pad goes with its parent and hands on as good as nothing. Its spring is neither soft nor stiff over any step: no kernel takes a
-// case for it that the bodies beside it do not need.
-template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
+// A pad's spring is neither soft nor stiff over any step: no kernel takes a case for it that the bodies beside it do not need.
 template <class T> constexpr T pad_rate2 = T(1e4); // [1/s^2] K over inertia
 
 template <class T> bool shorten(T* theta) {

@@ -41,9 +41,11 @@ template <class X> struct Across {
 
 template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : SweepParts<T, AnalyticRows<T>> {
     using Base = SweepParts<T, AnalyticRows<T>>;
+    using Base::about_half_turn2;
     using Base::L;
     using Base::prefetch;
     using Base::rows;
+    using Base::still_finite2;
     using Base::vector;
     using typename Base::W;
 
@@ -377,7 +379,6 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
         return keep;
     }
     static constexpr T guarded2 = T(guarded_turn) * T(guarded_turn);
-    static constexpr T about_half_turn2 = T(9.869); // a little below pi squared; the rest is seen body by body
 
     template <class X> [[gnu::noinline]] void step_joints(std::uint32_t one, std::uint32_t other, int lane) {
         using P = Registers<X>;
@@ -448,7 +449,7 @@ template <class T, bool wind, bool pulls, bool gravity> struct AnalyticSweep : S
         if (waiting != nothing)
             for (int lane = 0; lane < L; lane += width<T>) step_joints<W>(waiting, waiting, lane);
         waiting = nothing;
-        if (!(total(size) < T(1e30))) flags.finite = false;
+        if (!(total(size) < still_finite2)) flags.finite = false;
     }
 
     void out() {

@@ -234,6 +234,7 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     lanes.carried_turn = 0;
     records(lanes.outward, outward::count);
     records(lanes.inward, inward::count);
+    std::fill(lanes.inward.begin(), lanes.inward.end(), Row<T>{}); // of sleepers', which are awake now
     records(lanes.accelerated, accelerated::count);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const std::size_t slot = layout.slot[i], row = slot / Row<T>::lanes, lane = slot % Row<T>::lanes;

@@ -9,6 +9,7 @@ namespace {
 
 template <class T> struct Sweep : SweepParts<T> {
     using Parts = SweepParts<T>;
+    using Parts::about_half_turn2;
     using Parts::constants;
     using Parts::L;
     using Parts::next;
@@ -17,6 +18,7 @@ template <class T> struct Sweep : SweepParts<T> {
     using Parts::prefetch;
     using Parts::rows;
     using Parts::solved_row;
+    using Parts::still_finite2;
     using Parts::vector;
     using typename Parts::C;
     using typename Parts::W;
@@ -55,8 +57,6 @@ template <class T> struct Sweep : SweepParts<T> {
 
     // Square of the rate from which on the energy guard looks at a tree.
     W fast2() const { return all(T(watched_turn) / rows.h * (T(watched_turn) / rows.h)); }
-    // Of an angle that may be past half a turn: a little below pi squared, the rest is seen body by body.
-    static constexpr T about_half_turn2 = T(9.869);
     [[gnu::noinline]] void mark(std::uint32_t base, int lane, W rate2, SweepFlags& flags) const {
         flags.fast = true;
         for (int l = 0; l < width<T>; ++l)
@@ -399,7 +399,7 @@ template <class T> struct Sweep : SweepParts<T> {
                 if (rows.ends) {
                     // As the plain step looks at theta_dot at the start and its change: the rate at the end.
                     if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
-                    if (!(total(W(angle2 + rate2)) < T(1e30))) flags.finite = false;
+                    if (!(total(W(angle2 + rate2)) < still_finite2)) flags.finite = false;
                     if (any_above(angle2, all(about_half_turn2)))
                         turn_back(y1, flags, constants(row, lane).real(constant::mass));
                 }

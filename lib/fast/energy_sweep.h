@@ -29,9 +29,9 @@ template <class T> struct EnergyRows {
     T* records;
     T* sums; // of a group: energy::sums rows of lanes, at first_base * energy::sums
     T* fast; // a row of lanes for each row: 1 where the body turns fast
-    const T*
-        ground; // where the ground is moved, of a group: 6 rows of lanes, at first_base * 6: how far it goes in the step [m], and
-        // its acceleration [m/s^2]; null: all of it rests
+    // Where the ground is moved, of a group: 6 rows of lanes, at first_base * 6: how far it goes in the step [m], and its
+    // acceleration [m/s^2]; null: all of it rests.
+    const T* ground;
 };
 
 template <class T> using EnergySweepOf = void (*)(const CoupledRows<T>&, const EnergyRows<T>&, const Block&);

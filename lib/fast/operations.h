@@ -1,6 +1,7 @@
 // operations.h: what a step of the fast path computes, counted by running it: its kernels are compiled once more for a target
 // whose registers hold one number that counts what is done to it (wide_counted.h). Pads are counted as bodies are, since a
-// machine's registers compute them too.
+// machine's registers compute them too. What a branch leaves out for a lane is not, though a register pays for all its lanes where one needs
+// it: a lower bound there (the analytic step's eigenvectors and oscillators, fast turns).
 //
 // One operation is one addition, subtraction, multiplication, division or square root of reals. A fused multiply-add is two.
 // Not counted: comparisons, changes of sign, moves, whole numbers, and what few bodies need one by one (half turns, pulls).

@@ -8,9 +8,6 @@
 namespace bough::fast {
 namespace {
 
-// A pad goes with its parent, held by a stiffness that its inertia is nothing beside, and hands on as good as nothing.
-template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
-
 template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
     lanes.constants.assign(std::size_t(lanes.layout.rows) * constant::count, Row<T>{});
     for (std::size_t slot = 0; slot < lanes.layout.body.size(); ++slot) {
@@ -19,7 +16,7 @@ template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
         if (body < 0) {
             row.put(constant::R_pj, T(1));
             row.put(constant::inertia_joint, Matrix3<T>(pad_inertia<T> * Matrix3<T>::Identity()));
-            row.put(constant::K, Vector3<T>(Vector3<T>::Ones()));
+            row.put(constant::K, Vector3<T>(Vector3<T>::Ones())); // which its inertia is nothing beside
             continue;
         }
         const auto i = std::size_t(body);

@@ -22,9 +22,12 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
     return {};
 }
 
+// Of what this step and the last one are loaded with (coupled_lanes_step.cpp, place_pulls).
 bool changes(const Pull& pull, double time, double h) {
     const Vec3 now = pull_force(pull, time);
-    return now != pull_force(pull, time - h) || now != pull_force(pull, time + h);
+    for (const double t : {time - h, time - h / 2, time + h / 2, time + h})
+        if (now != pull_force(pull, t)) return true;
+    return false;
 }
 
 bool empty(const Block& block) {

@@ -8,7 +8,7 @@
 //             more than ten seconds of the rate since blocks sleep on it. The top sleeps when all that stands on it does, and
 //             wakes with the first of it
 //   drift     a mode of angular frequency w that is put to rest had an amplitude of at most r / w, or where a second is short
-//             beside it, 2 r / w^2 (its bodies turned by less than r for a second): 1e-5 rad at 1 rad/s with the default
+//             beside it, 2 r / w^2 (its bodies turned by less than r for a second): 1e-6 rad at 0.7 Hz with treesim's 1e-5
 //   left out  with the analytic step, and where forces never stay as they are: a wind with gusts or turbulence, moved roots
 // Decided by block from numbers that do not depend on threads, so the hash does not. What a sleeper hands inward cannot be
 // made again from theta alone: saved_sleep is what a saved state carries of it.

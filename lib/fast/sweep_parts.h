@@ -12,6 +12,10 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
     using W = Wide<T>;
     using C = Complex<W>;
     static constexpr int L = lanes<T>;
+    // Of an angle that may be past half a turn: a little below pi squared, the rest is seen body by body.
+    static constexpr T about_half_turn2 = T(9.869);
+    // Sums of squares of angles and rates above are taken for numbers that are none, or soon will be.
+    static constexpr T still_finite2 = T(1e30);
 
     const Given& rows;
 
@@ -70,7 +74,7 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         W place = larger(W(y * rows.per_metre), W{});
         W low, high;
         for (int l = 0; l < width<T>; ++l) {
-            const T at = place[l] < T(last) ? place[l] : T(last); // NaN: the last, to be found where it came from
+            const T at = place[l] < T(last) ? place[l] : T(last);
             const std::size_t k = std::size_t(at) < last ? std::size_t(at) : last - 1;
             low[l] = rows.profile[k];
             high[l] = rows.profile[k + 1];

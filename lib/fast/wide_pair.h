@@ -150,13 +150,14 @@ BOUGH_FORCE X series(const Coefficients<RealOf<X>, n>& c, const X& x) { // its f
     return sum;
 }
 
-// The power of two at or below |x|, and one over it.
+// The power of two at or below |x|, and one over it; at most the largest one whose inverse is a normal number.
 template <class X> struct Scale { X power, inverse; };
 template <class W> BOUGH_FORCE Scale<W> scale_of(const W& x) {
     using B = Bits<RealOf<W>>;
     using I = typename B::WideUnsigned;
     constexpr auto exponents = typename B::Unsigned(2 * B::bias + 1) << B::mantissa;
-    const I bits = I(x) & exponents;
+    const I found = I(x) & exponents, most = I{} + (typename B::Unsigned(2 * B::bias - 1) << B::mantissa);
+    const I bits = found > most ? most : found;
     return {W(bits), W((typename B::Unsigned(2 * B::bias) << B::mantissa) - bits)};
 }
 template <class W> BOUGH_FORCE Scale<Pair<W>> scale_of(const Pair<W>& x) {
