@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <thread>
@@ -282,6 +283,13 @@ std::vector<std::string> split_list(const std::string& text) {
     return parts;
 }
 
+bool same_file(const std::string& one, const std::string& other) {
+    std::error_code none;
+    return one == other ||
+           (one != "-" && other != "-" && !one.empty() && !other.empty() &&
+            std::filesystem::weakly_canonical(one, none) == std::filesystem::weakly_canonical(other, none));
+}
+
 std::vector<double> number_list(const std::string& option, const std::string& text, std::size_t count) {
     std::vector<double> values;
     for (const std::string& part : split_list(text)) {
@@ -290,8 +298,8 @@ std::vector<double> number_list(const std::string& option, const std::string& te
         values.push_back(*value);
     }
     if (values.size() != count || split_list(text).size() != count)
-        throw UsageError(option + " is '" + text + "', expected " + std::to_string(count) +
-                         " numbers parted by commas");
+        throw UsageError(option + " is '" + text + "', expected " +
+                         (count == 1 ? "a number" : std::to_string(count) + " numbers parted by commas"));
     return values;
 }
 

@@ -78,7 +78,8 @@ std::optional<double> unit_in_metres(const std::string& units);
 std::vector<double> number_list(const std::string& option, const std::string& text, std::size_t count);
 std::vector<std::string> split_list(const std::string& text);
 
-std::optional<double> parse_number(const std::string& text); // the whole text, finite
+std::optional<double> parse_number(const std::string& text);      // the whole text, finite
+bool same_file(const std::string& one, const std::string& other); // two names of one file; - is none
 
 // The ending of a file's name in lower case, ".glb", or "".
 std::string ending(const std::string& path);

@@ -95,7 +95,8 @@ void work(ErrorCommand& o) {
     if (o.run.joint_limit) throw UsageError("--joint-limit: the reference solution keeps no limits");
     if (o.run.solver == solver_name(Solver::articulated_reference))
         throw UsageError("--solver articulated-reference is what the others are held against");
-    if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");
+    if (!o.report.empty() && same_file(o.report, o.common.output))
+        throw UsageError("--report and -o name the same file");
     require_report(o.report);
     ErrorOptions options;
     options.steps_per_frame = chosen_steps(o.steps);

@@ -133,7 +133,8 @@ void work(ScalingCommand& o) {
     if (!o.trees.empty())
         for (const char* option : {"--bodies", "--shape"})
             if (given(option)) throw UsageError(std::string(option) + ": not with --tree, which says what there is");
-    if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");
+    if (!o.report.empty() && same_file(o.report, o.common.output))
+        throw UsageError("--report and -o name the same file");
     require_report(o.report);
     ScalingChoice choice;
     choice.ways = chosen_ways(o);

@@ -25,7 +25,8 @@ void declare(CLI::App& app, StabilityCommand& o) {
 }
 
 void work(StabilityCommand& o) {
-    if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");
+    if (!o.report.empty() && same_file(o.report, o.common.output))
+        throw UsageError("--report and -o name the same file");
     require_report(o.report);
     const Setting setting = read_setting(o.run);
     StabilityOptions options;

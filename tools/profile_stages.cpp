@@ -97,7 +97,8 @@ std::string table(const Report& r) {
 void work_stages(StagesOptions& o) {
     const std::int64_t frames = frames_of(o.run, seconds_default);
     if (frames < 3) throw UsageError("--frames: at least 3 (the start, a warm-up, and one to measure)");
-    if (!o.report.empty() && o.report == o.common.output) throw UsageError("--report and -o name the same file");
+    if (!o.report.empty() && same_file(o.report, o.common.output))
+        throw UsageError("--report and -o name the same file");
     const Setting setting = read_setting(o.run);
     Report report =
         o.run.precision == "float" ? fastest<float>(o, setting, frames) : fastest<double>(o, setting, frames);

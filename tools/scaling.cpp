@@ -124,7 +124,9 @@ private:
         const std::optional<std::size_t> before = resident();
         const bool counts_peak = before && forget_peak();
         use_threads(choice.threads.front());
-        Plan<T> plan = plan_run<T>(tree.setting, {}, way);
+        RunOptions named = way; // for what is said of the tree
+        named.input = tree.shape;
+        Plan<T> plan = plan_run<T>(tree.setting, {}, named);
         const std::size_t first = at;
         for (const int threads : choice.threads) {
             time_once(tree, way, plan, threads);

@@ -78,7 +78,7 @@ void refuse_contradictions(const Options& o) {
     if (!o.mesh.empty() && ending(o.mesh) != ".obj" && ending(o.mesh) != ".glb")
         throw UsageError("--mesh is '" + o.mesh + "', expected a name that ends in .obj or .glb");
     if (o.gltf.given() && ending(o.mesh) != ".glb") throw UsageError("--max-joints: only with --mesh FILE.glb");
-    if (!o.mesh.empty() && o.mesh == o.common.output) throw UsageError("--mesh and -o name the same file");
+    if (!o.mesh.empty() && same_file(o.mesh, o.common.output)) throw UsageError("--mesh and -o name the same file");
     if (!o.split) return;
     for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh)}) {
         if (file->empty()) continue;

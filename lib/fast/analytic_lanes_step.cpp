@@ -8,7 +8,10 @@
 namespace bough::fast {
 namespace {
 
-// A pad's spring is neither soft nor stiff over any step: no kernel takes a case for it that the bodies beside it do not need.
+// A pad, a body that is none, goes with its parent and hands on as good as nothing: an inertia [kg m^2] whose eigenvalues can be
+// found. Its spring is neither soft nor stiff over any step, so that no kernel takes a case for it that the bodies beside it do not
+// need; nothing bends it, and its motion stays 0.
+template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
 template <class T> constexpr T pad_rate2 = T(1e4); // [1/s^2] K over inertia
 
 template <class T> bool shorten(T* theta) {

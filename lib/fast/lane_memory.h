@@ -37,9 +37,6 @@ template <class T> void put(T (&to)[3], const Vec3& v) {
     for (int k = 0; k < 3; ++k) to[k] = T(v[k]);
 }
 
-// [kg m^2] of a pad, a body that is none: it goes with its parent and hands on as good as nothing.
-template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
-
 // One body's lane in rows of `count` quantities.
 template <class T> class Slot {
 public:

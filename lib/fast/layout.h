@@ -4,7 +4,7 @@
 //   chain   bodies one upon the other, all branches, or one leaf, petal or fruit. At a fork the chain goes on into the child of
 //           the highest level, of these the longest: levels are few (Strahler's order)
 //   group   as many chains side by side as a row has lanes, of one kind of body: of one level, longest first, and where these leave
-//           lanes empty, of lower levels. Its row k holds their k-th bodies; where a chain has ended, or is missing, stand bodies of no mass and no stiffness (pads)
+//           lanes empty, of lower levels. Its row k holds their k-th bodies; where a chain has ended, or is missing, stand bodies of no mass that nothing moves (pads)
 //   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; blocks are what threads
 //           share out. What remains above, the bodies that carry more than a block, is the first block, the top
 //   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for

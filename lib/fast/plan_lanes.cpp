@@ -15,8 +15,9 @@ template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
         const std::int32_t body = lanes.layout.body[slot];
         if (body < 0) {
             row.put(constant::R_pj, T(1));
-            row.put(constant::inertia_joint, Matrix3<T>(pad_inertia<T> * Matrix3<T>::Identity()));
-            row.put(constant::K, Vector3<T>(Vector3<T>::Ones())); // which its inertia is nothing beside
+            // A pad goes with its parent: no mass, no inertia, a spring never bent. What it hands on is 0, and its motion, which no
+            // saved state holds, stays 0.
+            row.put(constant::K, Vector3<T>(Vector3<T>::Ones()));
             continue;
         }
         const auto i = std::size_t(body);

@@ -8,8 +8,9 @@
 namespace bough::fast {
 namespace {
 
-constexpr double settled_time = 1;  // [s] below the rate before a block sleeps
-constexpr double carried_time = 10; // [s] of the rate that what carries sleepers may turn by
+constexpr double settled_time = 1;   // [s] below the rate before a block sleeps
+constexpr double settled_steps = 10; // and so many steps, which something at rest takes to be seen moving
+constexpr double carried_time = 10;  // [s] of the rate that what carries sleepers may turn by
 
 template <class T> std::string reason_against(const Plan<T>& plan) {
     const Scene& scene = plan.scene;
@@ -75,7 +76,7 @@ template <class T> void plan_sleep(Plan<T>& plan, double rate) {
     sleep.on = sleep.reason.empty();
     if (!sleep.on) return;
     sleep.rate = rate;
-    sleep.steps = std::uint32_t(std::ceil(settled_time / plan.dt));
+    sleep.steps = std::uint32_t(std::max(settled_steps, std::ceil(settled_time / plan.dt)));
     const Layout& layout = plan.lanes.layout;
     sleep.block_of_port.resize(layout.ports.size());
     std::vector<std::uint32_t> block_of_row(layout.rows);
@@ -191,12 +192,19 @@ template <class T> void restore_sleep(const Plan<T>& plan, State<T>& state, cons
     };
     if (lanes.rest.empty()) throw std::invalid_argument("is there, but in this run nothing sleeps");
     lanes.carried_turn = take();
+    if (!(lanes.carried_turn >= 0 && lanes.carried_turn <= carried_time * plan.lanes.sleep.rate))
+        throw std::invalid_argument("number 0 is no angle from 0 to " + std::to_string(carried_time) +
+                                    " s of this run's rate");
     for (BlockRest& rest : lanes.rest) {
         const double phase = take(), settled = take();
         if (!(phase == 0 || phase == 1 || phase == 2))
             throw std::invalid_argument("number " + std::to_string(next - 2) + " is none of 0, 1, 2");
         if (!(settled >= 0 && settled <= plan.lanes.sleep.steps && settled == std::floor(settled)))
             throw std::invalid_argument("number " + std::to_string(next - 1) + " is no count of steps up to " +
+                                        std::to_string(plan.lanes.sleep.steps));
+        if (phase != 0 && settled != plan.lanes.sleep.steps)
+            throw std::invalid_argument("number " + std::to_string(next - 1) + " is " + std::to_string(settled) +
+                                        " steps, but its block rests, which takes " +
                                         std::to_string(plan.lanes.sleep.steps));
         rest = {std::uint32_t(settled), Rest(int(phase))};
     }
@@ -206,7 +214,12 @@ template <class T> void restore_sleep(const Plan<T>& plan, State<T>& state, cons
         if (b == 0) continue;
         visit_ports(plan.lanes.sleep, layout, b, [&](std::uint32_t joint) {
             T* record = port_record(lanes, joint);
-            for (int k = 0; k < inward::count; ++k) record[k] = T(take());
+            for (int k = 0; k < inward::count; ++k) {
+                record[k] = T(take());
+                if (!std::isfinite(record[k]))
+                    throw std::invalid_argument("number " + std::to_string(next - 1) +
+                                                " is more than this precision holds");
+            }
         });
     }
     if (next != saved.size())

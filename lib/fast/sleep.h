@@ -1,6 +1,6 @@
 // sleep.h: blocks of the fast path whose motion has settled are left out of the step until something moves them again.
 //
-// A block (layout.h: a subtree, or whole trees) falls asleep when for a second each of its bodies has turned by less than
+// A block (layout.h: a subtree, or whole trees) falls asleep when for a second, and ten steps, each of its bodies has turned by less than
 // the plan's rate [rad/s], and so have the bodies above that it stands on, under forces that stay as they are. Its rates and
 // their changes are set to zero, it is swept once more, and what it hands inward (articulated inertia and force, at that
 // pose) stands from then on for the block: what carries it feels it as before. Asleep it costs nothing: no sweep, no memory.
@@ -10,6 +10,7 @@
 //   drift     a mode of angular frequency w that is put to rest had an amplitude of at most r / w, or where a second is short
 //             beside it, 2 r / w^2 (its bodies turned by less than r for a second): 1e-6 rad at 0.7 Hz with treesim's 1e-5
 //   left out  with the analytic step, and where forces never stay as they are: a wind with gusts or turbulence, moved roots
+// What stands in balance, though it would buckle once touched, sleeps as it stands.
 // Decided by block from numbers that do not depend on threads, so the hash does not. What a sleeper hands inward cannot be
 // made again from theta alone: saved_sleep is what a saved state carries of it.
 // Reads   SweepFlags::omega2, pulls. Writes Lanes::rest, flags.asleep, rates in Lanes::next of what falls asleep.

@@ -234,6 +234,16 @@ refused 1 "--sleep" treesim tree.json --frames 3 --no-output --sleep 1e-3 --solv
 refused 1 "--sleep" treeprofile error tree.json --wind gusty --sleep 1e-3
 python3 -c 'import json; d = json.load(open("asleep.json")); d["sleep"][1] = 3; json.dump(d, open("wrong.json", "w"))'
 refused 2 "/sleep" treesim tree.json --resume wrong.json --frames 40 --no-output
+# Two trees, one asleep while the other is pulled: cut anywhere, the same.
+cat >two.json <<'END'
+{"format": "bough-scene", "version": 1, "trees": [{"file": "tree.json"}, {"file": "tree.json", "position": [9, 0, 0], "yaw": 40}],
+ "pulls": [{"on": {"tree": 0, "body": 3}, "time": [1.8, 2.2, 2.4], "force": [[0, 0, 0], [300, 0, 0], [0, 0, 0]]}]}
+END
+one=$(hash two.json --frames 80 --no-output)
+for cut in 10 34 50 55 70; do
+    treesim two.json --frames $cut --no-output --save-state cut.safetensors -q
+    [[ $(hash two.json --resume cut.safetensors --frames $((80 - cut)) --no-output) == "$one" ]] || fail "two trees, asleep and not, cut at $cut"
+done
 # A pull that comes and goes within one step is felt by sleepers too: the step is loaded with its middle.
 cat >blip.json <<'END'
 {"format": "bough-scene", "version": 1, "trees": [{"file": "tree.json"}],
