@@ -4,7 +4,7 @@
 
 namespace bough {
 
-// Brings theta, theta_dot, their changes, poses, the ground and what the plan's wishes add (velocities, torques) to the state's present
+// Brings theta, theta_dot, what the solver carries besides, poses, the ground and what the plan's wishes add (velocities, torques) to the state's present
 // step. Nothing to do where the plan has no lanes, or they are. O(n).
 template <class T> void present(const Plan<T>&, State<T>&);
 

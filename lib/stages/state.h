@@ -84,7 +84,7 @@ template <class T> struct State {
     std::vector<GroundStep<T>> coupled_ground;
 
     // The fast path's rows, where the plan has lanes: then these are the state proper, and the arrays above are brought up to date when
-    // they are read (fast/coupled_lanes_step.h, present).
+    // they are read (fast/present.h).
     fast::Lanes<T> lanes;
 
     // articulated solvers: a pass each, or as many as rows of the extrapolation
