@@ -191,7 +191,7 @@ TEST_CASE("a state that slept and is started anew steps as one that did not") {
     fresh.state.theta_dot_change = slept.state.theta_dot_change;
     for (Run<>* run : {&slept, &fresh}) {
         run->state.step = 0;
-        for (Vec3& rate : run->state.theta_dot) rate = Vec3(0.1, -0.2, 0.05);
+        for (Vec3& theta_dot : run->state.theta_dot) theta_dot = Vec3(0.1, -0.2, 0.05);
         restart(run->plan, run->state);
         run->steps(5);
     }
