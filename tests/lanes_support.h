@@ -175,4 +175,59 @@ template <class T> Apart run_apart(Run<T>& a, Run<T>& b, int frames) {
     return d;
 }
 
+// In float the lanes stay within twice of what the plain step's float is off by: bodies' places against the plain step in double,
+// RMS and the most over `frames`.
+inline void check_float_drift(const Case& c, int frames) {
+    Run<> plain(c, std::nullopt);
+    Run<float> plain_float(c, std::nullopt), lanes_float(c, fast::best_target());
+    double plain_off = 0, lanes_off = 0, plain_worst = 0, lanes_worst = 0;
+    const auto off = [](const std::vector<Vector3<float>>& a, const std::vector<Vec3>& b, double& worst) {
+        double sum = 0;
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            const double d = (a[i].cast<double>() - b[i]).squaredNorm();
+            sum += d;
+            worst = std::max(worst, std::sqrt(d));
+        }
+        return sum / double(b.size());
+    };
+    // The lanes' float against the lanes' double, which is the plain one's to rounding.
+    Run<> lanes_double(c, fast::best_target());
+    for (int k = 0; k < frames; ++k) {
+        plain.frame();
+        lanes_double.frame();
+        plain_float.frame();
+        lanes_float.frame();
+        plain_off += off(plain_float.state.x_w, plain.state.x_w, plain_worst) / frames;
+        lanes_off += off(lanes_float.state.x_w, lanes_double.state.x_w, lanes_worst) / frames;
+    }
+    CAPTURE(c.name);
+    CHECK(std::sqrt(lanes_off) < 2 * std::sqrt(plain_off));
+    CHECK(lanes_worst < 2 * plain_worst);
+}
+
+// The wider two targets are compiled from the same source with the same fused operations.
+inline void check_same_bits(const Case& c) {
+    Run<> half(c, Target::avx2), full(c, Target::avx512);
+    Run<float> half_float(c, Target::avx2), full_float(c, Target::avx512);
+    half.steps(30), full.steps(30), half_float.steps(30), full_float.steps(30);
+    CAPTURE(c.name);
+    CHECK(half.hash() == full.hash());
+    CHECK(half_float.hash() == full_float.hash());
+}
+
+// Every target against the baseline. most_in_float: [m] of the bodies' places.
+inline void check_targets_agree(const Case& c, double most_in_float) {
+    for (const Target target : targets()) {
+        if (target == Target::baseline) continue;
+        Run<> one(c, Target::baseline), other(c, target);
+        Run<float> one_float(c, Target::baseline), other_float(c, target);
+        const Apart d = run_apart(one, other, 60), f = run_apart(one_float, other_float, 60);
+        CAPTURE(c.name, fast::target_name(target));
+        CHECK(d.theta < 1e-11);
+        CHECK(d.theta_dot < 1e-10);
+        CHECK(d.x < 1e-11);
+        CHECK(f.x < most_in_float);
+    }
+}
+
 } // namespace lanes

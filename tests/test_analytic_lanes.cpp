@@ -54,6 +54,7 @@ std::vector<Case> cases() {
     }
     all.push_back({"three-valued K, skew bodies", three, pulled(in_wind(gusts()))});
     all.push_back({"several blocks", firm(grown(3000)), in_wind(gusts())});
+    for (Case& c : all) c.solver = Solver::analytic;
     return all;
 }
 
@@ -100,33 +101,14 @@ TEST_CASE("velocities and torques that were asked for are the plain analytic ste
 }
 
 TEST_CASE("analytic lanes come to the same on all targets") {
-    for (const Case& c : cases()) {
-        if (c.tree.size_bodies() > 1000) continue;
-        for (const Target target : targets()) {
-            if (target == Target::baseline) continue;
-            AnalyticRun<> one(c, Target::baseline), other(c, target);
-            AnalyticRun<float> one_float(c, Target::baseline), other_float(c, target);
-            const Apart d = run_apart(one, other, 60), f = run_apart(one_float, other_float, 60);
-            CAPTURE(c.name, fast::target_name(target));
-            CHECK(d.theta < 1e-11);
-            CHECK(d.theta_dot < 1e-10);
-            CHECK(d.x < 1e-11);
-            CHECK(f.x < 1e-4);
-        }
-    }
+    for (const Case& c : cases())
+        if (c.tree.size_bodies() <= 1000) check_targets_agree(c, 1e-4);
 }
 
 TEST_CASE("AVX2 and AVX-512 give the same bits of the analytic step") {
     if (!fast::available(Target::avx512)) return;
-    for (const Case& c : cases()) {
-        if (c.tree.size_bodies() > 1000) continue;
-        AnalyticRun<> half(c, Target::avx2), full(c, Target::avx512);
-        AnalyticRun<float> half_float(c, Target::avx2), full_float(c, Target::avx512);
-        half.steps(30), full.steps(30), half_float.steps(30), full_float.steps(30);
-        CAPTURE(c.name);
-        CHECK(half.hash() == full.hash());
-        CHECK(half_float.hash() == full_float.hash());
-    }
+    for (const Case& c : cases())
+        if (c.tree.size_bodies() <= 1000) check_same_bits(c);
 }
 
 // Wood too soft for its weight and for the wind, thrown about: each guard has work.
@@ -169,33 +151,8 @@ TEST_CASE("what is too stiff for a number is bounded in lanes as often as on the
 }
 
 TEST_CASE("float analytic lanes stay as near to double as the plain step's float does") {
-    constexpr int frames = 300;
-    for (const Case& c : cases()) {
-        if (c.tree.size_bodies() > 1000) continue;
-        AnalyticRun<> plain(c, std::nullopt), lanes(c, fast::best_target());
-        AnalyticRun<float> plain_float(c, std::nullopt), lanes_float(c, fast::best_target());
-        double plain_off = 0, lanes_off = 0, plain_worst = 0, lanes_worst = 0;
-        const auto off = [](const std::vector<Vector3<float>>& a, const std::vector<Vec3>& b, double& worst) {
-            double sum = 0;
-            for (std::size_t i = 0; i < b.size(); ++i) {
-                const double d = (a[i].cast<double>() - b[i]).squaredNorm();
-                sum += d;
-                worst = std::max(worst, std::sqrt(d));
-            }
-            return sum / double(b.size());
-        };
-        for (int k = 0; k < frames; ++k) {
-            plain.frame();
-            lanes.frame();
-            plain_float.frame();
-            lanes_float.frame();
-            plain_off += off(plain_float.state.x_w, plain.state.x_w, plain_worst) / frames;
-            lanes_off += off(lanes_float.state.x_w, lanes.state.x_w, lanes_worst) / frames;
-        }
-        CAPTURE(c.name);
-        CHECK(std::sqrt(lanes_off) < 2 * std::sqrt(plain_off));
-        CHECK(lanes_worst < 2 * plain_worst);
-    }
+    for (const Case& c : cases())
+        if (c.tree.size_bodies() <= 1000) check_float_drift(c, 300);
 }
 
 TEST_CASE("what analytic lanes do not hold is refused with its reason and steps on the plain path") {

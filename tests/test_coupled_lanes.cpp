@@ -91,34 +91,14 @@ TEST_CASE("velocities and torques that were asked for are the plain step's") {
 }
 
 TEST_CASE("all targets come to the same") {
-    for (const Case& c : cases()) {
-        if (c.tree.size_bodies() > 1000) continue;
-        for (const Target target : targets()) {
-            if (target == Target::baseline) continue;
-            Run<> one(c, Target::baseline), other(c, target);
-            Run<float> one_float(c, Target::baseline), other_float(c, target);
-            const Apart d = run_apart(one, other, 60), f = run_apart(one_float, other_float, 60);
-            CAPTURE(c.name, fast::target_name(target));
-            CHECK(d.theta < 1e-11);
-            CHECK(d.theta_dot < 1e-10);
-            CHECK(d.x < 1e-11);
-            CHECK(f.x < 1e-5); // measured: 2e-6
-        }
-    }
+    for (const Case& c : cases())
+        if (c.tree.size_bodies() <= 1000) check_targets_agree(c, 1e-5); // measured: 2e-6
 }
 
-// The wider two are compiled from the same source with the same fused operations.
 TEST_CASE("AVX2 and AVX-512 give the same bits") {
     if (!fast::available(Target::avx512)) return;
-    for (const Case& c : cases()) {
-        if (c.tree.size_bodies() > 1000) continue;
-        Run<> half(c, Target::avx2), full(c, Target::avx512);
-        Run<float> half_float(c, Target::avx2), full_float(c, Target::avx512);
-        half.steps(30), full.steps(30), half_float.steps(30), full_float.steps(30);
-        CAPTURE(c.name);
-        CHECK(half.hash() == full.hash());
-        CHECK(half_float.hash() == full_float.hash());
-    }
+    for (const Case& c : cases())
+        if (c.tree.size_bodies() <= 1000) check_same_bits(c);
 }
 
 TEST_CASE("the energy guard takes in lanes what it takes on the plain path") {
@@ -136,33 +116,8 @@ TEST_CASE("the energy guard takes in lanes what it takes on the plain path") {
 }
 
 TEST_CASE("float lanes stay as near to double as the plain step's float does") {
-    constexpr int frames = 300;
-    for (const Case& c : cases()) {
-        if (c.tree.size_bodies() > 1000) continue;
-        Run<> plain(c, std::nullopt), lanes(c, fast::best_target());
-        Run<float> plain_float(c, std::nullopt), lanes_float(c, fast::best_target());
-        double plain_off = 0, lanes_off = 0, plain_worst = 0, lanes_worst = 0;
-        const auto off = [](const std::vector<Vector3<float>>& a, const std::vector<Vec3>& b, double& worst) {
-            double sum = 0;
-            for (std::size_t i = 0; i < b.size(); ++i) {
-                const double d = (a[i].cast<double>() - b[i]).squaredNorm();
-                sum += d;
-                worst = std::max(worst, std::sqrt(d));
-            }
-            return sum / double(b.size());
-        };
-        for (int k = 0; k < frames; ++k) {
-            plain.frame();
-            lanes.frame();
-            plain_float.frame();
-            lanes_float.frame();
-            plain_off += off(plain_float.state.x_w, plain.state.x_w, plain_worst) / frames;
-            lanes_off += off(lanes_float.state.x_w, lanes.state.x_w, lanes_worst) / frames;
-        }
-        CAPTURE(c.name);
-        CHECK(std::sqrt(lanes_off) < 2 * std::sqrt(plain_off));
-        CHECK(lanes_worst < 2 * plain_worst);
-    }
+    for (const Case& c : cases())
+        if (c.tree.size_bodies() <= 1000) check_float_drift(c, 300);
 }
 
 TEST_CASE("what lanes do not hold is refused with its reason and steps on the plain path") {

@@ -281,6 +281,9 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
     const MotionFields fields = chosen_fields(o);
     const Plan<T> plan = plan_run<T>(setting, {fields.velocity, fields.torque}, o.run);
     if (o.explain) std::cerr << explanation(plan, o.run);
+    if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
+        o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
+                                 (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
     State<T> state = make_state(plan);
     std::int64_t first = 0, last = frames_of(o.run, seconds_default) - 1;
     if (!o.resume.empty()) {

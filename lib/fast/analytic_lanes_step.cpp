@@ -1,7 +1,5 @@
 #include "analytic_lanes_step.h"
-#include "../stages/external_forces.h"
-#include "../stages/wind.h"
-#include "lane_memory.h"
+#include "lane_tables.h"
 #include "targets.h"
 #include <algorithm>
 
@@ -26,45 +24,11 @@ template <class T> int record_inward(const Plan<T>& plan) {
 }
 
 template <class T> AnalyticRows<T> rows_of(const Plan<T>& plan, State<T>& state) {
-    Lanes<T>& lanes = state.lanes;
-    const Layout& layout = plan.lanes.layout;
-    const double middle = (double(state.step) + 0.5) * plan.dt;
     AnalyticRows<T> rows{};
-    rows.groups = layout.groups.data();
-    rows.base = layout.base.data();
-    rows.landing = layout.landing.data();
-    rows.fork = layout.fork.data();
-    rows.fork_of_row = layout.fork_of_row.data();
-    rows.constants = plan.lanes.constants.front().lane;
-    rows.motion = data(lanes.now);
-    rows.outward_records = data(lanes.outward);
-    rows.inward_records = data(lanes.inward);
-    rows.h = T(plan.dt);
-    put(rows.gravity, plan.scene.gravity);
-    if (plan.wind) {
-        put(rows.wind, wind_velocity(*plan.scene.wind, middle));
-        rows.profile = plan.lanes.profile.data();
-        rows.profile_entries = plan.lanes.profile.size();
-        rows.per_metre = plan.lanes.per_metre;
-    }
+    place_tables<T>(plan, state, (double(state.step) + 0.5) * plan.dt, rows);
+    rows.motion = data(state.lanes.now);
     rows.shorten = shorten<T>;
-    if (lanes.pulls.empty()) return rows;
-    rows.pull_of_row = plan.lanes.pull_of_row.data();
-    rows.pulls = lanes.pulls.data();
-    rows.pull_count = lanes.pulls.size();
-    for (std::size_t k = 0; k < lanes.pulls.size(); ++k)
-        put(lanes.pulls[k].force, pull_force(plan.scene.pulls[plan.pulls[plan.lanes.pull[k]].source], middle));
     return rows;
-}
-
-SweepFlags sum(const SweepFlags& a, const SweepFlags& b) {
-    SweepFlags s;
-    s.half_turns = a.half_turns + b.half_turns;
-    s.buckling = a.buckling + b.buckling;
-    s.bounded_lambda = a.bounded_lambda + b.bounded_lambda;
-    s.energy_guard = a.energy_guard + b.energy_guard;
-    s.finite = a.finite && b.finite;
-    return s;
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const AnalyticRows<T>& rows) {
@@ -72,37 +36,23 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         analytic_sweeps_for<T>(plan.target, {plan.wind, !plan.pulls.empty(), plan.gravity});
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
-    std::size_t most = 0;
-    for (std::size_t b = 1; b < blocks.size(); ++b)
-        most = std::max(most, std::size_t(blocks[b].end_row - blocks[b].first_row));
-    const auto threads = std::size_t(most_threads());
-    if (lanes.scratch.size() < threads + 1) lanes.scratch.resize(threads + 1);
-    const auto room = [](RowVector<T>& scratch, std::size_t rows_of_block) {
-        const std::size_t size = rows_of_block * analytic::loaded::count;
-        if (scratch.size() < size) scratch.resize(size);
-        return data(scratch);
-    };
+    const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
+    constexpr std::size_t count = analytic::loaded::count; // a row
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
-    T* top_scratch = room(lanes.scratch[threads], blocks[0].end_row - blocks[0].first_row);
+    T* top_scratch = room(lanes.scratch[threads], (blocks[0].end_row - blocks[0].first_row) * count);
     sweeps.outward(rows, blocks[0], top_scratch, flags[0]);
     const auto n = std::int64_t(blocks.size());
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
     for (std::int64_t b = 1; b < n; ++b) {
-        T* scratch = room(lanes.scratch[std::size_t(this_thread())], most);
+        T* scratch = room(lanes.scratch[std::size_t(this_thread())], most * count);
         sweeps.outward(rows, blocks[std::size_t(b)], scratch, flags[std::size_t(b)]);
         sweeps.inward(rows, blocks[std::size_t(b)], scratch, flags[std::size_t(b)]);
     }
-    const int count = record_inward(plan);
-    for (const Port& port : plan.lanes.layout.ports)
-        for (int k = 0; k < count; ++k) {
-            T& part = entry(lanes.inward, port.joint, count, k);
-            entry(lanes.inward, port.fork, count, k) += part;
-            part = 0;
-        }
+    add_ports(plan, state, record_inward(plan));
     sweeps.inward(rows, blocks[0], top_scratch, flags[0]);
     SweepFlags met;
-    for (const SweepFlags& f : flags) met = sum(met, f);
+    for (const SweepFlags& f : flags) met += f;
     return met;
 }
 
@@ -123,15 +73,8 @@ template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lane
             continue;
         }
         const auto i = std::size_t(body);
-        const Eigen::Quaternion<double> q(Mat3(plan.R_pj[i].template cast<double>()));
-        row.put(analytic::constant::R_pj, T(q.w()));
-        row.put(analytic::constant::R_pj + 1, Vector3<T>(q.vec().template cast<T>()));
-        row.put(analytic::constant::joint_position, plan.joint_position[i]);
-        row.put(analytic::constant::com, plan.com[i]);
-        row.put(analytic::constant::mass, plan.mass[i]);
+        put_body(plan, i, row);
         row.put(analytic::constant::inertia_joint, plan.inertia_joint[i]);
-        row.put(analytic::constant::K, plan.K[i]);
-        row.put(analytic::constant::beta, plan.beta[i]);
         row.put(analytic::constant::bend, plan.inertia_factor[i][0]); // x and y alike (plan.cpp)
         row.put(analytic::constant::twist, plan.inertia_factor[i][2]);
         if (plan.gravity) row.put(analytic::constant::gravity_row, plan.gravity_row[i]);
@@ -148,11 +91,8 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
     lanes.now.resize(std::size_t(layout.rows) * analytic::motion::count);
-    const auto records = [&](RowVector<T>& rows, int count) {
-        rows.resize(layout.joints * record(count, Row<T>::lanes) / Row<T>::lanes);
-    };
-    records(lanes.outward, analytic::outward::count);
-    records(lanes.inward, record_inward(plan));
+    resize_records(layout, lanes.outward, analytic::outward::count);
+    resize_records(layout, lanes.inward, record_inward(plan));
     for (int k = 0; k < 3; ++k)
         entry(lanes.outward, 0, analytic::outward::count, analytic::outward::R_bw + 4 * k) = 1; // the ground
     for (std::size_t i = 0; i < plan.bodies; ++i) {
@@ -161,13 +101,7 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
         row.put(analytic::motion::theta_dot, state.theta_dot[i]);
         row.put(analytic::motion::scaled_rate, state.scaled_rate[i]);
     }
-    lanes.pulls.clear();
-    for (std::size_t k : plan.lanes.pull) {
-        const std::size_t slot = layout.slot[plan.pulls[k].body];
-        PullOnLane<T> pull{std::uint32_t(slot / Row<T>::lanes), std::uint32_t(slot % Row<T>::lanes), {}, {}, {}};
-        for (int j = 0; j < 3; ++j) pull.point[j] = plan.pulls[k].point_b[j];
-        lanes.pulls.push_back(pull);
-    }
+    pack_pulls(plan, state);
     lanes.presented = true;
 }
 

@@ -1,10 +1,10 @@
-// analytic_rows.h: what the analytic step's sweeps over lanes (analytic_sweeps.h) read and write, as plain memory: which quantity
-// stands where in a row, and all that a sweep is given. No SIMD type here, so that every target sees the same.
+// analytic_rows.h: what the analytic step's sweeps over lanes (analytic_sweeps.h) read and write: which quantity stands
+// where in a row, and all that a sweep is given (sweep_rows.h).
 //
 // Everything of a body is in the axes of that body, its composite too: what goes inward is turned once into the parent's axes, and
 // no body's inertia ever into the world's and back, as the plain step does (composite.h).
 #pragma once
-#include "coupled_rows.h"
+#include "sweep_rows.h"
 
 namespace bough::fast::analytic {
 
@@ -15,15 +15,9 @@ enum : int { theta = 0, theta_dot = 3, scaled_rate = 6, count = 9 };
 
 // Constants of a body.
 namespace constant {
+using namespace body_constant;
 enum : int {
-    R_pj = 0,           // quaternion w x y z: parent's body frame from joint frame
-    joint_position = 4, // [m] parent's body frame
-    com = 7,            // [m]
-    mass = 10,          // [kg]
-    inertia_joint = 11, // [kg m^2] xx xy xz yy yz zz
-    K = 17,             // [N m/rad]
-    beta = 20,          // [s]
-    bend = 21,          // [1] square roots of the factors of inertia (joint.h): across the branch, and about it
+    bend = shared_count, // [1] square roots of the factors of inertia (joint.h): across the branch, and about it
     twist = 22,
     gravity_row = 23, // [N m]
     still_count = 24, // without wind these are all
@@ -34,7 +28,7 @@ enum : int {
     drag_area = 28, // [kg/m]
     count = 29
 };
-}
+} // namespace constant
 constexpr int constants(bool wind) {
     return wind ? int(constant::count) : int(constant::still_count);
 }
@@ -96,24 +90,8 @@ constexpr int inward_count(bool wind, bool pulls) {
 
 namespace bough::fast {
 
-template <class T> struct AnalyticRows {
-    const Group* groups; // the layout's
-    const std::uint32_t *base, *landing, *fork;
-    const std::int32_t* fork_of_row;
-
-    const T* constants;
+template <class T> struct AnalyticRows : SweepRows<T> {
     T* motion;
-    T *outward_records, *inward_records;
-    const std::int32_t* pull_of_row; // first in pulls, -1: none; null: no pulls at all
-    const PullOnLane<T>* pulls;      // rising by row
-    std::size_t pull_count;
-
-    T h;              // [s]
-    T gravity[3];     // [m/s^2]
-    T wind[3];        // [m/s] where the profile is 1, at the step's middle
-    const T* profile; // [1] factors over height
-    std::size_t profile_entries;
-    T per_metre;
     bool (*shorten)(T* theta); // shorten_rotation (math.h) for one body
 };
 

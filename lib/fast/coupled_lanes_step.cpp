@@ -7,7 +7,7 @@
 #include "../stages/state_update.h"
 #include "analytic_lanes_step.h"
 #include "energy_lanes.h"
-#include "lane_memory.h"
+#include "lane_tables.h"
 #include "present.h"
 #include "sleep.h"
 #include "step_bytes.h"
@@ -64,16 +64,6 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state, doub
     }
 }
 
-template <class T> void place_pulls(const Plan<T>& plan, State<T>& state, double time) {
-    for (std::size_t k = 0; k < state.lanes.pulls.size(); ++k) {
-        const PlannedPull<T>& planned = plan.pulls[plan.lanes.pull[k]];
-        const Pull& source = plan.scene.pulls[planned.source];
-        PullOnLane<T>& pull = state.lanes.pulls[k];
-        put(pull.force, pull_force(source, time + plan.dt / 2));
-        put(pull.change, pull_force(source, time + plan.dt) - pull_force(source, time));
-    }
-}
-
 // For the solve of the scheme's pole k.
 template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, double time, int k) {
     Lanes<T>& lanes = state.lanes;
@@ -82,26 +72,15 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     const double h = plan.dt;
     const std::complex<double> slope = 1.0 / pole.p - 0.5;
     CoupledRows<T> rows{};
-    rows.groups = layout.groups.data();
-    rows.base = layout.base.data();
-    rows.landing = layout.landing.data();
-    rows.fork = layout.fork.data();
-    rows.fork_of_row = layout.fork_of_row.data();
-    rows.constants = plan.lanes.constants.front().lane;
+    place_tables<T>(plan, state, time + h / 2, rows);
     rows.now = data(lanes.now);
     rows.next = data(lanes.next);
     rows.solved_rows = data(lanes.solved);
-    rows.outward_records = data(lanes.outward);
-    rows.inward_records = data(lanes.inward);
     rows.accelerated_records = data(lanes.accelerated);
-    rows.pull_of_row = plan.lanes.pull_of_row.empty() ? nullptr : plan.lanes.pull_of_row.data();
-    rows.pulls = lanes.pulls.empty() ? nullptr : lanes.pulls.data();
-    rows.pull_count = lanes.pulls.size();
     rows.watched = lanes.watched.data();
     rows.stream = streams(layout);
     rows.adds = k > 0;
     rows.ends = k + 1 == scheme_of(plan.scheme).poles;
-    rows.h = T(h);
     put(rows.s1, h / pole.p);
     put(rows.s2, h / pole.p * h / pole.p);
     put(rows.slope, slope);
@@ -109,63 +88,28 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     put(rows.of_rate, -2 * h * pole.c / pole.p);
     put(rows.of_angle, -2 * h * h * pole.c / (pole.p * pole.p));
     rows.eta = T((-2 * h * pole.c / pole.p).real());
-    put(rows.gravity, plan.scene.gravity);
-    if (plan.wind) {
-        const Wind& wind = *plan.scene.wind;
-        put(rows.wind, wind_velocity(wind, time + h / 2));
-        put(rows.wind_change, wind_velocity(wind, time + h) - wind_velocity(wind, time));
-        rows.profile = plan.lanes.profile.data();
-        rows.profile_entries = plan.lanes.profile.size();
-        rows.per_metre = plan.lanes.per_metre;
+    if (plan.wind)
+        put(rows.wind_change, wind_velocity(*plan.scene.wind, time + h) - wind_velocity(*plan.scene.wind, time));
+    for (std::size_t n = 0; n < lanes.pulls.size(); ++n) {
+        const Pull& pull = plan.scene.pulls[plan.pulls[plan.lanes.pull[n]].source];
+        put(lanes.pulls[n].change, pull_force(pull, time + h) - pull_force(pull, time));
     }
     rows.shorten = shorten<T>;
     place_grounds(plan, state, time, slope);
-    place_pulls(plan, state, time);
     return rows;
-}
-
-SweepFlags operator+(const SweepFlags& a, const SweepFlags& b) {
-    SweepFlags s;
-    s.fast_turns = a.fast_turns + b.fast_turns;
-    s.half_turns = a.half_turns + b.half_turns;
-    s.fast = a.fast || b.fast;
-    s.finite = a.finite && b.finite;
-    s.omega2 = std::max(a.omega2, b.omega2);
-    return s;
-}
-
-// What blocks hand to the top. A sleeper's stands until it wakes.
-template <class T> void add_ports(const Plan<T>& plan, State<T>& state) {
-    const std::vector<Port>& ports = plan.lanes.layout.ports;
-    for (std::size_t p = 0; p < ports.size(); ++p) {
-        const bool stands = plan.lanes.sleep.on && rest_of(state, plan.lanes.sleep.block_of_port[p]) != Rest::awake;
-        for (int k = 0; k < inward::count; ++k) {
-            T& part = entry(state.lanes.inward, ports[p].joint, inward::count, k);
-            entry(state.lanes.inward, ports[p].fork, inward::count, k) += part;
-            if (!stands) part = 0;
-        }
-    }
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
     const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(plan.target, plan.wind, plan.gravity);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
-    std::size_t most = 0;
-    for (std::size_t b = 1; b < blocks.size(); ++b)
-        most = std::max(most, std::size_t(blocks[b].end_row - blocks[b].first_row));
-    const auto threads = std::size_t(most_threads());
-    if (lanes.scratch.size() < threads + 1) lanes.scratch.resize(threads + 1);
-    const auto room = [](RowVector<T>& scratch, std::size_t rows_of_block) {
-        const std::size_t size = rows_of_block * (std::size_t(loaded::count) + solved::count);
-        if (scratch.size() < size) scratch.resize(size);
-        return data(scratch);
-    };
+    const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
+    constexpr std::size_t count = std::size_t(loaded::count) + solved::count; // a row
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
     SweepFlags& top = flags[0];
     const Rest rest_of_top = rest_of(state, 0);
-    T* top_scratch = room(lanes.scratch[threads], blocks[0].end_row - blocks[0].first_row);
+    T* top_scratch = room(lanes.scratch[threads], (blocks[0].end_row - blocks[0].first_row) * count);
     if (rest_of_top == Rest::awake) sweeps.outward(rows, blocks[0], top_scratch, top);
     if (rest_of_top == Rest::settling) keep_motion(state, blocks[0]);
     const auto n = std::int64_t(blocks.size());
@@ -176,7 +120,7 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         if (rest == Rest::settling) keep_motion(state, block);
         if (rest == Rest::asleep || (rest == Rest::settling && block.whole)) continue;
         SweepFlags& met = flags[std::size_t(b)];
-        T* scratch = room(lanes.scratch[std::size_t(this_thread())], most);
+        T* scratch = room(lanes.scratch[std::size_t(this_thread())], most * count);
         CoupledRows<T> mine = rows;
         if (block.whole) { // nothing to wait for: what is solved stays in the cache
             mine.solved_rows = scratch + most * std::size_t(loaded::count) * Row<T>::lanes;
@@ -188,7 +132,7 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         if (block.whole) sweeps.accelerate(mine, block, met);
     }
     if (rest_of_top == Rest::awake) {
-        add_ports(plan, state);
+        add_ports(plan, state, inward::count);
         sweeps.inward(rows, blocks[0], top_scratch);
         sweeps.accelerate(rows, blocks[0], top);
     }
@@ -197,24 +141,17 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         if (!blocks[std::size_t(b)].whole && rest_of(state, std::size_t(b)) == Rest::awake)
             sweeps.accelerate(rows, blocks[std::size_t(b)], flags[std::size_t(b)]);
     SweepFlags all;
-    for (const SweepFlags& f : flags) all = all + f;
+    for (const SweepFlags& f : flags) all += f;
     return all;
 }
 
 template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
-    const Layout& layout = plan.lanes.layout;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const std::size_t slot = layout.slot[i], row = slot / Row<T>::lanes, lane = slot % Row<T>::lanes;
-        const auto get = [&](int quantity) {
-            Vector3<T> v;
-            for (int k = 0; k < 3; ++k)
-                v[k] = state.lanes.now[row * motion::count + std::size_t(quantity + k)].lane[lane];
-            return v;
-        };
-        state.theta[i] = get(motion::theta);
-        state.theta_dot[i] = get(motion::theta_dot);
-        state.theta_change[i] = get(motion::theta_change);
-        state.theta_dot_change[i] = get(motion::theta_dot_change);
+        const Slot<T> row(state.lanes.now, motion::count, plan.lanes.layout.slot[i]);
+        state.theta[i] = row.vector(motion::theta);
+        state.theta_dot[i] = row.vector(motion::theta_dot);
+        state.theta_change[i] = row.vector(motion::theta_change);
+        state.theta_dot_change[i] = row.vector(motion::theta_dot_change);
     }
 }
 
@@ -226,33 +163,21 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     lanes.now.resize(std::size_t(layout.rows) * motion::count);
     lanes.next.resize(lanes.now.size());
     if (waits(layout)) lanes.solved.resize(std::size_t(layout.rows) * solved::count);
-    const auto records = [&](RowVector<T>& rows, int count) {
-        rows.resize(layout.joints * record(count, Row<T>::lanes) / Row<T>::lanes);
-    };
     lanes.watched.assign(layout.base.size(), 0);
     if (plan.lanes.sleep.on) lanes.rest.assign(layout.blocks.size(), BlockRest{});
     lanes.carried_turn = 0;
-    records(lanes.outward, outward::count);
-    records(lanes.inward, inward::count);
+    resize_records(layout, lanes.outward, outward::count);
+    resize_records(layout, lanes.inward, inward::count);
     std::fill(lanes.inward.begin(), lanes.inward.end(), Row<T>{}); // of sleepers', which are awake now
-    records(lanes.accelerated, accelerated::count);
+    resize_records(layout, lanes.accelerated, accelerated::count);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const std::size_t slot = layout.slot[i], row = slot / Row<T>::lanes, lane = slot % Row<T>::lanes;
-        const auto set = [&](int quantity, const Vector3<T>& v) {
-            for (int k = 0; k < 3; ++k) lanes.now[row * motion::count + std::size_t(quantity + k)].lane[lane] = v[k];
-        };
-        set(motion::theta, state.theta[i]);
-        set(motion::theta_dot, state.theta_dot[i]);
-        set(motion::theta_change, state.theta_change[i]);
-        set(motion::theta_dot_change, state.theta_dot_change[i]);
+        const Slot<T> row(lanes.now, motion::count, layout.slot[i]);
+        row.put(motion::theta, state.theta[i]);
+        row.put(motion::theta_dot, state.theta_dot[i]);
+        row.put(motion::theta_change, state.theta_change[i]);
+        row.put(motion::theta_dot_change, state.theta_dot_change[i]);
     }
-    lanes.pulls.clear();
-    for (std::size_t k : plan.lanes.pull) {
-        const std::size_t slot = layout.slot[plan.pulls[k].body];
-        PullOnLane<T> pull{std::uint32_t(slot / Row<T>::lanes), std::uint32_t(slot % Row<T>::lanes), {}, {}, {}};
-        for (int j = 0; j < 3; ++j) pull.point[j] = plan.pulls[k].point_b[j];
-        lanes.pulls.push_back(pull);
-    }
+    pack_pulls(plan, state);
     lanes.presented = true;
 }
 

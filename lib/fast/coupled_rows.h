@@ -1,11 +1,7 @@
-// coupled_rows.h: what the coupled step's sweeps over lanes (coupled_sweeps.h) read and write, as plain memory: which
-// quantity stands where in a row, and all that a sweep is given. No SIMD type here, so that every target sees the same.
-//
-// A row of a table is `count` quantities of 64 bytes each. Quantities as in coupled_body.h, where the frame of each is said.
+// coupled_rows.h: what the coupled step's sweeps over lanes (coupled_sweeps.h) read and write: which quantity stands where in a row,
+// and all that a sweep is given (sweep_rows.h). Quantities as in coupled_body.h, where the frame of each is said.
 #pragma once
-#include "block.h"
-#include <cstddef>
-#include <cstdint>
+#include "sweep_rows.h"
 
 namespace bough::fast {
 
@@ -16,19 +12,13 @@ enum : int { theta = 0, theta_dot = 3, theta_change = 6, theta_dot_change = 9, c
 
 // Constants of a body.
 namespace constant {
+using namespace body_constant;
 enum : int {
-    R_pj = 0,            // quaternion w x y z: parent's body frame from joint frame
-    joint_position = 4,  // [m]
-    com = 7,             // [m]
-    mass = 10,           // [kg]
-    inertia_joint = 11,  // [kg m^2] xx xy xz yy yz zz
-    K = 17,              // [N m/rad]
-    beta = 20,           // [s]
-    carried_moment = 21, // [kg m]
-    drag_area = 24,      // [kg/m]
+    carried_moment = shared_count, // [kg m]
+    drag_area = 24,                // [kg/m]
     count = 25
 };
-}
+} // namespace constant
 
 // From the first sweep outward to the sweep inward, in a thread's own memory.
 namespace loaded {
@@ -75,56 +65,23 @@ namespace accelerated {
 enum : int { alpha = 0, a = 6, count = 12 };
 }
 
-// [reals] of a record of `count`: whole rows.
-constexpr std::size_t record(int count, int lanes) {
-    return std::size_t((count + lanes - 1) / lanes * lanes);
-}
-
-template <class T> struct PullOnLane {
-    std::uint32_t row, lane;
-    T point[3];            // [m] body frame
-    T force[3], change[3]; // [N] at the step's middle, and what it changes by over the step
-};
-
-template <class T> struct CoupledRows {
-    const Group* groups; // the layout's
-    const std::uint32_t *base, *landing, *fork;
-    const std::int32_t* fork_of_row;
-
-    const T* constants;
+template <class T> struct CoupledRows : SweepRows<T> {
     const T* now;   // motion at the step's start
     T* next;        // and at its end
     T* solved_rows; // from row solved_first on
     std::uint32_t solved_first;
-    T *outward_records, *inward_records, *accelerated_records;
-    const std::int32_t* pull_of_row; // first in pulls, -1: none; null: no pulls at all
-    const PullOnLane<T>* pulls;      // rising by row
+    T* accelerated_records;
     // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard.
     std::uint8_t* watched;
-    std::size_t pull_count;
 
     bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
     bool stream;              // solved_rows are more than the caches hold
-    T h;                      // [s]
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2
     // x's weights in the changes of theta_dot and theta, and theta_dot's in that of theta.
     T of_rate[2], of_angle[2], eta;
-    T gravity[3];              // [m/s^2]
-    T wind[3], wind_change[3]; // [m/s] where the profile is 1, at the step's middle and over it
-    const T* profile;          // [1] factors over height
-    std::size_t profile_entries;
-    T per_metre;
+    T wind_change[3]; // [m/s] of `wind` over the step
     // theta past half a turn, of one body: the shorter way round (coupled/half_turn.h). False where it was not.
     bool (*shorten)(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h);
-};
-
-// What a sweep over a block met with.
-struct SweepFlags {
-    std::uint64_t fast_turns = 0, half_turns = 0;
-    std::uint64_t buckling = 0, bounded_lambda = 0, energy_guard = 0; // of the analytic step (StepFlags)
-    bool fast = false;  // a body turned by more than the energy guard lets pass unseen (energy_guard.h)
-    bool finite = true; // of theta and theta_dot
-    double omega2 = 0;  // [rad^2/s^2] the fastest body's (sleep.h)
 };
 
 } // namespace bough::fast

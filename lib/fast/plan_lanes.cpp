@@ -2,7 +2,7 @@
 #include "../coupled/own_inertia.h"
 #include "../stages/wind.h"
 #include "analytic_lanes_step.h"
-#include "lane_memory.h"
+#include "lane_tables.h"
 #include <algorithm>
 
 namespace bough::fast {
@@ -21,15 +21,8 @@ template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
             continue;
         }
         const auto i = std::size_t(body);
-        const Eigen::Quaternion<double> q(Mat3(plan.R_pj[i].template cast<double>()));
-        row.put(constant::R_pj, T(q.w()));
-        row.put(constant::R_pj + 1, Vector3<T>(q.vec().template cast<T>()));
-        row.put(constant::joint_position, plan.joint_position[i]);
-        row.put(constant::com, plan.com[i]);
-        row.put(constant::mass, plan.mass[i]);
+        put_body(plan, i, row);
         row.put(constant::inertia_joint, own_inertia(plan.inertia_joint[i]));
-        row.put(constant::K, plan.K[i]);
-        row.put(constant::beta, plan.beta[i]);
         if (plan.gravity) row.put(constant::carried_moment, plan.carried_moment[i]);
         if (plan.wind) row.put(constant::drag_area, plan.drag_area[i]);
     }

@@ -23,7 +23,7 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
     return {};
 }
 
-// Of what this step and the last one are loaded with (coupled_lanes_step.cpp, place_pulls).
+// Of what this step and the last one are loaded with (coupled_lanes_step.cpp, rows_of).
 bool changes(const Pull& pull, double time, double h) {
     const Vec3 now = pull_force(pull, time);
     for (const double t : {time - h, time - h / 2, time + h / 2, time + h})

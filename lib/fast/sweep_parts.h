@@ -44,8 +44,8 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
 
     // Parent's body frame from joint frame.
     BOUGH_FORCE static M3<W> joint_rotation(const Rows<const T>& k) {
-        const W w = k.real(constant::R_pj), x = k.real(constant::R_pj + 1), y = k.real(constant::R_pj + 2),
-                z = k.real(constant::R_pj + 3);
+        const W w = k.real(body_constant::R_pj), x = k.real(body_constant::R_pj + 1),
+                y = k.real(body_constant::R_pj + 2), z = k.real(body_constant::R_pj + 3);
         const W x2 = x + x, y2 = y + y, z2 = z + z;
         return {{1 - y * y2 - z * z2, x * y2 + w * z2, x * z2 - w * y2},
                 {x * y2 - w * z2, 1 - x * x2 - z * z2, y * z2 + w * x2},

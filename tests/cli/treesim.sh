@@ -262,6 +262,10 @@ treesim tree.json --frames 90 --no-output --sleep off 2>err && ! grep -q 'left o
 treesim tree.json --frames 3 --no-output --explain --sleep 1e-3 2>err && grep -q '^stage lanes on: .*; asleep below 0.001 rad/s' err || fail "--sleep 1e-3"
 treesim tree.json --frames 3 --no-output --explain --wind gusty 2>err && grep -q '; no sleep: /wind/turbulence' err || fail "no sleep in gusts"
 refused 1 "--sleep" treesim tree.json --frames 3 --no-output --sleep -1
+for what in "--wind gusty" "--scheme LIE" "--joint-limit 170"; do
+    # shellcheck disable=SC2086
+    treesim tree.json --frames 3 --no-output --sleep 1e-3 $what 2>&1 | grep -q '^treesim: --sleep: nothing sleeps in this run: ' || fail "--sleep in vain with $what"
+done
 refused 1 "--sleep" treesim tree.json --frames 3 --no-output --sleep 1e-3 --simd off
 [[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20 --simd off) ]] || fail "a limit far off is felt"
 

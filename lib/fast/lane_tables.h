@@ -1,0 +1,34 @@
+// lane_tables.h: what both steps in lanes do outside of their sweeps: constants, pulls and records into rows, what a sweep is given
+// of them, sums at the ports, and the memory that threads work in.
+#pragma once
+#include "../stages/plan.h"
+#include "../stages/state.h"
+#include "lane_memory.h"
+
+namespace bough::fast {
+
+// The constants that both steps have (body_constant), but the inertia, of which each has its own form.
+template <class T> void put_body(const Plan<T>&, std::size_t body, const Slot<T>& row);
+
+// A record of `count` for each joint of the layout; what is there stays.
+template <class T> void resize_records(const Layout&, RowVector<T>& records, int count);
+// Lanes::pulls: where each acts. Its force is place_tables'.
+template <class T> void pack_pulls(const Plan<T>&, State<T>&);
+
+// Fills in what SweepRows holds, with wind and pulls at the time `middle` [s].
+template <class T> void place_tables(const Plan<T>&, State<T>&, double middle, SweepRows<T>&);
+
+// What blocks hand to the top, in the ports' order, from records of `count`. A sleeper's stands until it wakes, all others are set to zero.
+template <class T> void add_ports(const Plan<T>&, State<T>&, int count);
+
+// Rows of the largest block but the top.
+std::size_t largest_block(const Layout&);
+// Room for so many rows of one quantity, for one thread; grows where it must.
+template <class T> T* room(RowVector<T>& scratch, std::size_t rows) {
+    if (scratch.size() < rows) scratch.resize(rows);
+    return data(scratch);
+}
+// One scratch a thread, and one more, the last, for the top. Returns the number of threads.
+template <class T> std::size_t share_scratch(Lanes<T>&);
+
+} // namespace bough::fast
