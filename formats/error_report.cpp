@@ -1,5 +1,6 @@
 #include "error_report.h"
 #include <algorithm>
+#include <set>
 
 namespace bough {
 namespace {
@@ -54,13 +55,14 @@ void write_error_csv(Output& output, const ErrorReport& report) {
 }
 
 std::vector<ErrorSeries> error_series(const ErrorReport& report) {
-    const bool one_refresh = std::all_of(report.runs.begin(), report.runs.end(),
-                                         [&](const ErrorRun& r) { return r.refresh == report.runs.front().refresh; });
+    std::set<std::string> refreshes; // of the solvers that have any
+    for (const ErrorRun& run : report.runs)
+        if (!run.refresh.empty()) refreshes.insert(run.refresh);
     std::vector<ErrorSeries> series;
     for (const ErrorRun& run : report.runs) {
         std::string method = run.solver;
         if (!run.scheme.empty()) method += ", " + run.scheme;
-        if (!run.refresh.empty() && !one_refresh) method += ", " + run.refresh;
+        if (!run.refresh.empty() && refreshes.size() > 1) method += ", refresh " + run.refresh;
         auto found = std::find_if(series.begin(), series.end(), [&](const ErrorSeries& s) {
             const ErrorRun& other = *s.runs.front();
             return other.solver == run.solver && other.scheme == run.scheme && other.refresh == run.refresh &&

@@ -105,12 +105,6 @@ TEST_CASE("analytic lanes come to the same on all targets") {
         if (c.tree.size_bodies() <= 1000) check_targets_agree(c, 1e-4);
 }
 
-TEST_CASE("AVX2 and AVX-512 give the same bits of the analytic step") {
-    if (!fast::available(Target::avx512)) return;
-    for (const Case& c : cases())
-        if (c.tree.size_bodies() <= 1000) check_same_bits(c);
-}
-
 // Wood too soft for its weight and for the wind, thrown about: each guard has work.
 TEST_CASE("analytic lanes buckle, turn over and are guarded as often as the plain step") {
     Scene heavy, windy = in_wind(gusts());

@@ -168,8 +168,8 @@ TEST_CASE("a refresh is named where runs differ in it, and parts the lines") {
     report.runs[0].refresh = "4";
     const auto series = error_series(report);
     REQUIRE(series.size() == 5);
-    CHECK(series[0].name == "analytic, branch, 4, double");
-    CHECK(series[1].name == "analytic, branch, always, double");
+    CHECK(series[0].name == "analytic, branch, refresh 4, double");
+    CHECK(series[1].name == "analytic, branch, refresh always, double");
     CHECK(series[1].runs.size() == 2);
     CHECK(series[1].runs[0]->steps_per_frame == 0.25);
 }

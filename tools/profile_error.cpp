@@ -57,7 +57,7 @@ std::vector<double> chosen_steps(const std::string& text) {
     return steps;
 }
 
-// The usual series, or with --scheme that scheme's; of these what --solver, --precision, --joint-inertia leave.
+// The usual series, or with --scheme or --refresh that one's; of these what --solver, --precision, --joint-inertia leave.
 std::vector<Variant> chosen_variants(const ErrorCommand& o) {
     const auto given = [&](const char* name) { return o.app->get_option(name)->count() > 0; };
     std::vector<Variant> series = all_variants(), chosen;
@@ -65,6 +65,13 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
         Variant v;
         v.solver = Solver::coupled;
         v.scheme = chosen_scheme(o.run);
+        series = {v, v};
+        series.back().single = true;
+    }
+    if (given("--refresh")) { // of its own series each
+        Variant v;
+        v.solver = Solver::analytic;
+        v.refresh = analytic_refresh(o.run);
         series = {v, v};
         series.back().single = true;
     }
@@ -77,7 +84,7 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
         chosen.push_back(v);
     }
     if (chosen.empty())
-        throw UsageError("--solver, --scheme, --precision and --joint-inertia leave nothing to measure");
+        throw UsageError("--solver, --scheme, --refresh, --precision and --joint-inertia leave nothing to measure");
     return chosen;
 }
 
@@ -106,6 +113,7 @@ void work(ErrorCommand& o) {
     reading.tolerance.reset();
     reading.joint_inertia.clear();
     reading.scheme.clear();
+    reading.refresh.clear();
     Setting setting = read_setting(reading);
     let_move(o, setting.scene);
     const Problem problem{

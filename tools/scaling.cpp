@@ -56,10 +56,10 @@ template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
     const fast::Layout& layout = plan.lanes.layout;
     // wide.h writes past the caches where a register is a line.
     const bool streamed = plan.target == fast::Target::avx512 && fast::streams(layout);
-    const fast::StepBytes bytes =
-        plan.solver == Solver::coupled
-            ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed)
-            : fast::analytic_step_bytes(layout, plan.wind, !plan.pulls.empty(), plan.gravity, sizeof(T));
+    const fast::StepBytes bytes = plan.solver == Solver::coupled
+                                      ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed)
+                                      : fast::analytic_step_bytes(layout, plan.wind, !plan.pulls.empty(), plan.gravity,
+                                                                  plan.refresh > 0, sizeof(T));
     const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
     cost.slots = each(std::uint64_t(layout.rows) * std::uint64_t(layout.lanes));
     cost.constants_in = each(bytes.constants.in);
@@ -137,6 +137,7 @@ private:
         ScalingCost c;
         c.shape = tree.shape;
         c.solver = way.solver;
+        c.refresh = refresh_text(way);
         c.precision = way.precision;
         c.simd = simd_of(plan);
         c.bodies = std::int64_t(plan.bodies);
@@ -175,6 +176,7 @@ private:
             run.shape = tree.shape;
             run.solver = way.solver;
             run.scheme = scheme_name(way);
+            run.refresh = refresh_text(way);
             run.precision = way.precision;
             run.simd = simd_of(plan);
             run.threads = threads;

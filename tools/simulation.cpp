@@ -2,6 +2,7 @@
 #include "formats/scene.h"
 #include "formats/tree.h"
 #include "lib/model/place.h"
+#include "lib/stages/frozen_rule.h"
 #include "lib/stages/state_arrays.h"
 #include <algorithm>
 #include <array>
@@ -205,6 +206,12 @@ template <class T>
 
 } // namespace
 
+std::string rate_text(double rate) {
+    std::ostringstream text;
+    text << rate;
+    return text.str();
+}
+
 void add_simd_option(CLI::App& app, RunOptions& o) {
     app.add_option("--simd", o.simd,
                    "Which SIMD code coupled and analytic step with: auto (default): the widest of avx512, avx2 and "
@@ -212,6 +219,14 @@ void add_simd_option(CLI::App& app, RunOptions& o) {
                    "this machine has; off: the plain step, body by body")
         ->option_text("NAME")
         ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
+}
+
+void add_refresh_option(CLI::App& app, RunOptions& o) {
+    app.add_option("--refresh", o.refresh,
+                   "With --solver analytic: when a joint's modes are worked out anew: once its composite has turned or "
+                   "changed by about TOL radians since (" +
+                       rate_text(default_refresh) + "), or always")
+        ->option_text("TOL|always");
 }
 
 void add_sleep_option(CLI::App& app, RunOptions& o) {
@@ -250,6 +265,7 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
         ->option_text("NAME")
         ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
     add_simd_option(app, o);
+    add_refresh_option(app, o);
     app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
         ->option_text("RAD")
         ->check(positive_number());
@@ -302,10 +318,27 @@ std::optional<fast::Target> chosen_simd(const RunOptions& o) {
     return target;
 }
 
-std::string rate_text(double rate) {
-    std::ostringstream text;
-    text << rate;
-    return text.str();
+double analytic_refresh(const RunOptions& o) {
+    if (o.refresh.empty()) return default_refresh;
+    if (o.refresh == "always") return 0;
+    const std::optional<double> tolerance = parse_number(o.refresh);
+    if (!tolerance || !(*tolerance > 0 && *tolerance <= 3))
+        throw UsageError("--refresh is '" + o.refresh + "', expected a tolerance above 0, at most 3, or always");
+    return *tolerance;
+}
+
+double chosen_refresh(const RunOptions& o) {
+    const double tolerance = analytic_refresh(o);
+    if (chosen_solver(o) == Solver::analytic) return tolerance;
+    if (!o.refresh.empty())
+        throw UsageError("--refresh: only with --solver analytic; all others work everything out anew");
+    return 0;
+}
+
+std::string refresh_text(const RunOptions& o) {
+    if (chosen_solver(o) != Solver::analytic) return {};
+    const double tolerance = chosen_refresh(o);
+    return tolerance > 0 ? rate_text(tolerance) : "always";
 }
 
 double chosen_sleep(const RunOptions& o) {
@@ -367,8 +400,9 @@ std::uint64_t fingerprint(const Setting& setting) {
 
 template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
-        Plan<T> plan = make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
-                                    chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o));
+        Plan<T> plan =
+            make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
+                         chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o), chosen_refresh(o));
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {

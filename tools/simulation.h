@@ -23,6 +23,7 @@ struct RunOptions {
     std::string simd = "auto";
     std::string sleep;        // as given: a rate or off; empty: sleep_default
     double sleep_default = 0; // [rad/s] the tool's own
+    std::string refresh;      // as given: a tolerance or always; empty: default_refresh with the analytic solver
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
 };
@@ -31,6 +32,7 @@ struct RunOptions {
 void add_run_options(CLI::App&, RunOptions&, double seconds_default);
 
 void add_simd_option(CLI::App&, RunOptions&);
+void add_refresh_option(CLI::App&, RunOptions&);
 void add_sleep_option(CLI::App&, RunOptions&); // with sleep_default as it stands
 
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
@@ -47,6 +49,12 @@ std::optional<fast::Target> chosen_simd(const RunOptions&);
 // one given with --simd off.
 double chosen_sleep(const RunOptions&);
 std::string rate_text(double rate); // "1e-05"
+
+// Tolerance of frozen coefficients (lib/stages/frozen.h); 0: none are kept. Throws UsageError for what is none, and for one given with another
+// solver than analytic. Its text: "0.1" or "always", and empty with other solvers.
+double chosen_refresh(const RunOptions&);
+double analytic_refresh(const RunOptions&); // whatever the solver
+std::string refresh_text(const RunOptions&);
 
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {

@@ -5,6 +5,7 @@
 #include "frame_queue.h"
 #include "frame_sink.h"
 #include "lib/fast/sleep.h"
+#include "lib/stages/frozen.h"
 #include "simulation.h"
 #include <algorithm>
 #include <filesystem>
@@ -157,6 +158,7 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     refuse("precision", saved.precision, o.run.precision);
     refuse("solver", saved.solver, o.run.solver);
     refuse("scheme", saved.scheme, scheme_name(o.run));
+    refuse("refresh", rate_text(saved.refresh), rate_text(plan.refresh));
     refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
     if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
     refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(plan.bodies) + " bodies");
@@ -170,6 +172,11 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     state.articulated_step = saved.articulated_step;
     state.step = saved.frame * o.run.substeps;
     restart(plan, state);
+    try {
+        if (plan.refresh > 0) restore_frozen(plan, state, saved.frozen);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(input_name(o.resume), std::string("/frozen: ") + error.what());
+    }
     try {
         if (plan.lanes.sleep.on) fast::restore_sleep(plan, state, saved.sleep); // else what slept goes on awake
     } catch (const std::invalid_argument& error) {
@@ -191,6 +198,8 @@ void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);
+    saved.refresh = plan.refresh;
+    saved.frozen = saved_frozen(plan, state);
     visit_carried(plan, state, saved, [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
         for (const Vector3<T>& v : from) to.push_back(v.template cast<double>());
     });
@@ -232,6 +241,11 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
         notes.push_back(std::to_string(flags.limited) + " times a joint was stopped at its limit, as asked");
     if (flags.fast_turns > 0)
         notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
+    if (flags.refreshed > 0) {
+        std::ostringstream share;
+        share << std::setprecision(3) << 100 * double(flags.refreshed) / (double(steps) * double(plan.bodies));
+        notes.push_back(share.str() + " % of the joints' coefficients were made anew a step (--refresh)");
+    }
     if (flags.asleep > 0)
         notes.push_back(std::to_string(flags.asleep) + " of " + std::to_string(std::uint64_t(steps) * plan.bodies) +
                         " steps of a body were left out: at rest below " + rate_text(plan.lanes.sleep.rate) +
@@ -284,6 +298,8 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
+    if (!o.run.refresh.empty() && o.run.refresh != "always" && plan.refresh == 0)
+        o.common.notes.push_back("--refresh: nothing is kept in this run: " + plan.refresh_reason);
     State<T> state = make_state(plan);
     std::int64_t first = 0, last = frames_of(o.run, seconds_default) - 1;
     if (!o.resume.empty()) {

@@ -1,4 +1,5 @@
 #include "analytic_lanes_step.h"
+#include "frozen_lanes.h"
 #include "lane_tables.h"
 #include "targets.h"
 #include <algorithm>
@@ -27,13 +28,16 @@ template <class T> AnalyticRows<T> rows_of(const Plan<T>& plan, State<T>& state)
     AnalyticRows<T> rows{};
     place_tables<T>(plan, state, (double(state.step) + 0.5) * plan.dt, rows);
     rows.motion = data(state.lanes.now);
+    if (plan.refresh > 0) rows.frozen = data(state.lanes.frozen);
+    rows.tolerance = T(plan.refresh);
     rows.shorten = shorten<T>;
     return rows;
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const AnalyticRows<T>& rows) {
+    const AnalyticLoads loads{plan.wind, !plan.pulls.empty(), plan.gravity};
     const AnalyticSweeps<T> sweeps =
-        analytic_sweeps_for<T>(plan.target, {plan.wind, !plan.pulls.empty(), plan.gravity});
+        plan.refresh > 0 ? frozen_sweeps_for<T>(plan.target, loads) : analytic_sweeps_for<T>(plan.target, loads);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
     const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
@@ -90,27 +94,38 @@ template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lane
 template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
-    lanes.now.resize(std::size_t(layout.rows) * analytic::motion::count);
+    const int motions = analytic::motions(plan.refresh > 0);
+    lanes.now.resize(std::size_t(layout.rows) * std::size_t(motions));
     resize_records(layout, lanes.outward, analytic::outward::count);
     resize_records(layout, lanes.inward, record_inward(plan));
     for (int k = 0; k < 3; ++k)
         entry(lanes.outward, 0, analytic::outward::count, analytic::outward::R_bw + 4 * k) = 1; // the ground
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const Slot<T> row(lanes.now, analytic::motion::count, layout.slot[i]);
+        const Slot<T> row(lanes.now, motions, layout.slot[i]);
         row.put(analytic::motion::theta, state.theta[i]);
-        row.put(analytic::motion::theta_dot, state.theta_dot[i]);
+        if (motions == analytic::motion::count) row.put(analytic::motion::theta_dot, state.theta_dot[i]);
         row.put(analytic::motion::scaled_rate, state.scaled_rate[i]);
     }
+    if (plan.refresh > 0) start_frozen(plan, state);
     pack_pulls(plan, state);
     lanes.presented = true;
 }
 
 template <class T> void unpack_analytic(const Plan<T>& plan, State<T>& state) {
+    const bool frozen = plan.refresh > 0;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const Slot<T> row(state.lanes.now, analytic::motion::count, plan.lanes.layout.slot[i]);
+        const std::size_t slot = plan.lanes.layout.slot[i];
+        const Slot<T> row(state.lanes.now, analytic::motions(frozen), slot);
         state.theta[i] = row.vector(analytic::motion::theta);
-        state.theta_dot[i] = row.vector(analytic::motion::theta_dot);
         state.scaled_rate[i] = row.vector(analytic::motion::scaled_rate);
+        if (!frozen) {
+            state.theta_dot[i] = row.vector(analytic::motion::theta_dot);
+            continue;
+        }
+        const Slot<T> kept(state.lanes.frozen, analytic::frozen::count, slot);
+        Matrix3<T> U;
+        for (int k = 0; k < 3; ++k) U.col(k) = kept.vector(analytic::frozen::U + 3 * k);
+        state.theta_dot[i] = body_rate_jacobian_inverse(state.theta[i]) * (U * state.scaled_rate[i]);
     }
 }
 
@@ -123,6 +138,7 @@ template <class T> void analytic_lanes_step(const Plan<T>& plan, State<T>& state
     state.flags.bounded_lambda += met.bounded_lambda;
     state.flags.half_turns += met.half_turns;
     state.flags.energy_guard += met.energy_guard;
+    state.flags.refreshed += met.refreshed;
     ++state.step;
 }
 

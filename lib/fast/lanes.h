@@ -52,6 +52,7 @@ template <class T> constexpr int records_of_joint() {
 // In the state.
 template <class T> struct Lanes {
     RowVector<T> now, next, solved;
+    RowVector<T> frozen;                       // analytic::frozen, where coefficients are kept
     RowVector<T> outward, inward, accelerated; // a record a joint
     std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
     std::vector<PullOnLane<T>> pulls;

@@ -47,9 +47,15 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     return bytes;
 }
 
-StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, std::size_t real) {
+StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, bool frozen,
+                              std::size_t real) {
     const std::uint64_t rows = layout.rows, top = layout.blocks[0].end_row - layout.blocks[0].first_row;
-    const auto constants = std::uint64_t(analytic::constants(wind)), read = constants - (gravity ? 0 : 1);
+    const auto kept = std::uint64_t(frozen ? int(analytic::frozen::count) : 0),
+               constants = std::uint64_t(analytic::constants(wind)) + kept,
+               left = std::uint64_t(frozen    ? analytic::end_of_coefficients - analytic::first_of_coefficients
+                                    : gravity ? 0
+                                              : 1),
+               read = constants - left, motion = std::uint64_t(analytic::motions(frozen));
     const std::uint64_t records =
         layout.joints * real *
         (record(analytic::outward::count, layout.lanes) + record(analytic::inward_count(wind, pulls), layout.lanes));
@@ -57,11 +63,11 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
     const std::uint64_t lanes = layout.base.size() + layout.landing.size() + layout.fork.size();
     StepBytes bytes;
     bytes.constants.in = (rows + top) * read * line;
-    bytes.now.in = (rows + top) * analytic::motion::count * line;
-    bytes.next.out = rows * analytic::motion::count * line;
+    bytes.now.in = (rows + top) * motion * line;
+    bytes.next.out = rows * motion * line;
     bytes.records.in = bytes.records.out = records;
     bytes.indices.in = index * (rows + top + lanes);
-    bytes.tables = rows * (constants + analytic::motion::count) * line + records + index * (rows + lanes);
+    bytes.tables = rows * (constants + motion) * line + records + index * (rows + lanes);
     return bytes;
 }
 

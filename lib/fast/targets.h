@@ -25,5 +25,6 @@ std::optional<Target> target_named(const std::string&);
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, bool wind, bool gravity);
 template <class T> EnergySweepOf<T> energy_sweep_for(Target, bool wind);
 template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target, AnalyticLoads);
+template <class T> AnalyticSweeps<T> frozen_sweeps_for(Target, AnalyticLoads);
 
 } // namespace bough::fast

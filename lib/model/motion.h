@@ -55,6 +55,8 @@ struct SavedState {
     std::vector<Vec3> theta_change, theta_dot_change; // coupled: [rad], [rad/s] of the last step
     std::vector<Vec3> scaled_rate;                    // all others: State::scaled_rate; analytic [sqrt(J)]
     double articulated_step = 0;                      // [s] State::articulated_step
+    double refresh = 0;                               // analytic: Plan::refresh
+    std::vector<double> frozen;                       // analytic with it: saved_frozen of stages/frozen.h
     std::vector<double> sleep;                        // saved_sleep of fast/sleep.h; empty where nothing has settled
     std::string source;
 };

@@ -129,8 +129,8 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
     cell.solver = solver_name(solver);
     cell.precision = sizeof(T) == 4 ? "float" : "double";
     cell.promised = what.promised && !is_articulated(solver);
-    const Plan<T> plan =
-        make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver, Scheme::p12, setup.simd);
+    const Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver, Scheme::p12,
+                                      setup.simd, 0, setup.refresh);
     State<T> state = make_state(plan);
     Audit<T> audit(plan, state, setup.tree, frames);
     cell.finite = true;

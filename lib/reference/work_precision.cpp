@@ -1,4 +1,5 @@
 #include "work_precision.h"
+#include "../stages/frozen_rule.h"
 #include "ring_down.h"
 #include <algorithm>
 #include <optional>
@@ -12,7 +13,7 @@ constexpr double ringing_up_to = 8;   // steps a frame
 constexpr double reference_cost = 60; // of its passes in a frame, for the progress alone
 
 bool same_series(const Variant& a, const Variant& b) {
-    return a.solver == b.solver && a.inertia == b.inertia && a.scheme == b.scheme;
+    return a.solver == b.solver && a.inertia == b.inertia && a.scheme == b.scheme && a.refresh == b.refresh;
 }
 
 struct Difference {
@@ -139,6 +140,12 @@ void Bench::find_truth() {
     report.decay = ring.decay;
 }
 
+std::string tolerance_text(double tolerance) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", tolerance);
+    return text;
+}
+
 Trajectory Bench::timed(const Variant& v) {
     start(v.steps_per_frame >= 1 ? v.steps_per_frame : 1);
     Trajectory run = run_trajectory(problem, v, true, 1, tick());
@@ -157,7 +164,7 @@ ErrorRun Bench::row(const Variant& v, const Trajectory& run, const Trajectory* s
                : v.solver != Solver::analytic      ? "euler"
                : v.inertia == JointInertia::branch ? "inertia-branch"
                                                    : "inertia-paper";
-    r.refresh = "always";
+    if (v.solver == Solver::analytic) r.refresh = v.refresh > 0 ? tolerance_text(v.refresh) : "always";
     r.precision = v.single ? "float" : "double";
     r.steps_per_frame = v.steps_per_frame;
     r.finite = run.finite;
@@ -234,8 +241,14 @@ std::vector<Variant> all_variants() {
     for (const bool single : {false, true}) add(Solver::coupled, Scheme::p12, JointInertia::branch, single);
     for (const Scheme scheme : {Scheme::p34, Scheme::p50, Scheme::lie, Scheme::midpoint})
         add(Solver::coupled, scheme, JointInertia::branch, false);
-    for (const JointInertia inertia : {JointInertia::branch, JointInertia::paper})
-        for (const bool single : {false, true}) add(Solver::analytic, Scheme::p12, inertia, single);
+    const auto add_analytic = [&](JointInertia inertia, bool single, double refresh) {
+        add(Solver::analytic, Scheme::p12, inertia, single);
+        all.back().refresh = refresh;
+    };
+    for (const bool single : {false, true}) add_analytic(JointInertia::branch, single, default_refresh);
+    for (const bool single : {false, true}) add_analytic(JointInertia::branch, single, 0);
+    for (const double refresh : {0.01, 0.5}) add_analytic(JointInertia::branch, false, refresh);
+    for (const bool single : {false, true}) add_analytic(JointInertia::paper, single, 0);
     for (const Solver solver : {Solver::articulated_implicit, Solver::articulated_explicit})
         add(solver, Scheme::p12, JointInertia::branch, false);
     return all;

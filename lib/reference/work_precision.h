@@ -28,7 +28,8 @@ namespace bough {
 struct ErrorRun {
     std::string solver, precision;
     std::string scheme,
-        refresh; // coupled: scheme.h's names; the others: below. A solver's default comes first in the report
+        refresh; // coupled: scheme.h's names; analytic: inertia-branch or inertia-paper, and "always" or a tolerance (frozen.h). A
+        // solver's default comes first in the report
     double steps_per_frame = 1;                // 1/4 ... 64; below 1 it is frames of that many times the length
     bool finite = false;                       // the whole run; the errors are NAN where it is not
     double seconds_per_simulated_second = NAN; // [s/s] run time of the steps alone

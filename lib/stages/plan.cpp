@@ -13,9 +13,9 @@
 namespace bough {
 
 const char* stage_name(Stage stage) {
-    static constexpr const char* names[stage_count] = {"wind_field",  "external_forces", "composite",   "drag",
-                                                       "root_motion", "spring",          "articulated", "midpoint",
-                                                       "body_loads",  "resolvent",       "lanes",       "state_update"};
+    static constexpr const char* names[stage_count] = {
+        "wind_field",  "external_forces", "composite",  "drag",      "root_motion", "refresh",     "spring",
+        "articulated", "midpoint",        "body_loads", "resolvent", "lanes",       "state_update"};
     return names[std::size_t(stage)];
 }
 
@@ -220,8 +220,13 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     };
     add(Stage::external_forces, joints && plan.forces, plan.forces ? why(forces, own) : forces);
     add(Stage::composite, joints, why("every scene", solver));
-    add(Stage::drag, joints && plan.wind, plan.wind ? why("/wind", own) : "no wind");
+    const bool frozen = plan.refresh > 0;
+    add(Stage::drag, joints && plan.wind && !frozen,
+        !plan.wind         ? "no wind"
+        : joints && frozen ? "with the spring, in frozen modes"
+                           : why("/wind", own));
     add(Stage::root_motion, joints && plan.root_motion, plan.root_motion ? why("/root_motion", own) : "no root motion");
+    add(Stage::refresh, joints && frozen, analytic && frozen && !joints ? fused : plan.refresh_reason);
     add(Stage::spring, joints,
         why(std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") + limited,
             solver));
@@ -234,11 +239,11 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                   : solver);
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, plan.lanes.on,
-        plan.lanes.on
-            ? std::string("SIMD ") + fast::target_name(plan.target) + (plan.forces ? "; " + forces : "") + moved +
-                  (plan.lanes.sleep.on ? "; asleep below " + text(plan.lanes.sleep.rate) + " rad/s"
-                                       : "; no sleep: " + plan.lanes.sleep.reason)
-            : "plain path: " + plan.lanes.reason);
+        plan.lanes.on ? std::string("SIMD ") + fast::target_name(plan.target) + (plan.forces ? "; " + forces : "") +
+                            moved + (frozen ? "; " + plan.refresh_reason : "") +
+                            (plan.lanes.sleep.on ? "; asleep below " + text(plan.lanes.sleep.rate) + " rad/s"
+                                                 : "; no sleep: " + plan.lanes.sleep.reason)
+                      : "plain path: " + plan.lanes.reason);
     add(Stage::state_update, !plan.lanes.on,
         plan.lanes.on
             ? "when poses are read" + moved
@@ -261,7 +266,8 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
         if (analytic) {
             constexpr int L = fast::Row<T>::lanes;
             const int inward = fast::analytic::inward_count(plan.wind, !plan.pulls.empty());
-            rows("lanes.now", layout.rows, fast::analytic::motion::count);
+            rows("lanes.now", layout.rows, fast::analytic::motions(frozen));
+            if (frozen) rows("lanes.frozen", layout.rows, fast::analytic::frozen::count);
             rows("lanes.outward, inward", layout.joints,
                  int(fast::record(fast::analytic::outward::count, L) + fast::record(inward, L)) / L);
         } else {
@@ -279,7 +285,8 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
 
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep) {
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
+                  double refresh) {
     Tree scaled; // a copy only where it differs
     if (scene.stiffness_scale != 1 || scene.damping_scale != 1) {
         scaled = drawn;
@@ -304,6 +311,15 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     plan_root_motion(plan, ranges);
     plan.top = plan.wind ? highest_reach(tree, plan.splines, plan.moved) : 0;
     plan_bodies(plan, tree, scene);
+    plan.refresh_reason = solver != Solver::analytic ? std::string("solver ") + solver_name(solver)
+                          : !(refresh > 0)           ? "not asked for"
+                          : plan.root_motion         ? "/root_motion"
+                          : scene.joint_limit        ? "/joint_limit"
+                                                     : "";
+    if (plan.refresh_reason.empty()) {
+        plan.refresh = refresh;
+        plan.refresh_reason = "frozen coefficients, tolerance " + text(refresh);
+    }
     plan.joint_limit = scene.joint_limit.has_value();
     if (plan.joint_limit) plan_joint_limit(plan, tree);
     if (plan.wind) plan_surfaces(plan, tree, scene);
@@ -321,8 +337,8 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
 }
 
 template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                               Scheme, std::optional<fast::Target>, double);
+                               Scheme, std::optional<fast::Target>, double, double);
 template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                                Scheme, std::optional<fast::Target>, double);
+                                Scheme, std::optional<fast::Target>, double, double);
 
 } // namespace bough

@@ -22,6 +22,7 @@ enum class Stage : std::uint8_t {
     composite,
     drag,
     root_motion,
+    refresh,
     spring,
     articulated,
     midpoint,
@@ -30,7 +31,7 @@ enum class Stage : std::uint8_t {
     lanes,
     state_update
 };
-constexpr std::size_t stage_count = 12;
+constexpr std::size_t stage_count = 13;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
@@ -80,7 +81,9 @@ template <class T> struct Plan {
     Solver solver = Solver::analytic;
     Scheme scheme = Scheme::p12; // of the coupled solver
     double tolerance = 1e-8;     // [rad] error allowed in a step of articulated_reference (extrapolation.h)
-    Scene scene;                 // as given, for times and forces
+    double refresh = 0; // of the analytic solver: how stale frozen coefficients may become (frozen.h); 0: none are kept
+    Scene scene;        // as given, for times and forces
+    std::string refresh_reason; // why they are kept, or why not
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     bool root_motion = false, joint_limit = false;
     std::vector<PlannedStage> stages;
@@ -132,9 +135,10 @@ template <class T> struct Plan {
 // for one that starts beyond a joint limit (its body and angle), and for joint limits with an articulated solver.
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 // sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
+// refresh: of the analytic solver, the tolerance of frozen coefficients (frozen.h); 0: none are kept, every step is worked out in full.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
                   Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
-                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0);
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double refresh = 0);
 
 } // namespace bough

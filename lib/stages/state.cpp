@@ -1,6 +1,7 @@
 #include "state.h"
 #include "../fast/analytic_lanes_step.h"
 #include "../fast/coupled_lanes_step.h"
+#include "frozen.h"
 #include "root_term.h"
 #include "spring.h"
 #include "state_arrays.h"
@@ -52,6 +53,7 @@ template <class T> void restart(const Plan<T>& plan, State<T>& state) {
     move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
+    forget_frozen(state);
     if (!plan.lanes.on) return;
     if (plan.solver == Solver::analytic)
         fast::pack_analytic(plan, state);
@@ -64,7 +66,8 @@ template <class T> std::size_t State<T>::bytes() const {
     visit_arrays(Plan<T>(), *this, [&](const char*, const auto& array, bool, const std::string&) {
         sum += array.capacity() * sizeof(array[0]);
     });
-    for (const auto* rows : {&lanes.now, &lanes.next, &lanes.solved, &lanes.outward, &lanes.inward, &lanes.accelerated})
+    for (const auto* rows :
+         {&lanes.now, &lanes.next, &lanes.solved, &lanes.frozen, &lanes.outward, &lanes.inward, &lanes.accelerated})
         sum += rows->capacity() * sizeof(fast::Row<T>);
     for (const ArticulatedPass& pass : articulated) sum += pass.body.capacity() * sizeof(ArticulatedBody);
     return sum;

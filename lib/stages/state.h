@@ -2,6 +2,7 @@
 #pragma once
 #include "../coupled/coupled_body.h"
 #include "articulated_pass.h"
+#include "frozen_joint.h"
 #include "plan.h"
 #include "wind.h"
 #include <array>
@@ -22,6 +23,7 @@ struct StepFlags {
     std::uint64_t fast_turns =
         0; // bodies' turns of more than a radian a step, bounded in the implicit step (articulated.h)
     std::uint64_t inner_steps = 0; // steps that articulated_reference cut the plan's into, which is no guard
+    std::uint64_t refreshed = 0;   // joint-steps in which frozen coefficients were made anew (frozen.h)
     std::uint64_t asleep = 0;      // body-steps left out, in blocks at rest (fast/sleep.h)
     std::uint64_t unresolved = 0;  // of those, how many missed the tolerance at the smallest length (extrapolation.h)
 };
@@ -69,6 +71,9 @@ template <class T> struct State {
     // root motion, one each for the plan's splines
     std::vector<Ground> ground;         // present
     std::vector<RootLoad<T>> root_load; // of the last step
+
+    // refresh
+    std::vector<FrozenJoint<T>> frozen; // frozen.h; where coefficients are kept, scaled_rate is the modes' rates
 
     // spring
     std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for
