@@ -134,7 +134,7 @@ TEST_CASE("every figure of a scaling report is in its JSON, what is not known as
     CHECK(limits.at("peak_double") == 100e9);
     REQUIRE(j.at("costs").size() == 2);
     const auto& cost = j["costs"][0];
-    CHECK(cost.size() == 22);
+    CHECK(cost.size() == 23);
     CHECK(cost.at("shape") == "bushy");
     CHECK(cost.at("solver") == "coupled");
     CHECK(cost.at("precision") == "float");

@@ -1,9 +1,9 @@
 // analytic_chains.h: the analytic step's way over a block's chains of lanes, apart from what a joint does (analytic_joints.h): outward where the bodies
 // are and what loads them (state_update.h, external_forces.h), inward the composites (composite.h). Everything of a body is in its own axes.
 //
-// Own, the sweep that is derived, has motion_count, quantities of a body's motion; joint_rate(row, lane, theta, turn), the joint's rate in the
-// axes of its body; joint_loaded(row, lane, seen), called as soon as the composite of the register's bodies is there, outermost
-// first, and joints_done(), at the end of each visit to a block.
+// Own, the sweep that is derived, has frozen<kind>, whether joints of that kind keep coefficients (frozen.h), which chains then are all of;
+// joint_rate<kind>(row, lane, theta, turn), the joint's rate in the axes of its body; joint_loaded(kind, row, lane, seen), called as soon as the
+// composite of the register's bodies is there, outermost first; and joints_done(), at the end of each visit to a block.
 #pragma once
 #include "analytic_sweeps.h"
 #include "sweep_parts.h"
@@ -52,7 +52,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         return rows.constants + row * std::size_t(constant_count) * L + lane;
     }
     T* motion_at(std::uint32_t row, int lane) const {
-        return rows.motion + row * std::size_t(Own::motion_count) * L + lane;
+        return rows.motion + row * std::size_t(motion::count) * L + lane;
     }
     T* loaded_at(std::uint32_t row, int lane) const {
         return scratch + (row - block.first_row) * std::size_t(loaded::count) * L + lane;
@@ -107,8 +107,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         }
     }
 
-    BOUGH_FORCE static void prefetch_constants(const T* at) {
-        if constexpr (Own::frozen) {
+    template <bool frozen> BOUGH_FORCE static void prefetch_constants(const T* at) {
+        if constexpr (frozen) {
             prefetch(at, analytic::first_of_coefficients * L);
             prefetch(at + analytic::end_of_coefficients * L, (constant_count - analytic::end_of_coefficients) * L);
         } else {
@@ -119,8 +119,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane) const {
         const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
         const Rows<T> out = loaded_of(row, lane);
-        prefetch_constants(k.at + constant_count * L);
-        prefetch(y0.at + Own::motion_count * L, Own::motion_count * L);
+        prefetch_constants<Own::template frozen<kind>>(k.at + constant_count * L);
+        prefetch(y0.at + motion::count * L, (Own::template frozen<kind> ? motion::theta_dot : motion::count) * L);
         const V3<W> theta = y0.vector(motion::theta);
         const W q = dot(theta, theta);
         const Turn<W> turn = turn_of(q);
@@ -131,7 +131,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         if constexpr (wind) {
             f.y = f.y + dot(f.R_bw.y, r);
             f.v = transposed_times(R, f.v + cross(f.omega, r));
-            f.omega = transposed_times(R, f.omega) + own().joint_rate(row, lane, theta, turn);
+            f.omega = transposed_times(R, f.omega) + own().template joint_rate<kind>(row, lane, theta, turn);
         }
         f.R_bw = {transposed_times(R, f.R_bw.x), transposed_times(R, f.R_bw.y), transposed_times(R, f.R_bw.z)};
         if constexpr (gravity) out.set(loaded::g, f.R_bw * vector(rows.gravity));
@@ -305,7 +305,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                                  &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)]);
                     add(q, forks.rows());
                 }
-                own().joint_loaded(row, lane, step_in(q, row, lane));
+                own().joint_loaded(g.kind, row, lane, step_in(q, row, lane));
             }
             Records<T, inward_count> base;
             keep(q, base.rows());

@@ -142,7 +142,8 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, Own> {
     }
 
     // The end of a step: what large turns come to, and the motion.
-    template <class X> BOUGH_FORCE void finish(const At<X>& a, const JointLoad<X>& in, JointStep<X>& step) {
+    template <bool frozen, class X>
+    BOUGH_FORCE void finish(const At<X>& a, const JointLoad<X>& in, JointStep<X>& step) {
         using P = Registers<X>;
         V3<X> theta = step.theta;
         X q = dot(theta, theta);
@@ -162,13 +163,62 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, Own> {
         a.motion.set(motion::theta, theta);
         a.motion.set(motion::scaled_rate, step.rate);
         V3<X> rate = step.omega;
-        if constexpr (!Own::frozen) {
+        if constexpr (!frozen) {
             rate = rate_of(theta, t2_of(q), step.omega);
             a.motion.set(motion::theta_dot, rate);
         }
         const X all_of_it = q + dot(rate, rate);
         for (int j = 0; j < P::count; ++j) size = size + P::part(all_of_it, j);
     }
+    // ---- a step worked out in full
+
+    Place waiting[2]; // joints whose composites are there
+    int waiters = 0;
+
+    BOUGH_FORCE void step_next(std::uint32_t row, int lane) {
+        waiting[waiters++] = {row, lane};
+        if (waiters < 2) return;
+        step_full<Pair<W>>(); // while both are at hand; each waits for its own eigenvalues
+        waiters = 0;
+    }
+    void step_last() {
+        if (waiters > 0) step_full<W>();
+        waiters = 0;
+    }
+
+    // The joint's rate as the last step left it.
+    BOUGH_FORCE V3<W> kept_rate(std::uint32_t row, int lane, const V3<W>& theta, const Turn<W>& turn) const {
+        const V3<W> eta = Rows<const T>{this->motion_at(row, lane)}.vector(motion::theta_dot),
+                    across = cross(theta, eta);
+        return eta - turn.c1 * across + turn.c2 * cross(theta, across);
+    }
+
+    template <class X> [[gnu::noinline]] void step_full() {
+        const auto a = at<X>(waiting);
+        JointLoad<X> in = load(a);
+        in.J = a.loaded.symmetric(loaded::J);
+        if constexpr (gravity) in.gravity_row = a.constants.real(constant::gravity_row);
+        if constexpr (wind) {
+            in.wind_row = a.loaded.real(loaded::wind);
+            in.turn_row = a.loaded.real(loaded::turn);
+        }
+        in.beta = a.constants.real(constant::beta);
+        in.bend = a.constants.real(constant::bend);
+        in.twist = a.constants.real(constant::twist);
+        JointLambdas<X> o;
+        JointStep<X> step = step_joint<wind, gravity, forces>(in, rows.h, largest_lambda<T>(), o);
+
+        const X softest = -larger(larger(-o.lambda[0], -o.lambda[1]), -o.lambda[2]);
+        if (any_above(X{}, softest) || o.bounded)
+            for (int m = 0; m < 3; ++m)
+                for (int j = 0; j < Registers<X>::count; ++j) {
+                    const W mass = read<T>(a.constants.at[j] + constant::mass * L);
+                    count(-Registers<X>::part(o.lambda[m], j), 0, mass, flags.buckling);
+                    count(Registers<X>::part(o.with_air[m], j), largest_lambda<T>(), mass, flags.bounded_lambda);
+                }
+        finish<false>(a, in, step);
+    }
+
     void see_finite() const {
         if (!(total(size) < still_finite2)) flags.finite = false;
     }

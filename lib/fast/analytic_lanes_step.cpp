@@ -1,4 +1,5 @@
 #include "analytic_lanes_step.h"
+#include "../stages/frozen.h"
 #include "frozen_lanes.h"
 #include "lane_tables.h"
 #include "targets.h"
@@ -94,16 +95,15 @@ template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lane
 template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
-    const int motions = analytic::motions(plan.refresh > 0);
-    lanes.now.resize(std::size_t(layout.rows) * std::size_t(motions));
+    lanes.now.resize(std::size_t(layout.rows) * analytic::motion::count);
     resize_records(layout, lanes.outward, analytic::outward::count);
     resize_records(layout, lanes.inward, record_inward(plan));
     for (int k = 0; k < 3; ++k)
         entry(lanes.outward, 0, analytic::outward::count, analytic::outward::R_bw + 4 * k) = 1; // the ground
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const Slot<T> row(lanes.now, motions, layout.slot[i]);
+        const Slot<T> row(lanes.now, analytic::motion::count, layout.slot[i]);
         row.put(analytic::motion::theta, state.theta[i]);
-        if (motions == analytic::motion::count) row.put(analytic::motion::theta_dot, state.theta_dot[i]);
+        row.put(analytic::motion::theta_dot, state.theta_dot[i]);
         row.put(analytic::motion::scaled_rate, state.scaled_rate[i]);
     }
     if (plan.refresh > 0) start_frozen(plan, state);
@@ -112,13 +112,12 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
 }
 
 template <class T> void unpack_analytic(const Plan<T>& plan, State<T>& state) {
-    const bool frozen = plan.refresh > 0;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const std::size_t slot = plan.lanes.layout.slot[i];
-        const Slot<T> row(state.lanes.now, analytic::motions(frozen), slot);
+        const Slot<T> row(state.lanes.now, analytic::motion::count, slot);
         state.theta[i] = row.vector(analytic::motion::theta);
         state.scaled_rate[i] = row.vector(analytic::motion::scaled_rate);
-        if (!frozen) {
+        if (!keeps_coefficients(plan, i)) {
             state.theta_dot[i] = row.vector(analytic::motion::theta_dot);
             continue;
         }

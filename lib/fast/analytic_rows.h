@@ -12,9 +12,8 @@ namespace bough::fast::analytic {
 namespace motion {
 enum : int {
     theta = 0,
-    scaled_rate = 3,  // with frozen coefficients the modes' own
-    frozen_count = 6, // and no theta_dot, which follows from them
-    theta_dot = 6,
+    scaled_rate = 3, // with frozen coefficients the modes' own,
+    theta_dot = 6,   // and this follows from them, and is not kept up
     count = 9
 };
 }
@@ -37,9 +36,6 @@ enum : int {
 } // namespace constant
 // Of those, what frozen coefficients are made of alone stands together.
 constexpr int first_of_coefficients = constant::beta, end_of_coefficients = constant::gravity_row + 1;
-constexpr int motions(bool frozen) {
-    return frozen ? int(motion::frozen_count) : int(motion::count);
-}
 constexpr int constants(bool wind) {
     return wind ? int(constant::count) : int(constant::still_count);
 }

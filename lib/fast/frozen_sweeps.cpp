@@ -20,12 +20,12 @@ struct FrozenSweep : AnalyticJoints<T, wind, pulls, gravity, FrozenSweep<T, wind
     using Base::rows;
     using typename Base::W;
 
-    static constexpr bool frozen = true;
-    static constexpr int motion_count = motion::frozen_count;
+    // Leaves and fruit in wind are worked out in full: it would make them anew every few frames.
+    template <Kind kind> static constexpr bool frozen = kind == Kind::branch;
 
     static constexpr int most_waiting = 16;
-    Place waiting[most_waiting]; // joints whose composites are there
-    int waiters = 0;
+    Place ready[most_waiting]; // joints whose composites are there
+    int readies = 0;
     struct Stale {
         std::uint32_t row;
         int lane;
@@ -36,12 +36,18 @@ struct FrozenSweep : AnalyticJoints<T, wind, pulls, gravity, FrozenSweep<T, wind
 
     T* frozen_at(std::uint32_t row, int lane) const { return rows.frozen + row * std::size_t(kept::count) * L + lane; }
 
-    BOUGH_FORCE V3<W> joint_rate(std::uint32_t row, int lane, const V3<W>&, const Turn<W>&) const {
+    template <Kind kind>
+    BOUGH_FORCE V3<W> joint_rate(std::uint32_t row, int lane, const V3<W>& theta, const Turn<W>& turn) const {
+        if constexpr (!frozen<kind>) return this->kept_rate(row, lane, theta, turn);
         return Rows<const T>{frozen_at(row, lane)}.matrix(kept::U) *
                Rows<const T>{this->motion_at(row, lane)}.vector(motion::scaled_rate);
     }
 
-    BOUGH_FORCE void joint_loaded(std::uint32_t row, int lane, const Seen<W>& seen) {
+    BOUGH_FORCE void joint_loaded(Kind kind, std::uint32_t row, int lane, const Seen<W>& seen) {
+        if (kind != Kind::branch) {
+            this->step_next(row, lane);
+            return;
+        }
         const Rows<const T> old{frozen_at(row, lane)};
         const Symmetric<W> J = old.symmetric(kept::J), change = seen.J - J;
         const W turned = larger(larger(larger(magnitude(change.xx), magnitude(change.xy)),
@@ -55,8 +61,8 @@ struct FrozenSweep : AnalyticJoints<T, wind, pulls, gravity, FrozenSweep<T, wind
         const W most_loaded = all(T(frozen_load_share) * rows.tolerance);
         if (any_above(turned, most_turned) || any_above(loaded, most_loaded))
             note(row, lane, seen.J, turned, most_turned, loaded, most_loaded);
-        waiting[waiters++] = {row, lane};
-        if (waiters == most_waiting) step_waiting();
+        ready[readies++] = {row, lane};
+        if (readies == most_waiting) step_ready();
     }
 
     [[gnu::noinline]] void note(std::uint32_t row, int lane, const Symmetric<W>& J, const W& turned,
@@ -178,14 +184,15 @@ struct FrozenSweep : AnalyticJoints<T, wind, pulls, gravity, FrozenSweep<T, wind
         }
     }
 
-    void step_waiting() {
+    void step_ready() {
         for (int k = 0; k < stales; k += width<T>) refresh(stale + k, stales - k < width<T> ? stales - k : width<T>);
         stales = 0;
-        for (int k = 0; k < waiters; ++k) step_joints<W>(waiting + k);
-        waiters = 0;
+        for (int k = 0; k < readies; ++k) step_joints<W>(ready + k);
+        readies = 0;
     }
     void joints_done() {
-        step_waiting();
+        step_ready();
+        this->step_last();
         this->see_finite();
     }
 
@@ -201,7 +208,7 @@ struct FrozenSweep : AnalyticJoints<T, wind, pulls, gravity, FrozenSweep<T, wind
         f.carry = k.vector(kept::carry);
         f.C = k.vector(kept::C);
         JointStep<X> step = step_frozen<wind, gravity, forces>(in, f, rows.h);
-        this->finish(a, in, step);
+        this->template finish<true>(a, in, step);
     }
 };
 

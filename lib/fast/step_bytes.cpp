@@ -55,7 +55,7 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
                left = std::uint64_t(frozen    ? analytic::end_of_coefficients - analytic::first_of_coefficients
                                     : gravity ? 0
                                               : 1),
-               read = constants - left, motion = std::uint64_t(analytic::motions(frozen));
+               read = constants - left, motion = std::uint64_t(frozen ? int(analytic::motion::theta_dot) : int(analytic::motion::count));
     const std::uint64_t records =
         layout.joints * real *
         (record(analytic::outward::count, layout.lanes) + record(analytic::inward_count(wind, pulls), layout.lanes));

@@ -4,22 +4,25 @@
 
 namespace bough {
 
-template <class T> void joint_drag(const Plan<T>& plan, State<T>& state) {
-    const auto n = std::int64_t(plan.bodies);
+template <class T> void joint_drag(const Plan<T>& plan, State<T>& state, std::size_t i) {
     const T h = T(plan.dt);
-#pragma omp parallel for schedule(static) if (n > 2000)
-    for (std::int64_t k = 0; k < n; ++k) {
-        const auto i = std::size_t(k);
-        const Vector3<T> tau_b = state.R_wb[i].transpose() * state.c_drag_tau_w[i];
-        const Matrix3<T> S = joint_inertia(plan, state, i);
-        const Matrix3<T> L = S.llt().matrixL();
-        Matrix3<T> N = S;
-        N.diagonal().array() += h * plan.inverse_weight[i] * state.c_drag_row[i];
-        const Vector3<T> change = h * N.llt().solve(tau_b);
-        state.scaled_rate[i] += L.transpose() * change;
-    }
+    const Vector3<T> tau_b = state.R_wb[i].transpose() * state.c_drag_tau_w[i];
+    const Matrix3<T> S = joint_inertia(plan, state, i);
+    const Matrix3<T> L = S.llt().matrixL();
+    Matrix3<T> N = S;
+    N.diagonal().array() += h * plan.inverse_weight[i] * state.c_drag_row[i];
+    const Vector3<T> change = h * N.llt().solve(tau_b);
+    state.scaled_rate[i] += L.transpose() * change;
 }
 
+template <class T> void joint_drag(const Plan<T>& plan, State<T>& state) {
+    const auto n = std::int64_t(plan.bodies);
+#pragma omp parallel for schedule(static) if (n > 2000)
+    for (std::int64_t i = 0; i < n; ++i) joint_drag(plan, state, std::size_t(i));
+}
+
+template void joint_drag(const Plan<float>&, State<float>&, std::size_t);
+template void joint_drag(const Plan<double>&, State<double>&, std::size_t);
 template void joint_drag(const Plan<float>&, State<float>&);
 template void joint_drag(const Plan<double>&, State<double>&);
 

@@ -49,5 +49,6 @@
 namespace bough {
 
 template <class T> void joint_drag(const Plan<T>&, State<T>&);
+template <class T> void joint_drag(const Plan<T>&, State<T>&, std::size_t body);
 
 } // namespace bough

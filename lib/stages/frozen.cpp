@@ -1,5 +1,7 @@
 #include "frozen.h"
 #include "../fast/frozen_lanes.h"
+#include "drag.h"
+#include "spring.h"
 #include "spring_joint.h"
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -104,6 +106,7 @@ template <class T> void refresh_joints(const Plan<T>& plan, State<T>& state) {
 #pragma omp parallel for schedule(static) reduction(+ : refreshed, buckling, bounded) if (n > 2000)
     for (std::int64_t k = 0; k < n; ++k) {
         const auto i = std::size_t(k);
+        if (!keeps_coefficients(plan, i)) continue;
         const Seen<T> seen = see(plan, state, i);
         if (!stale(state.frozen[i], seen, T(plan.refresh))) continue;
         StepFlags flags;
@@ -119,14 +122,25 @@ template <class T> void refresh_joints(const Plan<T>& plan, State<T>& state) {
 
 template <class T> void frozen_update(const Plan<T>& plan, State<T>& state) {
     const auto n = std::int64_t(plan.bodies);
-    std::uint64_t half_turns = 0, guarded = 0;
-#pragma omp parallel for schedule(static) reduction(+ : half_turns, guarded) if (n > 2000)
-    for (std::int64_t i = 0; i < n; ++i) {
-        const StepFlags flags = evolve(plan, state, std::size_t(i));
+    std::uint64_t half_turns = 0, guarded = 0, buckling = 0, bounded = 0;
+#pragma omp parallel for schedule(static) reduction(+ : half_turns, guarded, buckling, bounded) if (n > 2000)
+    for (std::int64_t k = 0; k < n; ++k) {
+        const auto i = std::size_t(k);
+        StepFlags flags;
+        if (keeps_coefficients(plan, i)) {
+            flags = evolve(plan, state, i);
+        } else {
+            joint_drag(plan, state, i);
+            flags = spring_update(plan, state, i);
+        }
         half_turns += flags.half_turns;
         guarded += flags.energy_guard;
+        buckling += flags.buckling;
+        bounded += flags.bounded_lambda;
     }
     state.flags.half_turns += half_turns;
+    state.flags.buckling += buckling;
+    state.flags.bounded_lambda += bounded;
     state.flags.energy_guard += guarded;
 }
 

@@ -45,11 +45,17 @@
 
 namespace bough {
 
+// Whether a joint keeps its coefficients: not a leaf's or fruit's in wind, of which a gust would make it anew every few frames; those are worked
+// out in full.
+template <class T> bool keeps_coefficients(const Plan<T>& plan, std::size_t body) {
+    return plan.refresh > 0 && (!plan.wind || plan.kind[body] == Kind::branch);
+}
+
 // Refreshes what is stale. Reads c_h_w, c_J_w, the air's rows, R_wb, theta, scaled_rate; writes frozen and scaled_rate.
 // After   composite. O(n), joints in parallel. Errors none.
 template <class T> void refresh_joints(const Plan<T>&, State<T>&);
 
-// drag.h and spring.h with the coefficients that are kept. Reads and writes as they do, and frozen.
+// drag.h and spring.h with the coefficients that are kept, and in full where none are. Reads and writes as they do, and frozen.
 // After   refresh_joints.
 template <class T> void frozen_update(const Plan<T>&, State<T>&);
 

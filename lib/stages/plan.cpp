@@ -266,7 +266,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
         if (analytic) {
             constexpr int L = fast::Row<T>::lanes;
             const int inward = fast::analytic::inward_count(plan.wind, !plan.pulls.empty());
-            rows("lanes.now", layout.rows, fast::analytic::motions(frozen));
+            rows("lanes.now", layout.rows, fast::analytic::motion::count);
             if (frozen) rows("lanes.frozen", layout.rows, fast::analytic::frozen::count);
             rows("lanes.outward, inward", layout.joints,
                  int(fast::record(fast::analytic::outward::count, L) + fast::record(inward, L)) / L);

@@ -35,9 +35,7 @@ template <class T> void symmetric_eigen(Matrix3<T> A, Matrix3<T>& V, Vector3<T>&
     values = A.diagonal();
 }
 
-namespace {
-
-template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_t i) {
+template <class T> StepFlags spring_update(const Plan<T>& plan, State<T>& s, std::size_t i) {
     const SpringJoint<T> joint = spring_joint(plan, s, i);
     const SpringOscillators<T> o = spring_oscillators(plan, s, joint, i);
     StepFlags flags;
@@ -66,14 +64,12 @@ template <class T> StepFlags evolve(const Plan<T>& plan, State<T>& s, std::size_
     return flags;
 }
 
-} // namespace
-
 template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
     const auto n = std::int64_t(plan.bodies);
     std::uint64_t buckling = 0, bounded = 0, half_turns = 0, guarded = 0, limited = 0;
 #pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns, guarded, limited) if (n > 2000)
     for (std::int64_t i = 0; i < n; ++i) {
-        const StepFlags flags = evolve(plan, state, std::size_t(i));
+        const StepFlags flags = spring_update(plan, state, std::size_t(i));
         buckling += flags.buckling;
         bounded += flags.bounded_lambda;
         half_turns += flags.half_turns;
@@ -95,6 +91,8 @@ template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {
 
 template void symmetric_eigen(Matrix3<float>, Matrix3<float>&, Vector3<float>&);
 template void symmetric_eigen(Matrix3<double>, Matrix3<double>&, Vector3<double>&);
+template StepFlags spring_update(const Plan<float>&, State<float>&, std::size_t);
+template StepFlags spring_update(const Plan<double>&, State<double>&, std::size_t);
 template void spring_update(const Plan<float>&, State<float>&);
 template void spring_update(const Plan<double>&, State<double>&);
 template void spring_torque(const Plan<float>&, State<float>&);

@@ -54,6 +54,8 @@
 namespace bough {
 
 template <class T> void spring_update(const Plan<T>&, State<T>&);
+// Of one joint, what happened returned instead of counted.
+template <class T> StepFlags spring_update(const Plan<T>&, State<T>&, std::size_t body);
 
 // The spring's and damper's torque on the body [N m, joint frame], -T_j^T K (theta + beta theta_dot) with T_j = T of the
 // joint frame's rates, into torque_j for all bodies.
