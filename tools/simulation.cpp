@@ -365,10 +365,15 @@ std::uint64_t fingerprint(const Setting& setting) {
     return f.hash;
 }
 
-template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
+namespace {
+
+// tree: const Tree& or Tree&&, as make_plan takes it.
+template <class T, class TreeType>
+Plan<T> plan_of(TreeType&& tree, const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
-        Plan<T> plan = make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
-                                    chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o));
+        Plan<T> plan =
+            make_plan<T>(std::forward<TreeType>(tree), setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
+                         chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o));
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {
@@ -376,6 +381,16 @@ template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes
     } catch (const std::domain_error& error) {
         throw InputError(input_name(o.input), error.what());
     }
+}
+
+} // namespace
+
+template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
+    return plan_of<T>(setting.tree, setting, wishes, o);
+}
+
+template <class T> Plan<T> plan_run(Setting&& setting, const Wishes& wishes, const RunOptions& o) {
+    return plan_of<T>(std::move(setting.tree), setting, wishes, o);
 }
 
 template <class T>
@@ -429,6 +444,8 @@ std::string hash_text(std::uint64_t hash) {
 
 template Plan<float> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template Plan<double> plan_run(const Setting&, const Wishes&, const RunOptions&);
+template Plan<float> plan_run(Setting&&, const Wishes&, const RunOptions&);
+template Plan<double> plan_run(Setting&&, const Wishes&, const RunOptions&);
 template void advance_frame(const Plan<float>&, State<float>&, const Tree&, std::int64_t, int, StageClock*);
 template void advance_frame(const Plan<double>&, State<double>&, const Tree&, std::int64_t, int, StageClock*);
 template void require_finite(const Plan<float>&, State<float>&, const Tree&, std::int64_t);

@@ -98,14 +98,16 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(lanes.now, analytic::motion::count, layout.slot[i]);
         row.put(analytic::motion::theta, state.theta[i]);
-        row.put(analytic::motion::theta_dot, state.theta_dot[i]);
-        row.put(analytic::motion::scaled_rate, state.scaled_rate[i]);
+        row.put(analytic::motion::theta_dot, entry(state.theta_dot, i));
+        row.put(analytic::motion::scaled_rate, entry(state.scaled_rate, i));
     }
     pack_pulls(plan, state);
     lanes.presented = true;
 }
 
 template <class T> void unpack_analytic(const Plan<T>& plan, State<T>& state) {
+    for (auto* array : {&state.theta, &state.theta_dot, &state.scaled_rate})
+        array->resize(plan.bodies); // where they were left out
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(state.lanes.now, analytic::motion::count, plan.lanes.layout.slot[i]);
         state.theta[i] = row.vector(analytic::motion::theta);

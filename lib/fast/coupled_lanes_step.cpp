@@ -146,6 +146,8 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
 }
 
 template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
+    for (auto* array : {&state.theta, &state.theta_dot, &state.theta_change, &state.theta_dot_change})
+        array->resize(plan.bodies); // where they were left out
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(state.lanes.now, motion::count, plan.lanes.layout.slot[i]);
         state.theta[i] = row.vector(motion::theta);
@@ -173,9 +175,9 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(lanes.now, motion::count, layout.slot[i]);
         row.put(motion::theta, state.theta[i]);
-        row.put(motion::theta_dot, state.theta_dot[i]);
-        row.put(motion::theta_change, state.theta_change[i]);
-        row.put(motion::theta_dot_change, state.theta_dot_change[i]);
+        row.put(motion::theta_dot, entry(state.theta_dot, i));
+        row.put(motion::theta_change, entry(state.theta_change, i));
+        row.put(motion::theta_dot_change, entry(state.theta_dot_change, i));
     }
     pack_pulls(plan, state);
     lanes.presented = true;
@@ -227,10 +229,11 @@ template <class T> void present(const Plan<T>& plan, State<T>& state) {
         fast::unpack_analytic(plan, state);
     else
         fast::unpack(plan, state);
+    state.lanes.presented = true;
+    if (!plan.pose) return;
     move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
-    state.lanes.presented = true;
 }
 
 template void present(const Plan<float>&, State<float>&);

@@ -33,6 +33,11 @@ template <class T> T& entry(RowVector<T>& rows, std::size_t joint, int count, in
     return data(rows)[joint * record(count, Row<T>::lanes) + std::size_t(quantity)];
 }
 
+// Of a state's array in document order; zero where the array is left out.
+template <class T> Vector3<T> entry(const std::vector<Vector3<T>>& array, std::size_t body) {
+    return array.empty() ? Vector3<T>(Vector3<T>::Zero()) : array[body];
+}
+
 template <class T> void put(T (&to)[3], const Vec3& v) {
     for (int k = 0; k < 3; ++k) to[k] = T(v[k]);
 }

@@ -1,5 +1,6 @@
 #include "state.h"
 #include "../fast/analytic_lanes_step.h"
+#include "../fast/analytic_rows.h"
 #include "../fast/coupled_lanes_step.h"
 #include "root_term.h"
 #include "spring.h"
@@ -19,6 +20,31 @@ template <class T> void set_zero(T& value) {
     else if constexpr (requires { value.setZero(); })
         value.setZero(); // the rest is a step's own scratch
 }
+
+// The rows hold them; present() makes them again when they are read.
+template <class T> void leave_out_angles(State<T>& state) {
+    for (auto* array :
+         {&state.theta, &state.theta_dot, &state.scaled_rate, &state.theta_change, &state.theta_dot_change})
+        std::vector<Vector3<T>>().swap(*array);
+    state.lanes.presented = false;
+}
+
+// FNV-1a.
+class Hash {
+public:
+    template <class T> void add(T value) {
+        using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+        const Bits bits = std::bit_cast<Bits>(value);
+        for (unsigned shift = 0; shift < 8 * sizeof(T); shift += 8) {
+            hash ^= (bits >> shift) & 0xff;
+            hash *= 0x100000001b3u;
+        }
+    }
+    std::uint64_t value() const { return hash; }
+
+private:
+    std::uint64_t hash = 0xcbf29ce484222325u;
+};
 
 } // namespace
 
@@ -40,7 +66,8 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     if (plan.solver == Solver::coupled) {
         state.wind_change = state.wind;
         state.coupled_ground.resize(plan.splines.size());
-        state.account.resize(std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1)));
+        state.account.resize(plan.lanes.on ? plan.lanes.layout.ground.size()
+                                           : std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1)));
     }
     state.ground.resize(plan.splines.size());
     state.root_load.resize(plan.splines.size());
@@ -50,13 +77,14 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
 
 template <class T> void restart(const Plan<T>& plan, State<T>& state) {
     move_ground(plan, state, double(state.step) * plan.dt);
-    state_update(plan, state);
+    if (plan.pose) state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
     if (!plan.lanes.on) return;
     if (plan.solver == Solver::analytic)
         fast::pack_analytic(plan, state);
     else
         fast::pack(plan, state);
+    if (!plan.pose) leave_out_angles(state);
 }
 
 template <class T> std::size_t State<T>::bytes() const {
@@ -71,21 +99,27 @@ template <class T> std::size_t State<T>::bytes() const {
 }
 
 template <class T> std::uint64_t state_hash(const State<T>& state) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    const auto add = [&hash](const std::vector<Vector3<T>>& array) {
-        for (const Vector3<T>& v : array)
-            for (int k = 0; k < 3; ++k) {
-                using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-                const Bits bits = std::bit_cast<Bits>(T(v[k]));
-                for (unsigned shift = 0; shift < 8 * sizeof(T); shift += 8) {
-                    hash ^= (bits >> shift) & 0xff;
-                    hash *= 0x100000001b3u;
-                }
-            }
-    };
-    add(state.theta);
-    add(state.theta_dot);
-    return hash;
+    Hash hash;
+    for (const auto* array : {&state.theta, &state.theta_dot})
+        for (const Vector3<T>& v : *array)
+            for (int k = 0; k < 3; ++k) hash.add(v[k]);
+    return hash.value();
+}
+
+template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>& state) {
+    if (!plan.lanes.on) return state_hash(state);
+    // Both steps' rows begin with theta and theta_dot.
+    static_assert(fast::motion::theta == 0 && fast::motion::theta_dot == 3);
+    static_assert(fast::analytic::motion::theta == 0 && fast::analytic::motion::theta_dot == 3);
+    const std::size_t count =
+        plan.solver == Solver::analytic ? std::size_t(fast::analytic::motion::count) : std::size_t(fast::motion::count);
+    constexpr std::size_t lanes = fast::Row<T>::lanes;
+    Hash hash;
+    for (const std::size_t first : {std::size_t(0), std::size_t(3)})
+        for (const std::uint32_t slot : plan.lanes.layout.slot)
+            for (std::size_t k = first; k < first + 3; ++k)
+                hash.add(state.lanes.now[slot / lanes * count + k].lane[slot % lanes]);
+    return hash.value();
 }
 
 template <class T> std::optional<std::size_t> first_non_finite(const State<T>& state) {
@@ -102,6 +136,8 @@ template void restart(const Plan<float>&, State<float>&);
 template void restart(const Plan<double>&, State<double>&);
 template std::uint64_t state_hash(const State<float>&);
 template std::uint64_t state_hash(const State<double>&);
+template std::uint64_t state_hash(const Plan<float>&, const State<float>&);
+template std::uint64_t state_hash(const Plan<double>&, const State<double>&);
 template std::optional<std::size_t> first_non_finite(const State<float>&);
 template std::optional<std::size_t> first_non_finite(const State<double>&);
 
