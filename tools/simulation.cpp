@@ -67,7 +67,7 @@ void read_scene_trees(Setting& setting, const std::string& scene_file) {
         throw InputError(input_name(scene_file), "/trees: is empty or missing, expected at least one tree");
     for (const Placement& place : setting.scene.trees) {
         const std::string file = (folder / place.file).string();
-        stand(setting, read_tree(read_input(file), file), place);
+        stand(setting, read_tree(Input(file)), place);
     }
 }
 
@@ -336,14 +336,14 @@ Setting read_setting(const RunOptions& o) {
     if (o.tolerance && solver != Solver::articulated_reference)
         throw UsageError("--tolerance: only with --solver articulated-reference");
     Setting setting;
-    const std::string content = read_input(o.input), name = input_name(o.input);
-    if (is_scene(content)) {
-        setting.scene = read_scene(content, name);
+    const Input input(o.input);
+    if (is_scene(input.content())) {
+        setting.scene = read_scene(input.all(), input.name());
         apply(o, setting.scene);
         read_scene_trees(setting, o.input);
     } else {
         apply(o, setting.scene);
-        stand(setting, read_tree(content, name), Placement());
+        stand(setting, read_tree(input), Placement());
     }
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
