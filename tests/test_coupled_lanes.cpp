@@ -131,7 +131,7 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
         CHECK_FALSE(stage.on);
         CHECK(stage.reason.find(reason) != std::string::npos);
         CHECK(asked.plan.lanes.constants.empty());
-        CHECK(asked.state.lanes.now.empty());
+        CHECK(asked.state.lanes.table.empty());
         for (int k = 0; k < 5; ++k) {
             asked.frame();
             plain.frame();

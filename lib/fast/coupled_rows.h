@@ -66,9 +66,11 @@ enum : int { alpha = 0, a = 6, count = 12 };
 }
 
 template <class T> struct CoupledRows : SweepRows<T> {
-    const T* now;   // motion at the step's start
-    T* next;        // and at its end
-    T* solved_rows; // from row solved_first on
+    const T* now;       // motion at the step's start
+    T* next;            // and at its end; a row's may stand where its `solved` stood
+    T* solved_rows;     // from row solved_first on
+    std::size_t stride; // [quantities] from row to row of now and next
+    std::size_t solved_stride;
     std::uint32_t solved_first;
     T* accelerated_records;
     // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard.

@@ -1,5 +1,6 @@
 #include "energy_lanes.h"
 #include "../coupled/energy_guard.h"
+#include "lane_tables.h"
 #include "targets.h"
 
 namespace bough::fast {
@@ -76,6 +77,7 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
 template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, const Group& g) {
     constexpr std::size_t L = Row<T>::lanes;
     const Layout& layout = plan.lanes.layout;
+    const CoupledColumns columns = columns_of(plan, state);
     const T h = T(plan.dt);
     std::uint64_t count = 0;
     for (std::size_t l = 0; l < L; ++l) {
@@ -86,7 +88,7 @@ template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, con
         for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
             const double keep = state.lanes.energy_fast[row].lane[l] > 0 ? account.keep_fast : account.keep_slow;
             if (!(keep < 1) || layout.body[row * L + l] < 0) continue;
-            Row<T>* motion = &state.lanes.next[row * std::size_t(motion::count)];
+            Row<T>* motion = &state.lanes.table[row * std::size_t(columns.count) + std::size_t(columns.next)];
             for (std::size_t k = 0; k < 3; ++k) {
                 T& rate = motion[motion::theta_dot + k].lane[l];
                 rate *= T(keep);

@@ -10,6 +10,11 @@ namespace bough::fast {
 // The constants that both steps have (body_constant), but the inertia, of which each has its own form.
 template <class T> void put_body(const Plan<T>&, std::size_t body, const Slot<T>& row);
 
+// Of the coupled step's table as it stands.
+template <class T> CoupledColumns columns_of(const Plan<T>& plan, const State<T>& state) {
+    return coupled_columns(waits(plan.lanes.layout), scheme_of(plan.scheme).poles, state.lanes.odd);
+}
+
 // A record of `count` for each joint of the layout; what is there stays.
 template <class T> void resize_records(const Layout&, RowVector<T>& records, int count);
 // Lanes::pulls: where each acts. Its force is place_tables'.

@@ -43,6 +43,20 @@ inline bool waits(const Layout& layout) {
     return false;
 }
 
+// Where in a row of the coupled step's table stand the motion at the step's start, at its end, and what is solved [quantities].
+// A row's solution is read for the last time where its motion's end is found, so that the one stands where the other stood: with one
+// solve a step 66 quantities a body, not 78, and the lines that the end is written to are in the core's cache already. From step to step the
+// motions change places.
+struct CoupledColumns {
+    int now, next, solved, count;
+};
+inline CoupledColumns coupled_columns(bool waits, int poles, bool odd) {
+    constexpr int m = motion::count, all = m + solved::count;
+    if (waits && poles == 1) return odd ? CoupledColumns{all - m, 0, 0, all} : CoupledColumns{0, all - m, m, all};
+    // Nothing is solved beyond a core's cache; or it is solved anew while the end is being summed up.
+    return {odd ? m : 0, odd ? 0 : m, 2 * m, 2 * m + (waits ? int(solved::count) : 0)};
+}
+
 // [rows] that the three records of a joint take.
 template <class T> constexpr int records_of_joint() {
     constexpr int L = Row<T>::lanes;
@@ -51,7 +65,9 @@ template <class T> constexpr int records_of_joint() {
 
 // In the state.
 template <class T> struct Lanes {
-    RowVector<T> now, next, solved;
+    RowVector<T> now;                          // of the analytic step: motion
+    RowVector<T> table;                        // of the coupled step: CoupledColumns
+    bool odd = false;                          // which of them
     RowVector<T> outward, inward, accelerated; // a record a joint
     std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
     std::vector<PullOnLane<T>> pulls;

@@ -32,14 +32,10 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
     Rows<const T> constants(std::uint32_t row, int lane) const {
         return {rows.constants + (row * std::size_t(constant::count)) * L + lane};
     }
-    Rows<const T> now(std::uint32_t row, int lane) const {
-        return {rows.now + (row * std::size_t(motion::count)) * L + lane};
-    }
-    Rows<T> next(std::uint32_t row, int lane) const {
-        return {rows.next + (row * std::size_t(motion::count)) * L + lane};
-    }
+    Rows<const T> now(std::uint32_t row, int lane) const { return {rows.now + row * rows.stride * L + lane}; }
+    Rows<T> next(std::uint32_t row, int lane) const { return {rows.next + row * rows.stride * L + lane}; }
     Rows<T> solved_row(std::uint32_t row, int lane) const {
-        return {rows.solved_rows + (std::size_t(row - rows.solved_first) * solved::count) * L + lane};
+        return {rows.solved_rows + std::size_t(row - rows.solved_first) * rows.solved_stride * L + lane};
     }
 
     // Parent's body frame from joint frame.

@@ -320,8 +320,8 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
             rows("lanes.outward, inward", layout.joints,
                  int(fast::record(fast::analytic::outward::count, L) + fast::record(inward, L)) / L);
         } else {
-            rows("lanes.now, next", 2 * std::size_t(layout.rows), fast::motion::count);
-            rows("lanes.solved", fast::waits(layout) ? layout.rows : 0, fast::solved::count);
+            rows("lanes.table", layout.rows,
+                 fast::coupled_columns(fast::waits(layout), scheme_of(plan.scheme).poles, false).count);
             rows("lanes.outward, inward, accelerated", layout.joints, fast::records_of_joint<T>());
         }
     }

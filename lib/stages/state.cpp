@@ -2,6 +2,7 @@
 #include "../fast/analytic_lanes_step.h"
 #include "../fast/analytic_rows.h"
 #include "../fast/coupled_lanes_step.h"
+#include "../fast/lane_tables.h"
 #include "root_term.h"
 #include "spring.h"
 #include "state_arrays.h"
@@ -92,7 +93,7 @@ template <class T> std::size_t State<T>::bytes() const {
     visit_arrays(Plan<T>(), *this, [&](const char*, const auto& array, bool, const std::string&) {
         sum += array.capacity() * sizeof(array[0]);
     });
-    for (const auto* rows : {&lanes.now, &lanes.next, &lanes.solved, &lanes.outward, &lanes.inward, &lanes.accelerated})
+    for (const auto* rows : {&lanes.now, &lanes.table, &lanes.outward, &lanes.inward, &lanes.accelerated})
         sum += rows->capacity() * sizeof(fast::Row<T>);
     for (const ArticulatedPass& pass : articulated) sum += pass.body.capacity() * sizeof(ArticulatedBody);
     return sum;
@@ -108,17 +109,19 @@ template <class T> std::uint64_t state_hash(const State<T>& state) {
 
 template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>& state) {
     if (!plan.lanes.on) return state_hash(state);
-    // Both steps' rows begin with theta and theta_dot.
+    const bool analytic = plan.solver == Solver::analytic;
+    const fast::CoupledColumns columns =
+        analytic ? fast::CoupledColumns{0, 0, 0, int(fast::analytic::motion::count)} : fast::columns_of(plan, state);
+    const fast::RowVector<T>& rows = analytic ? state.lanes.now : state.lanes.table;
+    // Both steps' motion begins with theta and theta_dot.
     static_assert(fast::motion::theta == 0 && fast::motion::theta_dot == 3);
     static_assert(fast::analytic::motion::theta == 0 && fast::analytic::motion::theta_dot == 3);
-    const std::size_t count =
-        plan.solver == Solver::analytic ? std::size_t(fast::analytic::motion::count) : std::size_t(fast::motion::count);
     constexpr std::size_t lanes = fast::Row<T>::lanes;
     Hash hash;
-    for (const std::size_t first : {std::size_t(0), std::size_t(3)})
+    for (const int first : {columns.now, columns.now + 3})
         for (const std::uint32_t slot : plan.lanes.layout.slot)
-            for (std::size_t k = first; k < first + 3; ++k)
-                hash.add(state.lanes.now[slot / lanes * count + k].lane[slot % lanes]);
+            for (int k = first; k < first + 3; ++k)
+                hash.add(rows[slot / lanes * std::size_t(columns.count) + std::size_t(k)].lane[slot % lanes]);
     return hash.value();
 }
 
