@@ -87,7 +87,7 @@ template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lane
     }
 }
 
-template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
+template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
     lanes.now.resize(std::size_t(layout.rows) * analytic::motion::count);
@@ -97,7 +97,7 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
         entry(lanes.outward, 0, analytic::outward::count, analytic::outward::R_bw + 4 * k) = 1; // the ground
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(lanes.now, analytic::motion::count, layout.slot[i]);
-        row.put(analytic::motion::theta, state.theta[i]);
+        row.put(analytic::motion::theta, theta[i]);
         row.put(analytic::motion::theta_dot, entry(state.theta_dot, i));
         row.put(analytic::motion::scaled_rate, entry(state.scaled_rate, i));
     }
@@ -130,8 +130,8 @@ template <class T> void analytic_lanes_step(const Plan<T>& plan, State<T>& state
 
 template void fill_analytic(const Plan<float>&, PlannedLanes<float>&);
 template void fill_analytic(const Plan<double>&, PlannedLanes<double>&);
-template void pack_analytic(const Plan<float>&, State<float>&);
-template void pack_analytic(const Plan<double>&, State<double>&);
+template void pack_analytic(const Plan<float>&, State<float>&, const std::vector<Vector3<float>>&);
+template void pack_analytic(const Plan<double>&, State<double>&, const std::vector<Vector3<double>>&);
 template void unpack_analytic(const Plan<float>&, State<float>&);
 template void unpack_analytic(const Plan<double>&, State<double>&);
 template void analytic_lanes_step(const Plan<float>&, State<float>&, StageClock*);

@@ -12,8 +12,8 @@ namespace bough::fast {
 // The bodies' constants in rows (analytic_rows.h), for a plan whose layout stands.
 template <class T> void fill_analytic(const Plan<T>&, PlannedLanes<T>&);
 
-// The state's rows from its arrays in document order, and back. O(n).
-template <class T> void pack_analytic(const Plan<T>&, State<T>&);
+// The state's rows from theta [rad] and from its arrays in document order, zero where one is left out; and back. O(n).
+template <class T> void pack_analytic(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta);
 template <class T> void unpack_analytic(const Plan<T>&, State<T>&);
 
 // Advances the rows by plan.dt; the arrays in document order are left behind. Needs a plan with lanes.on.

@@ -164,7 +164,7 @@ template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
 
 } // namespace
 
-template <class T> void pack(const Plan<T>& plan, State<T>& state) {
+template <class T> void pack(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
     lanes.odd = false;
@@ -179,7 +179,7 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     resize_records(layout, lanes.accelerated, accelerated::count);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(lanes.table, columns.count, layout.slot[i]);
-        row.put(columns.now + motion::theta, state.theta[i]);
+        row.put(columns.now + motion::theta, theta[i]);
         row.put(columns.now + motion::theta_dot, entry(state.theta_dot, i));
         row.put(columns.now + motion::theta_change, entry(state.theta_change, i));
         row.put(columns.now + motion::theta_dot_change, entry(state.theta_dot_change, i));
@@ -219,8 +219,8 @@ template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state,
     ++state.step;
 }
 
-template void pack(const Plan<float>&, State<float>&);
-template void pack(const Plan<double>&, State<double>&);
+template void pack(const Plan<float>&, State<float>&, const std::vector<Vector3<float>>&);
+template void pack(const Plan<double>&, State<double>&, const std::vector<Vector3<double>>&);
 template void coupled_lanes_step(const Plan<float>&, State<float>&, StageClock*);
 template void coupled_lanes_step(const Plan<double>&, State<double>&, StageClock*);
 

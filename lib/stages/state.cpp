@@ -9,6 +9,7 @@
 #include "state_update.h"
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <type_traits>
 
 namespace bough {
@@ -28,6 +29,19 @@ template <class T> void leave_out_angles(State<T>& state) {
          {&state.theta, &state.theta_dot, &state.scaled_rate, &state.theta_change, &state.theta_dot_change})
         std::vector<Vector3<T>>().swap(*array);
     state.lanes.presented = false;
+}
+
+// Kinematics, ground and rows as of `theta` and what else the state holds.
+template <class T> void begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
+    move_ground(plan, state, double(state.step) * plan.dt);
+    if (plan.pose) state_update(plan, state);
+    if (plan.torque) spring_torque(plan, state);
+    if (!plan.lanes.on) return;
+    if (plan.solver == Solver::analytic)
+        fast::pack_analytic(plan, state, theta);
+    else
+        fast::pack(plan, state, theta);
+    if (!plan.pose) leave_out_angles(state);
 }
 
 // FNV-1a.
@@ -56,7 +70,7 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
         array.resize(plan.bodies);
         for (auto& value : array) set_zero(value);
     });
-    state.theta = plan.theta_start;
+    if (plan.pose) state.theta = plan.theta_start;
     state.articulated.resize(articulated_passes(plan.solver));
     for (ArticulatedPass& pass : state.articulated) {
         pass.body.resize(plan.bodies);
@@ -72,20 +86,13 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     }
     state.ground.resize(plan.splines.size());
     state.root_load.resize(plan.splines.size());
-    restart(plan, state);
+    begin(plan, state, plan.theta_start);
     return state;
 }
 
 template <class T> void restart(const Plan<T>& plan, State<T>& state) {
-    move_ground(plan, state, double(state.step) * plan.dt);
-    if (plan.pose) state_update(plan, state);
-    if (plan.torque) spring_torque(plan, state);
-    if (!plan.lanes.on) return;
-    if (plan.solver == Solver::analytic)
-        fast::pack_analytic(plan, state);
-    else
-        fast::pack(plan, state);
-    if (!plan.pose) leave_out_angles(state);
+    assert(state.theta.size() == plan.bodies); // without Plan::pose: there since present()
+    begin(plan, state, state.theta);
 }
 
 template <class T> std::size_t State<T>::bytes() const {
