@@ -114,9 +114,6 @@ template <class T> struct EnergySweep : SweepParts<T> {
     BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         const Rows<T> y1 = next(row, lane);
-        // Rows of the table lie further apart than what is read of them: no machine sees by itself what comes next.
-        this->prefetch(now(row + 1, lane).at, motion::count * L);
-        this->prefetch(next(row + 1, lane).at, motion::theta_change * L);
         const Body b{k.real(constant::mass), k.vector(constant::com), k.vector(constant::K),
                      k.symmetric(constant::inertia_joint)};
         const M3<W> R_pj = this->joint_rotation(k);

@@ -3,6 +3,7 @@
 #include "coupled_rows.h"
 #include "layout.h"
 #include "row.h"
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -43,18 +44,33 @@ inline bool waits(const Layout& layout) {
     return false;
 }
 
-// Where in a row of the coupled step's table stand the motion at the step's start, at its end, and what is solved [quantities].
-// A row's solution is read for the last time where its motion's end is found, so that the one stands where the other stood: with one
-// solve a step 66 quantities a body, not 78, and the lines that the end is written to are in the core's cache already. From step to step the
-// motions change places.
-struct CoupledColumns {
-    int now, next, solved, count;
+// One quantity's rows, or a record's of several: that of a block's row k begins at first + k * stride, in rows of 64 bytes.
+struct Run {
+    std::ptrdiff_t first, stride;
+    std::ptrdiff_t at(std::uint32_t k) const { return first + std::ptrdiff_t(k) * stride; }
 };
-inline CoupledColumns coupled_columns(bool waits, int poles, bool odd) {
-    constexpr int m = motion::count, all = m + solved::count;
-    if (waits && poles == 1) return odd ? CoupledColumns{all - m, 0, 0, all} : CoupledColumns{0, all - m, m, all};
-    // Nothing is solved beyond a core's cache; or it is solved anew while the end is being summed up.
-    return {odd ? m : 0, odd ? 0 : m, 2 * m, 2 * m + (waits ? int(solved::count) : 0)};
+// Where in the coupled step's table stand a block's motion at the step's start, at its end, and what is solved. Each is one stretch of
+// memory, as a core likes to read it. Outward, a row's solution is read for the last time where its motion's end is found, and takes
+// more room than that: the one runs along where the others before it have stood, with one solve a step 66 quantities a body, not
+// 78, and the lines that are written are in the core's cache already. From step to step the motions change places, from the front of the
+// block's stretch to its back, and so does the direction in which the rows stand.
+struct CoupledPlaces {
+    Run now, next, solved;
+};
+// Quantities a row in all. poles: solves a step; waits: as below.
+constexpr int coupled_columns(bool waits, int poles) {
+    if (!waits) return 2 * int(motion::count); // nothing is solved beyond a core's cache
+    return int(solved::count) + (poles > 1 ? 2 : 1) * int(motion::count);
+}
+inline CoupledPlaces coupled_places(const Block& block, bool waits, int poles, bool odd) {
+    constexpr std::ptrdiff_t m = motion::count, s = solved::count;
+    const std::ptrdiff_t count = coupled_columns(waits, poles), rows = block.end_row - block.first_row;
+    const std::ptrdiff_t front = count * block.first_row, back = front + count * rows;
+    if (waits && poles == 1)
+        return odd ? CoupledPlaces{{back - m, -m}, {front, m}, {front, s}}
+                   : CoupledPlaces{{front, m}, {back - m, -m}, {back - s, -s}};
+    const Run one{front, m}, other{front + m * rows, m}; // solved anew while the end is being summed up
+    return {odd ? other : one, odd ? one : other, {front + 2 * m * rows, s}};
 }
 
 // [rows] that the three records of a joint take.

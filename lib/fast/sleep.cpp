@@ -43,10 +43,10 @@ bool carried(const Block& block) {
 
 // At the step's end.
 template <class T> void set_rates_to_zero(const Plan<T>& plan, State<T>& state, const Block& block) {
-    const CoupledColumns columns = columns_of(plan, state);
-    for (std::uint32_t row = block.first_row; row < block.end_row; ++row)
-        for (int k = motion::theta_dot; k < motion::count; ++k)
-            state.lanes.table[std::size_t(row) * std::size_t(columns.count) + std::size_t(columns.next + k)] = Row<T>{};
+    const Run next = places_of(plan, state, block).next;
+    for (std::uint32_t k = 0; k < block.end_row - block.first_row; ++k)
+        std::fill_n(state.lanes.table.begin() + next.at(k) + motion::theta_dot, motion::count - motion::theta_dot,
+                    Row<T>{});
 }
 
 // A port's record stands for its block until it wakes; awake, the block adds to it anew.
@@ -158,11 +158,10 @@ template <class T> void rest_blocks(const Plan<T>& plan, State<T>& state, const 
 }
 
 template <class T> void keep_motion(const Plan<T>& plan, State<T>& state, const Block& block) {
-    const CoupledColumns columns = columns_of(plan, state);
-    for (std::uint32_t row = block.first_row; row < block.end_row; ++row) {
-        const auto first = state.lanes.table.begin() + std::ptrdiff_t(row) * columns.count;
-        std::copy_n(first + columns.now, int(motion::count), first + columns.next);
-    }
+    const CoupledPlaces places = places_of(plan, state, block);
+    const auto table = state.lanes.table.begin();
+    for (std::uint32_t k = 0; k < block.end_row - block.first_row; ++k)
+        std::copy_n(table + places.now.at(k), int(motion::count), table + places.next.at(k));
 }
 
 template <class T> std::vector<double> saved_sleep(const Plan<T>& plan, const State<T>& state) {

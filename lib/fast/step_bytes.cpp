@@ -43,7 +43,7 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     constexpr std::uint64_t index = sizeof(std::uint32_t);
     const std::uint64_t forks = layout.fork.size();
     bytes.indices.in = index * (rows + waiting + 2 * bases + waiting_bases + forks);
-    const auto columns = std::uint64_t(coupled_columns(waiting > 0, 1, false).count);
+    const auto columns = std::uint64_t(coupled_columns(waiting > 0, 1));
     bytes.tables = rows * (constant::count + columns) * line + records + index * (rows + 2 * bases + forks);
     return bytes;
 }

@@ -320,8 +320,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
             rows("lanes.outward, inward", layout.joints,
                  int(fast::record(fast::analytic::outward::count, L) + fast::record(inward, L)) / L);
         } else {
-            rows("lanes.table", layout.rows,
-                 fast::coupled_columns(fast::waits(layout), scheme_of(plan.scheme).poles, false).count);
+            rows("lanes.table", layout.rows, fast::coupled_columns(fast::waits(layout), scheme_of(plan.scheme).poles));
             rows("lanes.outward, inward, accelerated", layout.joints, fast::records_of_joint<T>());
         }
     }

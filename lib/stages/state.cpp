@@ -116,19 +116,17 @@ template <class T> std::uint64_t state_hash(const State<T>& state) {
 
 template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>& state) {
     if (!plan.lanes.on) return state_hash(state);
-    const bool analytic = plan.solver == Solver::analytic;
-    const fast::CoupledColumns columns =
-        analytic ? fast::CoupledColumns{0, 0, 0, int(fast::analytic::motion::count)} : fast::columns_of(plan, state);
-    const fast::RowVector<T>& rows = analytic ? state.lanes.now : state.lanes.table;
+    const fast::RowVector<T>& rows = plan.solver == Solver::analytic ? state.lanes.now : state.lanes.table;
     // Both steps' motion begins with theta and theta_dot.
     static_assert(fast::motion::theta == 0 && fast::motion::theta_dot == 3);
     static_assert(fast::analytic::motion::theta == 0 && fast::analytic::motion::theta_dot == 3);
+    const std::vector<std::size_t> motion_at = fast::motion_of_rows(plan, state);
     constexpr std::size_t lanes = fast::Row<T>::lanes;
     Hash hash;
-    for (const int first : {columns.now, columns.now + 3})
+    for (const std::size_t first : {std::size_t(0), std::size_t(3)})
         for (const std::uint32_t slot : plan.lanes.layout.slot)
-            for (int k = first; k < first + 3; ++k)
-                hash.add(rows[slot / lanes * std::size_t(columns.count) + std::size_t(k)].lane[slot % lanes]);
+            for (std::size_t k = first; k < first + 3; ++k)
+                hash.add(rows[motion_at[slot / lanes] + k].lane[slot % lanes]);
     return hash.value();
 }
 
