@@ -1,6 +1,7 @@
 // The coupled step in SIMD lanes against the plain one, which is other code with its sums in another order: in double equal to rounding,
 // in float as near to double as the plain one is; its targets against each other; what it refuses.
 #include "lanes_support.h"
+#include "lib/fast/step_bytes.h"
 
 using namespace bough;
 using namespace lanes;
@@ -99,6 +100,15 @@ TEST_CASE("AVX2 and AVX-512 give the same bits") {
     if (!fast::available(Target::avx512)) return;
     for (const Case& c : cases())
         if (c.tree.size_bodies() <= 1000) check_same_bits(c);
+}
+
+TEST_CASE("solutions written past the caches are the same bits as those that are not") {
+    if (!fast::available(Target::avx512)) return; // which alone writes whole lines past them
+    const Case large{"large", grown(80000), in_wind(gusts())};
+    const Run<float> run(large, Target::avx512);
+    REQUIRE(fast::streams(run.plan.lanes.layout));
+    REQUIRE_FALSE(fast::streams(Run<float>({"small", grown(20000), {}}, Target::avx512).plan.lanes.layout));
+    check_same_bits(large);
 }
 
 TEST_CASE("the energy guard takes in lanes what it takes on the plain path") {

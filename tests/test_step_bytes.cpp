@@ -53,7 +53,9 @@ TEST_CASE("bytes of a layout made by hand") {
     wide.lanes = 8;
     CHECK(coupled_step_bytes(wide, true, true, 8, true).records.in == 4 * (40 + 56 + 16) * 8);
     CHECK_FALSE(streams(layout)); // 20 kB
-    wide.rows = 700;              // 2.4 MB
+    wide.rows = 4800;             // 16.6 MB
+    CHECK_FALSE(streams(wide));
+    wide.rows = 4900; // 16.9 MB
     CHECK(streams(wide));
     wide.blocks = {wide.blocks[2]};
     CHECK_FALSE(streams(wide)); // nothing waits

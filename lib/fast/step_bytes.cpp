@@ -67,7 +67,7 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
 }
 
 bool streams(const Layout& layout) {
-    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > core_cache;
+    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > 8 * core_cache;
 }
 
 } // namespace bough::fast

@@ -38,7 +38,9 @@ StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t
 // other block once; nothing waits.
 StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, std::size_t real);
 
-// Whether `solved` of a layout is more than a core's own cache holds, and is written past the caches where the target can.
+// Whether `solved` of a layout is written past the caches where the target can: from eight times a core's own cache on. Below, what is behind
+// that cache still gives it back sooner than memory does (measured, float, one core with 2 MB: 18 % less time a step at 2 MB of `solved`,
+// 12 % at 11; at 23 streaming is level, beyond better).
 bool streams(const Layout&);
 
 } // namespace bough::fast
