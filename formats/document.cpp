@@ -1,4 +1,5 @@
 #include "document_parts.h"
+#include <cstring>
 
 namespace bough {
 namespace {
@@ -122,11 +123,24 @@ Field optional(Field field) {
 
 void read_document(std::string_view content, const std::string& name, const DocumentType& type,
                    std::vector<Field> fields) {
-    if (is_binary(content, name, type))
-        read_safetensors(content, name, type, fields);
-    else
+    if (is_binary(content, name, type)) {
+        const auto copy = [&](std::uint64_t at, std::size_t count, char* to) {
+            std::memcpy(to, content.data() + at, count);
+        };
+        read_safetensors(parse_safetensors(content, name), copy, name, type, fields);
+    } else {
         read_json(content, name, &type, fields);
+    }
     check_complete(fields, name, "");
+}
+
+void read_document(const Input& input, const DocumentType& type, std::vector<Field> fields) {
+    if (input.size() == input.content().size()) return read_document(input.content(), input.name(), type, fields);
+    is_binary(input.content(), input.name(), type); // which it is: refuses another document's
+    const auto read = [&](std::uint64_t at, std::size_t count, char* to) { input.read(at, count, to); };
+    read_safetensors(parse_safetensors_header(input.content(), input.size(), input.name()), read, input.name(), type,
+                     fields);
+    check_complete(fields, input.name(), "");
 }
 
 void write_document(Output& output, Form form, const DocumentType& type, const std::vector<Field>& fields) {

@@ -84,6 +84,7 @@ struct DocumentType {
 // Reads either form into the fields' targets: format, version, names, types, lengths, finite numbers; rules between
 // fields are check()'s. Cost O(size).
 void read_document(std::string_view content, const std::string& name, const DocumentType&, std::vector<Field>);
+void read_document(const Input&, const DocumentType&, std::vector<Field>); // the binary form array by array
 // Writes either form. A number that is not finite is an OutputError. (The fields are only looked at.)
 void write_document(Output&, Form, const DocumentType&, const std::vector<Field>&);
 

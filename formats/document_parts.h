@@ -58,7 +58,8 @@ struct Tensor {
     std::string dtype; // "F64"
     std::vector<std::uint64_t> shape;
     std::uint64_t bytes = 0;
-    std::string_view data; // in the content, when read
+    std::string_view data{}; // in the content, when read from one
+    std::uint64_t begin = 0; // in the file
 };
 struct Safetensors {
     std::map<std::string, std::string> metadata;
@@ -67,6 +68,8 @@ struct Safetensors {
 // The layout, wholly checked: header within the file, shapes and offsets that fit each other, no overlap, no gap, no
 // trailing bytes. Sizes are believed only after that.
 Safetensors parse_safetensors(std::string_view content, const std::string& name);
+// From the header alone, `size`: of the whole file. Leaves Tensor::data empty.
+Safetensors parse_safetensors_header(std::string_view header, std::uint64_t size, const std::string& name);
 // Length and header for these tensors, data to follow in their order.
 std::string safetensors_header(const std::vector<std::pair<std::string, std::string>>& metadata,
                                const std::vector<std::pair<std::string, Tensor>>& tensors);
@@ -79,7 +82,10 @@ void check_tensor(const std::string& name, const std::string& field, const Tenso
 // `first`: the index of values[0] in the field, for the message.
 void check_finite(const std::string& name, const std::string& field, const double* values, std::size_t count,
                   std::size_t first = 0);
-void read_safetensors(std::string_view content, const std::string& name, const DocumentType&, std::vector<Field>&);
+// read(at, count, to): `count` bytes of the file from byte `at`; it may be any part of an array.
+using ReadBytes = std::function<void(std::uint64_t at, std::size_t count, char* to)>;
+void read_safetensors(const Safetensors&, const ReadBytes& read, const std::string& name, const DocumentType&,
+                      std::vector<Field>&);
 void write_safetensors(Output&, const DocumentType&, const std::vector<Field>&);
 const char* dtype_name(Dtype);
 std::size_t dtype_size(Dtype);

@@ -89,16 +89,91 @@ std::string input_name(const std::string& path) {
     return path == "-" ? "<stdin>" : path;
 }
 
+namespace {
+
+// What the system says of an input that is open.
+struct stat status_of(int fd, const std::string& name) {
+    if (fd < 0) throw InputError(name, "cannot be opened: " + reason(errno));
+    struct stat status;
+    if (::fstat(fd, &status) != 0) throw InputError(name, "cannot be read: " + reason(errno));
+    if (S_ISDIR(status.st_mode)) throw InputError(name, "is a directory, expected a file");
+    return status;
+}
+
+Descriptor open_descriptor(const std::string& path) {
+    const bool standard = path == "-";
+    return {standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard};
+}
+
+std::string read_all(int fd, const struct stat& status, const std::string& name) {
+    const bool sized = S_ISREG(status.st_mode) && status.st_size > 0;
+    return read_all(fd, sized ? std::size_t(status.st_size) : 65536, name);
+}
+
+void read_at(int fd, std::uint64_t at, std::size_t count, char* to, const std::string& name) {
+    while (count > 0) {
+        const ssize_t n = ::pread(fd, to, count, off_t(at));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) throw InputError(name, "cannot be read: " + reason(errno));
+        if (n == 0)
+            throw InputError(name, "ended at byte " + std::to_string(at) + " while it was read: is it being written?");
+        at += std::uint64_t(n);
+        to += n;
+        count -= std::size_t(n);
+    }
+}
+
+// [bytes] of a binary document's header with its length before it, 0 where the file begins otherwise: the length (8 bytes,
+// little-endian), then an object, then at least one byte. A text's first characters make a length that no file has.
+std::size_t binary_header(int fd, std::uint64_t size, const std::string& name) {
+    constexpr std::size_t prefix = 8;
+    if (size <= prefix) return 0;
+    unsigned char head[prefix + 1];
+    read_at(fd, 0, sizeof head, reinterpret_cast<char*>(head), name);
+    std::uint64_t length = 0;
+    for (std::size_t k = prefix; k-- > 0;) length = length << 8 | head[k];
+    return head[prefix] == '{' && length < size - prefix ? prefix + std::size_t(length) : 0;
+}
+
+} // namespace
+
 std::string read_input(const std::string& path) {
     const std::string name = input_name(path);
-    const bool standard = path == "-";
-    const Descriptor file{standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard};
-    if (file.fd < 0) throw InputError(name, "cannot be opened: " + reason(errno));
-    struct stat status;
-    if (::fstat(file.fd, &status) != 0) throw InputError(name, "cannot be read: " + reason(errno));
-    if (S_ISDIR(status.st_mode)) throw InputError(name, "is a directory, expected a file");
-    const bool sized = S_ISREG(status.st_mode) && status.st_size > 0;
-    return read_all(file.fd, sized ? std::size_t(status.st_size) : 65536, name);
+    const Descriptor file = open_descriptor(path);
+    return read_all(file.fd, status_of(file.fd, name), name);
+}
+
+Input::Input(const std::string& path) : name_(input_name(path)) {
+    Descriptor file = open_descriptor(path);
+    const struct stat status = status_of(file.fd, name_);
+    size_ = std::uint64_t(status.st_size);
+    // stdin may stand anywhere in its file: of it, what is still to be read is all.
+    if (const std::size_t header = file.owned && S_ISREG(status.st_mode) ? binary_header(file.fd, size_, name_) : 0) {
+        content_.resize(header);
+        read_at(file.fd, 0, header, content_.data(), name_);
+        file_ = std::exchange(file.fd, -1);
+        return;
+    }
+    content_ = read_all(file.fd, status, name_);
+    size_ = content_.size();
+}
+
+Input::~Input() {
+    if (file_ >= 0) ::close(file_);
+}
+
+std::string Input::all() const {
+    std::string all(content_);
+    all.resize(std::size_t(size_));
+    if (file_ >= 0) read(content_.size(), all.size() - content_.size(), all.data() + content_.size());
+    return all;
+}
+
+void Input::read(std::uint64_t at, std::size_t count, char* to) const {
+    if (file_ < 0)
+        std::memcpy(to, content_.data() + at, count);
+    else
+        read_at(file_, at, count, to, name_);
 }
 
 Output::Output(const std::string& path) : name_(path == "-" ? "<stdout>" : path), path_(path) {

@@ -1,6 +1,7 @@
 // open.h: files in and out. "-" is stdin or stdout for every format because it is decided here.
 #pragma once
 #include "error.h"
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,28 @@ namespace bough {
 // The whole content of a file, or of stdin for "-". Throws InputError for a missing or unreadable file, a directory,
 // a read error. An empty file gives an empty string (the reader of the format says what it expected).
 std::string read_input(const std::string& path);
+
+// An input of which no more is held than has been asked for: of a regular file that begins as a document in the binary form does
+// (document.h), the header stands in content() and the arrays after it are read when they are wanted, so that a tree of gigabytes is
+// not twice in memory. Of anything else content() is all.
+class Input {
+public:
+    explicit Input(const std::string& path); // throws as read_input
+    Input(const Input&) = delete;
+    Input& operator=(const Input&) = delete;
+    ~Input();
+    const std::string& content() const { return content_; }
+    std::string all() const; // the whole content, as read_input
+    const std::string& name() const { return name_; }
+    std::uint64_t size() const { return size_; } // [bytes] of all, in content() or not
+    // `count` bytes from byte `at`, within size(). Throws InputError for a read error, and for a file that has become shorter.
+    void read(std::uint64_t at, std::size_t count, char* to) const;
+
+private:
+    std::string name_, content_;
+    std::uint64_t size_ = 0;
+    int file_ = -1; // none: content() is all
+};
 
 // How an input is called in messages: its path, "<stdin>" for "-".
 std::string input_name(const std::string& path);

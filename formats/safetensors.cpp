@@ -51,7 +51,9 @@ std::uint64_t byte_count(const Tensor& tensor, const std::string& place) {
     return bytes;
 }
 
-Tensor parse_tensor(const std::string& name, const std::string& key, const json& entry, std::string_view data) {
+// data_begin, data_size: [bytes] of what follows the header.
+Tensor parse_tensor(const std::string& name, const std::string& key, const json& entry, std::uint64_t data_begin,
+                    std::uint64_t data_size) {
     const std::string place = tensor_place(name, key);
     if (!entry.is_object()) throw InputError(place, "is not an object, expected dtype, shape and data_offsets");
     for (const auto& [part, value] : entry.items())
@@ -66,23 +68,22 @@ Tensor parse_tensor(const std::string& name, const std::string& key, const json&
     const auto offsets = sizes(entry, "data_offsets", place);
     if (offsets.size() != 2 || offsets[0] > offsets[1])
         throw InputError(place + "/data_offsets", "is no range, expected [begin, end]");
-    if (offsets[1] > data.size())
+    if (offsets[1] > data_size)
         throw InputError(place + "/data_offsets", "ends at byte " + std::to_string(offsets[1]) +
-                                                      " of the data, which has " + std::to_string(data.size()) +
+                                                      " of the data, which has " + std::to_string(data_size) +
                                                       ": is the file whole?");
     if (offsets[1] - offsets[0] != tensor.bytes)
         throw InputError(place + "/data_offsets", "hold " + std::to_string(offsets[1] - offsets[0]) +
                                                       " bytes, expected " + std::to_string(tensor.bytes) +
                                                       " for its shape");
-    tensor.data = data.substr(offsets[0], tensor.bytes);
+    tensor.begin = data_begin + offsets[0];
     return tensor;
 }
 
 // The arrays must fill the data: each byte belongs to exactly one.
-void check_layout(const std::string& name, const Safetensors& file, std::string_view data) {
+void check_layout(const std::string& name, const Safetensors& file, std::uint64_t data_begin, std::uint64_t data_size) {
     std::vector<std::pair<std::uint64_t, const std::string*>> begins;
-    for (const auto& [key, tensor] : file.tensors)
-        begins.emplace_back(std::uint64_t(tensor.data.data() - data.data()), &key);
+    for (const auto& [key, tensor] : file.tensors) begins.emplace_back(tensor.begin - data_begin, &key);
     std::sort(begins.begin(), begins.end(), [&](const auto& a, const auto& b) {
         const std::uint64_t end_a = a.first + file.tensors.at(*a.second).bytes;
         return std::pair(a.first, end_a) < std::pair(b.first, b.first + file.tensors.at(*b.second).bytes);
@@ -96,21 +97,21 @@ void check_layout(const std::string& name, const Safetensors& file, std::string_
                                  std::to_string(end));
         end = begin + file.tensors.at(*key).bytes;
     }
-    if (end != data.size())
-        throw InputError(name,
-                         "has " + std::to_string(data.size() - end) + " bytes after its last array, expected none");
+    if (end != data_size)
+        throw InputError(name, "has " + std::to_string(data_size - end) + " bytes after its last array, expected none");
 }
 
-json parse_header(std::string_view content, const std::string& name, std::string_view& data) {
-    if (content.size() < prefix)
-        throw InputError(name, "is " + std::to_string(content.size()) + " bytes long, expected a safetensors header");
+// content: at least the header of a file of `size` bytes. data_begin: where it ends.
+json parse_header(std::string_view content, std::uint64_t size, const std::string& name, std::uint64_t& data_begin) {
+    if (size < prefix)
+        throw InputError(name, "is " + std::to_string(size) + " bytes long, expected a safetensors header");
     std::uint64_t length = 0;
     std::memcpy(&length, content.data(), prefix);
-    if (length > content.size() - prefix)
+    if (length > size - prefix)
         throw InputError(name, "has a header of " + std::to_string(length) +
-                                   " bytes, longer than the file, which has " +
-                                   std::to_string(content.size() - prefix) + " after its length");
-    data = content.substr(prefix + length);
+                                   " bytes, longer than the file, which has " + std::to_string(size - prefix) +
+                                   " after its length");
+    data_begin = prefix + length;
     json header;
     try {
         header = parse_json(content.substr(prefix, length), name);
@@ -122,22 +123,21 @@ json parse_header(std::string_view content, const std::string& name, std::string
 }
 
 // `count` numbers from the tensor's number `first` on.
-template <class T> void take_numbers(const Tensor& tensor, std::size_t first, std::size_t count, Numbers& numbers) {
-    const char* const from = tensor.data.data() + first * sizeof(T);
+template <class T>
+void take_numbers(const Tensor& tensor, const ReadBytes& read, std::size_t first, std::size_t count, Numbers& numbers) {
+    const std::uint64_t at = tensor.begin + first * sizeof(T);
     if constexpr (std::is_same_v<T, double>) {
         numbers.reals.resize(count);
-        std::memcpy(numbers.reals.data(), from, count * sizeof(T));
+        read(at, count * sizeof(T), reinterpret_cast<char*>(numbers.reals.data()));
     } else {
-        numbers.integers.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            T value;
-            std::memcpy(&value, from + i * sizeof(T), sizeof(T));
-            numbers.integers[i] = value;
-        }
+        std::vector<T> values(count);
+        read(at, count * sizeof(T), reinterpret_cast<char*>(values.data()));
+        numbers.integers.assign(values.begin(), values.end());
     }
 }
 
-void read_array(Field& field, const Array& array, const Tensor& tensor, const std::string& name) {
+void read_array(Field& field, const Array& array, const Tensor& tensor, const ReadBytes& read,
+                const std::string& name) {
     const bool flat = array.components == 1;
     check_tensor(name, field.name, tensor, array.dtype,
                  flat ? std::vector<std::int64_t>{-1} : std::vector<std::int64_t>{-1, std::int64_t(array.components)});
@@ -149,12 +149,12 @@ void read_array(Field& field, const Array& array, const Tensor& tensor, const st
     for (std::size_t first = 0; first < field.numbers; first += block) {
         const std::size_t count = std::min(block, field.numbers - first);
         if (array.dtype == Dtype::f64) {
-            take_numbers<double>(tensor, first, count, numbers);
+            take_numbers<double>(tensor, read, first, count, numbers);
             check_finite(name, field.name, numbers.reals.data(), count, first);
         }
-        if (array.dtype == Dtype::i64) take_numbers<std::int64_t>(tensor, first, count, numbers);
-        if (array.dtype == Dtype::i32) take_numbers<std::int32_t>(tensor, first, count, numbers);
-        if (array.dtype == Dtype::u8) take_numbers<std::uint8_t>(tensor, first, count, numbers);
+        if (array.dtype == Dtype::i64) take_numbers<std::int64_t>(tensor, read, first, count, numbers);
+        if (array.dtype == Dtype::i32) take_numbers<std::int32_t>(tensor, read, first, count, numbers);
+        if (array.dtype == Dtype::u8) take_numbers<std::uint8_t>(tensor, read, first, count, numbers);
         array.add(numbers);
     }
 }
@@ -210,12 +210,19 @@ std::size_t dtype_size(Dtype dtype) {
 }
 
 Safetensors parse_safetensors(std::string_view content, const std::string& name) {
-    std::string_view data;
-    const json header = parse_header(content, name, data);
+    Safetensors file = parse_safetensors_header(content, content.size(), name);
+    for (auto& [key, tensor] : file.tensors) tensor.data = content.substr(tensor.begin, tensor.bytes);
+    return file;
+}
+
+Safetensors parse_safetensors_header(std::string_view content, std::uint64_t size, const std::string& name) {
+    std::uint64_t data_begin = 0;
+    const json header = parse_header(content, size, name, data_begin);
+    const std::uint64_t data_size = size - data_begin;
     Safetensors file;
     for (const auto& [key, entry] : header.items()) {
         if (key != "__metadata__") {
-            file.tensors[key] = parse_tensor(name, key, entry, data);
+            file.tensors[key] = parse_tensor(name, key, entry, data_begin, data_size);
             continue;
         }
         if (!entry.is_object()) throw InputError(name + ": /__metadata__", "is not an object, expected text by name");
@@ -224,7 +231,7 @@ Safetensors parse_safetensors(std::string_view content, const std::string& name)
             file.metadata[field] = value.get<std::string>();
         }
     }
-    check_layout(name, file, data);
+    check_layout(name, file, data_begin, data_size);
     return file;
 }
 
@@ -318,16 +325,15 @@ void read_metadata(const Safetensors& file, const std::string& name, const Docum
     }
 }
 
-void read_safetensors(std::string_view content, const std::string& name, const DocumentType& type,
+void read_safetensors(const Safetensors& file, const ReadBytes& read, const std::string& name, const DocumentType& type,
                       std::vector<Field>& fields) {
-    const Safetensors file = parse_safetensors(content, name);
     read_metadata(file, name, type, fields);
     for (const auto& [key, tensor] : file.tensors) {
         Field* found = nullptr;
         for (Field& field : fields)
             if (field.name == key && std::holds_alternative<Array>(field.value)) found = &field;
         if (!found) unknown_field(name, "", key, names(fields));
-        read_array(*found, std::get<Array>(found->value), tensor, name);
+        read_array(*found, std::get<Array>(found->value), tensor, read, name);
     }
 }
 

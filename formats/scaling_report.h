@@ -39,7 +39,7 @@ struct ScalingRun {
     double ns_least = NAN, ns_most = NAN;
     double limit_ns = NAN;     // [ns] that the machine needs at least for what is computed and moved
     std::string limited_by;    // "memory", "arithmetic", or empty
-    double memory = NAN;       // [B] peak of resident memory: the tree, plan, state, and what making them took
+    double memory = NAN;       // [B] peak of resident memory: of tree, plan, state, and making them; no output
     double memory_slope = NAN; // [B] a body, from the next smaller size of the same series
     std::string hash;
     double over_limit() const { return ns / limit_ns; }

@@ -40,6 +40,13 @@ Tree read_tree(std::string_view content, const std::string& name) {
     return tree;
 }
 
+Tree read_tree(const Input& input) {
+    Tree tree;
+    read_document(input, type, fields_of(tree));
+    refuse(check(tree), input.name(), fields_of(tree));
+    return tree;
+}
+
 void write_tree(Output& output, const Tree& tree, Form form) {
     write_document(output, form, type, fields_of(const_cast<Tree&>(tree))); // a writer only looks
 }

@@ -1,6 +1,7 @@
 // The coupled step in SIMD lanes against the plain one, which is other code with its sums in another order: in double equal to rounding,
 // in float as near to double as the plain one is; its targets against each other; what it refuses.
 #include "lanes_support.h"
+#include "lib/fast/step_bytes.h"
 
 using namespace bough;
 using namespace lanes;
@@ -101,6 +102,15 @@ TEST_CASE("AVX2 and AVX-512 give the same bits") {
         if (c.tree.size_bodies() <= 1000) check_same_bits(c);
 }
 
+TEST_CASE("solutions written past the caches are the same bits as those that are not") {
+    if (!fast::available(Target::avx512)) return; // which alone writes whole lines past them
+    const Case large{"large", grown(80000), in_wind(gusts())};
+    const Run<float> run(large, Target::avx512);
+    REQUIRE(fast::streams(run.plan.lanes.layout));
+    REQUIRE_FALSE(fast::streams(Run<float>({"small", grown(20000), {}}, Target::avx512).plan.lanes.layout));
+    check_same_bits(large);
+}
+
 TEST_CASE("the energy guard takes in lanes what it takes on the plain path") {
     for (const bool windy : {false, true}) {
         Case c{"", grown(600), solver::empty_scene(), 0.05, 3};
@@ -131,7 +141,7 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
         CHECK_FALSE(stage.on);
         CHECK(stage.reason.find(reason) != std::string::npos);
         CHECK(asked.plan.lanes.constants.empty());
-        CHECK(asked.state.lanes.now.empty());
+        CHECK(asked.state.lanes.table.empty());
         for (int k = 0; k < 5; ++k) {
             asked.frame();
             plain.frame();

@@ -9,6 +9,9 @@
 #include "random_documents.h"
 #include <chrono>
 #include <clocale>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 
 using namespace bough;
 using namespace bough::test;
@@ -49,6 +52,59 @@ TEST_CASE("trees come back bit by bit from both forms") {
             CHECK(same(read_tree(text, "t"), tree));
         }
     }
+}
+
+TEST_CASE("a tree read from its file is the one read from its content, and in the binary form not wholly in memory") {
+    Random random;
+    const Folder folder;
+    const std::string file = folder / "tree";
+    for (const std::size_t bodies : {1u, 57u, 5000u, 10000u}) {
+        const Tree tree = random_tree(bodies, random);
+        for (const Form form : {Form::json, Form::safetensors}) {
+            const std::string text = tree_text(tree, form);
+            std::ofstream(file, std::ios::binary) << text;
+            const Input input(file);
+            CHECK(input.size() == text.size());
+            CHECK(input.all() == text);
+            CHECK(is_tree(input.content()));
+            std::uint64_t header = 0; // as the form has it: its length in 8 bytes, little-endian, and itself
+            std::memcpy(&header, text.data(), 8);
+            CHECK(input.content() == (form == Form::json ? text : text.substr(0, 8 + header)));
+            CHECK(same(read_tree(input), tree));
+        }
+    }
+}
+
+TEST_CASE("what is wrong with a file is said as of its content") {
+    Random random;
+    const Folder folder;
+    const std::string file = folder / "tree";
+    const Tree tree = random_tree(300, random);
+    const std::string good = tree_text(tree, Form::safetensors);
+    const auto swapped = [&](const std::string& from, const std::string& to) {
+        std::string text = good;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    std::string infinite = good;
+    const double inf = INFINITY; // the last bytes of F64 stand before I32 and U8: 3 and 1 numbers a body
+    std::memcpy(infinite.data() + infinite.size() - 300 * (3 * 4 + 1) - 8, &inf, sizeof inf);
+    for (const std::string& text :
+         {std::string(), std::string("x"), std::string("\x08\0\0\0\0\0\0\0{", 9), good.substr(0, 40),
+          good.substr(0, good.size() - 1), good + "x", swapped("\"mass\"", "\"maze\""), swapped("F64", "F32"),
+          swapped("bough-tree", "bough-wind"), swapped("\"version\":\"1", "\"version\":\"7"), infinite}) {
+        std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
+        const std::string expected = error_of([&] { read_tree(text, file); });
+        CAPTURE(expected);
+        CHECK_FALSE(expected.empty());
+        CHECK(error_of([&] { read_tree(Input(file)); }) == expected);
+    }
+    // Cut short once it is open.
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << good;
+    const Input input(file);
+    std::filesystem::resize_file(file, good.size() - 5);
+    CHECK_THROWS_WITH(read_tree(input), Catch::Matchers::Contains("ended at byte " + std::to_string(good.size() - 5)));
+    CHECK_THROWS_AS(Input(folder / "none"), InputError);
+    CHECK_THROWS_AS(Input(folder / "."), InputError);
 }
 
 TEST_CASE("splines come back bit by bit from both forms") {

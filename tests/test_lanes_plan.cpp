@@ -138,7 +138,107 @@ TEST_CASE("a plan without lanes holds none, and presenting it does nothing") {
     CHECK(plain.state.x_w == x);
     CHECK(plain.plan.lanes.constants.capacity() + plain.plan.lanes.layout.body.capacity() == 0);
     const fast::Lanes<double>& none = plain.state.lanes;
-    CHECK(none.now.capacity() + none.next.capacity() + none.solved.capacity() + none.outward.capacity() +
-              none.inward.capacity() + none.accelerated.capacity() + none.scratch.capacity() ==
+    CHECK(none.now.capacity() + none.table.capacity() + none.outward.capacity() + none.inward.capacity() +
+              none.accelerated.capacity() + none.scratch.capacity() ==
           0);
+}
+
+TEMPLATE_TEST_CASE("where nobody reads poses, a run in lanes keeps nothing in document order, and is the same", "",
+                   float, double) {
+    using T = TestType;
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        Run<T> full(c, fast::best_target()), bare(c, fast::best_target(), Scheme::p12, {false, false, false});
+        const Plan<T>& plan = bare.plan;
+        CHECK(full.plan.pose);
+        CHECK_FALSE(plan.pose);
+        const auto none = [](const auto&... arrays) { return ((arrays.capacity() == 0) && ...); };
+        CHECK(none(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint,
+                   plan.K, plan.beta, plan.inertia_factor, plan.gravity_row, plan.carried_moment, plan.drag_area,
+                   plan.kind, plan.sway, plan.joint_distance, plan.com_distance, plan.inverse_weight));
+        full.steps(10);
+        bare.steps(10);
+        Names on;
+        std::size_t sum = 0;
+        for (const PlannedArray& array : plan.arrays) {
+            if (!array.on) continue;
+            on.insert(array.name);
+            sum += array.bytes;
+        }
+        CHECK(on == (c.solver == Solver::analytic ? Names{"lanes.now", "lanes.outward, inward"}
+                                                  : Names{"lanes.table", "lanes.outward, inward, accelerated"}));
+        CHECK(bare.state.bytes() == sum);
+        for (const auto& [name, bytes] : held(plan, bare.state)) {
+            CAPTURE(name);
+            CHECK(bytes == 0);
+        }
+        CHECK(bare.calls(Stage::lanes) == 10);
+        const std::uint64_t hash = full.hash();
+        CHECK(state_hash(plan, bare.state) == hash);
+
+        // What a saved state needs is there when it is asked for, and a run goes on from it.
+        present(plan, bare.state);
+        CHECK(state_hash(bare.state) == hash);
+        CHECK(bare.state.theta_change == full.state.theta_change);
+        CHECK(bare.state.theta_dot_change == full.state.theta_dot_change);
+        CHECK(bare.state.scaled_rate == full.state.scaled_rate);
+        CHECK(none(bare.state.R_wb, bare.state.x_w));
+        restart(plan, bare.state);
+        CHECK(bare.state.bytes() == sum);
+        bare.steps(10);
+        full.steps(10);
+        CHECK(state_hash(plan, bare.state) == full.hash());
+        // Velocities and torques need them.
+        CHECK(Run<T>(c, fast::best_target(), Scheme::p12, {true, false, false}).plan.pose);
+        CHECK(Run<T>(c, fast::best_target(), Scheme::p12, {false, true, false}).plan.pose);
+        CHECK(
+            Run<T>(c, std::nullopt, Scheme::p12, {false, false, false}).plan.pose); // the plain step reads them itself
+    }
+}
+
+TEMPLATE_TEST_CASE("the rows' hash is that of the arrays they are presented in", "", float, double) {
+    using T = TestType;
+    std::vector<TreeRange> ranges;
+    Case forest{"three trees", three_trees(ranges), everything()};
+    forest.ranges = ranges;
+    std::vector<Case> all = cases();
+    all.push_back(forest);
+    all.push_back({"with a top", grown(20000), everything()});
+    for (const Case& c : all)
+        for (const Scheme scheme : {Scheme::p12, Scheme::p34})
+            for (const Simd simd : {Simd(fast::best_target()), Simd()}) {
+                CAPTURE(c.name, scheme_of(scheme).name, simd.has_value());
+                Run<T> run(c, simd, scheme);
+                for (int k = 0; k < 3; ++k) {
+                    run.frame();
+                    CHECK(state_hash(run.plan, run.state) == state_hash(run.state));
+                }
+            }
+}
+
+TEMPLATE_TEST_CASE("a tree that is handed over gives the same run, and is given back", "", float, double) {
+    using T = TestType;
+    Scene scaled = everything();
+    scaled.stiffness_scale = 3;
+    scaled.damping_scale = 0.5;
+    for (const Scene& scene : {Scene{}, everything(), scaled})
+        for (const Solver solver : {Solver::coupled, Solver::analytic})
+            for (const Simd simd : {Simd(fast::best_target()), Simd()}) {
+                CAPTURE(solver_name(solver), simd.has_value(), scene.stiffness_scale);
+                const Tree tree = firm();
+                Tree own = tree;
+                const std::vector<TreeRange> range{{0, tree.size_bodies(), 0}};
+                const auto lent = make_plan<T>(tree, range, scene, {}, 1.0 / 30, solver, Scheme::p12, simd);
+                const auto given = make_plan<T>(std::move(own), range, scene, {}, 1.0 / 30, solver, Scheme::p12, simd);
+                State<T> one = make_state(lent), other = make_state(given);
+                for (int k = 0; k < 5; ++k) advance(lent, one), advance(given, other);
+                CHECK(state_hash(given, other) == state_hash(lent, one));
+                CHECK(own.parent.capacity() + own.kind.capacity() + own.mass.capacity() + own.com.capacity() +
+                          own.inertia.capacity() + own.joint_position.capacity() + own.joint_rotation.capacity() +
+                          own.stiffness.capacity() + own.damping.capacity() + own.size.capacity() +
+                          own.level.capacity() + own.s.capacity() ==
+                      0);
+                CHECK(own.branch == tree.branch);
+                CHECK(own.name == tree.name);
+            }
 }

@@ -133,7 +133,7 @@ std::vector<ScalingTree> chosen_trees(ScalingCommand& o, const Scene& scene, std
     };
     std::vector<ScalingTree> trees;
     for (const std::string& file : o.trees) {
-        Tree tree = read_tree(read_input(file), input_name(file));
+        Tree tree = read_tree(Input(file));
         if (!tree.source.empty()) source += (source.empty() ? "" : "\n") + tree.source;
         trees.push_back({file, standing(std::move(tree))});
     }

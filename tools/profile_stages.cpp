@@ -47,11 +47,10 @@ Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& pl
         }
         require_finite(plan, state, setting.tree, f);
     }
-    present(plan, state);
     Report report;
     report.bodies = std::int64_t(plan.bodies);
     report.frames = frames - 2;
-    report.hash = hash_text(state_hash(state));
+    report.hash = hash_text(state_hash(plan, state));
     report.simd = plan.lanes.on ? fast::target_name(plan.target) : "none";
     const double ns = 1e9 / double(report.bodies) / double(report.frames);
     double inside = 0;
@@ -66,8 +65,8 @@ Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& pl
     return report;
 }
 
-template <class T> Report fastest(const StagesOptions& o, const Setting& setting, std::int64_t frames) {
-    const Plan<T> plan = plan_run<T>(setting, {}, o.run);
+template <class T> Report fastest(const StagesOptions& o, Setting setting, std::int64_t frames) {
+    const Plan<T> plan = plan_run<T>(std::move(setting), {false, false, false}, o.run);
     Progress progress(o.common, "run", o.repeat);
     Report best;
     for (int k = 0; k < o.repeat; ++k) {
@@ -99,9 +98,9 @@ void work_stages(StagesOptions& o) {
     if (frames < 3) throw UsageError("--frames: at least 3 (the start, a warm-up, and one to measure)");
     if (!o.report.empty() && same_file(o.report, o.common.output))
         throw UsageError("--report and -o name the same file");
-    const Setting setting = read_setting(o.run);
-    Report report =
-        o.run.precision == "float" ? fastest<float>(o, setting, frames) : fastest<double>(o, setting, frames);
+    Setting setting = read_setting(o.run);
+    Report report = o.run.precision == "float" ? fastest<float>(o, std::move(setting), frames)
+                                               : fastest<double>(o, std::move(setting), frames);
     report.tool = profile_name;
     report.version = bough_version();
     report.compiler = compiler_name();

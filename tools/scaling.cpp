@@ -19,13 +19,6 @@ double median(std::vector<double> values) {
     return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-// [bytes] of a tree's arrays.
-std::size_t size_of(const Tree& t) {
-    const auto bytes = [](const auto&... array) { return ((array.size() * sizeof(array[0])) + ...); };
-    return bytes(t.parent, t.kind, t.mass, t.com, t.inertia, t.joint_position, t.joint_rotation, t.stiffness, t.damping,
-                 t.size, t.branch, t.level, t.s);
-}
-
 // What code `plan` runs with, and by which target's limits it is held.
 template <class T> std::string simd_of(const Plan<T>& plan) {
     return plan.lanes.on ? fast::target_name(plan.target) : "none";
@@ -126,12 +119,12 @@ private:
         use_threads(choice.threads.front());
         RunOptions named = way; // for what is said of the tree
         named.input = tree.shape;
-        Plan<T> plan = plan_run<T>(tree.setting, {}, named);
+        Plan<T> plan = plan_run<T>(Setting(tree.setting), {false, false, false}, named); // as treesim --no-output
         const std::size_t first = at;
         for (const int threads : choice.threads) {
             time_once(tree, way, plan, threads);
             if (round == 0 && counts_peak && at == first + 1)
-                report.runs[first].memory = double(*peak_resident() - *before + size_of(tree.setting.tree));
+                report.runs[first].memory = double(*peak_resident() - *before);
         }
         if (round > 0) return;
         ScalingCost c;
@@ -169,8 +162,7 @@ private:
             seconds += std::chrono::duration<double>(Time::now() - start).count();
             require_finite(plan, state, tree.setting.tree, f + 2);
         }
-        present(plan, state);
-        const std::string hash = hash_text(state_hash(state));
+        const std::string hash = hash_text(state_hash(plan, state));
         if (round == 0) {
             ScalingRun run;
             run.shape = tree.shape;

@@ -68,7 +68,7 @@ void read_scene_trees(Setting& setting, const std::string& scene_file) {
         throw InputError(input_name(scene_file), "/trees: is empty or missing, expected at least one tree");
     for (const Placement& place : setting.scene.trees) {
         const std::string file = (folder / place.file).string();
-        stand(setting, read_tree(read_input(file), file), place);
+        stand(setting, read_tree(Input(file)), place);
     }
 }
 
@@ -369,14 +369,14 @@ Setting read_setting(const RunOptions& o) {
     if (o.tolerance && solver != Solver::articulated_reference)
         throw UsageError("--tolerance: only with --solver articulated-reference");
     Setting setting;
-    const std::string content = read_input(o.input), name = input_name(o.input);
-    if (is_scene(content)) {
-        setting.scene = read_scene(content, name);
+    const Input input(o.input);
+    if (is_scene(input.content())) {
+        setting.scene = read_scene(input.all(), input.name());
         apply(o, setting.scene);
         read_scene_trees(setting, o.input);
     } else {
         apply(o, setting.scene);
-        stand(setting, read_tree(content, name), Placement());
+        stand(setting, read_tree(input), Placement());
     }
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
@@ -398,10 +398,14 @@ std::uint64_t fingerprint(const Setting& setting) {
     return f.hash;
 }
 
-template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
+namespace {
+
+// tree: const Tree& or Tree&&, as make_plan takes it.
+template <class T, class TreeType>
+Plan<T> plan_of(TreeType&& tree, const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
         Plan<T> plan =
-            make_plan<T>(setting.tree, setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
+            make_plan<T>(std::forward<TreeType>(tree), setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
                          chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o), chosen_refresh(o));
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
@@ -410,6 +414,16 @@ template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes
     } catch (const std::domain_error& error) {
         throw InputError(input_name(o.input), error.what());
     }
+}
+
+} // namespace
+
+template <class T> Plan<T> plan_run(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
+    return plan_of<T>(setting.tree, setting, wishes, o);
+}
+
+template <class T> Plan<T> plan_run(Setting&& setting, const Wishes& wishes, const RunOptions& o) {
+    return plan_of<T>(std::move(setting.tree), setting, wishes, o);
 }
 
 template <class T>
@@ -463,6 +477,8 @@ std::string hash_text(std::uint64_t hash) {
 
 template Plan<float> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template Plan<double> plan_run(const Setting&, const Wishes&, const RunOptions&);
+template Plan<float> plan_run(Setting&&, const Wishes&, const RunOptions&);
+template Plan<double> plan_run(Setting&&, const Wishes&, const RunOptions&);
 template void advance_frame(const Plan<float>&, State<float>&, const Tree&, std::int64_t, int, StageClock*);
 template void advance_frame(const Plan<double>&, State<double>&, const Tree&, std::int64_t, int, StageClock*);
 template void require_finite(const Plan<float>&, State<float>&, const Tree&, std::int64_t);

@@ -61,7 +61,8 @@ struct Setting {
     Tree tree;
     std::vector<TreeRange> ranges;
     Scene scene;
-    std::string source; // command lines of the inputs
+    std::string source;            // command lines of the inputs
+    std::uint64_t fingerprint = 0; // fingerprint(), where a state is saved or resumed: of the whole tree
 };
 // Reads a tree, or a scene and its trees. Throws UsageError, InputError.
 Setting read_setting(const RunOptions&);
@@ -72,8 +73,9 @@ Scene chosen_scene(const RunOptions&);
 // 64 bits of all that decides how a run goes on: the joined tree's numbers and the scene's.
 std::uint64_t fingerprint(const Setting&);
 
-// make_plan with its errors as the tool's.
+// make_plan with its errors as the tool's. A setting that is handed over keeps of its tree what make_plan says, and memory low.
 template <class T> Plan<T> plan_run(const Setting&, const Wishes&, const RunOptions&);
+template <class T> Plan<T> plan_run(Setting&&, const Wishes&, const RunOptions&);
 
 // Takes the steps of one frame. A state that became non-finite throws PromiseError with frame, stage and body.
 template <class T>

@@ -132,6 +132,8 @@ template <class T> std::string explanation(const Plan<T>& plan, const RunOptions
              << " bytes: " << array.reason << "\n";
         (array.on ? used : left) += array.bytes;
     }
+    text << "constants of bodies in document order "
+         << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
     text << "state: " << used << " bytes, left out " << left << " bytes\n";
     return text.str();
 }
@@ -162,10 +164,11 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
     if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
     refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(plan.bodies) + " bodies");
-    if (saved.fingerprint != fingerprint(setting))
+    if (saved.fingerprint != setting.fingerprint)
         throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
                                                    ", but this run's tree and scene have " +
-                                                   hash_text(fingerprint(setting)));
+                                                   hash_text(setting.fingerprint));
+    present(plan, state); // its arrays
     visit_carried(plan, state, saved, [](std::vector<Vector3<T>>& to, const std::vector<Vec3>& from) {
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i].template cast<T>();
     });
@@ -194,7 +197,7 @@ void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T
     saved.precision = o.run.precision;
     saved.solver = o.run.solver;
     saved.scheme = scheme_name(o.run);
-    saved.fingerprint = fingerprint(setting);
+    saved.fingerprint = setting.fingerprint;
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);
@@ -208,7 +211,7 @@ void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T
     output.finish();
 }
 
-std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, const std::string& format,
+std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, std::size_t bodies, const std::string& format,
                                      const MotionFields& fields) {
     if (o.no_output) return nullptr;
     if (format == "obj") return obj_sink(o.common.output, setting.tree, o.sides.value_or(8));
@@ -217,7 +220,7 @@ std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, const s
         return gltf_sink(o.common.output, setting.tree, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
     MotionHeader header;
     header.fps = o.run.fps;
-    header.bodies = std::int64_t(setting.tree.size_bodies());
+    header.bodies = std::int64_t(bodies);
     header.fields = fields;
     header.name = setting.tree.name;
     header.source = source;
@@ -291,9 +294,13 @@ std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>&
     return done;
 }
 
-template <class T> void simulate(Options& o, const Setting& setting, const std::string& format) {
+template <class T> void simulate(Options& o, Setting setting, const std::string& format) {
     const MotionFields fields = chosen_fields(o);
-    const Plan<T> plan = plan_run<T>(setting, {fields.velocity, fields.torque}, o.run);
+    const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error};
+    const bool needs_tree = o.report_error || format == "obj" || format == "glb";
+    if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
+    const Plan<T> plan =
+        needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
     if (o.explain) std::cerr << explanation(plan, o.run);
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
@@ -311,19 +318,16 @@ template <class T> void simulate(Options& o, const Setting& setting, const std::
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
     interrupt_at_boundary();
-    const std::unique_ptr<FrameSink> sink = open_sink(o, setting, format, fields);
+    const std::unique_ptr<FrameSink> sink = open_sink(o, setting, plan.bodies, format, fields);
     const std::int64_t done =
         run_frames(o, setting, plan, state, sink.get(), estimate ? &*estimate : nullptr, fields, first, last);
-    if (!o.save_state.empty()) save(o, setting, plan, state, done);
-    if (o.explain) {
+    if (o.explain) { // before the state is saved, which takes arrays of its own
         for (std::size_t k = 0; k < stage_count; ++k)
             std::cerr << "calls " << stage_name(Stage(k)) << " " << state.calls[k] << "\n";
         std::cerr << "allocated " << state.bytes() << " bytes\n";
     }
-    if (o.hash) {
-        present(plan, state);
-        std::cerr << "hash " << hash_text(state_hash(state)) << "\n";
-    }
+    if (!o.save_state.empty()) save(o, setting, plan, state, done);
+    if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state)) << "\n";
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(plan, state.flags, state.step - started, o.common.notes);
 }
@@ -333,11 +337,11 @@ void work(Options& o) {
     const std::string format = o.no_output ? "" : chosen_format(o.common);
     chosen_fields(o);
     refuse_contradictions(o, format);
-    const Setting setting = read_setting(o.run);
+    Setting setting = read_setting(o.run);
     if (o.run.precision == "float")
-        simulate<float>(o, setting, format);
+        simulate<float>(o, std::move(setting), format);
     else
-        simulate<double>(o, setting, format);
+        simulate<double>(o, std::move(setting), format);
 }
 
 } // namespace

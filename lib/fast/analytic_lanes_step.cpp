@@ -92,7 +92,7 @@ template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lane
     }
 }
 
-template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
+template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
     lanes.now.resize(std::size_t(layout.rows) * analytic::motion::count);
@@ -102,29 +102,35 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state) {
         entry(lanes.outward, 0, analytic::outward::count, analytic::outward::R_bw + 4 * k) = 1; // the ground
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(lanes.now, analytic::motion::count, layout.slot[i]);
-        row.put(analytic::motion::theta, state.theta[i]);
-        row.put(analytic::motion::theta_dot, state.theta_dot[i]);
-        row.put(analytic::motion::scaled_rate, state.scaled_rate[i]);
+        row.put(analytic::motion::theta, theta[i]);
+        row.put(analytic::motion::theta_dot, entry(state.theta_dot, i));
+        row.put(analytic::motion::scaled_rate, entry(state.scaled_rate, i));
     }
     if (plan.refresh > 0) start_frozen(plan, state);
     pack_pulls(plan, state);
     lanes.presented = true;
 }
 
+template <class T> Vector3<T> analytic_theta_dot(const State<T>& state, std::size_t slot) {
+    const auto motion = [&](int k) { return vector_at(state.lanes.now, analytic::motion::count, slot, k); };
+    if (state.lanes.frozen.empty()) return motion(analytic::motion::theta_dot);
+    const auto kept = [&](int k) { return vector_at(state.lanes.frozen, analytic::frozen::count, slot, k); };
+    const Vector3<T> a = kept(analytic::frozen::J), b = kept(analytic::frozen::J + 3);
+    if (!(a[0] + b[0] + b[2] > 0)) return motion(analytic::motion::theta_dot); // none are kept, or not yet
+    Matrix3<T> U;
+    for (int k = 0; k < 3; ++k) U.col(k) = kept(analytic::frozen::U + 3 * k);
+    return body_rate_jacobian_inverse(motion(analytic::motion::theta)) * (U * motion(analytic::motion::scaled_rate));
+}
+
 template <class T> void unpack_analytic(const Plan<T>& plan, State<T>& state) {
+    for (auto* array : {&state.theta, &state.theta_dot, &state.scaled_rate})
+        array->resize(plan.bodies); // where they were left out
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const std::size_t slot = plan.lanes.layout.slot[i];
         const Slot<T> row(state.lanes.now, analytic::motion::count, slot);
         state.theta[i] = row.vector(analytic::motion::theta);
         state.scaled_rate[i] = row.vector(analytic::motion::scaled_rate);
-        if (!keeps_coefficients(plan, i)) {
-            state.theta_dot[i] = row.vector(analytic::motion::theta_dot);
-            continue;
-        }
-        const Slot<T> kept(state.lanes.frozen, analytic::frozen::count, slot);
-        Matrix3<T> U;
-        for (int k = 0; k < 3; ++k) U.col(k) = kept.vector(analytic::frozen::U + 3 * k);
-        state.theta_dot[i] = body_rate_jacobian_inverse(state.theta[i]) * (U * state.scaled_rate[i]);
+        state.theta_dot[i] = analytic_theta_dot(state, slot);
     }
 }
 
@@ -143,10 +149,12 @@ template <class T> void analytic_lanes_step(const Plan<T>& plan, State<T>& state
 
 template void fill_analytic(const Plan<float>&, PlannedLanes<float>&);
 template void fill_analytic(const Plan<double>&, PlannedLanes<double>&);
-template void pack_analytic(const Plan<float>&, State<float>&);
-template void pack_analytic(const Plan<double>&, State<double>&);
+template void pack_analytic(const Plan<float>&, State<float>&, const std::vector<Vector3<float>>&);
+template void pack_analytic(const Plan<double>&, State<double>&, const std::vector<Vector3<double>>&);
 template void unpack_analytic(const Plan<float>&, State<float>&);
 template void unpack_analytic(const Plan<double>&, State<double>&);
+template Vector3<float> analytic_theta_dot(const State<float>&, std::size_t);
+template Vector3<double> analytic_theta_dot(const State<double>&, std::size_t);
 template void analytic_lanes_step(const Plan<float>&, State<float>&, StageClock*);
 template void analytic_lanes_step(const Plan<double>&, State<double>&, StageClock*);
 

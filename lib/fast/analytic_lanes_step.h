@@ -12,9 +12,12 @@ namespace bough::fast {
 // The bodies' constants in rows (analytic_rows.h), for a plan whose layout stands.
 template <class T> void fill_analytic(const Plan<T>&, PlannedLanes<T>&);
 
-// The state's rows from its arrays in document order, and back. O(n).
-template <class T> void pack_analytic(const Plan<T>&, State<T>&);
+// The state's rows from theta [rad] and from its arrays in document order, zero where one is left out; and back. O(n).
+template <class T> void pack_analytic(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta);
 template <class T> void unpack_analytic(const Plan<T>&, State<T>&);
+
+// theta_dot of the body in a slot: where coefficients are kept, from the rates of its modes.
+template <class T> Vector3<T> analytic_theta_dot(const State<T>&, std::size_t slot);
 
 // Advances the rows by plan.dt; the arrays in document order are left behind. Needs a plan with lanes.on.
 template <class T> void analytic_lanes_step(const Plan<T>&, State<T>&, StageClock* clock);

@@ -73,9 +73,6 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     const std::complex<double> slope = 1.0 / pole.p - 0.5;
     CoupledRows<T> rows{};
     place_tables<T>(plan, state, time + h / 2, rows);
-    rows.now = data(lanes.now);
-    rows.next = data(lanes.next);
-    rows.solved_rows = data(lanes.solved);
     rows.accelerated_records = data(lanes.accelerated);
     rows.watched = lanes.watched.data();
     rows.stream = streams(layout);
@@ -110,44 +107,60 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     SweepFlags& top = flags[0];
     const Rest rest_of_top = rest_of(state, 0);
     T* top_scratch = room(lanes.scratch[threads], (blocks[0].end_row - blocks[0].first_row) * count);
-    if (rest_of_top == Rest::awake) sweeps.outward(rows, blocks[0], top_scratch, top);
-    if (rest_of_top == Rest::settling) keep_motion(state, blocks[0]);
+    const auto rows_of_block = [&](const Block& block) {
+        CoupledRows<T> mine = rows;
+        place_block(plan, state, block, mine);
+        return mine;
+    };
+    const CoupledRows<T> top_rows = rows_of_block(blocks[0]);
+    if (rest_of_top == Rest::awake) sweeps.outward(top_rows, blocks[0], top_scratch, top);
+    if (rest_of_top == Rest::settling) keep_motion(plan, state, blocks[0]); // not swept
     const auto n = std::int64_t(blocks.size());
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
     for (std::int64_t b = 1; b < n; ++b) {
         const Block& block = blocks[std::size_t(b)];
         const Rest rest = rest_of(state, std::size_t(b));
-        if (rest == Rest::settling) keep_motion(state, block);
+        if (rest == Rest::settling && block.whole) keep_motion(plan, state, block);
         if (rest == Rest::asleep || (rest == Rest::settling && block.whole)) continue;
         SweepFlags& met = flags[std::size_t(b)];
         T* scratch = room(lanes.scratch[std::size_t(this_thread())], most * count);
-        CoupledRows<T> mine = rows;
+        CoupledRows<T> mine = rows_of_block(block);
         if (block.whole) { // nothing to wait for: what is solved stays in the cache
             mine.solved_rows = scratch + most * std::size_t(loaded::count) * Row<T>::lanes;
-            mine.solved_first = block.first_row;
+            mine.solved_stride = solved::count;
             mine.stream = false;
         }
         sweeps.outward(mine, block, scratch, met);
         sweeps.inward(mine, block, scratch);
         if (block.whole) sweeps.accelerate(mine, block, met);
+        if (rest == Rest::settling) keep_motion(plan, state, block); // now that what is solved has gone in
     }
     if (rest_of_top == Rest::awake) {
         add_ports(plan, state, inward::count);
-        sweeps.inward(rows, blocks[0], top_scratch);
-        sweeps.accelerate(rows, blocks[0], top);
+        sweeps.inward(top_rows, blocks[0], top_scratch);
+        sweeps.accelerate(top_rows, blocks[0], top);
     }
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
     for (std::int64_t b = n - 1; b > 0; --b)
         if (!blocks[std::size_t(b)].whole && rest_of(state, std::size_t(b)) == Rest::awake)
-            sweeps.accelerate(rows, blocks[std::size_t(b)], flags[std::size_t(b)]);
+            sweeps.accelerate(rows_of_block(blocks[std::size_t(b)]), blocks[std::size_t(b)], flags[std::size_t(b)]);
     SweepFlags all;
     for (const SweepFlags& f : flags) all += f;
     return all;
 }
 
+template <class T>
+Slot<T> motion_of(RowVector<T>& table, const std::vector<std::size_t>& motion_at, std::uint32_t slot) {
+    constexpr std::size_t lanes = Row<T>::lanes;
+    return Slot<T>(table, 1, motion_at[slot / lanes] * lanes + slot % lanes);
+}
+
 template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
+    for (auto* array : {&state.theta, &state.theta_dot, &state.theta_change, &state.theta_dot_change})
+        array->resize(plan.bodies); // where they were left out
+    const std::vector<std::size_t> motion_at = motion_of_rows(plan, state);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const Slot<T> row(state.lanes.now, motion::count, plan.lanes.layout.slot[i]);
+        const Slot<T> row = motion_of(state.lanes.table, motion_at, plan.lanes.layout.slot[i]);
         state.theta[i] = row.vector(motion::theta);
         state.theta_dot[i] = row.vector(motion::theta_dot);
         state.theta_change[i] = row.vector(motion::theta_change);
@@ -157,12 +170,13 @@ template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
 
 } // namespace
 
-template <class T> void pack(const Plan<T>& plan, State<T>& state) {
+template <class T> void pack(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
-    lanes.now.resize(std::size_t(layout.rows) * motion::count);
-    lanes.next.resize(lanes.now.size());
-    if (waits(layout)) lanes.solved.resize(std::size_t(layout.rows) * solved::count);
+    lanes.odd = false;
+    const int columns = coupled_columns(waits(layout), scheme_of(plan.scheme).poles);
+    lanes.table.assign(std::size_t(layout.rows) * std::size_t(columns), Row<T>{}); // pads do not move
+    const std::vector<std::size_t> motion_at = motion_of_rows(plan, state);
     lanes.watched.assign(layout.base.size(), 0);
     if (plan.lanes.sleep.on) lanes.rest.assign(layout.blocks.size(), BlockRest{});
     lanes.carried_turn = 0;
@@ -171,11 +185,11 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state) {
     std::fill(lanes.inward.begin(), lanes.inward.end(), Row<T>{}); // of sleepers', which are awake now
     resize_records(layout, lanes.accelerated, accelerated::count);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const Slot<T> row(lanes.now, motion::count, layout.slot[i]);
-        row.put(motion::theta, state.theta[i]);
-        row.put(motion::theta_dot, state.theta_dot[i]);
-        row.put(motion::theta_change, state.theta_change[i]);
-        row.put(motion::theta_dot_change, state.theta_dot_change[i]);
+        const Slot<T> row = motion_of(lanes.table, motion_at, layout.slot[i]);
+        row.put(motion::theta, theta[i]);
+        row.put(motion::theta_dot, entry(state.theta_dot, i));
+        row.put(motion::theta_change, entry(state.theta_change, i));
+        row.put(motion::theta_dot_change, entry(state.theta_dot_change, i));
     }
     pack_pulls(plan, state);
     lanes.presented = true;
@@ -204,7 +218,7 @@ template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state,
         guard_lanes(plan, state, rows);
         std::fill(state.lanes.watched.begin(), state.lanes.watched.end(), std::uint8_t(0));
     });
-    state.lanes.now.swap(state.lanes.next);
+    state.lanes.odd = !state.lanes.odd;
     state.lanes.presented = false;
     state.lanes.finite = flags.finite;
     state.flags.fast_turns += flags.fast_turns;
@@ -212,8 +226,8 @@ template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state,
     ++state.step;
 }
 
-template void pack(const Plan<float>&, State<float>&);
-template void pack(const Plan<double>&, State<double>&);
+template void pack(const Plan<float>&, State<float>&, const std::vector<Vector3<float>>&);
+template void pack(const Plan<double>&, State<double>&, const std::vector<Vector3<double>>&);
 template void coupled_lanes_step(const Plan<float>&, State<float>&, StageClock*);
 template void coupled_lanes_step(const Plan<double>&, State<double>&, StageClock*);
 
@@ -227,10 +241,11 @@ template <class T> void present(const Plan<T>& plan, State<T>& state) {
         fast::unpack_analytic(plan, state);
     else
         fast::unpack(plan, state);
+    state.lanes.presented = true;
+    if (!plan.pose) return;
     move_ground(plan, state, double(state.step) * plan.dt);
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
-    state.lanes.presented = true;
 }
 
 template void present(const Plan<float>&, State<float>&);

@@ -10,8 +10,8 @@
 
 namespace bough::fast {
 
-// The state's rows from its arrays in document order. O(n).
-template <class T> void pack(const Plan<T>&, State<T>&);
+// The state's rows from theta [rad] and from its arrays in document order, zero where one is left out. O(n).
+template <class T> void pack(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta);
 
 // Advances the rows by plan.dt; the arrays in document order are left behind. Needs a plan with lanes.on.
 template <class T> void coupled_lanes_step(const Plan<T>&, State<T>&, StageClock* clock);

@@ -66,10 +66,12 @@ enum : int { alpha = 0, a = 6, count = 12 };
 }
 
 template <class T> struct CoupledRows : SweepRows<T> {
-    const T* now;   // motion at the step's start
-    T* next;        // and at its end
-    T* solved_rows; // from row solved_first on
-    std::uint32_t solved_first;
+    // Of a block's rows from first_row on, each with its stride from row to row [quantities] (CoupledPlaces).
+    std::uint32_t first_row;
+    const T* now; // motion at the step's start
+    T* next;      // and at its end; a row's may stand where its own `solved` stands, or one before it stood
+    T* solved_rows;
+    std::ptrdiff_t now_stride, next_stride, solved_stride;
     T* accelerated_records;
     // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard.
     std::uint8_t* watched;

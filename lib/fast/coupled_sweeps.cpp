@@ -106,7 +106,7 @@ template <class T> struct Sweep : SweepParts<T> {
                               W& fastest, SweepFlags& flags) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         prefetch(k.at + constant::count * L, constant::count * L);
-        prefetch(y0.at + motion::count * L, motion::count * L);
+        prefetch(now(row + 1, lane).at, motion::count * L);
         const T h = rows.h;
         const W mass = k.real(constant::mass);
         const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
@@ -371,7 +371,7 @@ template <class T> struct Sweep : SweepParts<T> {
                   a = base.rows().complex_vector(accelerated::a);
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 const Rows<T> s = solved_row(row, lane);
-                prefetch(s.at + solved::count * L, solved::count * L);
+                prefetch(solved_row(row + 1, lane).at, solved::count * L);
                 prefetch(now(row + 1, lane).at, motion::count * L);
                 a = a - cross(s.vector(solved::r), alpha);
                 const V3<C> gamma = s.complex_vector(solved::Eu) - s.complex_matrix(solved::EA) * alpha -

@@ -1,5 +1,6 @@
 #include "energy_lanes.h"
 #include "../coupled/energy_guard.h"
+#include "lane_tables.h"
 #include "targets.h"
 
 namespace bough::fast {
@@ -73,10 +74,11 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
 }
 
 // A group's bodies: the rates of those that their tree's account takes from.
-template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, const Group& g) {
+template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, const Block& block, const Group& g) {
     constexpr std::size_t L = Row<T>::lanes;
     const Layout& layout = plan.lanes.layout;
     const T h = T(plan.dt);
+    const Run next = places_of(plan, state, block).next;
     std::uint64_t count = 0;
     for (std::size_t l = 0; l < L; ++l) {
         const std::uint32_t tree = layout.tree[g.first_base + l];
@@ -86,7 +88,7 @@ template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, con
         for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
             const double keep = state.lanes.energy_fast[row].lane[l] > 0 ? account.keep_fast : account.keep_slow;
             if (!(keep < 1) || layout.body[row * L + l] < 0) continue;
-            Row<T>* motion = &state.lanes.next[row * std::size_t(motion::count)];
+            Row<T>* motion = &state.lanes.table[std::size_t(next.at(row - block.first_row))];
             for (std::size_t k = 0; k < 3; ++k) {
                 T& rate = motion[motion::theta_dot + k].lane[l];
                 rate *= T(keep);
@@ -107,11 +109,16 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
     const EnergyRows<T> energies = make_room(plan, state.lanes);
     if (plan.root_motion) place_grounds(plan, state);
     const EnergySweepOf<T> weigh = energy_sweep_for<T>(plan.target, plan.wind);
-    if (blocks[0]) weigh(rows, energies, layout.blocks[0]);
+    const auto weigh_block = [&](const Block& block) {
+        CoupledRows<T> mine = rows;
+        place_block(plan, state, block, mine);
+        weigh(mine, energies, block);
+    };
+    if (blocks[0]) weigh_block(layout.blocks[0]);
     const auto n = std::int64_t(layout.blocks.size());
 #pragma omp parallel for schedule(dynamic, 1) if (n > 2)
     for (std::int64_t b = 1; b < n; ++b)
-        if (blocks[std::size_t(b)]) weigh(rows, energies, layout.blocks[std::size_t(b)]);
+        if (blocks[std::size_t(b)]) weigh_block(layout.blocks[std::size_t(b)]);
     constexpr std::size_t L = Row<T>::lanes;
     for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
         if (!blocks[b]) continue;
@@ -138,7 +145,7 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)
         if (blocks[b])
             for (std::uint32_t k = layout.blocks[b].first_group; k < layout.blocks[b].end_group; ++k)
-                state.flags.energy_guard += scale(plan, state, layout.groups[k]);
+                state.flags.energy_guard += scale(plan, state, layout.blocks[b], layout.groups[k]);
 }
 
 template void guard_lanes(const Plan<float>&, State<float>&, const CoupledRows<float>&);

@@ -42,8 +42,8 @@ template <class T> std::vector<Matrix3<T>> modes_at_rest(const Plan<T>& plan, co
 template <class T> void start_frozen(const Plan<T>& plan, State<T>& state) {
     const Layout& layout = plan.lanes.layout;
     const Matrix3<T> one = Matrix3<T>::Identity();
-    const bool moves = std::any_of(state.scaled_rate.begin(), state.scaled_rate.end(),
-                                   [](const Vector3<T>& rate) { return !rate.isZero(0); });
+    const bool moves = plan.pose && std::any_of(state.scaled_rate.begin(), state.scaled_rate.end(),
+                                                [](const Vector3<T>& rate) { return !rate.isZero(0); });
     const std::vector<Matrix3<T>> modes = moves ? modes_at_rest(plan, state) : std::vector<Matrix3<T>>();
     RowVector<T>& rows = state.lanes.frozen;
     rows.assign(std::size_t(layout.rows) * analytic::frozen::count, Row<T>{});

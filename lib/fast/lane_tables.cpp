@@ -1,6 +1,7 @@
 #include "lane_tables.h"
 #include "../stages/external_forces.h"
 #include "../stages/wind.h"
+#include "analytic_rows.h"
 #include "sleep.h"
 #include <algorithm>
 
@@ -58,6 +59,32 @@ template <class T> void place_tables(const Plan<T>& plan, State<T>& state, doubl
         put(lanes.pulls[k].force, pull_force(plan.scene.pulls[plan.pulls[plan.lanes.pull[k]].source], middle));
 }
 
+template <class T> void place_block(const Plan<T>& plan, State<T>& state, const Block& block, CoupledRows<T>& rows) {
+    const CoupledPlaces places = places_of(plan, state, block);
+    T* const table = data(state.lanes.table);
+    constexpr std::ptrdiff_t lanes = Row<T>::lanes;
+    rows.first_row = block.first_row;
+    rows.now = table + places.now.first * lanes;
+    rows.next = table + places.next.first * lanes;
+    rows.solved_rows = table + places.solved.first * lanes;
+    rows.now_stride = places.now.stride;
+    rows.next_stride = places.next.stride;
+    rows.solved_stride = places.solved.stride;
+}
+
+template <class T> std::vector<std::size_t> motion_of_rows(const Plan<T>& plan, const State<T>& state) {
+    const Layout& layout = plan.lanes.layout;
+    std::vector<std::size_t> at(layout.rows);
+    for (const Block& block : layout.blocks) {
+        const Run now = plan.solver == Solver::analytic
+                            ? Run{std::ptrdiff_t(block.first_row) * analytic::motion::count, analytic::motion::count}
+                            : places_of(plan, state, block).now;
+        for (std::uint32_t row = block.first_row; row < block.end_row; ++row)
+            at[row] = std::size_t(now.at(row - block.first_row));
+    }
+    return at;
+}
+
 template <class T> void add_ports(const Plan<T>& plan, State<T>& state, int count) {
     const std::vector<Port>& ports = plan.lanes.layout.ports;
     for (std::size_t p = 0; p < ports.size(); ++p) {
@@ -87,12 +114,16 @@ template void put_body(const Plan<float>&, std::size_t, const Slot<float>&);
 template void resize_records(const Layout&, RowVector<float>&, int);
 template void pack_pulls(const Plan<float>&, State<float>&);
 template void place_tables(const Plan<float>&, State<float>&, double, SweepRows<float>&);
+template void place_block(const Plan<float>&, State<float>&, const Block&, CoupledRows<float>&);
+template std::vector<std::size_t> motion_of_rows(const Plan<float>&, const State<float>&);
 template void add_ports(const Plan<float>&, State<float>&, int);
 template std::size_t share_scratch(Lanes<float>&);
 template void put_body(const Plan<double>&, std::size_t, const Slot<double>&);
 template void resize_records(const Layout&, RowVector<double>&, int);
 template void pack_pulls(const Plan<double>&, State<double>&);
 template void place_tables(const Plan<double>&, State<double>&, double, SweepRows<double>&);
+template void place_block(const Plan<double>&, State<double>&, const Block&, CoupledRows<double>&);
+template std::vector<std::size_t> motion_of_rows(const Plan<double>&, const State<double>&);
 template void add_ports(const Plan<double>&, State<double>&, int);
 template std::size_t share_scratch(Lanes<double>&);
 

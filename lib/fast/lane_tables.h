@@ -10,6 +10,15 @@ namespace bough::fast {
 // The constants that both steps have (body_constant), but the inertia, of which each has its own form.
 template <class T> void put_body(const Plan<T>&, std::size_t body, const Slot<T>& row);
 
+// Of the coupled step's table as it stands.
+template <class T> CoupledPlaces places_of(const Plan<T>& plan, const State<T>& state, const Block& block) {
+    return coupled_places(block, waits(plan.lanes.layout), scheme_of(plan.scheme).poles, state.lanes.odd);
+}
+// The block's part of it, for a sweep over the block.
+template <class T> void place_block(const Plan<T>&, State<T>&, const Block&, CoupledRows<T>&);
+// Where each row's motion stands in Lanes::now, or in Lanes::table. O(rows).
+template <class T> std::vector<std::size_t> motion_of_rows(const Plan<T>&, const State<T>&);
+
 // A record of `count` for each joint of the layout; what is there stays.
 template <class T> void resize_records(const Layout&, RowVector<T>& records, int count);
 // Lanes::pulls: where each acts. Its force is place_tables'.

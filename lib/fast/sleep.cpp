@@ -1,5 +1,6 @@
 #include "sleep.h"
 #include "../stages/external_forces.h"
+#include "lane_tables.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -40,10 +41,12 @@ bool carried(const Block& block) {
     return !block.whole && !empty(block);
 }
 
-template <class T> void set_rates_to_zero(RowVector<T>& motion_rows, const Block& block) {
-    for (std::uint32_t row = block.first_row; row < block.end_row; ++row)
-        for (int k = motion::theta_dot; k < motion::count; ++k)
-            motion_rows[std::size_t(row) * motion::count + std::size_t(k)] = Row<T>{};
+// At the step's end.
+template <class T> void set_rates_to_zero(const Plan<T>& plan, State<T>& state, const Block& block) {
+    const Run next = places_of(plan, state, block).next;
+    for (std::uint32_t k = 0; k < block.end_row - block.first_row; ++k)
+        std::fill_n(state.lanes.table.begin() + next.at(k) + motion::theta_dot, motion::count - motion::theta_dot,
+                    Row<T>{});
 }
 
 // A port's record stands for its block until it wakes; awake, the block adds to it anew.
@@ -138,7 +141,7 @@ template <class T> void rest_blocks(const Plan<T>& plan, State<T>& state, const 
         const bool ready = block.settled >= sleep.steps && (blocks[b].whole || top.settled >= sleep.steps);
         if (block.rest == Rest::awake && ready) {
             block.rest = Rest::settling;
-            set_rates_to_zero(lanes.next, blocks[b]);
+            set_rates_to_zero(plan, state, blocks[b]);
         }
         if (!carried(blocks[b])) continue;
         all_asleep = all_asleep && block.rest == Rest::asleep;
@@ -150,14 +153,15 @@ template <class T> void rest_blocks(const Plan<T>& plan, State<T>& state, const 
     if (top.rest == Rest::settling) top.rest = Rest::asleep;
     if (top.rest == Rest::awake && top.settled >= sleep.steps && all_asleep) {
         top.rest = Rest::settling;
-        set_rates_to_zero(lanes.next, blocks[0]);
+        set_rates_to_zero(plan, state, blocks[0]);
     }
 }
 
-template <class T> void keep_motion(State<T>& state, const Block& block) {
-    const auto at = [](std::uint32_t row) { return std::ptrdiff_t(row) * motion::count; };
-    std::copy(state.lanes.now.begin() + at(block.first_row), state.lanes.now.begin() + at(block.end_row),
-              state.lanes.next.begin() + at(block.first_row));
+template <class T> void keep_motion(const Plan<T>& plan, State<T>& state, const Block& block) {
+    const CoupledPlaces places = places_of(plan, state, block);
+    const auto table = state.lanes.table.begin();
+    for (std::uint32_t k = 0; k < block.end_row - block.first_row; ++k)
+        std::copy_n(table + places.now.at(k), int(motion::count), table + places.next.at(k));
 }
 
 template <class T> std::vector<double> saved_sleep(const Plan<T>& plan, const State<T>& state) {
@@ -210,7 +214,7 @@ template <class T> void restore_sleep(const Plan<T>& plan, State<T>& state, cons
     }
     for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
         if (lanes.rest[b].rest != Rest::asleep) continue;
-        keep_motion(state, layout.blocks[b]);
+        keep_motion(plan, state, layout.blocks[b]);
         if (b == 0) continue;
         visit_ports(plan.lanes.sleep, layout, b, [&](std::uint32_t joint) {
             T* record = port_record(lanes, joint);
@@ -230,13 +234,13 @@ template <class T> void restore_sleep(const Plan<T>& plan, State<T>& state, cons
 template void plan_sleep(Plan<float>&, double);
 template void wake_blocks(const Plan<float>&, State<float>&, double);
 template void rest_blocks(const Plan<float>&, State<float>&, const std::vector<SweepFlags>&);
-template void keep_motion(State<float>&, const Block&);
+template void keep_motion(const Plan<float>&, State<float>&, const Block&);
 template std::vector<double> saved_sleep(const Plan<float>&, const State<float>&);
 template void restore_sleep(const Plan<float>&, State<float>&, const std::vector<double>&);
 template void plan_sleep(Plan<double>&, double);
 template void wake_blocks(const Plan<double>&, State<double>&, double);
 template void rest_blocks(const Plan<double>&, State<double>&, const std::vector<SweepFlags>&);
-template void keep_motion(State<double>&, const Block&);
+template void keep_motion(const Plan<double>&, State<double>&, const Block&);
 template std::vector<double> saved_sleep(const Plan<double>&, const State<double>&);
 template void restore_sleep(const Plan<double>&, State<double>&, const std::vector<double>&);
 

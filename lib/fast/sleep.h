@@ -13,7 +13,7 @@
 // What stands in balance, though it would buckle once touched, sleeps as it stands.
 // Decided by block from numbers that do not depend on threads, so the hash does not. What a sleeper hands inward cannot be
 // made again from theta alone: saved_sleep is what a saved state carries of it.
-// Reads   SweepFlags::omega2, pulls. Writes Lanes::rest, flags.asleep, rates in Lanes::next of what falls asleep.
+// Reads   SweepFlags::omega2, pulls. Writes Lanes::rest, flags.asleep, rates at the step's end of what falls asleep.
 // Cost    O(blocks + pulls) a step; O(rows) of a block when it falls asleep. Errors: restore_sleep.
 #pragma once
 #include "../stages/plan.h"
@@ -29,7 +29,7 @@ template <class T> void wake_blocks(const Plan<T>&, State<T>&, double time);
 // At its end: who has settled. met: of each block.
 template <class T> void rest_blocks(const Plan<T>&, State<T>&, const std::vector<SweepFlags>& met);
 // Its motion at the step's end is that at its start.
-template <class T> void keep_motion(State<T>&, const Block&);
+template <class T> void keep_motion(const Plan<T>&, State<T>&, const Block&);
 
 template <class T> Rest rest_of(const State<T>& state, std::size_t block) {
     return state.lanes.rest.empty() ? Rest::awake : state.lanes.rest[block].rest;

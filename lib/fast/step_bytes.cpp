@@ -35,15 +35,16 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     StepBytes bytes;
     bytes.constants.in = rows * quantities * line;
     bytes.now.in = (rows + waiting) * motion::count * line;
-    bytes.next.in = bytes.next.out = rows * motion::count * line;
+    bytes.next.in = (rows - waiting) * motion::count * line; // a waiting row's stands where its `solved` was just read
+    bytes.next.out = rows * motion::count * line;
     bytes.solved.out = waiting * solved::count * line;
     bytes.solved.in = bytes.solved.out * (streamed ? 1 : 2);
     bytes.records.in = bytes.records.out = records;
     constexpr std::uint64_t index = sizeof(std::uint32_t);
     const std::uint64_t forks = layout.fork.size();
     bytes.indices.in = index * (rows + waiting + 2 * bases + waiting_bases + forks);
-    bytes.tables = rows * std::uint64_t(constant::count + 2 * motion::count) * line + waiting * solved::count * line +
-                   records + index * (rows + 2 * bases + forks);
+    const auto columns = std::uint64_t(coupled_columns(waiting > 0, 1));
+    bytes.tables = rows * (constant::count + columns) * line + records + index * (rows + 2 * bases + forks);
     return bytes;
 }
 
@@ -72,7 +73,7 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
 }
 
 bool streams(const Layout& layout) {
-    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > core_cache;
+    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > 8 * core_cache;
 }
 
 } // namespace bough::fast

@@ -6,11 +6,11 @@
 // written through the caches is fetched first, so it moves in and out; one that is streamed past them moves out alone.
 //   constants   in once, but for what gravity and wind alone read
 //   now         in once; a second time where the sweep outward has to wait for other blocks
-//   next        in and out
+//   next        in and out; out alone where it takes the place of what a row of a waiting block was solved to
 //   solved      out (streamed), or in and out; in once more. None where the block is of whole trees
 //   records     of each joint (outward, inward, accelerated): in and out
 //   indices     of rows and of chains' lanes (fork_of_row; base, landing): in with each sweep that reads them
-// Every block is awake (sleep.h). Not counted: the energy guard's sweep, pulls, the wind's table, groups and blocks: nothing beside these,
+// A scheme of one pole, and every block is awake (sleep.h). Not counted: the energy guard's sweep, pulls, the wind's table, groups and blocks: nothing beside these,
 // or not in every step.
 #pragma once
 #include "lanes.h"
@@ -40,7 +40,9 @@ StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t
 // other block once; nothing waits.
 StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, bool frozen, std::size_t real);
 
-// Whether `solved` of a layout is more than a core's own cache holds, and is written past the caches where the target can.
+// Whether `solved` of a layout is written past the caches where the target can: from eight times a core's own cache on. Below, what is behind
+// that cache still gives it back sooner than memory does (measured, float, one core with 2 MB: 18 % less time a step at 2 MB of `solved`,
+// 12 % at 11; at 23 streaming is level, beyond better).
 bool streams(const Layout&);
 
 } // namespace bough::fast

@@ -33,13 +33,13 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         return {rows.constants + (row * std::size_t(constant::count)) * L + lane};
     }
     Rows<const T> now(std::uint32_t row, int lane) const {
-        return {rows.now + (row * std::size_t(motion::count)) * L + lane};
+        return {rows.now + std::ptrdiff_t(row - rows.first_row) * rows.now_stride * L + lane};
     }
     Rows<T> next(std::uint32_t row, int lane) const {
-        return {rows.next + (row * std::size_t(motion::count)) * L + lane};
+        return {rows.next + std::ptrdiff_t(row - rows.first_row) * rows.next_stride * L + lane};
     }
     Rows<T> solved_row(std::uint32_t row, int lane) const {
-        return {rows.solved_rows + (std::size_t(row - rows.solved_first) * solved::count) * L + lane};
+        return {rows.solved_rows + std::ptrdiff_t(row - rows.first_row) * rows.solved_stride * L + lane};
     }
 
     // Parent's body frame from joint frame.

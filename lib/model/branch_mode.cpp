@@ -1,11 +1,17 @@
 #include "branch_mode.h"
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace bough {
 namespace {
 
 using Scalars = std::vector<double>;
+
+// A tree of millions of bodies is not to stand beside all that is found of it on the way: what is read no more is given back.
+template <class... Arrays> void give_back(Arrays&... arrays) {
+    (Arrays().swap(arrays), ...);
+}
 
 // Inertia about the body's own joint, body axes: Steiner's theorem.
 Mat3 joint_inertia(const Tree& tree, std::size_t i) {
@@ -22,38 +28,47 @@ struct Lumps {
 Lumps make_lumps(const Tree& tree) {
     const std::size_t n = tree.size_bodies();
     Lumps lump;
-    for (Scalars* a : {&lump.mass, &lump.first, &lump.across, &lump.about, &lump.all_first, &lump.all_about})
-        a->assign(n, 0.0);
-    // Composite of the whole subtree and of the sideways part alone, body axes, about the own joint.
-    std::vector<double> m(tree.mass), m_side(tree.mass);
-    std::vector<Vec3> h(n), h_side(n);
-    std::vector<Mat3> J(n), J_side(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        h[i] = h_side[i] = tree.mass[i] * tree.com[i];
-        J[i] = J_side[i] = joint_inertia(tree, i);
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        if (tree.parent[i] < 0) continue;
-        const auto p = std::size_t(tree.parent[i]);
-        const Mat3 R = tree.joint_rotation[i].toRotationMatrix();
-        const Vec3& r = tree.joint_position[i];
-        const Vec3 g = R * h[i];
-        const Vec3 q = g + 0.5 * m[i] * r;
-        const Mat3 moved =
-            R * J[i] * R.transpose() + 2 * r.dot(q) * Mat3::Identity() - r * q.transpose() - q * r.transpose();
-        m[p] += m[i];
-        h[p] += g + m[i] * r;
-        J[p] += moved;
-        if (continues_parent(tree, i)) continue;
-        m_side[p] += m[i];
-        h_side[p] += g + m[i] * r;
-        J_side[p] += moved;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-        lump.mass[i] = m_side[i];
-        lump.first[i] = std::max(0.0, h_side[i].z());
-        lump.about[i] = J_side[i](2, 2);
-        lump.across[i] = 0.5 * (J_side[i](0, 0) + J_side[i](1, 1));
+    // Of the sideways part alone, body axes, about the own joint: of first moment and inertia no more than is asked for.
+    lump.mass = tree.mass;
+    for (Scalars* a : {&lump.first, &lump.across, &lump.about}) a->resize(n);
+    {
+        // Composite of the whole subtree, likewise.
+        std::vector<double> m(tree.mass);
+        std::vector<Vec3> h(n);
+        std::vector<Mat3> J(n);
+        Scalars across_y(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            h[i] = tree.mass[i] * tree.com[i];
+            J[i] = joint_inertia(tree, i);
+            lump.first[i] = h[i].z();
+            lump.across[i] = J[i](0, 0);
+            across_y[i] = J[i](1, 1);
+            lump.about[i] = J[i](2, 2);
+        }
+        for (std::size_t i = n; i-- > 0;) {
+            if (tree.parent[i] < 0) continue;
+            const auto p = std::size_t(tree.parent[i]);
+            const Mat3 R = tree.joint_rotation[i].toRotationMatrix();
+            const Vec3& r = tree.joint_position[i];
+            const Vec3 g = R * h[i];
+            const Vec3 q = g + 0.5 * m[i] * r;
+            const Mat3 moved =
+                R * J[i] * R.transpose() + 2 * r.dot(q) * Mat3::Identity() - r * q.transpose() - q * r.transpose();
+            const Vec3 moment = g + m[i] * r;
+            m[p] += m[i];
+            h[p] += moment;
+            J[p] += moved;
+            if (continues_parent(tree, i)) continue;
+            lump.mass[p] += m[i];
+            lump.first[p] += moment.z();
+            lump.across[p] += moved(0, 0);
+            across_y[p] += moved(1, 1);
+            lump.about[p] += moved(2, 2);
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            lump.first[i] = std::max(0.0, lump.first[i]);
+            lump.across[i] = 0.5 * (lump.across[i] + across_y[i]);
+        }
     }
     lump.all_about = lump.about;
     lump.all_first = lump.first;
@@ -70,7 +85,7 @@ Lumps make_lumps(const Tree& tree) {
 }
 
 // load / K at every joint; 1 on the whole branch where one of its joints is free.
-Scalars trial_shape(const Tree& tree, const std::vector<std::size_t>& base, const Scalars& load, const Scalars& K) {
+Scalars trial_shape(const Tree& tree, const std::vector<std::uint32_t>& base, const Scalars& load, const Scalars& K) {
     const std::size_t n = tree.size_bodies();
     std::vector<char> free(n, 0);
     Scalars largest(n, 0.0), kappa(n);
@@ -90,16 +105,17 @@ Scalars trial_shape(const Tree& tree, const std::vector<std::size_t>& base, cons
 
 BranchModes branch_modes(const Tree& tree) {
     const std::size_t n = tree.size_bodies();
-    const Lumps lump = make_lumps(tree);
-    std::vector<std::size_t> base(n); // the body at its branch's base
+    Lumps lump = make_lumps(tree);
+    std::vector<std::uint32_t> base(n); // the body at its branch's base
     Scalars K_bend(n), K_twist(n);
     for (std::size_t i = 0; i < n; ++i) {
-        base[i] = continues_parent(tree, i) ? base[std::size_t(tree.parent[i])] : i;
+        base[i] = continues_parent(tree, i) ? base[std::size_t(tree.parent[i])] : std::uint32_t(i);
         const Vec3& K = tree.stiffness[i];
         K_bend[i] = tree.kind[i] == Kind::branch ? 0.5 * (K.x() + K.y()) : std::min(K.x(), K.y());
         K_twist[i] = K.z();
     }
     const Scalars bend = trial_shape(tree, base, lump.all_first, K_bend);
+    give_back(lump.all_first);
     const Scalars twist = trial_shape(tree, base, lump.all_about, K_twist);
 
     // Forward: rates and velocities of the trial shapes. Backward: momenta P (linear), L (angular), T (twist).
@@ -116,7 +132,8 @@ BranchModes branch_modes(const Tree& tree) {
         L[i] = lump.first[i] * velocity[i] + lump.across[i] * rate[i];
         T[i] = lump.about[i] * spin[i];
     }
-    Scalars M(lump.across), mass(lump.mass), first(lump.first);
+    give_back(rate, velocity, spin, lump.about);
+    Scalars M(std::move(lump.across)), mass(std::move(lump.mass)), first(std::move(lump.first));
     for (std::size_t i = n; i-- > 0;) {
         if (!continues_parent(tree, i)) continue;
         const auto p = std::size_t(tree.parent[i]);
@@ -128,6 +145,7 @@ BranchModes branch_modes(const Tree& tree) {
         first[p] += first[i] + l * mass[i];
         mass[p] += mass[i];
     }
+    give_back(P, mass, first);
     Scalars stiff_bend(n, 0.0), stiff_twist(n, 0.0), mass_bend(n, 0.0), mass_twist(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         stiff_bend[base[i]] += K_bend[i] * bend[i] * bend[i];
@@ -135,6 +153,7 @@ BranchModes branch_modes(const Tree& tree) {
         stiff_twist[base[i]] += K_twist[i] * twist[i] * twist[i];
         mass_twist[base[i]] += twist[i] * T[i];
     }
+    give_back(K_bend, K_twist);
     const auto quotient = [](double a, double b) { return b > 0 ? std::sqrt(a / b) : 0.0; };
     const auto factor = [](double momentum, double inertia) {
         return inertia > 0 ? std::max(1.0, momentum / inertia) : 1.0;

@@ -43,25 +43,70 @@ double drag_area(const Tree& tree, std::size_t i, double air_density) {
     return cylinder_drag / 2 * air_density * frustum_section(size[0], size[1], size[2]);
 }
 
-template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, const Scene& scene) {
-    const std::size_t n = plan.bodies;
-    const StartPose pose = start_pose(tree, scene.gravity, scene.pose);
+// Gives an array back. own: the tree that was handed over; null: it is somebody else's, and stays.
+template <class A> void give_back(A& array) {
+    A().swap(array);
+}
+template <class... Arrays> void give_back(Tree* own, Arrays Tree::*... arrays) {
+    if (own) (give_back(own->*arrays), ...);
+}
+
+// Where the springs start, and from where they turn.
+template <class T> void plan_pose(Plan<T>& plan, const Tree& tree, Tree* own) {
+    StartPose pose = start_pose(tree, plan.scene.gravity, plan.scene.pose);
+    give_back(own, &Tree::joint_rotation);
+    plan.theta_start.reserve(plan.bodies);
+    for (const Vec3& theta : pose.theta) plan.theta_start.push_back(theta.template cast<T>());
+    give_back(pose.theta);
+    plan.R_pj.reserve(plan.bodies);
+    for (const Quat& q : pose.joint_rotation) plan.R_pj.push_back(q.toRotationMatrix().template cast<T>());
+}
+
+template <class T> void plan_composite_masses(Plan<T>& plan, const Tree& tree) {
     std::vector<double> c_mass(tree.mass);
-    for (std::size_t i = n; i-- > 0;)
+    for (std::size_t i = plan.bodies; i-- > 0;)
         if (tree.parent[i] >= 0) c_mass[std::size_t(tree.parent[i])] += c_mass[i];
-    plan.parent = tree.parent;
-    for (std::size_t i = 0; i < n; ++i) {
+    plan.c_mass.reserve(plan.bodies);
+    for (const double mass : c_mass) plan.c_mass.push_back(T(mass));
+}
+
+// All that is left to take over.
+template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, Tree* own) {
+    const auto take = [&](auto& to, const auto& from) {
+        to.reserve(plan.bodies);
+        for (const auto& value : from) {
+            if constexpr (std::is_same_v<decltype(value), const double&>)
+                to.push_back(T(value));
+            else
+                to.push_back(value.template cast<T>());
+        }
+    };
+    plan.inertia_joint.reserve(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Mat3 com = cross_matrix(tree.com[i]);
-        plan.joint_position.push_back(tree.joint_position[i].template cast<T>());
-        plan.R_pj.push_back(pose.joint_rotation[i].toRotationMatrix().template cast<T>());
-        plan.theta_start.push_back(pose.theta[i].template cast<T>());
-        plan.mass.push_back(T(tree.mass[i]));
-        plan.c_mass.push_back(T(c_mass[i]));
-        plan.com.push_back(tree.com[i].template cast<T>());
         plan.inertia_joint.push_back(Mat3(tree.inertia[i] - tree.mass[i] * com * com).template cast<T>());
-        plan.K.push_back(tree.stiffness[i].template cast<T>());
-        plan.beta.push_back(T(tree.damping[i]));
     }
+    give_back(own, &Tree::inertia);
+    take(plan.joint_position, tree.joint_position);
+    give_back(own, &Tree::joint_position);
+    take(plan.com, tree.com);
+    give_back(own, &Tree::com);
+    take(plan.K, tree.stiffness);
+    give_back(own, &Tree::stiffness);
+    take(plan.mass, tree.mass);
+    take(plan.beta, tree.damping);
+    give_back(own, &Tree::mass, &Tree::damping);
+    if (plan.wind) plan.kind = tree.kind;
+    plan.parent = tree.parent;
+    give_back(own, &Tree::kind, &Tree::parent);
+}
+
+// With lanes that hold them all, and nobody who reads poses.
+template <class T> void give_back_bodies(Plan<T>& plan) {
+    const auto all = [](auto&... arrays) { (give_back(arrays), ...); };
+    all(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint, plan.K,
+        plan.beta, plan.inertia_factor, plan.gravity_row, plan.carried_moment, plan.drag_area, plan.kind, plan.sway,
+        plan.joint_distance, plan.com_distance, plan.inverse_weight);
 }
 
 std::string text(double value) { // of four digits, whatever the locale
@@ -94,20 +139,21 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
 }
 
 template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree, const Scene& scene) {
-    plan.kind = tree.kind;
+    plan.drag_area.reserve(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i) plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
 }
 
 // Drag's bounds. A side branch's weight is twice its parent's again (drag.h), up to 2^16.
 template <class T> void plan_air_bounds(Plan<T>& plan, const Tree& tree, const std::vector<double>& weight) {
     const std::size_t n = plan.bodies;
-    std::vector<int> depth(n, 0);         // side branches left on the way from the root
-    std::vector<double> sum(n), moved(n); // over the path: of u, and what it moves the body's joint by
+    std::vector<std::uint8_t> depth(n, 0); // side branches left on the way from the root, at most those 16
+    std::vector<double> sum(n), moved(n);  // over the path: of u, and what it moves the body's joint by
+    for (auto* array : {&plan.sway, &plan.joint_distance, &plan.com_distance, &plan.inverse_weight}) array->reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const bool root = tree.parent[i] < 0;
         const auto p = std::size_t(tree.parent[i]);
-        if (!root) depth[i] = depth[p] + (continues_parent(tree, i) ? 0 : 1);
-        const double u = std::ldexp(weight[i], std::min(depth[i], 16));
+        if (!root) depth[i] = std::uint8_t(std::min(depth[p] + (continues_parent(tree, i) ? 0 : 1), 16));
+        const double u = std::ldexp(weight[i], depth[i]);
         const double r = root ? 0 : tree.joint_position[i].norm();
         sum[i] = u + (root ? 0 : sum[p]);
         moved[i] = root ? 0 : moved[p] + sum[p] * r;
@@ -118,47 +164,55 @@ template <class T> void plan_air_bounds(Plan<T>& plan, const Tree& tree, const s
     }
 }
 
-// The factors of inertia, and the weights by which gravity and drag are summed along a path.
-template <class T> void plan_modes(Plan<T>& plan, const Tree& tree, const Scene& scene) {
-    const std::size_t n = plan.bodies;
-    const bool scaled = scene.joint_inertia == JointInertia::branch;
-    const BranchModes modes = branch_modes(tree);
-    std::vector<double> sum(n); // of u over the path
-    for (std::size_t i = 0; i < n; ++i) {
+// The factors of inertia, and drag's bounds; returns the weights by which gravity and drag are summed along a path.
+template <class T> std::vector<double> plan_modes(Plan<T>& plan, const Tree& tree) {
+    BranchModes modes = branch_modes(tree);
+    const bool scaled = plan.scene.joint_inertia == JointInertia::branch;
+    plan.inertia_factor.reserve(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
         const double fb = scaled ? modes.factor_bend[i] : 1, ft = scaled ? modes.factor_twist[i] : 1;
         plan.inertia_factor.push_back(Vec3(std::sqrt(fb), std::sqrt(fb), std::sqrt(ft)).template cast<T>());
-        const auto p = std::size_t(tree.parent[i]);
-        sum[i] = modes.weight[i] + (tree.parent[i] < 0 ? 0 : sum[p]);
     }
-    if (plan.gravity || plan.root_motion) {
-        // P: the first moment that a body's own turning moves; sums over the subtree of |g| |P|, plain and times the path's u.
-        const double strength = plan.gravity ? scene.gravity.norm() : 1;
-        plan.row_gravity = plan.gravity ? scene.gravity.template cast<T>().norm() : T(1);
-        std::vector<Vec3> P(n);
-        std::vector<double> plain(n), weighed(n);
-        for (std::size_t i = 0; i < n; ++i) P[i] = tree.mass[i] * tree.com[i];
-        for (std::size_t i = 0; i < n; ++i)
-            if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += double(plan.c_mass[i]) * tree.joint_position[i];
-        for (std::size_t i = 0; i < n; ++i) {
-            plain[i] = strength * P[i].norm();
-            weighed[i] = plain[i] * sum[i];
-        }
-        for (std::size_t i = n; i-- > 0;) {
-            if (tree.parent[i] < 0) continue;
-            plain[std::size_t(tree.parent[i])] += plain[i];
-            weighed[std::size_t(tree.parent[i])] += weighed[i];
-        }
-        for (std::size_t i = 0; i < n; ++i)
-            plan.gravity_row.push_back(T(std::max(0.0, weighed[i] / modes.weight[i] - plain[i])));
-    }
-    if (plan.wind) plan_air_bounds(plan, tree, modes.weight);
+    std::vector<double> weight = std::move(modes.weight);
+    modes = {};
+    if (plan.wind) plan_air_bounds(plan, tree, weight);
+    return weight;
 }
 
-template <class T> void plan_carried_moments(Plan<T>& plan, const Tree& tree) {
+// P: the first moment that a body's own turning moves, body axes.
+template <class T> std::vector<Vec3> own_moments(const Plan<T>& plan, const Tree& tree) {
     std::vector<Vec3> P(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i) P[i] = tree.mass[i] * tree.com[i];
     for (std::size_t i = 0; i < plan.bodies; ++i)
         if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += double(plan.c_mass[i]) * tree.joint_position[i];
+    return P;
+}
+
+// Sums over the subtree of |g| |P|, plain and times the path's u.
+template <class T> void plan_gravity_rows(Plan<T>& plan, const Tree& tree, const std::vector<double>& weight) {
+    const std::size_t n = plan.bodies;
+    const double strength = plan.gravity ? plan.scene.gravity.norm() : 1;
+    plan.row_gravity = plan.gravity ? plan.scene.gravity.template cast<T>().norm() : T(1);
+    std::vector<double> plain(n), weighed(n); // weighed: at first the sum of u over the path
+    for (std::size_t i = 0; i < n; ++i)
+        weighed[i] = weight[i] + (tree.parent[i] < 0 ? 0 : weighed[std::size_t(tree.parent[i])]);
+    {
+        const std::vector<Vec3> P = own_moments(plan, tree);
+        for (std::size_t i = 0; i < n; ++i) plain[i] = strength * P[i].norm();
+    }
+    for (std::size_t i = 0; i < n; ++i) weighed[i] *= plain[i];
+    for (std::size_t i = n; i-- > 0;) {
+        if (tree.parent[i] < 0) continue;
+        plain[std::size_t(tree.parent[i])] += plain[i];
+        weighed[std::size_t(tree.parent[i])] += weighed[i];
+    }
+    plan.gravity_row.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) plan.gravity_row.push_back(T(std::max(0.0, weighed[i] / weight[i] - plain[i])));
+}
+
+template <class T> void plan_carried_moments(Plan<T>& plan, const Tree& tree) {
+    const std::vector<Vec3> P = own_moments(plan, tree);
+    plan.carried_moment.reserve(plan.bodies);
     for (const Vec3& moment : P) plan.carried_moment.push_back(moment.template cast<T>());
 }
 
@@ -245,7 +299,8 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                                                  : "; no sleep: " + plan.lanes.sleep.reason)
                       : "plain path: " + plan.lanes.reason);
     add(Stage::state_update, !plan.lanes.on,
-        plan.lanes.on
+        !plan.pose ? "nobody reads poses"
+        : plan.lanes.on
             ? "when poses are read" + moved
             : std::string(!plan.velocity
                               ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
@@ -271,8 +326,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
             rows("lanes.outward, inward", layout.joints,
                  int(fast::record(fast::analytic::outward::count, L) + fast::record(inward, L)) / L);
         } else {
-            rows("lanes.now, next", 2 * std::size_t(layout.rows), fast::motion::count);
-            rows("lanes.solved", fast::waits(layout) ? layout.rows : 0, fast::solved::count);
+            rows("lanes.table", layout.rows, fast::coupled_columns(fast::waits(layout), scheme_of(plan.scheme).poles));
             rows("lanes.outward, inward, accelerated", layout.joints, fast::records_of_joint<T>());
         }
     }
@@ -281,19 +335,20 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
          plan.bodies * sizeof(ArticulatedBody) * std::max<std::size_t>(1, articulated_passes(plan.solver)), solver});
 }
 
-} // namespace
+void scale(Tree& tree, const Scene& scene) {
+    for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
+    for (double& beta : tree.damping) beta *= scene.damping_scale;
+}
 
+bool scales(const Scene& scene) {
+    return scene.stiffness_scale != 1 || scene.damping_scale != 1;
+}
+
+// tree: scaled. own: the same, where it may be given back array by array; else null. What reads much of the tree stands first.
 template <class T>
-Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
-                  double refresh) {
-    Tree scaled; // a copy only where it differs
-    if (scene.stiffness_scale != 1 || scene.damping_scale != 1) {
-        scaled = drawn;
-        for (Vec3& K : scaled.stiffness) K *= scene.stiffness_scale;
-        for (double& beta : scaled.damping) beta *= scene.damping_scale;
-    }
-    const Tree& tree = scaled.size_bodies() > 0 ? scaled : drawn;
+Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ranges, const Scene& scene,
+                  const Wishes& wishes, double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd,
+                  double sleep, double refresh) {
     Plan<T> plan;
     plan.bodies = tree.size_bodies();
     plan.dt = dt;
@@ -305,12 +360,12 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
     for (std::size_t k = 0; k < scene.pulls.size(); ++k)
         for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
             plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
+    give_back(own, &Tree::level, &Tree::s);
     plan.forces = plan.wind || !plan.pulls.empty();
     plan.velocity = (plan.wind && solver == Solver::analytic) || wishes.velocity;
     plan.torque = wishes.torque;
     plan_root_motion(plan, ranges);
     plan.top = plan.wind ? highest_reach(tree, plan.splines, plan.moved) : 0;
-    plan_bodies(plan, tree, scene);
     plan.refresh_reason = solver != Solver::analytic ? std::string("solver ") + solver_name(solver)
                           : !(refresh > 0)           ? "not asked for"
                           : plan.root_motion         ? "/root_motion"
@@ -320,11 +375,18 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
         plan.refresh = refresh;
         plan.refresh_reason = "frozen coefficients, tolerance " + text(refresh);
     }
+    std::vector<double> weight;
+    if (solver == Solver::analytic) weight = plan_modes(plan, tree);
+    if (plan.wind) plan_surfaces(plan, tree, scene);
+    give_back(own, &Tree::size);
+    plan_pose(plan, tree, own);
     plan.joint_limit = scene.joint_limit.has_value();
     if (plan.joint_limit) plan_joint_limit(plan, tree);
-    if (plan.wind) plan_surfaces(plan, tree, scene);
-    if (solver == Solver::analytic) plan_modes(plan, tree, scene);
+    plan_composite_masses(plan, tree);
+    if (solver == Solver::analytic && (plan.gravity || plan.root_motion)) plan_gravity_rows(plan, tree, weight);
+    give_back(weight);
     if (solver == Solver::coupled && plan.gravity) plan_carried_moments(plan, tree);
+    plan_bodies(plan, tree, own);
     plan.lanes.reason = "not asked for";
     if (simd) {
         plan.target = *simd;
@@ -332,13 +394,40 @@ Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const
         fast::plan_sleep(plan, sleep);
         if (plan.lanes.on) plan.velocity = wishes.velocity; // the drag finds its own
     }
+    plan.pose = !plan.lanes.on || wishes.pose || wishes.velocity || wishes.torque;
+    if (!plan.pose) give_back_bodies(plan);
     explain(plan, wishes);
     return plan;
+}
+
+} // namespace
+
+template <class T>
+Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
+                  double refresh) {
+    if (!scales(scene))
+        return plan_tree<T>(drawn, nullptr, ranges, scene, wishes, dt, solver, scheme, simd, sleep, refresh);
+    Tree scaled = drawn;
+    scale(scaled, scene);
+    return plan_tree<T>(scaled, &scaled, ranges, scene, wishes, dt, solver, scheme, simd, sleep, refresh);
+}
+
+template <class T>
+Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
+                  double refresh) {
+    if (scales(scene)) scale(tree, scene);
+    return plan_tree<T>(tree, &tree, ranges, scene, wishes, dt, solver, scheme, simd, sleep, refresh);
 }
 
 template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
                                Scheme, std::optional<fast::Target>, double, double);
 template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
+                                Scheme, std::optional<fast::Target>, double, double);
+template Plan<float> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
+                               Scheme, std::optional<fast::Target>, double, double);
+template Plan<double> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
                                 Scheme, std::optional<fast::Target>, double, double);
 
 } // namespace bough

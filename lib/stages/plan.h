@@ -49,10 +49,13 @@ constexpr bool is_articulated(Solver solver) {
     return solver != Solver::analytic && solver != Solver::coupled;
 }
 
-// What the caller will read besides poses: arrays for it exist only then.
+// What the caller will read of a state: arrays for it exist only then.
 struct Wishes {
     bool velocity = false; // velocity and angular velocity of each body
     bool torque = false;   // spring torque of each joint
+    // Poses and angles as they go. Without (and without the two above) a fast path keeps neither them nor their constants in document
+    // order: a run then has its hash, and the angles that present() brings for a saved state.
+    bool pose = true;
 };
 
 struct PlannedStage {
@@ -86,6 +89,7 @@ template <class T> struct Plan {
     std::string refresh_reason; // why they are kept, or why not
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     bool root_motion = false, joint_limit = false;
+    bool pose = true; // false: with lanes and not wished for; of the arrays over bodies below only theta_start is there
     std::vector<PlannedStage> stages;
     std::vector<PlannedArray> arrays;
 
@@ -136,8 +140,14 @@ template <class T> struct Plan {
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 // sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
 // refresh: of the analytic solver, the tolerance of frozen coefficients (frozen.h); 0: none are kept, every step is worked out in full.
+// Memory: a tree that is handed over (Tree&&) gives each array back as soon as the plan has what it needs of it, so that the two never
+// stand side by side whole; branch numbers, name, material, source and colours stay.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
+                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double refresh = 0);
+template <class T>
+Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
                   Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
                   std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double refresh = 0);
 

@@ -12,48 +12,36 @@ std::string name_of(const Tree& tree, std::size_t i) {
     return "body " + std::to_string(i) + " of branch " + std::to_string(tree.branch[i]);
 }
 
-struct Frames {
-    std::vector<Mat3> R; // world from body
-    std::vector<Vec3> r; // [m] own joint as seen from the parent's joint (zero for roots), world
-};
-
-Frames frames(const Tree& tree, const std::vector<Vec3>& theta) {
-    const std::size_t n = tree.size_bodies();
-    Frames f{std::vector<Mat3>(n), std::vector<Vec3>(n, Vec3::Zero())};
-    for (std::size_t i = 0; i < n; ++i) {
-        Mat3 R_wj = tree.joint_rotation[i].toRotationMatrix();
-        if (tree.parent[i] >= 0) {
-            const auto p = std::size_t(tree.parent[i]);
-            R_wj = f.R[p] * R_wj;
-            f.r[i] = f.R[p] * tree.joint_position[i];
-        }
-        f.R[i] = R_wj * rotation_from_vector(theta[i]);
-    }
-    return f;
+// World from body, turned by theta in its joint frame.
+Mat3 frame_of(const Tree& tree, std::size_t i, const std::vector<Mat3>& R, const Vec3& theta) {
+    const std::int32_t p = tree.parent[i];
+    const Mat3 R_pj = tree.joint_rotation[i].toRotationMatrix();
+    return (p < 0 ? R_pj : Mat3(R[std::size_t(p)] * R_pj)) * rotation_from_vector(theta);
 }
 
-// First moment that body i's own turning moves, P of coupled gravity: its mass and its children's composites at their joints.
-std::vector<Vec3> turned_moments(const Tree& tree, const Frames& f) {
+// First moment that body i's own turning moves, P of coupled gravity: its mass and its children's composites at their joints. World.
+std::vector<Vec3> turned_moments(const Tree& tree, const std::vector<Mat3>& R) {
     const std::size_t n = tree.size_bodies();
     std::vector<double> mass(tree.mass);
     std::vector<Vec3> P(n);
-    for (std::size_t i = 0; i < n; ++i) P[i] = tree.mass[i] * (f.R[i] * tree.com[i]);
+    for (std::size_t i = 0; i < n; ++i) P[i] = tree.mass[i] * (R[i] * tree.com[i]);
     for (std::size_t i = n; i-- > 0;) {
         if (tree.parent[i] < 0) continue;
         const auto p = std::size_t(tree.parent[i]);
-        P[p] += mass[i] * f.r[i];
+        const Vec3 arm = R[p] * tree.joint_position[i];
+        P[p] += mass[i] * arm;
         mass[p] += mass[i];
     }
     return P;
 }
 
-// Moments of gravity about each joint on its composite, world.
-std::vector<Vec3> gravity_moments(const Tree& tree, const std::vector<Vec3>& P, const Vec3& gravity) {
-    std::vector<Vec3> tau(tree.size_bodies());
-    for (std::size_t i = 0; i < tau.size(); ++i) tau[i] = P[i].cross(gravity);
+// Moments of gravity about each joint on its composite, world; in P's place.
+std::vector<Vec3> gravity_moments(const Tree& tree, std::vector<Vec3> P, const Vec3& gravity) {
+    std::vector<Vec3>& tau = P;
+    for (Vec3& moment : tau) moment = moment.cross(gravity).eval();
     for (std::size_t i = tau.size(); i-- > 0;)
         if (tree.parent[i] >= 0) tau[std::size_t(tree.parent[i])] += tau[i];
-    return tau;
+    return P;
 }
 
 // theta with K theta = J^T tau, the moment given in the body's frame, J the body rates' Jacobian at theta. The slope of
@@ -82,13 +70,20 @@ Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     return theta;
 }
 
+StartPose unturned(const Tree& tree) {
+    return {tree.joint_rotation, std::vector<Vec3>(tree.size_bodies(), Vec3::Zero())};
+}
+
 StartPose drawn(const Tree& tree, const Vec3& gravity) {
-    StartPose pose{tree.joint_rotation, std::vector<Vec3>(tree.size_bodies(), Vec3::Zero())};
-    if (gravity.isZero()) return pose;
-    const Frames f = frames(tree, pose.theta);
-    const std::vector<Vec3> tau = gravity_moments(tree, turned_moments(tree, f), gravity);
-    for (std::size_t i = 0; i < tau.size(); ++i) {
-        pose.theta[i] = carry(tree, i, f.R[i].transpose() * tau[i]);
+    if (gravity.isZero()) return unturned(tree);
+    const std::size_t n = tree.size_bodies();
+    std::vector<Mat3> R(n);
+    for (std::size_t i = 0; i < n; ++i) R[i] = frame_of(tree, i, R, Vec3::Zero());
+    StartPose pose{{}, gravity_moments(tree, turned_moments(tree, R), gravity)}; // moments, until each is carried
+    pose.joint_rotation.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 tau_b = R[i].transpose() * pose.theta[i];
+        pose.theta[i] = carry(tree, i, tau_b);
         if (!(pose.theta[i].norm() <= 3.14159265358979323846)) // the step would take it the other way round (spring.h)
             throw std::domain_error(name_of(tree, i) + " is too soft to carry its weight in the drawn pose: its spring "
                                                        "would be wound by more than half a turn");
@@ -102,8 +97,9 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
 std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vector<Vec3>& theta,
                          std::vector<Vec3>& change) {
     const std::size_t n = tree.size_bodies();
-    const Frames f = frames(tree, theta);
-    const std::vector<Vec3> P = turned_moments(tree, f);
+    std::vector<Mat3> R(n);
+    for (std::size_t i = 0; i < n; ++i) R[i] = frame_of(tree, i, R, theta[i]);
+    const std::vector<Vec3> P = turned_moments(tree, R);
     const std::vector<Vec3> tau = gravity_moments(tree, P, gravity);
     std::vector<Mat3> A(n), E(n);
     std::vector<Vec3> u(n);
@@ -114,7 +110,7 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vecto
     }
     std::int64_t soft = -1;
     for (std::size_t i = n; i-- > 0;) {
-        const Mat3 rates = body_rate_jacobian_inverse(theta[i]) * f.R[i].transpose(); // of theta, from world
+        const Mat3 rates = body_rate_jacobian_inverse(theta[i]) * R[i].transpose(); // of theta, from world
         const Mat3 Z = rates.transpose() * tree.stiffness[i].asDiagonal() * rates;
         const Mat3 sum = Z + A[i];
         if (sum.llt().info() != Eigen::Success) soft = std::int64_t(i);
@@ -122,7 +118,7 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vecto
         // What this joint's own spring leaves unbalanced; what hangs further out has been added by its own joints.
         const Vec3 spring_b =
             body_rate_jacobian_inverse(theta[i]).transpose() * tree.stiffness[i].cwiseProduct(theta[i]);
-        const Vec3 residual = tau[i] - f.R[i] * spring_b;
+        const Vec3 residual = tau[i] - R[i] * spring_b;
         u[i] += residual;
         if (tree.parent[i] < 0) continue;
         const auto p = std::size_t(tree.parent[i]);
@@ -135,14 +131,14 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vecto
         const Vec3 base = tree.parent[i] < 0 ? Vec3(Vec3::Zero()) : psi[std::size_t(tree.parent[i])];
         const Vec3 turn = E[i] * (u[i] - A[i] * base);
         psi[i] = base + turn;
-        change[i] = body_rate_jacobian_inverse(theta[i]) * (f.R[i].transpose() * turn);
+        change[i] = body_rate_jacobian_inverse(theta[i]) * (R[i].transpose() * turn);
     }
     return soft;
 }
 
 StartPose settled(const Tree& tree, const Vec3& gravity) {
     const std::size_t n = tree.size_bodies();
-    StartPose pose{tree.joint_rotation, std::vector<Vec3>(n, Vec3::Zero())};
+    StartPose pose = unturned(tree);
     if (gravity.isZero()) return pose;
     std::vector<Vec3> change(n);
     std::size_t worst = 0;
@@ -183,7 +179,7 @@ StartPose start_pose(const Tree& tree, const Vec3& gravity, Pose pose) {
     case Pose::rest:
         break;
     }
-    return {tree.joint_rotation, std::vector<Vec3>(tree.size_bodies(), Vec3::Zero())};
+    return unturned(tree);
 }
 
 } // namespace bough

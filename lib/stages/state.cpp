@@ -1,6 +1,8 @@
 #include "state.h"
 #include "../fast/analytic_lanes_step.h"
+#include "../fast/analytic_rows.h"
 #include "../fast/coupled_lanes_step.h"
+#include "../fast/lane_tables.h"
 #include "frozen.h"
 #include "root_term.h"
 #include "spring.h"
@@ -8,6 +10,7 @@
 #include "state_update.h"
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <type_traits>
 
 namespace bough {
@@ -21,6 +24,45 @@ template <class T> void set_zero(T& value) {
         value.setZero(); // the rest is a step's own scratch
 }
 
+// The rows hold them; present() makes them again when they are read.
+template <class T> void leave_out_angles(State<T>& state) {
+    for (auto* array :
+         {&state.theta, &state.theta_dot, &state.scaled_rate, &state.theta_change, &state.theta_dot_change})
+        std::vector<Vector3<T>>().swap(*array);
+    state.lanes.presented = false;
+}
+
+// Kinematics, ground and rows as of `theta` and what else the state holds.
+template <class T> void begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
+    move_ground(plan, state, double(state.step) * plan.dt);
+    if (plan.pose) state_update(plan, state);
+    if (plan.torque) spring_torque(plan, state);
+    forget_frozen(state);
+    if (!plan.lanes.on) return;
+    if (plan.solver == Solver::analytic)
+        fast::pack_analytic(plan, state, theta);
+    else
+        fast::pack(plan, state, theta);
+    if (!plan.pose) leave_out_angles(state);
+}
+
+// FNV-1a.
+class Hash {
+public:
+    template <class T> void add(T value) {
+        using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+        const Bits bits = std::bit_cast<Bits>(value);
+        for (unsigned shift = 0; shift < 8 * sizeof(T); shift += 8) {
+            hash ^= (bits >> shift) & 0xff;
+            hash *= 0x100000001b3u;
+        }
+    }
+    std::uint64_t value() const { return hash; }
+
+private:
+    std::uint64_t hash = 0xcbf29ce484222325u;
+};
+
 } // namespace
 
 template <class T> State<T> make_state(const Plan<T>& plan) {
@@ -30,7 +72,7 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
         array.resize(plan.bodies);
         for (auto& value : array) set_zero(value);
     });
-    state.theta = plan.theta_start;
+    if (plan.pose) state.theta = plan.theta_start;
     state.articulated.resize(articulated_passes(plan.solver));
     for (ArticulatedPass& pass : state.articulated) {
         pass.body.resize(plan.bodies);
@@ -41,24 +83,18 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     if (plan.solver == Solver::coupled) {
         state.wind_change = state.wind;
         state.coupled_ground.resize(plan.splines.size());
-        state.account.resize(std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1)));
+        state.account.resize(plan.lanes.on ? plan.lanes.layout.ground.size()
+                                           : std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1)));
     }
     state.ground.resize(plan.splines.size());
     state.root_load.resize(plan.splines.size());
-    restart(plan, state);
+    begin(plan, state, plan.theta_start);
     return state;
 }
 
 template <class T> void restart(const Plan<T>& plan, State<T>& state) {
-    move_ground(plan, state, double(state.step) * plan.dt);
-    state_update(plan, state);
-    if (plan.torque) spring_torque(plan, state);
-    forget_frozen(state);
-    if (!plan.lanes.on) return;
-    if (plan.solver == Solver::analytic)
-        fast::pack_analytic(plan, state);
-    else
-        fast::pack(plan, state);
+    assert(state.theta.size() == plan.bodies); // without Plan::pose: there since present()
+    begin(plan, state, state.theta);
 }
 
 template <class T> std::size_t State<T>::bytes() const {
@@ -67,28 +103,39 @@ template <class T> std::size_t State<T>::bytes() const {
         sum += array.capacity() * sizeof(array[0]);
     });
     for (const auto* rows :
-         {&lanes.now, &lanes.next, &lanes.solved, &lanes.frozen, &lanes.outward, &lanes.inward, &lanes.accelerated})
+         {&lanes.now, &lanes.table, &lanes.frozen, &lanes.outward, &lanes.inward, &lanes.accelerated})
         sum += rows->capacity() * sizeof(fast::Row<T>);
     for (const ArticulatedPass& pass : articulated) sum += pass.body.capacity() * sizeof(ArticulatedBody);
     return sum;
 }
 
 template <class T> std::uint64_t state_hash(const State<T>& state) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    const auto add = [&hash](const std::vector<Vector3<T>>& array) {
-        for (const Vector3<T>& v : array)
-            for (int k = 0; k < 3; ++k) {
-                using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-                const Bits bits = std::bit_cast<Bits>(T(v[k]));
-                for (unsigned shift = 0; shift < 8 * sizeof(T); shift += 8) {
-                    hash ^= (bits >> shift) & 0xff;
-                    hash *= 0x100000001b3u;
-                }
+    Hash hash;
+    for (const auto* array : {&state.theta, &state.theta_dot})
+        for (const Vector3<T>& v : *array)
+            for (int k = 0; k < 3; ++k) hash.add(v[k]);
+    return hash.value();
+}
+
+template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>& state) {
+    if (!plan.lanes.on) return state_hash(state);
+    const bool analytic = plan.solver == Solver::analytic;
+    const fast::RowVector<T>& rows = analytic ? state.lanes.now : state.lanes.table;
+    static_assert(fast::motion::theta == 0 && fast::motion::theta_dot == 3 && fast::analytic::motion::theta == 0);
+    const std::vector<std::size_t> motion_at = fast::motion_of_rows(plan, state);
+    constexpr std::size_t lanes = fast::Row<T>::lanes;
+    Hash hash;
+    for (const std::size_t first : {std::size_t(0), std::size_t(3)})
+        for (const std::uint32_t slot : plan.lanes.layout.slot) {
+            if (analytic && first > 0) {
+                const Vector3<T> theta_dot = fast::analytic_theta_dot(state, slot);
+                for (int k = 0; k < 3; ++k) hash.add(theta_dot[k]);
+                continue;
             }
-    };
-    add(state.theta);
-    add(state.theta_dot);
-    return hash;
+            for (std::size_t k = first; k < first + 3; ++k)
+                hash.add(rows[motion_at[slot / lanes] + k].lane[slot % lanes]);
+        }
+    return hash.value();
 }
 
 template <class T> std::optional<std::size_t> first_non_finite(const State<T>& state) {
@@ -105,6 +152,8 @@ template void restart(const Plan<float>&, State<float>&);
 template void restart(const Plan<double>&, State<double>&);
 template std::uint64_t state_hash(const State<float>&);
 template std::uint64_t state_hash(const State<double>&);
+template std::uint64_t state_hash(const Plan<float>&, const State<float>&);
+template std::uint64_t state_hash(const Plan<double>&, const State<double>&);
 template std::optional<std::size_t> first_non_finite(const State<float>&);
 template std::optional<std::size_t> first_non_finite(const State<double>&);
 

@@ -117,6 +117,8 @@ template <class T> void restart(const Plan<T>&, State<T>&);
 
 // 64 bits (FNV-1a over little-endian bytes) of theta and theta_dot in document order.
 template <class T> std::uint64_t state_hash(const State<T>&);
+// The same of what the fast path's rows hold, where the plan has lanes: nothing need be presented.
+template <class T> std::uint64_t state_hash(const Plan<T>&, const State<T>&);
 
 // The first body with a non-finite theta or theta_dot.
 template <class T> std::optional<std::size_t> first_non_finite(const State<T>&);

@@ -27,13 +27,15 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
                                  : plan.velocity ? "output field velocity"
                                                  : "no wind, no output field velocity";
     const std::string torque = plan.torque ? "output field torque" : "no output field torque";
-    visit("theta", s.theta, true, always);
-    visit("theta_dot", s.theta_dot, true, always);
-    visit("scaled_rate", s.scaled_rate, !coupled, coupled ? solver : always);
-    visit("theta_change", s.theta_change, coupled, pass);
-    visit("theta_dot_change", s.theta_dot_change, coupled, pass);
-    visit("R_wb", s.R_wb, true, always);
-    visit("x_w", s.x_w, true, always);
+    const std::string unread = "in lanes; no poses, velocities, torques asked for";
+    const std::string read = plan.pose ? always : unread;
+    visit("theta", s.theta, plan.pose, read);
+    visit("theta_dot", s.theta_dot, plan.pose, read);
+    visit("scaled_rate", s.scaled_rate, !coupled && plan.pose, coupled ? solver : read);
+    visit("theta_change", s.theta_change, coupled && plan.pose, coupled ? read : pass);
+    visit("theta_dot_change", s.theta_dot_change, coupled && plan.pose, coupled ? read : pass);
+    visit("R_wb", s.R_wb, plan.pose, read);
+    visit("x_w", s.x_w, plan.pose, read);
     visit("omega_w", s.omega_w, plan.velocity, velocity);
     visit("v_w", s.v_w, plan.velocity, velocity);
     visit("f_w", s.f_w, loads, forces);
