@@ -33,7 +33,7 @@ template <class T> struct Sweep : SweepParts<T> {
         V3<W> omega, v, ahead_omega, ahead_v, own, turn, alpha, a;
     };
 
-    static Frame read_frame(Records<T, outward::count>& r) {
+    BOUGH_FORCE static Frame read_frame(Records<T, outward::count>& r) {
         const Rows<T> q = r.rows();
         return {q.matrix(outward::R),           q.real(outward::y),
                 q.vector(outward::omega),       q.vector(outward::v),
@@ -41,7 +41,7 @@ template <class T> struct Sweep : SweepParts<T> {
                 q.vector(outward::own),         q.vector(outward::turn),
                 q.vector(outward::alpha),       q.vector(outward::a)};
     }
-    static void write_frame(Records<T, outward::count>& r, const Frame& f) {
+    BOUGH_FORCE static void write_frame(Records<T, outward::count>& r, const Frame& f) {
         const Rows<T> q = r.rows();
         q.set(outward::R, f.R);
         q.set(outward::y, f.y);
@@ -64,7 +64,7 @@ template <class T> struct Sweep : SweepParts<T> {
     }
 
     // resolved_turn.h
-    [[gnu::noinline]] static V3<W> bounded(const V3<W>& omega, W turn2, W mass, std::uint64_t& count) {
+    [[gnu::noinline]] static V3<W> bounded(V3<W> omega, W turn2, W mass, std::uint64_t& count) {
         V3<W> out = omega;
         const W scale = 1 / root(turn2);
         for (int l = 0; l < width<T>; ++l)
@@ -81,7 +81,12 @@ template <class T> struct Sweep : SweepParts<T> {
         return any_above(turn2, all(T(1))) ? bounded(omega, turn2, mass, count) : omega;
     }
 
-    [[gnu::noinline]] void add_pulls(std::uint32_t row, int lane, const M3<W>& R, V3<C>& N, V3<C>& F) const {
+    // What they ask for. By value, as what a function is given the place of cannot stay in registers.
+    struct Pulls {
+        V3<C> N, F;
+    };
+    [[gnu::noinline]] Pulls pulls_on(std::uint32_t row, int lane, M3<W> R) const {
+        Pulls out{};
         for (auto k = std::size_t(rows.pull_of_row[row]); k < rows.pull_count && rows.pulls[k].row == row; ++k) {
             const PullOnLane<T>& pull = rows.pulls[k];
             const int l = int(pull.lane) - lane;
@@ -93,11 +98,12 @@ template <class T> struct Sweep : SweepParts<T> {
                 c{pull.change[0], pull.change[1], pull.change[2]};
             const V3<T> fr = f + rows.slope[0] * c, fi = rows.slope[1] * c;
             const V3<T> nr = cross(arm, fr), ni = cross(arm, fi);
-            F.x.re[l] -= fr.x, F.y.re[l] -= fr.y, F.z.re[l] -= fr.z;
-            F.x.im[l] -= fi.x, F.y.im[l] -= fi.y, F.z.im[l] -= fi.z;
-            N.x.re[l] -= nr.x, N.y.re[l] -= nr.y, N.z.re[l] -= nr.z;
-            N.x.im[l] -= ni.x, N.y.im[l] -= ni.y, N.z.im[l] -= ni.z;
+            out.F.x.re[l] -= fr.x, out.F.y.re[l] -= fr.y, out.F.z.re[l] -= fr.z;
+            out.F.x.im[l] -= fi.x, out.F.y.im[l] -= fi.y, out.F.z.im[l] -= fi.z;
+            out.N.x.re[l] -= nr.x, out.N.y.re[l] -= nr.y, out.N.z.re[l] -= nr.z;
+            out.N.x.im[l] -= ni.x, out.N.y.im[l] -= ni.y, out.N.z.im[l] -= ni.z;
         }
+        return out;
     }
 
     // One row: the frame of its bodies from their parents'.
@@ -180,7 +186,11 @@ template <class T> struct Sweep : SweepParts<T> {
         }
         if constexpr (gravity || (wind && kind == Kind::leaf)) Nc = Nc + number(rows.s1) * (H * f.own);
         if constexpr (gravity || wind) out.set(loaded::H, H);
-        if (rows.pulls && rows.pull_of_row[row] >= 0) add_pulls(row, lane, R, Nc, Fc);
+        if (rows.pulls && rows.pull_of_row[row] >= 0) {
+            const Pulls pulls = pulls_on(row, lane, R);
+            Nc = Nc + pulls.N;
+            Fc = Fc + pulls.F;
+        }
 
         // The joint's spring and damper.
         const V3<W> K = k.vector(constant::K);
@@ -209,70 +219,101 @@ template <class T> struct Sweep : SweepParts<T> {
         V3<C> N, F;
     };
 
-    static Carried read_carried(const Rows<T>& q) {
+    BOUGH_FORCE static Carried read_carried(const Rows<T>& q) {
         return {q.complex_symmetric(inward::A), q.complex_symmetric(inward::M), q.complex_matrix(inward::B),
                 q.complex_vector(inward::N), q.complex_vector(inward::F)};
     }
 
-    template <bool wind, bool gravity>
+    template <bool wind, bool gravity, bool stream>
     BOUGH_FORCE void step_in(Carried& q, std::uint32_t row, int lane, const Rows<const T>& in) const {
         const Rows<const T> k = constants(row, lane);
         const W mass = k.real(constant::mass);
         const C s1 = number(rows.s1), s2 = number(rows.s2);
         const V3<W> c = in.vector(loaded::c);
         // Own A, B, M beside those that came (resolvent.cpp, start)
-        const Symmetric<W> J = in.symmetric(loaded::J);
+        const Symmetric<W> J = in.symmetric(loaded::J), K = in.symmetric(loaded::K);
         q.A = {q.A.xx + J.xx, q.A.xy + J.xy, q.A.xz + J.xz, q.A.yy + J.yy, q.A.yz + J.yz, q.A.zz + J.zz};
-        if constexpr (gravity || wind) q.A = q.A + s2 * in.symmetric(loaded::H);
-        const V3<W> mc = mass * c;
+        if constexpr (gravity || wind) q.A = plus(q.A, s2, in.symmetric(loaded::H));
         M3<C>& B = q.B;
-        B.x.y = B.x.y + mc.z, B.x.z = B.x.z + W(-mc.y);
-        B.y.x = B.y.x + W(-mc.z), B.y.z = B.y.z + mc.x;
-        B.z.x = B.z.x + mc.y, B.z.y = B.z.y + W(-mc.x);
-        q.M.xx = q.M.xx + mass, q.M.yy = q.M.yy + mass, q.M.zz = q.M.zz + mass;
         if constexpr (wind) {
             const Symmetric<W> D = in.symmetric(loaded::D);
             const M3<W> cD = cross_left(c, full(D));
-            const Symmetric<W> cDc = upper(cross_left(c, transposed(cD)));
-            q.A = q.A + s1 * cDc;
-            q.M = q.M + s1 * D;
-            B.x = B.x + s1 * cD.x, B.y = B.y + s1 * cD.y, B.z = B.z + s1 * cD.z;
+            q.A = plus(q.A, s1, upper(cross_left(c, transposed(cD))));
+            q.M = plus(q.M, s1, D);
+            B = {plus(B.x, s1, cD.x), plus(B.y, s1, cD.y), plus(B.z, s1, cD.z)};
         }
+        const V3<W> mc = mass * c;
+        B.x.y = B.x.y + mc.z, B.x.z = B.x.z - mc.y;
+        B.y.x = B.y.x - mc.z, B.y.z = B.y.z + mc.x;
+        B.z.x = B.z.x + mc.y, B.z.y = B.z.y - mc.x;
+        q.M.xx = q.M.xx + mass, q.M.yy = q.M.yy + mass, q.M.zz = q.M.zz + mass;
         q.N = q.N + in.complex_vector(loaded::N);
         q.F = q.F + in.complex_vector(loaded::F);
 
         const C z = k.real(constant::beta) * s1 + s2;
-        const Symmetric<C> Z = z * in.symmetric(loaded::K);
-        const Symmetric<C> E = inverse(q.A + Z);
-        const V3<C> u = in.complex_vector(loaded::torque) - q.N;
-        const M3<C> EA = E * full(q.A), EB = E * B;
-        const V3<C> Eu = E * u;
-        const V3<W> r = in.vector(loaded::r);
-        const auto keep = [&](const auto& out) {
-            out.set(solved::Eu, Eu);
-            out.set(solved::EA, EA);
-            out.set(solved::EB, EB);
-            out.set(solved::rates, in.matrix(loaded::rates));
-            out.set(solved::r, r);
+        const W size = J.xx + J.yy + J.zz + (magnitude(z.re) + magnitude(z.im)) * (K.xx + K.yy + K.zz);
+        const Symmetric<C> E = inverse(plus(q.A, z, K), W(1 / size));
+        const auto keep = [&](int quantity, const auto& v) {
+            Rows<T, stream>{solved_row(row, lane).at}.set(quantity, v);
         };
-        if (rows.stream)
-            keep(Rows<T, true>{solved_row(row, lane).at});
-        else
-            keep(solved_row(row, lane));
+        // A' = Z E A, B' = Z E B, M' = M - B^T E B, column by column, so that little has to stay in registers.
+        const V3<W> Kx{K.xx, K.xy, K.xz}, Ky{K.xy, K.yy, K.yz}, Kz{K.xz, K.yz, K.zz};
+        const V3<C> Ax{q.A.xx, q.A.xy, q.A.xz}, Ay{q.A.xy, q.A.yy, q.A.yz}, Az{q.A.xz, q.A.yz, q.A.zz};
+        const V3<C> EAx = E * Ax;
+        keep(solved::EA, EAx);
+        Symmetric<C> A;
+        A.xx = z * dot(Kx, EAx);
+        const V3<C> EAy = E * Ay;
+        keep(solved::EA + 6, EAy);
+        A.xy = z * dot(Kx, EAy);
+        A.yy = z * dot(Ky, EAy);
+        const V3<C> EAz = E * Az;
+        keep(solved::EA + 12, EAz);
+        A.xz = z * dot(Kx, EAz);
+        A.yz = z * dot(Ky, EAz);
+        A.zz = z * dot(Kz, EAz);
 
-        const V3<C> N = q.N + q.A * Eu, F = q.F + transposed_times(B, Eu);
-        const Symmetric<C> A = symmetric_product(Z, EA), M = q.M - symmetric_transposed_product(B, EB);
-        const M3<C> B1 = Z * EB;
-        // To the parent's joint.
-        const M3<C> rM = cross_left(r, full(M)), rB = cross_left(r, transposed(B1));
-        q.A = A + twice_symmetric(rB) + upper(cross_left(r, transposed(rM)));
-        q.B = B1 + rM;
-        q.M = M;
-        q.F = F;
-        q.N = N + cross(r, F);
+        Symmetric<C>& M = q.M;
+        M3<C> B1;
+        const V3<C> EBx = E * B.x;
+        keep(solved::EB, EBx);
+        B1.x = z * (K * EBx);
+        M.xx = minus_dot(M.xx, B.x, EBx);
+        const V3<C> EBy = E * B.y;
+        keep(solved::EB + 6, EBy);
+        B1.y = z * (K * EBy);
+        M.xy = minus_dot(M.xy, B.x, EBy);
+        M.yy = minus_dot(M.yy, B.y, EBy);
+        const V3<C> EBz = E * B.z;
+        keep(solved::EB + 12, EBz);
+        B1.z = z * (K * EBz);
+        M.xz = minus_dot(M.xz, B.x, EBz);
+        M.yz = minus_dot(M.yz, B.y, EBz);
+        M.zz = minus_dot(M.zz, B.z, EBz);
+
+        const V3<C> Eu = E * (in.complex_vector(loaded::torque) - q.N);
+        keep(solved::Eu, Eu);
+        const V3<W> r = in.vector(loaded::r);
+        keep(solved::rates, in.matrix(loaded::rates));
+        keep(solved::r, r);
+        q.N = {plus_dot(q.N.x, Ax, Eu), plus_dot(q.N.y, Ay, Eu), plus_dot(q.N.z, Az, Eu)};
+        q.F = {plus_dot(q.F.x, B.x, Eu), plus_dot(q.F.y, B.y, Eu), plus_dot(q.F.z, B.z, Eu)};
+        q.N = plus_cross(q.N, r, q.F);
+        // To the parent's joint: B'' = B' + [r] M', A'' = A' + S + S^T with S = [r] (B' + B'')^T / 2.
+        B = {plus_cross(B1.x, r, V3<C>{M.xx, M.xy, M.xz}), plus_cross(B1.y, r, V3<C>{M.xy, M.yy, M.yz}),
+             plus_cross(B1.z, r, V3<C>{M.xz, M.yz, M.zz})};
+        const M3<C> U = B1 + B;
+        const V3<W> t = T(0.5) * r;
+        q.A.xx = minus(plus(A.xx, r.y, U.z.x), r.z, U.y.x);
+        q.A.yy = minus(plus(A.yy, r.z, U.x.y), r.x, U.z.y);
+        q.A.zz = minus(plus(A.zz, r.x, U.y.z), r.y, U.x.z);
+        q.A.xy = minus(plus(minus(plus(A.xy, t.y, U.z.y), t.z, U.y.y), t.z, U.x.x), t.x, U.z.x);
+        q.A.xz = minus(plus(minus(plus(A.xz, t.y, U.z.z), t.z, U.y.z), t.x, U.y.x), t.y, U.x.x);
+        q.A.yz = minus(plus(minus(plus(A.yz, t.z, U.x.z), t.x, U.z.z), t.x, U.y.y), t.y, U.x.y);
     }
 
-    template <bool wind, bool gravity> void group_in(const Block& block, const Group& g, const T* scratch) const {
+    template <bool wind, bool gravity, bool stream>
+    void group_in(const Block& block, const Group& g, const T* scratch) const {
         for (int lane = 0; lane < L; lane += width<T>) {
             Carried q{};
             for (std::uint32_t k = g.length; k-- > 0;) {
@@ -284,8 +325,8 @@ template <class T> struct Sweep : SweepParts<T> {
                     const Carried more = read_carried(forks.rows());
                     q = {q.A + more.A, q.M + more.M, q.B + more.B, q.N + more.N, q.F + more.F};
                 }
-                step_in<wind, gravity>(q, row, lane,
-                                       {scratch + std::size_t(row - block.first_row) * loaded::count * L + lane});
+                step_in<wind, gravity, stream>(
+                    q, row, lane, {scratch + std::size_t(row - block.first_row) * loaded::count * L + lane});
             }
             Records<T, inward::count> base;
             const Rows<T> out = base.rows();
@@ -301,6 +342,13 @@ template <class T> struct Sweep : SweepParts<T> {
                              write(at, read(at) + w);
                          });
         }
+    }
+
+    template <bool wind, bool gravity> void any_group_in(const Block& block, const Group& g, const T* scratch) const {
+        if (rows.stream)
+            group_in<wind, gravity, true>(block, g, scratch);
+        else
+            group_in<wind, gravity, false>(block, g, scratch);
     }
 
     template <bool wind, bool gravity, Kind kind>
@@ -338,13 +386,13 @@ template <class T> struct Sweep : SweepParts<T> {
                 group_out<wind, gravity, Kind::fruit>(block, g, scratch, flags);
             else
                 group_out<wind, gravity, Kind::leaf>(block, g, scratch, flags);
-            if (k >= block.terminal_group) group_in<wind, gravity>(block, g, scratch);
+            if (k >= block.terminal_group) any_group_in<wind, gravity>(block, g, scratch);
         }
     }
 
     template <bool wind, bool gravity> void block_in(const Block& block, const T* scratch) const {
         for (std::uint32_t k = block.terminal_group; k-- > block.first_group;)
-            group_in<wind, gravity>(block, rows.groups[k], scratch);
+            any_group_in<wind, gravity>(block, rows.groups[k], scratch);
     }
 
     // ---- outward again: accelerations, and the step's end
@@ -362,17 +410,18 @@ template <class T> struct Sweep : SweepParts<T> {
         }
     }
 
-    void group_accelerate(const Group& g, SweepFlags& flags) const {
+    template <bool stream> void group_accelerate(const Group& g, SweepFlags& flags) const {
         const C of_rate = number(rows.of_rate), of_angle = number(rows.of_angle);
         for (int lane = 0; lane < L; lane += width<T>) {
             Records<T, accelerated::count> base;
             base.gather(rows.accelerated_records, &rows.base[g.first_base + std::size_t(lane)]);
+            W sizes{};
             V3<C> alpha = base.rows().complex_vector(accelerated::alpha),
                   a = base.rows().complex_vector(accelerated::a);
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 const Rows<T> s = solved_row(row, lane);
                 prefetch(s.at + solved::count * L, solved::count * L);
-                prefetch(now(row + 1, lane).at, motion::count * L);
+                prefetch(now(row + 1, lane).at, 2 * motion::theta_dot * L);
                 a = a - cross(s.vector(solved::r), alpha);
                 const V3<C> gamma = s.complex_vector(solved::Eu) - s.complex_matrix(solved::EA) * alpha -
                                     s.complex_matrix(solved::EB) * a;
@@ -391,15 +440,16 @@ template <class T> struct Sweep : SweepParts<T> {
                     change = y1.vector(motion::theta_change) + change;
                 }
                 const V3<W> theta = theta_0 + change, eta = eta_0 + rate_change;
-                y1.set(motion::theta, theta);
-                y1.set(motion::theta_dot, eta);
-                y1.set(motion::theta_change, change);
-                y1.set(motion::theta_dot_change, rate_change);
+                const Rows<T, stream> to{y1.at};
+                to.set(motion::theta, theta);
+                to.set(motion::theta_dot, eta);
+                to.set(motion::theta_change, change);
+                to.set(motion::theta_dot_change, rate_change);
                 const W angle2 = dot(theta, theta), rate2 = dot(eta, eta);
                 if (rows.ends) {
                     // As the plain step looks at theta_dot at the start and its change: the rate at the end.
                     if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
-                    if (!(total(W(angle2 + rate2)) < still_finite2)) flags.finite = false;
+                    sizes = sizes + (angle2 + rate2);
                     if (any_above(angle2, all(about_half_turn2)))
                         turn_back(y1, flags, constants(row, lane).real(constant::mass));
                 }
@@ -414,6 +464,7 @@ template <class T> struct Sweep : SweepParts<T> {
                         write(rows.accelerated_records + joint * record(accelerated::count, L) + std::size_t(k), w);
                     });
             }
+            if (!(total(sizes) < still_finite2)) flags.finite = false; // NaN if any is
         }
     }
 };
@@ -431,7 +482,12 @@ void inward_sweep(const CoupledRows<T>& rows, const Block& block, const T* scrat
 template <class T> void accelerate_sweep(const CoupledRows<T>& rows, const Block& block, SweepFlags& flags) {
     const FlushToZero flush;
     const Sweep<T> sweep(rows);
-    for (std::uint32_t k = block.first_group; k < block.end_group; ++k) sweep.group_accelerate(rows.groups[k], flags);
+    const bool stream = rows.stream && rows.ends && !rows.adds;
+    for (std::uint32_t k = block.first_group; k < block.end_group; ++k)
+        if (stream)
+            sweep.template group_accelerate<true>(rows.groups[k], flags);
+        else
+            sweep.template group_accelerate<false>(rows.groups[k], flags);
 }
 
 } // namespace

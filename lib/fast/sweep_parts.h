@@ -2,6 +2,7 @@
 #pragma once
 #include "../coupled/turn_bounds.h"
 #include "wide_maps.h"
+#include "wide_pair.h"
 #include "wide_rows.h"
 
 namespace bough::fast {
@@ -26,6 +27,7 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
 
     // What the next row will read; beyond the last one, nothing happens.
     BOUGH_FORCE static void prefetch(const T* at, int reals) {
+#pragma GCC unroll 64
         for (int k = 0; k < reals; k += L) __builtin_prefetch(at + k);
     }
 
@@ -67,20 +69,16 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         half_rate = one * half_rate;
     }
 
-    // Wind's profile at height y: linear between even heights, constant beyond.
-    BOUGH_FORCE W profile(W y) const {
+    // Wind's profile at height y: linear between even heights, constant beyond; the lanes' places looked up at once.
+    BOUGH_FORCE W profile(const W& y) const {
+        using B = Bits<T>;
         const std::size_t last = rows.profile_entries - 1;
         if (last == 0) return all(rows.profile[0]);
-        W place = larger(W(y * rows.per_metre), W{});
-        W low, high;
-        for (int l = 0; l < width<T>; ++l) {
-            const T at = place[l] < T(last) ? place[l] : T(last);
-            const std::size_t k = std::size_t(at) < last ? std::size_t(at) : last - 1;
-            low[l] = rows.profile[k];
-            high[l] = rows.profile[k + 1];
-            place[l] = at - T(k);
-        }
-        return low + place * (high - low);
+        const W place = smaller(larger(W(y * rows.per_metre), W{}), all(T(last))); // NaN: 0
+        const W rounded = smaller(W(place - T(0.5)), all(T(last - 1))) + B::rounder;
+        const typename B::Wide k = typename B::Wide(rounded) & 0x3fffff;
+        const W low = look_up(rows.profile, k), high = look_up(rows.profile + 1, k);
+        return low + (place - (rounded - B::rounder)) * (high - low);
     }
 
     struct Air {
