@@ -127,6 +127,11 @@ template <class T> struct Sweep : SweepParts<T> {
         const V3<W> r = f.R * k.vector(constant::joint_position);
         const M3<W> R = G * maps.R;
         const V3<W> c = R * k.vector(constant::com);
+        W wind_factor{};
+        if constexpr (wind) {
+            f.y = f.y + r.y;
+            wind_factor = this->profile(f.y + c.y);
+        }
         const V3<W> w_0 = GJ * eta_0, w_ahead = GJ * half_rate, w = w_0 + w_ahead;
 
         const V3<W> spin_p = resolved(f.omega, h, mass, flags.fast_turns),
@@ -142,16 +147,42 @@ template <class T> struct Sweep : SweepParts<T> {
         f.own = f.own + w_0;
         f.turn = f.turn + GJ * half;
         f.R = R;
-        if constexpr (wind) f.y = f.y + r.y;
         const W omega2 = dot(f.omega, f.omega);
         fastest = larger(omega2, fastest);
         if (any_above(omega2, fast2())) mark(row_base, lane, omega2, flags);
+
+        V3<W> u{};
+        typename Parts::Speed speed{};
+        if constexpr (wind) {
+            u = wind_factor * vector(rows.wind) - f.v - cross(f.omega, c);
+            speed = Parts::template air_speed<kind>(u, R);
+        }
+
+        // The joint's spring and damper, while the air's speed is on its way.
+        const V3<W> K = k.vector(constant::K);
+        const M3<W> KT{{K.x * rates.x.x, K.y * rates.x.y, K.z * rates.x.z},
+                       {K.x * rates.y.x, K.y * rates.y.y, K.z * rates.y.z},
+                       {K.x * rates.z.x, K.y * rates.z.y, K.z * rates.z.z}};
+        const V3<W> bent = theta_0 + W(k.real(constant::beta) + rows.s1[0]) * eta_0;
+        out.set(loaded::torque, complex(-transposed_times(KT, bent), -(rows.s1[1] * transposed_times(KT, eta_0))));
+        out.set(loaded::K, symmetric_transposed_product(rates, KT));
+        out.set(loaded::c, c);
+        out.set(loaded::r, r);
+        const auto keep = [&](const auto& to) {
+            to.set(solved::rates, rates);
+            to.set(solved::r, r);
+        };
+        if (rows.stream)
+            keep(Rows<T, true>{solved_row(row, lane).at});
+        else
+            keep(solved_row(row, lane));
 
         // body_load.h
         std::uint64_t seen = 0; // counted at the next body's turn about it
         const V3<W> spin = resolved(f.omega, h, mass, seen);
         const V3<W> g = vector(rows.gravity);
         const Symmetric<W> J = turned(R, k.symmetric(constant::inertia_joint));
+        out.set(loaded::J, J);
         Symmetric<W> H{};
         V3<W> a0 = f.a;
         if constexpr (gravity) {
@@ -161,54 +192,33 @@ template <class T> struct Sweep : SweepParts<T> {
                  Pg - P.y * g.y, T(-0.5) * (P.y * g.z + P.z * g.y), Pg - P.z * g.z};
             a0 = a0 - g;
         }
-        V3<W> F = mass * (a0 + cross(alpha, c) + cross(spin, cross(spin, c)));
-        V3<W> N = J * alpha + cross(spin, J * spin) + mass * cross(c, a0);
-        V3<C> Fc, Nc;
+        const V3<W> turning_N = J * alpha + cross(spin, J * spin);
+        const V3<W> turning_F = mass * (cross(alpha, c) + cross(spin, cross(spin, c)));
+        V3<W> at_com = mass * a0, slope{}; // [N] what is to be turned about the joint: all but the body's own turning
         if constexpr (wind) {
-            const W p = this->profile(f.y + c.y);
-            const V3<W> u = p * vector(rows.wind) - f.v - cross(f.omega, c);
             const V3<W> ahead = f.ahead_v + cross(f.ahead_omega, c);
             const V3<W> com = k.vector(constant::com);
             const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
-            const auto air_on = this->template air<kind>(u, ahead, R, k.real(constant::drag_area), H, arm);
-            F = F - air_on.force;
-            N = N - cross(c, air_on.force);
-            const V3<W> slope_F = -(air_on.D * (p * vector(rows.wind_change)));
-            const V3<W> slope_N = cross(c, slope_F);
-            N = N - H * f.turn;
-            Fc = complex(F + rows.slope[0] * slope_F, rows.slope[1] * slope_F);
-            Nc = complex(N + rows.slope[0] * slope_N, rows.slope[1] * slope_N);
+            const auto air_on = Parts::template air<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm);
             out.set(loaded::D, air_on.D);
-        } else {
-            if constexpr (gravity) N = N - H * f.turn;
-            Fc = complex(F, V3<W>{});
-            Nc = complex(N, V3<W>{});
+            const V3<W> slope_F = air_on.D * (wind_factor * vector(rows.wind_change));
+            at_com = at_com - air_on.force - rows.slope[0] * slope_F;
+            slope = -(rows.slope[1] * slope_F);
         }
-        if constexpr (gravity || (wind && kind == Kind::leaf)) Nc = Nc + number(rows.s1) * (H * f.own);
+        V3<C> F = complex(turning_F + at_com, slope), N = complex(turning_N + cross(c, at_com), cross(c, slope));
+        if constexpr (gravity || (wind && kind == Kind::leaf)) {
+            const V3<W> bent_by = f.turn - rows.s1[0] * f.own, back = H * bent_by, ahead_back = rows.s1[1] * (H * f.own);
+            N = complex(V3<W>{N.x.re - back.x, N.y.re - back.y, N.z.re - back.z},
+                        V3<W>{N.x.im + ahead_back.x, N.y.im + ahead_back.y, N.z.im + ahead_back.z});
+        }
         if constexpr (gravity || wind) out.set(loaded::H, H);
         if (rows.pulls && rows.pull_of_row[row] >= 0) {
             const Pulls pulls = pulls_on(row, lane, R);
-            Nc = Nc + pulls.N;
-            Fc = Fc + pulls.F;
+            N = N + pulls.N;
+            F = F + pulls.F;
         }
-
-        // The joint's spring and damper.
-        const V3<W> K = k.vector(constant::K);
-        const V3<W> bent = theta_0 + k.real(constant::beta) * eta_0;
-        const V3<W> now_torque = transposed_times(rates, V3<W>{K.x * bent.x, K.y * bent.y, K.z * bent.z});
-        const V3<W> change = transposed_times(rates, V3<W>{K.x * eta_0.x, K.y * eta_0.y, K.z * eta_0.z});
-        const V3<C> torque = complex(-now_torque - rows.s1[0] * change, -(rows.s1[1] * change));
-        const M3<W> KT{{K.x * rates.x.x, K.y * rates.x.y, K.z * rates.x.z},
-                       {K.x * rates.y.x, K.y * rates.y.y, K.z * rates.y.z},
-                       {K.x * rates.z.x, K.y * rates.z.y, K.z * rates.z.z}};
-        out.set(loaded::c, c);
-        out.set(loaded::J, J);
-        out.set(loaded::N, Nc);
-        out.set(loaded::F, Fc);
-        out.set(loaded::torque, torque);
-        out.set(loaded::K, symmetric_transposed_product(rates, KT));
-        out.set(loaded::rates, rates);
-        out.set(loaded::r, r);
+        out.set(loaded::N, N);
+        out.set(loaded::F, F);
     }
 
     // ---- inward: what each joint hands on
@@ -294,8 +304,6 @@ template <class T> struct Sweep : SweepParts<T> {
         const V3<C> Eu = E * (in.complex_vector(loaded::torque) - q.N);
         keep(solved::Eu, Eu);
         const V3<W> r = in.vector(loaded::r);
-        keep(solved::rates, in.matrix(loaded::rates));
-        keep(solved::r, r);
         q.N = {plus_dot(q.N.x, Ax, Eu), plus_dot(q.N.y, Ay, Eu), plus_dot(q.N.z, Az, Eu)};
         q.F = {plus_dot(q.F.x, B.x, Eu), plus_dot(q.F.y, B.y, Eu), plus_dot(q.F.z, B.z, Eu)};
         q.N = plus_cross(q.N, r, q.F);

@@ -81,6 +81,15 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         return low + (place - (rounded - B::rounder)) * (high - low);
     }
 
+    struct Speed { W speed, inverse; }; // [m/s] of the air that drags, and 1 over it, finite where it is 0
+    // Of the air at velocity u past the body. Apart from air(), so that what does not wait for it can go in between.
+    template <Kind kind> BOUGH_FORCE static Speed air_speed(const V3<W>& u, const M3<W>& R) {
+        V3<W> across = u;
+        if constexpr (kind == Kind::branch) across = u - dot(u, R.z) * R.z;
+        const W speed2 = dot(across, across), inverse = inverse_root(speed2);
+        return {speed2 * inverse, inverse};
+    }
+
     struct Air {
         V3<W> force; // [N] with the drag of the velocity ahead
         Symmetric<W> D;
@@ -88,29 +97,30 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
 
     // air.h
     template <Kind kind>
-    BOUGH_FORCE Air air(const V3<W>& u, const V3<W>& ahead, const M3<W>& R, W scale, Symmetric<W>& H, W arm) const {
+    BOUGH_FORCE static Air air(const V3<W>& u, const Speed& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
+                               Symmetric<W>& H, const W& arm) {
         Air out;
+        const W one = scale * s.speed, more = scale * s.inverse;
         if constexpr (kind == Kind::leaf) {
             const V3<W>&n = R.y, &x = R.x;
-            const W speed2 = dot(u, u), speed = root(speed2), along = dot(u, n);
-            const W d = scale * (speed + along * along / larger(speed, all(T(1e-30))));
+            const W along = dot(u, n);
+            const W d = one + more * along * along;
             const V3<W> dn = d * n;
             out.D = {dn.x * n.x, dn.x * n.y, dn.x * n.z, dn.y * n.y, dn.y * n.z, dn.z * n.z};
-            out.force = W(scale * speed * along + d * dot(n, ahead)) * n;
-            const V3<W> hx = W(2 * scale * arm * speed2) * x;
+            out.force = W(one * along + d * dot(n, ahead)) * n;
+            const V3<W> hx = W(2 * one * arm * s.speed) * x;
             H = H + Symmetric<W>{hx.x * x.x, hx.x * x.y, hx.x * x.z, hx.y * x.y, hx.y * x.z, hx.z * x.z};
         } else {
             V3<W> across = u;
             const V3<W>& t = R.z;
             if constexpr (kind == Kind::branch) across = u - dot(u, t) * t;
-            const W speed = root(dot(across, across));
-            const W one = scale * speed, more = scale / larger(speed, all(T(1e-30)));
             const V3<W> m = more * across;
             out.D = {one + m.x * across.x, m.x * across.y, m.x * across.z,
                      one + m.y * across.y, m.y * across.z, one + m.z * across.z};
             if constexpr (kind == Kind::branch) {
-                const V3<W> s = one * t;
-                out.D = out.D - Symmetric<W>{s.x * t.x, s.x * t.y, s.x * t.z, s.y * t.y, s.y * t.z, s.z * t.z};
+                const V3<W> s_t = one * t;
+                out.D =
+                    out.D - Symmetric<W>{s_t.x * t.x, s_t.x * t.y, s_t.x * t.z, s_t.y * t.y, s_t.y * t.z, s_t.z * t.z};
             }
             out.force = one * across + out.D * ahead;
         }
