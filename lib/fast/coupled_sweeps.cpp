@@ -321,7 +321,7 @@ template <class T> struct Sweep : SweepParts<T> {
     }
 
     template <bool wind, bool gravity, bool stream>
-    void group_in(const Block& block, const Group& g, const T* scratch) const {
+    void group_in(const Group& g, const T* loaded_rows) const {
         for (int lane = 0; lane < L; lane += width<T>) {
             Carried q{};
             for (std::uint32_t k = g.length; k-- > 0;) {
@@ -334,7 +334,7 @@ template <class T> struct Sweep : SweepParts<T> {
                     q = {q.A + more.A, q.M + more.M, q.B + more.B, q.N + more.N, q.F + more.F};
                 }
                 step_in<wind, gravity, stream>(
-                    q, row, lane, {scratch + std::size_t(row - block.first_row) * loaded::count * L + lane});
+                    q, row, lane, {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane});
             }
             Records<T, inward::count> base;
             const Rows<T> out = base.rows();
@@ -352,15 +352,15 @@ template <class T> struct Sweep : SweepParts<T> {
         }
     }
 
-    template <bool wind, bool gravity> void any_group_in(const Block& block, const Group& g, const T* scratch) const {
+    template <bool wind, bool gravity> void any_group_in(const Group& g, const T* loaded_rows) const {
         if (rows.stream)
-            group_in<wind, gravity, true>(block, g, scratch);
+            group_in<wind, gravity, true>(g, loaded_rows);
         else
-            group_in<wind, gravity, false>(block, g, scratch);
+            group_in<wind, gravity, false>(g, loaded_rows);
     }
 
     template <bool wind, bool gravity, Kind kind>
-    void group_out(const Block& block, const Group& g, T* scratch, SweepFlags& flags) const {
+    void group_out(const Group& g, T* loaded_rows, SweepFlags& flags) const {
         for (int lane = 0; lane < L; lane += width<T>) {
             Records<T, outward::count> base;
             base.gather(rows.outward_records, &rows.base[g.first_base + std::size_t(lane)]);
@@ -368,7 +368,7 @@ template <class T> struct Sweep : SweepParts<T> {
             W fastest{};
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 step_out<wind, gravity, kind>(f, row, g.first_base, lane,
-                                              {scratch + std::size_t(row - block.first_row) * loaded::count * L + lane},
+                                              {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane},
                                               fastest, flags);
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
@@ -381,26 +381,32 @@ template <class T> struct Sweep : SweepParts<T> {
         }
     }
 
+    static std::size_t place(const Block& block, const Group& g) {
+        return std::size_t(g.first_row - block.first_row) * loaded::count * L;
+    }
+
     template <bool wind, bool gravity> void block_out(const Block& block, T* scratch, SweepFlags& flags) const {
         T* forks = rows.inward_records + block.first_fork * record(inward::count, L);
         std::memset(forks, 0, (block.end_fork - block.first_fork) * record(inward::count, L) * sizeof(T));
         for (std::uint32_t k = block.first_group; k < block.end_group; ++k) {
             const Group& g = rows.groups[k];
+            // A terminal group is done with before the next one begins: all of them take the same place.
+            T* loaded_rows = scratch + place(block, rows.groups[std::min(k, block.terminal_group)]);
             if constexpr (!wind)
-                group_out<wind, gravity, Kind::branch>(block, g, scratch, flags);
+                group_out<wind, gravity, Kind::branch>(g, loaded_rows, flags);
             else if (g.kind == Kind::branch)
-                group_out<wind, gravity, Kind::branch>(block, g, scratch, flags);
+                group_out<wind, gravity, Kind::branch>(g, loaded_rows, flags);
             else if (g.kind == Kind::fruit)
-                group_out<wind, gravity, Kind::fruit>(block, g, scratch, flags);
+                group_out<wind, gravity, Kind::fruit>(g, loaded_rows, flags);
             else
-                group_out<wind, gravity, Kind::leaf>(block, g, scratch, flags);
-            if (k >= block.terminal_group) any_group_in<wind, gravity>(block, g, scratch);
+                group_out<wind, gravity, Kind::leaf>(g, loaded_rows, flags);
+            if (k >= block.terminal_group) any_group_in<wind, gravity>(g, loaded_rows);
         }
     }
 
     template <bool wind, bool gravity> void block_in(const Block& block, const T* scratch) const {
         for (std::uint32_t k = block.terminal_group; k-- > block.first_group;)
-            any_group_in<wind, gravity>(block, rows.groups[k], scratch);
+            any_group_in<wind, gravity>(rows.groups[k], scratch + place(block, rows.groups[k]));
     }
 
     // ---- outward again: accelerations, and the step's end
