@@ -34,8 +34,9 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     const std::uint64_t records = layout.joints * record_reals * real;
     StepBytes bytes;
     bytes.constants.in = rows * quantities * line;
-    bytes.now.in = (rows + waiting) * motion::count * line;
-    bytes.next.in = bytes.next.out = rows * motion::count * line;
+    bytes.now.in = (rows * motion::count + waiting * motion::theta_change) * line;
+    bytes.next.out = rows * motion::count * line;
+    bytes.next.in = (streamed ? rows - waiting : rows) * motion::count * line;
     bytes.solved.out = waiting * solved::count * line;
     bytes.solved.in = bytes.solved.out * (streamed ? 1 : 2);
     bytes.records.in = bytes.records.out = records;
@@ -66,7 +67,7 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
 }
 
 bool streams(const Layout& layout) {
-    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > core_cache;
+    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > shared_cache;
 }
 
 } // namespace bough::fast

@@ -44,6 +44,16 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         return {rows.solved_rows + (std::size_t(row - rows.solved_first) * solved::count) * L + lane};
     }
 
+    // Square of the rate from which on the energy guard looks at a tree.
+    W fast2() const {
+        return all(T(watched_turn) / rows.h * (T(watched_turn) / rows.h));
+    }
+    [[gnu::noinline]] void mark(std::uint32_t base, int lane, W rate2, SweepFlags& flags) const {
+        flags.fast = true;
+        for (int l = 0; l < width<T>; ++l)
+            if (rate2[l] > fast2()[l]) rows.watched[base + std::uint32_t(lane + l)] = 1;
+    }
+
     // Parent's body frame from joint frame.
     BOUGH_FORCE static M3<W> joint_rotation(const Rows<const T>& k) {
         const W w = k.real(body_constant::R_pj), x = k.real(body_constant::R_pj + 1),
@@ -81,7 +91,9 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         return low + (place - (rounded - B::rounder)) * (high - low);
     }
 
-    struct Speed { W speed, inverse; }; // [m/s] of the air that drags, and 1 over it, finite where it is 0
+    struct Speed {
+        W speed, inverse;
+    }; // [m/s] of the air that drags, and 1 over it, finite where it is 0
     // Of the air at velocity u past the body. Apart from air(), so that what does not wait for it can go in between.
     template <Kind kind> BOUGH_FORCE static Speed air_speed(const V3<W>& u, const M3<W>& R) {
         V3<W> across = u;
