@@ -30,7 +30,7 @@ TEST_CASE("bytes of a layout made by hand") {
     const StepBytes all = coupled_step_bytes(layout, true, true, 4, true);
     CHECK(all.constants.in == 6 * 25 * 64);
     CHECK(all.constants.out == 0);
-    CHECK(all.now.in == (6 + 4) * 12 * 64); // the four rows that wait read it again
+    CHECK(all.now.in == (6 * 12 + 4 * 6) * 64); // the four rows that wait read theta and theta_dot again
     CHECK(all.now.out == 0);
     CHECK(all.next.in == 2 * 12 * 64); // fetched before it is written, but where what was solved has been read
     CHECK(all.next.out == 6 * 12 * 64);
@@ -47,15 +47,16 @@ TEST_CASE("bytes of a layout made by hand") {
     CHECK(all.total().out == all.next.out + all.solved.out + all.records.out);
 
     CHECK(coupled_step_bytes(layout, true, true, 4, false).solved.in == 2 * 4 * 54 * 64); // fetched, and read
-    CHECK(coupled_step_bytes(layout, false, true, 4, true).constants.in == 6 * 24 * 64);  // no drag_area
-    CHECK(coupled_step_bytes(layout, true, false, 4, true).constants.in == 6 * 22 * 64);  // no carried moment
+    CHECK(coupled_step_bytes(layout, true, true, 4, false).next.in == 6 * 12 * 64);
+    CHECK(coupled_step_bytes(layout, false, true, 4, true).constants.in == 6 * 24 * 64); // no drag_area
+    CHECK(coupled_step_bytes(layout, true, false, 4, true).constants.in == 6 * 22 * 64); // no carried moment
     Layout wide = layout; // in double 8 lanes: 34 -> 40, 54 -> 56, 12 -> 16 reals of 8 bytes
     wide.lanes = 8;
     CHECK(coupled_step_bytes(wide, true, true, 8, true).records.in == 4 * (40 + 56 + 16) * 8);
     CHECK_FALSE(streams(layout)); // 20 kB
-    wide.rows = 4800;             // 16.6 MB
+    wide.rows = 9000;             // 31 MB
     CHECK_FALSE(streams(wide));
-    wide.rows = 4900; // 16.9 MB
+    wide.rows = 10000; // 35 MB
     CHECK(streams(wide));
     wide.blocks = {wide.blocks[2]};
     CHECK_FALSE(streams(wide)); // nothing waits

@@ -68,18 +68,6 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         W y;
     };
 
-    // As SweepParts' profile, the lanes' places looked up at once.
-    BOUGH_FORCE W profile_at(const W& y) const {
-        using B = Bits<T>;
-        const std::size_t last = rows.profile_entries - 1;
-        if (last == 0) return all(rows.profile[0]);
-        const W place = smaller(larger(W(y * rows.per_metre), W{}), all(T(last))); // NaN: 0
-        const W rounded = smaller(W(place - T(0.5)), all(T(last - 1))) + B::rounder;
-        const typename B::Wide k = typename B::Wide(rounded) & 0x3fffff;
-        const W low = look_up(rows.profile, k), high = look_up(rows.profile + 1, k);
-        return low + (place - (rounded - B::rounder)) * (high - low);
-    }
-
     // The air's force over kappa rho A, and its speed (air.h).
     template <Kind kind> BOUGH_FORCE static V3<W> air_force(const V3<W>& u, W& speed) {
         if constexpr (kind == Kind::branch) {
@@ -137,7 +125,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         if constexpr (gravity) out.set(loaded::g, f.R_bw * vector(rows.gravity));
         if constexpr (wind) {
             const V3<W> c = k.vector(constant::com);
-            const W p = profile_at(f.y + dot(f.R_bw.y, c));
+            const W p = this->profile(f.y + dot(f.R_bw.y, c));
             const V3<W> still = p * (f.R_bw * vector(rows.wind)), moving = still - f.v - cross(f.omega, c);
             const W scale = k.real(constant::drag_area);
             const W still2 = dot(still, still), still_speed = root(still2);

@@ -31,13 +31,12 @@ enum : int {
     F = 27,      // complex
     torque = 33, // complex: the spring's and damper's
     K = 39,      // symmetric: T^T K T in world axes
-    rates = 45,
-    r = 54,
-    count = 57
+    r = 45,
+    count = 48
 };
 }
 
-// From the sweep inward to the second one outward. (E: (A + Z)^-1.)
+// From the first sweep outward (rates, r) and the sweep inward to the second one outward. (E: (A + Z)^-1.)
 namespace solved {
 enum : int { Eu = 0, EA = 6, EB = 24, rates = 42, r = 51, count = 54 };
 }
@@ -77,7 +76,7 @@ template <class T> struct CoupledRows : SweepRows<T> {
     std::uint8_t* watched;
 
     bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
-    bool stream;              // solved_rows are more than the caches hold
+    bool stream;              // solved_rows are more than the caches hold, and go past them
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2
     // x's weights in the changes of theta_dot and theta, and theta_dot's in that of theta.
     T of_rate[2], of_angle[2], eta;

@@ -166,7 +166,9 @@ template <class T> struct EnergySweep : SweepParts<T> {
             const W scale = k.real(constant::drag_area);
             const V3<W> mean = (1 / rows.h) * (own + ground.carried), ahead = mean - rate_at_com;
             Symmetric<W> unused{};
-            const auto air_on = this->template air<kind>(air_velocity - rate_at_com, -ahead, f.R, scale, unused, W{});
+            const V3<W> u = air_velocity - rate_at_com;
+            const auto air_on =
+                Parts::template air<kind>(u, Parts::template air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{});
             const V3<W> U = air_velocity - (1 / rows.h) * ground.carried;
             const W speed2 = dot(U, U);
             W most;

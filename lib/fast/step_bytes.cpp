@@ -34,7 +34,7 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     const std::uint64_t records = layout.joints * record_reals * real;
     StepBytes bytes;
     bytes.constants.in = rows * quantities * line;
-    bytes.now.in = (rows + waiting) * motion::count * line;
+    bytes.now.in = (rows * motion::count + waiting * motion::theta_change) * line;
     bytes.next.in = (rows - waiting) * motion::count * line; // a waiting row's stands where its `solved` was just read
     bytes.next.out = rows * motion::count * line;
     bytes.solved.out = waiting * solved::count * line;
@@ -56,7 +56,8 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
                left = std::uint64_t(frozen    ? analytic::end_of_coefficients - analytic::first_of_coefficients
                                     : gravity ? 0
                                               : 1),
-               read = constants - left, motion = std::uint64_t(frozen ? int(analytic::motion::theta_dot) : int(analytic::motion::count));
+               read = constants - left,
+               motion = std::uint64_t(frozen ? int(analytic::motion::theta_dot) : int(analytic::motion::count));
     const std::uint64_t records =
         layout.joints * real *
         (record(analytic::outward::count, layout.lanes) + record(analytic::inward_count(wind, pulls), layout.lanes));
@@ -73,7 +74,7 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
 }
 
 bool streams(const Layout& layout) {
-    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > 8 * core_cache;
+    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > shared_cache;
 }
 
 } // namespace bough::fast

@@ -2,6 +2,7 @@
 #pragma once
 #include "../coupled/turn_bounds.h"
 #include "wide_maps.h"
+#include "wide_pair.h"
 #include "wide_rows.h"
 
 namespace bough::fast {
@@ -26,6 +27,7 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
 
     // What the next row will read; beyond the last one, nothing happens.
     BOUGH_FORCE static void prefetch(const T* at, int reals) {
+#pragma GCC unroll 64
         for (int k = 0; k < reals; k += L) __builtin_prefetch(at + k);
     }
 
@@ -40,6 +42,16 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
     }
     Rows<T> solved_row(std::uint32_t row, int lane) const {
         return {rows.solved_rows + std::ptrdiff_t(row - rows.first_row) * rows.solved_stride * L + lane};
+    }
+
+    // Square of the rate from which on the energy guard looks at a tree.
+    W fast2() const {
+        return all(T(watched_turn) / rows.h * (T(watched_turn) / rows.h));
+    }
+    [[gnu::noinline]] void mark(std::uint32_t base, int lane, W rate2, SweepFlags& flags) const {
+        flags.fast = true;
+        for (int l = 0; l < width<T>; ++l)
+            if (rate2[l] > fast2()[l]) rows.watched[base + std::uint32_t(lane + l)] = 1;
     }
 
     // Parent's body frame from joint frame.
@@ -67,20 +79,27 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         half_rate = one * half_rate;
     }
 
-    // Wind's profile at height y: linear between even heights, constant beyond.
-    BOUGH_FORCE W profile(W y) const {
+    // Wind's profile at height y: linear between even heights, constant beyond; the lanes' places looked up at once.
+    BOUGH_FORCE W profile(const W& y) const {
+        using B = Bits<T>;
         const std::size_t last = rows.profile_entries - 1;
         if (last == 0) return all(rows.profile[0]);
-        W place = larger(W(y * rows.per_metre), W{});
-        W low, high;
-        for (int l = 0; l < width<T>; ++l) {
-            const T at = place[l] < T(last) ? place[l] : T(last);
-            const std::size_t k = std::size_t(at) < last ? std::size_t(at) : last - 1;
-            low[l] = rows.profile[k];
-            high[l] = rows.profile[k + 1];
-            place[l] = at - T(k);
-        }
-        return low + place * (high - low);
+        const W place = smaller(larger(W(y * rows.per_metre), W{}), all(T(last))); // NaN: 0
+        const W rounded = smaller(W(place - T(0.5)), all(T(last - 1))) + B::rounder;
+        const typename B::Wide k = typename B::Wide(rounded) & 0x3fffff;
+        const W low = look_up(rows.profile, k), high = look_up(rows.profile + 1, k);
+        return low + (place - (rounded - B::rounder)) * (high - low);
+    }
+
+    struct Speed {
+        W speed, inverse;
+    }; // [m/s] of the air that drags, and 1 over it, finite where it is 0
+    // Of the air at velocity u past the body. Apart from air(), so that what does not wait for it can go in between.
+    template <Kind kind> BOUGH_FORCE static Speed air_speed(const V3<W>& u, const M3<W>& R) {
+        V3<W> across = u;
+        if constexpr (kind == Kind::branch) across = u - dot(u, R.z) * R.z;
+        const W speed2 = dot(across, across), inverse = inverse_root(speed2);
+        return {speed2 * inverse, inverse};
     }
 
     struct Air {
@@ -90,29 +109,30 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
 
     // air.h
     template <Kind kind>
-    BOUGH_FORCE Air air(const V3<W>& u, const V3<W>& ahead, const M3<W>& R, W scale, Symmetric<W>& H, W arm) const {
+    BOUGH_FORCE static Air air(const V3<W>& u, const Speed& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
+                               Symmetric<W>& H, const W& arm) {
         Air out;
+        const W one = scale * s.speed, more = scale * s.inverse;
         if constexpr (kind == Kind::leaf) {
             const V3<W>&n = R.y, &x = R.x;
-            const W speed2 = dot(u, u), speed = root(speed2), along = dot(u, n);
-            const W d = scale * (speed + along * along / larger(speed, all(T(1e-30))));
+            const W along = dot(u, n);
+            const W d = one + more * along * along;
             const V3<W> dn = d * n;
             out.D = {dn.x * n.x, dn.x * n.y, dn.x * n.z, dn.y * n.y, dn.y * n.z, dn.z * n.z};
-            out.force = W(scale * speed * along + d * dot(n, ahead)) * n;
-            const V3<W> hx = W(2 * scale * arm * speed2) * x;
+            out.force = W(one * along + d * dot(n, ahead)) * n;
+            const V3<W> hx = W(2 * one * arm * s.speed) * x;
             H = H + Symmetric<W>{hx.x * x.x, hx.x * x.y, hx.x * x.z, hx.y * x.y, hx.y * x.z, hx.z * x.z};
         } else {
             V3<W> across = u;
             const V3<W>& t = R.z;
             if constexpr (kind == Kind::branch) across = u - dot(u, t) * t;
-            const W speed = root(dot(across, across));
-            const W one = scale * speed, more = scale / larger(speed, all(T(1e-30)));
             const V3<W> m = more * across;
             out.D = {one + m.x * across.x, m.x * across.y, m.x * across.z,
                      one + m.y * across.y, m.y * across.z, one + m.z * across.z};
             if constexpr (kind == Kind::branch) {
-                const V3<W> s = one * t;
-                out.D = out.D - Symmetric<W>{s.x * t.x, s.x * t.y, s.x * t.z, s.y * t.y, s.y * t.z, s.z * t.z};
+                const V3<W> s_t = one * t;
+                out.D =
+                    out.D - Symmetric<W>{s_t.x * t.x, s_t.x * t.y, s_t.x * t.z, s_t.y * t.y, s_t.y * t.z, s_t.z * t.z};
             }
             out.force = one * across + out.D * ahead;
         }

@@ -65,7 +65,7 @@ template <class T, int count> struct Records {
     BOUGH_FORCE Rows<T> rows() { return {row}; }
 
     // The quantities of joints[l] into lane l.
-    void gather(const T* records, const std::uint32_t* joints) {
+    [[gnu::noinline]] void gather(const T* records, const std::uint32_t* joints) {
         constexpr std::size_t stride = record(count, lanes<T>);
         for (int k = 0; k < quantities; k += width<T>) {
             Wide<T> m[width<T>];
@@ -75,7 +75,7 @@ template <class T, int count> struct Records {
         }
     }
     // Lane l into the record of joints[l], but for `skip`; added to what stands there, or set.
-    template <class Put> BOUGH_FORCE void scatter(const std::uint32_t* joints, std::uint32_t skip, Put&& put) {
+    template <class Put> [[gnu::noinline]] void scatter(const std::uint32_t* joints, std::uint32_t skip, Put&& put) {
         for (int k = 0; k < quantities; k += width<T>) {
             Wide<T> m[width<T>];
             for (int j = 0; j < width<T>; ++j) m[j] = read(row + (k + j) * lanes<T>);
