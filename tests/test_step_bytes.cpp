@@ -47,7 +47,6 @@ TEST_CASE("bytes of a layout made by hand") {
     CHECK(all.total().out == all.next.out + all.solved.out + all.records.out);
 
     CHECK(coupled_step_bytes(layout, true, true, 4, false).solved.in == 2 * 4 * 54 * 64); // fetched, and read
-    CHECK(coupled_step_bytes(layout, true, true, 4, false).next.in == 6 * 12 * 64);
     CHECK(coupled_step_bytes(layout, false, true, 4, true).constants.in == 6 * 24 * 64); // no drag_area
     CHECK(coupled_step_bytes(layout, true, false, 4, true).constants.in == 6 * 22 * 64); // no carried moment
     Layout wide = layout; // in double 8 lanes: 34 -> 40, 54 -> 56, 12 -> 16 reals of 8 bytes
