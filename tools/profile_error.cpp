@@ -69,9 +69,11 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
         series.back().single = true;
     }
     if (given("--refresh")) { // of its own series each
+        if (!o.run.scheme.empty()) throw UsageError("--refresh: not with --scheme, which is coupled's");
         Variant v;
         v.solver = Solver::analytic;
         v.refresh = analytic_refresh(o.run);
+        if (o.run.joint_inertia == "paper") v.inertia = JointInertia::paper;
         series = {v, v};
         series.back().single = true;
     }

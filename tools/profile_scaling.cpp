@@ -100,7 +100,8 @@ std::vector<RunOptions> chosen_ways(const ScalingCommand& o) {
     std::vector<std::string> solvers;
     for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
     const bool analytic = o.solver.find(solver_name(Solver::analytic)) != std::string::npos;
-    if (!o.refresh.empty() && !analytic) throw UsageError("--refresh: only with --solver analytic");
+    if (!o.refresh.empty() && o.refresh != "always" && !analytic)
+        throw UsageError("--refresh: only with --solver analytic");
     std::vector<RunOptions> ways;
     for (const std::string& solver : words("--solver", o.solver, solvers))
         for (const std::string& simd : words("--simd", o.simd, {"auto", "off", "baseline", "avx2", "avx512"}))

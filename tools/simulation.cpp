@@ -330,8 +330,9 @@ double analytic_refresh(const RunOptions& o) {
 double chosen_refresh(const RunOptions& o) {
     const double tolerance = analytic_refresh(o);
     if (chosen_solver(o) == Solver::analytic) return tolerance;
-    if (!o.refresh.empty())
-        throw UsageError("--refresh: only with --solver analytic; all others work everything out anew");
+    if (tolerance > 0 && !o.refresh.empty())
+        throw UsageError("--refresh " + o.refresh +
+                         ": only with --solver analytic; all others work everything out anew");
     return 0;
 }
 

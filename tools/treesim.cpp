@@ -160,7 +160,11 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     refuse("precision", saved.precision, o.run.precision);
     refuse("solver", saved.solver, o.run.solver);
     refuse("scheme", saved.scheme, scheme_name(o.run));
-    refuse("refresh", rate_text(saved.refresh), rate_text(plan.refresh));
+    if (saved.refresh != plan.refresh) {
+        const auto text = [](double refresh) { return refresh > 0 ? rate_text(refresh) : "always"; };
+        throw InputError(input_name(o.resume),
+                         "/refresh: is " + text(saved.refresh) + ", but this run has " + text(plan.refresh));
+    }
     refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
     if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
     refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(plan.bodies) + " bodies");
@@ -247,7 +251,7 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
     if (flags.refreshed > 0) {
         std::ostringstream share;
         share << std::setprecision(3) << 100 * double(flags.refreshed) / (double(steps) * double(plan.bodies));
-        notes.push_back(share.str() + " % of the joints' coefficients were made anew a step (--refresh)");
+        notes.push_back(share.str() + " % of the bodies' steps made their joints' coefficients anew (--refresh)");
     }
     if (flags.asleep > 0)
         notes.push_back(std::to_string(flags.asleep) + " of " + std::to_string(std::uint64_t(steps) * plan.bodies) +

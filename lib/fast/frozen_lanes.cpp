@@ -46,12 +46,14 @@ template <class T> void start_frozen(const Plan<T>& plan, State<T>& state) {
                                                 [](const Vector3<T>& rate) { return !rate.isZero(0); });
     const std::vector<Matrix3<T>> modes = moves ? modes_at_rest(plan, state) : std::vector<Matrix3<T>>();
     RowVector<T>& rows = state.lanes.frozen;
-    rows.assign(std::size_t(layout.rows) * analytic::frozen::count, Row<T>{});
+    rows.resize(std::size_t(layout.rows) * analytic::frozen::count);
     for (std::size_t slot = 0; slot < layout.body.size(); ++slot) {
+        const Slot<T> row(rows, analytic::frozen::count, slot);
+        const Vector3<T> a = row.vector(analytic::frozen::J), b = row.vector(analytic::frozen::J + 3);
+        if (a[0] + b[0] + b[2] > 0) continue; // they are there
         const std::int32_t body = layout.body[slot];
         const Matrix3<T>& U = moves && body >= 0 ? modes[std::size_t(body)] : one;
-        for (int k = 0; k < 3; ++k)
-            Slot<T>(rows, analytic::frozen::count, slot).put(analytic::frozen::U + 3 * k, Vector3<T>(U.col(k)));
+        for (int k = 0; k < 3; ++k) row.put(analytic::frozen::U + 3 * k, Vector3<T>(U.col(k)));
     }
 }
 

@@ -4,9 +4,9 @@
 
 namespace bough::fast {
 
-// Rows without coefficients, so that the next step makes them all, from rates that are scaled_rate as spring.h has it: modes that leave them
-// what they are, and turn them into what the joint's rate is. (Without Plan::pose the constants for the latter are gone: a moving state then
-// needs restore_frozen next.) O(n).
+// Makes the rows where there are none. Of joints that have no coefficients yet, so that the next step makes them, from rates that are scaled_rate as
+// spring.h has it: modes that leave them what they are, and turn them into what the joint's rate is. (Without Plan::pose the constants for the
+// latter are gone: a state that moves then needs coefficients.) O(n).
 template <class T> void start_frozen(const Plan<T>&, State<T>&);
 
 // A body's FrozenJoint as its numbers in order.

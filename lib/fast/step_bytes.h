@@ -34,8 +34,8 @@ struct StepBytes {
 // real: sizeof of the precision. streamed: `solved` goes past the caches.
 StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t real, bool streamed);
 
-// frozen: coefficients are kept (stages/frozen.h), which count among the constants, but for the few that are made anew; what they alone are made of
-// is left where it is, and the motion is without theta_dot.
+// frozen: coefficients are kept (stages/frozen.h), which count among the constants; what they alone are made of is left where it is, and the
+// motion is without theta_dot. As of branches none of which is made anew: where there are leaves or much is, that moves other bytes.
 // The analytic step's (analytic_rows.h), which changes the motion where it stands: `next` goes out and need not come in. The top is visited twice, every
 // other block once; nothing waits.
 StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, bool frozen, std::size_t real);

@@ -1,7 +1,8 @@
 // wide_spring.h: one joint's own step (stages/spring.h, drag.h) for registers of lanes, apart from all traversal, in the axes of its body.
 //
 // X is a register or a pair of them (wide_pair.h). What lanes do depends on what stands in them alone, never on their neighbours: a branch
-// here leaves out what no lane asks for, and where one does, the others keep theirs by a choice. So registers of all widths come to the same.
+// here leaves out what no lane asks for, and where one does, the others keep theirs by a choice. So registers of all widths come to the same, but
+// for products that compilers fuse with what is added to them in one way or another.
 // Cost about 1100 operations a register with wind and gravity, most of them eigenvectors and oscillators; with frozen coefficients
 // (stages/frozen.h) about 230.
 #pragma once

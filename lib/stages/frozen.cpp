@@ -144,10 +144,6 @@ template <class T> void frozen_update(const Plan<T>& plan, State<T>& state) {
     state.flags.energy_guard += guarded;
 }
 
-template <class T> void forget_frozen(State<T>& state) {
-    for (FrozenJoint<T>& f : state.frozen) std::fill(f.J, f.J + 6, T(0));
-}
-
 template <class T> std::vector<double> saved_frozen(const Plan<T>& plan, const State<T>& state) {
     std::vector<double> values;
     if (!(plan.refresh > 0)) return values;
@@ -176,6 +172,11 @@ template <class T> void restore_frozen(const Plan<T>& plan, State<T>& state, con
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         T at[reals];
         for (int k = 0; k < reals; ++k) at[k] = T(values[i * reals + std::size_t(k)]);
+        FrozenJoint<T> joint;
+        std::memcpy(static_cast<void*>(&joint), at, sizeof at);
+        const T trace = joint.J[0] + joint.J[3] + joint.J[5];
+        if (!(trace == 0 || (trace > 0 && joint.U.allFinite() && joint.U.determinant() != 0 && joint.sensitivity >= 0)))
+            throw std::invalid_argument("body " + std::to_string(i) + " has modes or an inertia that no joint has");
         if (plan.lanes.on)
             fast::write_frozen(plan, state, i, at);
         else
@@ -187,8 +188,6 @@ template void refresh_joints(const Plan<float>&, State<float>&);
 template void refresh_joints(const Plan<double>&, State<double>&);
 template void frozen_update(const Plan<float>&, State<float>&);
 template void frozen_update(const Plan<double>&, State<double>&);
-template void forget_frozen(State<float>&);
-template void forget_frozen(State<double>&);
 template std::vector<double> saved_frozen(const Plan<float>&, const State<float>&);
 template std::vector<double> saved_frozen(const Plan<double>&, const State<double>&);
 template void restore_frozen(const Plan<float>&, State<float>&, const std::vector<double>&);

@@ -28,12 +28,16 @@
 //   tolerance                  0.01          0.05          0.1           0.2           0.5
 //   bare, 973, gusty       0.19 %, 34 %  1.6 %, 6.6 %  3.5 %, 2.4 %  5.6 %, 0.5 %   9 %, 0 %
 //   bare, 973, storm       0.13 %, 68 %  1.7 %, 20 %   3.5 %, 7 %    7.8 %, 1.5 %  14 %, 0 %
-//   in leaf, 1001, gusty   0.18 %, 70 %  2.5 %, 27 %   6.3 %, 13 %   14 %, 5 %     28 %, 0.7 %
+//   in leaf, 1001, gusty   0.18 %, 45 %  2.4 %, 15 %   6.4 %, 7 %    14 %, 2 %     29 %, 0 %
 //   bare, 10 000, gusty    0.52 %, 24 %  3.3 %, 4 %    6.3 %, 1.5 %  8.8 %, 0.3 %   9 %, 0 %
-//   in leaf, 10 000, gusty 0.69 %, 84 %  1.4 %, 37 %   4.0 %, 20 %   6.8 %, 8 %    14 %, 1.3 %
-// At 0.05 it is below a tenth of the step's own everywhere: the tools' default. Every promised cell of `treeprofile stability` holds from
+//   in leaf, 10 000, gusty 0.69 %, 28 %  1.4 %, 10 %   4.0 %, 4 %    6.8 %, 0.9 %  14 %, 0 %
+// At 0.05 it is below a tenth of the step's own in all of these: the tools' default. (A knock on one twig in still air: up to a quarter.) Buckling and
+// bounded lambdas are counted in the steps that make coefficients. Every promised cell of `treeprofile stability` holds from
 // `always` to 0.5.
-// What is not looked at: the turn of a joint itself where its composite is as wide as it is long. K_b then changes to first order of the turn by
+// A state set from outside (restart) keeps what coefficients there are, and the rates are the modes'; a joint that has none yet takes scaled_rate
+// for w, as spring.h has it.
+// What is not looked at: a roll of a level joint about its own axis, which leaves g.h and the composite in the parent's axes as they are and turns
+// -sym(h g^T) of G; and the turn of a joint itself where its composite is as wide as it is long. K_b then changes to first order of the turn by
 // half the difference of K's values, 12 % of K a radian in round wood.
 // Not with a moved ground or joint limits: Plan::refresh_reason. Saved: what cannot be recomputed is the whole of it, as it was made of poses that
 // are gone (saved_frozen).
@@ -58,9 +62,6 @@ template <class T> void refresh_joints(const Plan<T>&, State<T>&);
 // drag.h and spring.h with the coefficients that are kept, and in full where none are. Reads and writes as they do, and frozen.
 // After   refresh_joints.
 template <class T> void frozen_update(const Plan<T>&, State<T>&);
-
-// No coefficients, so that the next step makes them all, and takes scaled_rate for w. Of the plain path; fast/frozen_lanes.h of the other.
-template <class T> void forget_frozen(State<T>&);
 
 // All joints' coefficients in document order, FrozenJoint by FrozenJoint, of the plain path or the fast one; and back, after
 // restart(). Throws std::invalid_argument for what is none of this plan's: another number of them, not finite, or no tolerance.

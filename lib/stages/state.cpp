@@ -3,7 +3,6 @@
 #include "../fast/analytic_rows.h"
 #include "../fast/coupled_lanes_step.h"
 #include "../fast/lane_tables.h"
-#include "frozen.h"
 #include "root_term.h"
 #include "spring.h"
 #include "state_arrays.h"
@@ -37,7 +36,6 @@ template <class T> void begin(const Plan<T>& plan, State<T>& state, const std::v
     move_ground(plan, state, double(state.step) * plan.dt);
     if (plan.pose) state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);
-    forget_frozen(state);
     if (!plan.lanes.on) return;
     if (plan.solver == Solver::analytic)
         fast::pack_analytic(plan, state, theta);

@@ -108,7 +108,9 @@ refused 2 "/frozen: is missing" treesim "${kept[@]}" --frames 5 --resume wrong.j
 python3 -c 'import json; d = json.load(open("kept.json")); del d["refresh"]; json.dump(d, open("wrong.json", "w"))'
 refused 2 "/frozen: is there, but" treesim "${kept[@]}" --frames 5 --resume wrong.json
 for wrong in 0 -1 4 often; do refused 1 "--refresh is '$wrong', expected" treesim "${kept[@]}" --refresh=$wrong; done
-refused 1 "--refresh: only with --solver analytic" treesim small.json --wind gusty --refresh 0.1
+refused 1 "--refresh 0.1: only with --solver analytic" treesim small.json --wind gusty --refresh 0.1
+expect 0 treesim small.json --wind gusty --frames 3 --no-output --refresh always
+refused 2 "/refresh: is 0.05, but this run has always" treesim "${kept[@]}" --frames 5 --refresh always --resume kept.json
 expect 0 treesim "${kept[@]}" --frames 3 --no-output --joint-limit 90 --refresh 0.1
 grep -q -- "--refresh: nothing is kept in this run: /joint_limit" err || fail "what cannot be kept is not said"
 
