@@ -120,7 +120,7 @@ std::vector<RunOptions> chosen_ways(const ScalingCommand& o) {
                 for (const std::string& refresh :
                      o.refresh.empty() ? std::vector<std::string>{""} : split_list(o.refresh)) {
                     way.refresh = refresh;
-                    chosen_refresh(way);
+                    analytic_refresh(way); // refused before the work
                     ways.push_back(way);
                 }
             }

@@ -20,6 +20,11 @@ double median(std::vector<double> values) {
 }
 
 // What code `plan` runs with, and by which target's limits it is held.
+template <class T> std::string refresh_of(const Plan<T>& plan) {
+    if (plan.solver != Solver::analytic) return {};
+    return plan.refresh > 0 ? rate_text(plan.refresh) : "always";
+}
+
 template <class T> std::string simd_of(const Plan<T>& plan) {
     return plan.lanes.on ? fast::target_name(plan.target) : "none";
 }
@@ -130,7 +135,7 @@ private:
         ScalingCost c;
         c.shape = tree.shape;
         c.solver = way.solver;
-        c.refresh = refresh_text(way);
+        c.refresh = refresh_of(plan);
         c.precision = way.precision;
         c.simd = simd_of(plan);
         c.bodies = std::int64_t(plan.bodies);
@@ -168,7 +173,7 @@ private:
             run.shape = tree.shape;
             run.solver = way.solver;
             run.scheme = scheme_name(way);
-            run.refresh = refresh_text(way);
+            run.refresh = refresh_of(plan);
             run.precision = way.precision;
             run.simd = simd_of(plan);
             run.threads = threads;

@@ -224,8 +224,8 @@ void add_simd_option(CLI::App& app, RunOptions& o) {
 void add_refresh_option(CLI::App& app, RunOptions& o) {
     app.add_option("--refresh", o.refresh,
                    "With --solver analytic: when a joint's modes are worked out anew: once its composite has turned or "
-                   "changed by about TOL radians since (" +
-                       rate_text(default_refresh) + "), or always")
+                   "changed by about TOL radians since, or always (" +
+                       rate_text(default_refresh) + "; in wind always)")
         ->option_text("TOL|always");
 }
 
@@ -327,19 +327,13 @@ double analytic_refresh(const RunOptions& o) {
     return *tolerance;
 }
 
-double chosen_refresh(const RunOptions& o) {
+double chosen_refresh(const RunOptions& o, const Scene& scene) {
     const double tolerance = analytic_refresh(o);
-    if (chosen_solver(o) == Solver::analytic) return tolerance;
+    if (chosen_solver(o) == Solver::analytic) return o.refresh.empty() && scene.wind ? 0 : tolerance;
     if (tolerance > 0 && !o.refresh.empty())
         throw UsageError("--refresh " + o.refresh +
                          ": only with --solver analytic; all others work everything out anew");
     return 0;
-}
-
-std::string refresh_text(const RunOptions& o) {
-    if (chosen_solver(o) != Solver::analytic) return {};
-    const double tolerance = chosen_refresh(o);
-    return tolerance > 0 ? rate_text(tolerance) : "always";
 }
 
 double chosen_sleep(const RunOptions& o) {
@@ -405,9 +399,9 @@ namespace {
 template <class T, class TreeType>
 Plan<T> plan_of(TreeType&& tree, const Setting& setting, const Wishes& wishes, const RunOptions& o) {
     try {
-        Plan<T> plan =
-            make_plan<T>(std::forward<TreeType>(tree), setting.ranges, setting.scene, wishes, 1 / (o.fps * o.substeps),
-                         chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o), chosen_refresh(o));
+        Plan<T> plan = make_plan<T>(std::forward<TreeType>(tree), setting.ranges, setting.scene, wishes,
+                                    1 / (o.fps * o.substeps), chosen_solver(o), chosen_scheme(o), chosen_simd(o),
+                                    chosen_sleep(o), chosen_refresh(o, setting.scene));
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {

@@ -23,7 +23,7 @@ struct RunOptions {
     std::string simd = "auto";
     std::string sleep;        // as given: a rate or off; empty: sleep_default
     double sleep_default = 0; // [rad/s] the tool's own
-    std::string refresh;      // as given: a tolerance or always; empty: default_refresh with the analytic solver
+    std::string refresh;      // as given: a tolerance or always; empty: chosen_refresh
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
 };
@@ -50,11 +50,10 @@ std::optional<fast::Target> chosen_simd(const RunOptions&);
 double chosen_sleep(const RunOptions&);
 std::string rate_text(double rate); // "1e-05"
 
-// Tolerance of frozen coefficients (lib/stages/frozen.h); 0: none are kept. Throws UsageError for what is none, and for one given with another
-// solver than analytic. Its text: "0.1" or "always", and empty with other solvers.
-double chosen_refresh(const RunOptions&);
-double analytic_refresh(const RunOptions&); // whatever the solver
-std::string refresh_text(const RunOptions&);
+// Tolerance of frozen coefficients (lib/stages/frozen.h); 0: none are kept. Without --refresh: default_refresh with the analytic solver, but in wind, whose
+// changes make too many anew, none. Throws UsageError for what is no tolerance, and for one given with another solver.
+double chosen_refresh(const RunOptions&, const Scene&);
+double analytic_refresh(const RunOptions&); // whatever the solver and the wind
 
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {

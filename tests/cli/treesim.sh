@@ -98,20 +98,24 @@ for refresh in always 0.02 0.3; do
         done
     done
 done
-[[ $(hash "${kept[@]}" --frames 12) == $(hash "${kept[@]}" --frames 12 --refresh 0.05) ]] || fail "0.05 is not the default"
+[[ $(hash "${kept[@]}" --frames 12) == $(hash "${kept[@]}" --frames 12 --refresh always) ]] || fail "in wind coefficients are kept unasked"
+calm=(small.json --solver analytic --pose rest --frames 12)
+[[ $(hash "${calm[@]}") == $(hash "${calm[@]}" --refresh 0.05) && $(hash "${calm[@]}") != $(hash "${calm[@]}" --refresh always) ]] ||
+    fail "without wind 0.05 is not the default"
+kept+=(--refresh 0.05)
 treesim "${kept[@]}" --frames 5 -q --no-output --save-state kept.json
-refused 2 "/refresh: is 0.05, but this run has 0.3" treesim "${kept[@]}" --frames 5 --refresh 0.3 --resume kept.json
+refused 2 "/refresh: is 0.05, but this run has 0.3" treesim "${kept[@]:0:5}" --frames 5 --refresh 0.3 --resume kept.json
 python3 -c 'import json; d = json.load(open("kept.json")); d["frozen"].pop(); json.dump(d, open("wrong.json", "w"))'
 refused 2 "/frozen: holds" treesim "${kept[@]}" --frames 5 --resume wrong.json
 python3 -c 'import json; d = json.load(open("kept.json")); del d["frozen"]; json.dump(d, open("wrong.json", "w"))'
 refused 2 "/frozen: is missing" treesim "${kept[@]}" --frames 5 --resume wrong.json
 python3 -c 'import json; d = json.load(open("kept.json")); del d["refresh"]; json.dump(d, open("wrong.json", "w"))'
 refused 2 "/frozen: is there, but" treesim "${kept[@]}" --frames 5 --resume wrong.json
-for wrong in 0 -1 4 often; do refused 1 "--refresh is '$wrong', expected" treesim "${kept[@]}" --refresh=$wrong; done
+for wrong in 0 -1 4 often; do refused 1 "--refresh is '$wrong', expected" treesim "${kept[@]:0:5}" --refresh=$wrong; done
 refused 1 "--refresh 0.1: only with --solver analytic" treesim small.json --wind gusty --refresh 0.1
 expect 0 treesim small.json --wind gusty --frames 3 --no-output --refresh always
-refused 2 "/refresh: is 0.05, but this run has always" treesim "${kept[@]}" --frames 5 --refresh always --resume kept.json
-expect 0 treesim "${kept[@]}" --frames 3 --no-output --joint-limit 90 --refresh 0.1
+refused 2 "/refresh: is 0.05, but this run has always" treesim "${kept[@]:0:5}" --frames 5 --refresh always --resume kept.json
+expect 0 treesim "${kept[@]:0:5}" --frames 3 --no-output --joint-limit 90 --refresh 0.1
 grep -q -- "--refresh: nothing is kept in this run: /joint_limit" err || fail "what cannot be kept is not said"
 
 # The coupled solver: a motion for each scheme and precision, the same for any case of its name, cut in two or not.
