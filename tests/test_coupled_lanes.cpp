@@ -2,6 +2,7 @@
 // in float as near to double as the plain one is; its targets against each other; what it refuses.
 #include "lanes_support.h"
 #include "lib/fast/step_bytes.h"
+#include "tests/sanitized.h"
 
 using namespace bough;
 using namespace lanes;
@@ -103,6 +104,7 @@ TEST_CASE("AVX2 and AVX-512 give the same bits") {
 }
 
 TEST_CASE("what is too much for the caches and goes past them comes back the same") {
+    if (sanitized) return; // many bodies; and the sanitizers' builds have no target that does
     const Case c{"", firm(grown(90000)), in_wind(gusts())};
     REQUIRE_FALSE(fast::streams(Run<>({"small", grown(20000), {}}, fast::best_target()).plan.lanes.layout));
     for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
