@@ -98,8 +98,8 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
     template <Kind kind> BOUGH_FORCE static Speed air_speed(const V3<W>& u, const M3<W>& R) {
         V3<W> across = u;
         if constexpr (kind == Kind::branch) across = u - dot(u, R.z) * R.z;
-        const W speed2 = dot(across, across), inverse = inverse_root(speed2);
-        return {speed2 * inverse, inverse};
+        const W speed = root(dot(across, across));
+        return {speed, 1 / larger(speed, all(T(1e-30)))};
     }
 
     struct Air {
