@@ -1,5 +1,5 @@
 // Frozen coefficients: made anew at every change they are the full update; the plain path and the lanes keep and make anew the same ones; what
-// changes a composite is noticed, whatever it is; equilibria are the true ones; and the bits do not depend on threads, lanes or a cut.
+// changes a composite is noticed, whatever it is; equilibria are the true ones; and the bits do not depend on threads or a cut.
 #include "lanes_support.h"
 #include "lib/stages/composite.h"
 #include "lib/stages/external_forces.h"

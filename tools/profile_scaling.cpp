@@ -48,7 +48,7 @@ void declare(CLI::App& app, ScalingCommand& o) {
         ->option_text("LIST");
     app.add_option("--refresh", o.refresh,
                    "Tolerances of analytic's frozen coefficients, with commas, or always (" +
-                       rate_text(default_refresh) + ")")
+                       rate_text(default_refresh) + "; in wind always)")
         ->option_text("LIST");
     app.add_option("--wind", o.run.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file")
         ->option_text("NAME|FILE");
