@@ -21,11 +21,8 @@ std::vector<std::string> words_of(const MotionFields& fields) {
 }
 
 std::vector<Field> header_fields(MotionHeader& header, std::vector<std::string>& words) {
-    return {{"fps", &header.fps},
-            {"bodies", &header.bodies},
-            {"fields", &words},
-            optional({"name", &header.name}),
-            optional({"source", &header.source})};
+    return {{"fps", &header.fps}, {"bodies", &header.bodies},       optional({"balls", &header.balls}),
+            {"fields", &words},   optional({"name", &header.name}), optional({"source", &header.source})};
 }
 
 std::vector<Field> frame_fields(MotionFrame& frame) {
@@ -33,6 +30,11 @@ std::vector<Field> frame_fields(MotionFrame& frame) {
     for (const FrameArray& a : frame_arrays)
         fields.push_back(
             optional(a.vectors ? array(a.name, frame.*a.vectors, {}) : array(a.name, frame.*a.rotations, {})));
+    const Per event{"event in /event", [&frame] { return frame.events.what.size(); }};
+    fields.push_back(optional({"event", &frame.events.what}));
+    for (Field field : {array("event_body", frame.events.body, event), array("event_on", frame.events.on, event),
+                        array("event_value", frame.events.value, event)})
+        fields.push_back(optional(std::move(field)));
     return fields;
 }
 

@@ -26,6 +26,9 @@ void check_header(const MotionHeader& header, const std::string& place) {
         throw InputError(place + "/fps", "is not above 0, expected frames a second");
     if (header.bodies < 0)
         throw InputError(place + "/bodies", "is " + std::to_string(header.bodies) + ", expected 0 or more");
+    if (header.balls < 0 || header.balls > header.bodies)
+        throw InputError(place + "/balls", "is " + std::to_string(header.balls) + ", expected 0 to " +
+                                               std::to_string(header.bodies) + ", the number of bodies");
 }
 
 void check_frame(const MotionHeader& header, const MotionFrame& frame, const std::string& place) {
@@ -38,6 +41,29 @@ void check_frame(const MotionHeader& header, const MotionFrame& frame, const std
                                                                 std::to_string(array.components()) + " for each of " +
                                                                 std::to_string(expected) + " bodies)"
                                                           : has + "none: /fields does not name it");
+    }
+}
+
+void check_events(const MotionHeader& header, const MotionEvents& events, const std::string& place) {
+    const std::size_t count = events.what.size();
+    for (const auto& [name, size] : {std::pair{"event_body", events.body.size()},
+                                     {"event_on", events.on.size()},
+                                     {"event_value", events.value.size()}})
+        if (size != count)
+            throw InputError(place + "/" + name, "has " + std::to_string(size) + " numbers, expected one for each of " +
+                                                     std::to_string(count) + " events");
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::string entry = "/" + std::to_string(k);
+        if (std::find(event_words.begin(), event_words.end(), events.what[k]) == event_words.end())
+            throw InputError(place + "/event" + entry,
+                             "is " + in_quotes(events.what[k]) + ", expected broke, hit or landed");
+        if (events.body[k] < 0 || events.body[k] >= header.bodies)
+            throw InputError(place + "/event_body" + entry, "is " + std::to_string(events.body[k]) +
+                                                                ", expected a body, 0 to less than " +
+                                                                std::to_string(header.bodies));
+        if (events.on[k] < -1 || events.on[k] >= header.bodies)
+            throw InputError(place + "/event_on" + entry,
+                             "is " + std::to_string(events.on[k]) + ", expected a body, or -1");
     }
 }
 
@@ -109,8 +135,10 @@ private:
     template <class Place> Motion finish(Place place_of) {
         put_words(motion_.header, words_, name_ + ": ");
         check_header(motion_.header, name_ + ": ");
-        for (std::size_t i = 0; i < motion_.frame.size(); ++i)
+        for (std::size_t i = 0; i < motion_.frame.size(); ++i) {
             check_frame(motion_.header, motion_.frame[i], place_of(i));
+            check_events(motion_.header, motion_.frame[i].events, place_of(i));
+        }
         return std::move(motion_);
     }
 
@@ -148,8 +176,40 @@ private:
         }
     }
 
+    std::vector<std::int64_t> integers(const Safetensors& file, const std::string& key, std::int64_t count) {
+        const Tensor& from = tensor(file, key, Dtype::i64, {count});
+        std::vector<std::int64_t> values(from.bytes / sizeof(std::int64_t));
+        if (!values.empty()) std::memcpy(values.data(), from.data.data(), from.bytes);
+        return values;
+    }
+
+    void read_events(const Safetensors& file) {
+        if (!file.tensors.contains("event")) return;
+        const std::vector<std::int64_t> what = integers(file, "event", -1);
+        const auto count = std::int64_t(what.size());
+        const std::vector<std::int64_t> frame = integers(file, "event_frame", count),
+                                        body = integers(file, "event_body", count),
+                                        on = integers(file, "event_on", count);
+        const std::vector<double> value = reals(file, "event_value", {count});
+        motion_.header.events = true;
+        for (std::size_t k = 0; k < what.size(); ++k) {
+            const auto to = std::find_if(motion_.frame.begin(), motion_.frame.end(),
+                                         [&](const MotionFrame& f) { return f.frame == frame[k]; });
+            const std::string entry = "/" + std::to_string(k);
+            if (to == motion_.frame.end())
+                throw InputError(name_ + ": /event_frame" + entry,
+                                 "is " + std::to_string(frame[k]) + ", expected one of /frame");
+            if (what[k] < 0 || std::size_t(what[k]) >= event_words.size())
+                throw InputError(name_ + ": /event" + entry,
+                                 "is " + std::to_string(what[k]) + ", expected 0 (broke), 1 (hit) or 2 (landed)");
+            to->events.add(event_words[std::size_t(what[k])].c_str(), body[k], on[k], value[k]);
+        }
+        for (const MotionFrame& f : motion_.frame) check_events(motion_.header, f.events, name_ + ": ");
+    }
+
     void check_names(const Safetensors& file) {
-        std::vector<std::string> known{"frame", "time"};
+        std::vector<std::string> known{"frame", "time", "event_value"};
+        known.insert(known.end(), event_integers.begin(), event_integers.end());
         for (const FrameArray& array : frame_arrays) known.push_back(array.name);
         for (const auto& [key, value] : file.tensors) {
             if (std::find(known.begin(), known.end(), key) == known.end()) unknown_field(name_, "", key, known);
@@ -177,6 +237,7 @@ private:
         }
         for (const FrameArray& array : frame_arrays)
             if (motion_.header.fields.*array.wanted) read_frames(file, array);
+        read_events(file);
         return std::move(motion_);
     }
 

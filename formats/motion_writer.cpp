@@ -1,4 +1,5 @@
 #include "motion_fields.h"
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <cstdlib>
@@ -87,6 +88,8 @@ struct MotionWriter::Implementation {
     std::unique_ptr<Spool> spool;
     std::vector<std::int64_t> frame;
     std::vector<double> time;
+    std::vector<std::int64_t> event_frame, event, event_body, event_on;
+    std::vector<double> event_value;
 
     std::string header_text(const char* separator) {
         std::vector<std::string> words = words_of(header.fields);
@@ -111,6 +114,13 @@ struct MotionWriter::Implementation {
         for (const FrameArray* array : arrays) spool_frame(*spool, *array, f, output.name());
         frame.push_back(f.frame);
         time.push_back(f.time);
+        for (std::size_t k = 0; k < f.events.what.size(); ++k) {
+            event_frame.push_back(f.frame);
+            event.push_back(std::find(event_words.begin(), event_words.end(), f.events.what[k]) - event_words.begin());
+            event_body.push_back(f.events.body[k]);
+            event_on.push_back(f.events.on[k]);
+            event_value.push_back(f.events.value[k]);
+        }
     }
 
     std::uint64_t bytes_a_frame(const FrameArray& array) const {
@@ -127,6 +137,11 @@ struct MotionWriter::Implementation {
                 {a->name, {"F64", {frames, std::uint64_t(header.bodies), a->components()}, frames * bytes, {}}});
             stride += bytes;
         }
+        const std::uint64_t events = event.size();
+        if (header.events) {
+            for (const char* name : event_integers) tensors.push_back({name, {"I64", {events}, 8 * events, {}}});
+            tensors.push_back({"event_value", {"F64", {events}, 8 * events, {}}});
+        }
         std::vector<std::string> words = words_of(header.fields);
         output.write(safetensors_header(metadata_of(motion_type, header_fields(header, words)), tensors));
         output.write({reinterpret_cast<const char*>(frame.data()), 8 * frames});
@@ -140,11 +155,15 @@ struct MotionWriter::Implementation {
             }
             offset += bytes.size();
         }
+        if (!header.events) return;
+        for (const auto* array : {&event_frame, &event, &event_body, &event_on})
+            output.write({reinterpret_cast<const char*>(array->data()), 8 * events});
+        output.write({reinterpret_cast<const char*>(event_value.data()), 8 * events});
     }
 };
 
 MotionWriter::MotionWriter(Output& output, const MotionHeader& header, MotionForm form)
-    : implementation_(new Implementation{output, header, form, {}, 0, nullptr, {}, {}}) {
+    : implementation_(new Implementation{output, header, form, {}, 0, nullptr, {}, {}, {}, {}, {}, {}, {}}) {
     for (const FrameArray& array : frame_arrays)
         if (header.fields.*array.wanted) implementation_->arrays.push_back(&array);
     if (form == MotionForm::safetensors) {

@@ -11,6 +11,7 @@ constexpr DocumentType scene_type{"bough-scene", 1};
 constexpr DocumentType wind_type{"bough-wind", 1};
 const std::vector<std::string> poses{"drawn", "settled", "rest"};
 const std::vector<std::string> inertias{"branch", "paper"};
+const std::vector<std::string> contact_models{"impulse", "penalty"};
 
 std::string text_of(const ordered_json& value) {
     return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -158,6 +159,59 @@ JointLimit read_joint_limit(const json& value, const std::string& name) {
     return limit;
 }
 
+Fracture read_fracture(const json& value, const std::string& name) {
+    Fracture fracture;
+    ObjectReader object(value, name, "/fracture");
+    for (const auto& [key, torque] : {std::pair{"branch", &fracture.branch},
+                                      {"leaf", &fracture.leaf},
+                                      {"petal", &fracture.petal},
+                                      {"fruit", &fracture.fruit},
+                                      {"strength", &fracture.strength},
+                                      {"spread", &fracture.spread}})
+        object.read(key, *torque);
+    object.read("seed", fracture.seed);
+    for (const json& entry : object.list("joints")) {
+        const std::string at = object.at("joints") + "/" + std::to_string(fracture.joints.size());
+        ObjectReader joint(entry, name, at);
+        Fracture::Joint& to = fracture.joints.emplace_back();
+        to.on = read_selector(joint.need("on"), name, joint.at("on"));
+        joint.read("torque", to.torque);
+        joint.finish();
+    }
+    object.finish();
+    return fracture;
+}
+
+Ball read_ball(const json& value, const std::string& name, const std::string& at) {
+    Ball ball;
+    ObjectReader object(value, name, at);
+    object.need("position");
+    object.read("position", ball.position);
+    object.read("velocity", ball.velocity);
+    object.read("angular_velocity", ball.angular_velocity);
+    object.need("radius");
+    object.read("radius", ball.radius);
+    object.need("mass");
+    object.read("mass", ball.mass);
+    object.finish();
+    return ball;
+}
+
+Contact read_contact(const json& value, const std::string& name) {
+    Contact contact;
+    ObjectReader object(value, name, "/contact");
+    contact.model = ContactModel(object.word("model", contact_models, std::size_t(contact.model)));
+    object.read("restitution", contact.restitution);
+    object.read("friction", contact.friction);
+    object.read("penalty", contact.penalty);
+    object.read("trees", contact.trees);
+    object.read("leaves", contact.leaves);
+    object.read("ground", contact.ground);
+    object.read("ground_height", contact.ground_height);
+    object.finish();
+    return contact;
+}
+
 ordered_json numbers(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
@@ -193,6 +247,44 @@ ordered_json value_of(const RootMotion& motion) {
     return fields;
 }
 
+// JSON has no infinity: what never breaks is left out.
+ordered_json value_of(const Fracture& fracture) {
+    ordered_json fields = ordered_json::object();
+    for (const auto& [key, torque] : {std::pair{"branch", fracture.branch},
+                                      {"leaf", fracture.leaf},
+                                      {"petal", fracture.petal},
+                                      {"fruit", fracture.fruit},
+                                      {"strength", fracture.strength}})
+        if (torque < Fracture::never) fields[key] = torque;
+    fields["spread"] = fracture.spread;
+    fields["seed"] = fracture.seed;
+    for (const Fracture::Joint& joint : fracture.joints) {
+        ordered_json entry{{"on", value_of(joint.on)}};
+        if (joint.torque < Fracture::never) entry["torque"] = joint.torque;
+        fields["joints"].push_back(entry);
+    }
+    return fields;
+}
+
+ordered_json value_of(const Ball& ball) {
+    return {{"position", numbers(ball.position)},
+            {"velocity", numbers(ball.velocity)},
+            {"angular_velocity", numbers(ball.angular_velocity)},
+            {"radius", ball.radius},
+            {"mass", ball.mass}};
+}
+
+ordered_json value_of(const Contact& contact) {
+    return {{"model", contact_models[std::size_t(contact.model)]},
+            {"restitution", contact.restitution},
+            {"friction", contact.friction},
+            {"penalty", contact.penalty},
+            {"trees", contact.trees},
+            {"leaves", contact.leaves},
+            {"ground", contact.ground},
+            {"ground_height", contact.ground_height}};
+}
+
 ordered_json value_of(const Scene& scene) {
     ordered_json fields{{"format", scene_type.format}, {"version", scene_type.version}};
     fields["trees"] = ordered_json::array();
@@ -215,6 +307,9 @@ ordered_json value_of(const Scene& scene) {
         fields["joint_limit"] = {{"branch", numbers(scene.joint_limit->branch)},
                                  {"leaf", numbers(scene.joint_limit->leaf)},
                                  {"fruit", numbers(scene.joint_limit->fruit)}};
+    if (scene.fracture) fields["fracture"] = value_of(*scene.fracture);
+    for (const Ball& ball : scene.balls) fields["balls"].push_back(value_of(ball));
+    if (scene.contact) fields["contact"] = value_of(*scene.contact);
     fields["stiffness_scale"] = scene.stiffness_scale;
     fields["damping_scale"] = scene.damping_scale;
     return fields;
@@ -244,6 +339,10 @@ Scene read_scene(std::string_view content, const std::string& name) {
     scene.pose = Pose(object.word("pose", poses, std::size_t(scene.pose)));
     scene.joint_inertia = JointInertia(object.word("joint_inertia", inertias, std::size_t(scene.joint_inertia)));
     if (object.has("joint_limit")) scene.joint_limit = read_joint_limit(object.need("joint_limit"), name);
+    if (object.has("fracture")) scene.fracture = read_fracture(object.need("fracture"), name);
+    for (const json& value : object.list("balls"))
+        scene.balls.push_back(read_ball(value, name, "/balls/" + std::to_string(scene.balls.size())));
+    if (object.has("contact")) scene.contact = read_contact(object.need("contact"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();
@@ -279,7 +378,7 @@ void write_scene(Output& output, const Scene& scene, Form form) {
     std::string text = "{";
     for (const auto& [key, value] : fields.items()) {
         text += (text.size() > 1 ? ",\n" : "\n") + text_of(key) + ": ";
-        if (key == "trees" || key == "pulls" || key == "root_motion") { // one a line
+        if (key == "trees" || key == "pulls" || key == "root_motion" || key == "balls") { // one a line
             text += "[";
             for (const ordered_json& entry : value)
                 text += (&entry == &value.front() ? "\n  " : ",\n  ") + text_of(entry);

@@ -75,6 +75,13 @@ void ObjectReader::read(const std::string& key, std::uint64_t& to) {
     to = value->get<std::uint64_t>();
 }
 
+void ObjectReader::read(const std::string& key, bool& to) {
+    const json* value = find(key);
+    if (!value) return;
+    if (!value->is_boolean()) fail(key, "is " + described(*value) + ", expected true or false");
+    to = value->get<bool>();
+}
+
 void ObjectReader::read(const std::string& key, std::string& to) {
     const json* value = find(key);
     if (!value) return;

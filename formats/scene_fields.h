@@ -18,6 +18,7 @@ public:
     void read(const std::string& key, std::int32_t&);
     void read(const std::string& key, std::int64_t&);
     void read(const std::string& key, std::uint64_t&);
+    void read(const std::string& key, bool&);
     void read(const std::string& key, std::string&);
     void read(const std::string& key, Vec3&); // [x, y, z]
     void read(const std::string& key, std::vector<double>&);

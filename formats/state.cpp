@@ -38,6 +38,7 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             optional({"articulated_step", &state.articulated_step}),
             optional({"refresh", &state.refresh}),
             without_filling(optional(array("frozen", state.frozen, {}))),
+            without_filling(optional(array("free_bodies", state.free_bodies, {}))),
             without_filling(optional(array("sleep", state.sleep, {})))};
 }
 

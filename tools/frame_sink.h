@@ -25,6 +25,7 @@ std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, int
 struct GltfChoice {
     std::string max_joints;              // a number or "all"; empty: 1000
     std::optional<double> key_tolerance; // [deg]
+    std::size_t loose = 0;               // roots beside the trees': balls, and what breaks off
     bool given() const { return !max_joints.empty() || key_tolerance; }
 };
 void add_max_joints(CLI::App&, GltfChoice&);

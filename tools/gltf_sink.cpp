@@ -88,7 +88,7 @@ JointGroups chosen_joints(const Tree& tree, const GltfChoice& choice) {
         throw UsageError("--max-joints is 'all', which are " + std::to_string(tree.size_bodies()) +
                          " here, but a .glb can number " + std::to_string(joints_most));
     const std::size_t most = all                         ? tree.size_bodies()
-                             : choice.max_joints.empty() ? joints_default
+                             : choice.max_joints.empty() ? std::min(joints_default + choice.loose, joints_most)
                                                          : std::stoull(choice.max_joints);
     try {
         return merge_joints(tree, most);

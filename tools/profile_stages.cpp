@@ -31,18 +31,18 @@ void declare_stages(CLI::App& app, StagesOptions& o) {
 }
 
 // One timed run. Times are of the steps alone, from the second frame on.
-template <class T>
-Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& plan, std::int64_t frames) {
+template <class T> Report measure(const StagesOptions& o, const Setting& setting, Run<T>& run, std::int64_t frames) {
     using Time = std::chrono::steady_clock;
-    State<T> state = make_state(plan);
+    const Plan<T>& plan = run.plan;
+    State<T>& state = run.state;
     StageClock clock;
-    advance_frame(plan, state, setting.tree, 1, o.run.substeps);
+    advance_frame(run, setting.tree, 1, o.run.substeps);
     const auto calls_before = state.calls;
     double total = 0;
     for (std::int64_t f = 2; f < frames; ++f) {
         for (int k = 0; k < o.run.substeps; ++k) {
             const Time::time_point start = Time::now();
-            advance(plan, state, &clock);
+            advance(run.plan, state, run.world, &clock);
             total += std::chrono::duration<double>(Time::now() - start).count();
         }
         require_finite(plan, state, setting.tree, f);
@@ -50,7 +50,7 @@ Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& pl
     Report report;
     report.bodies = std::int64_t(plan.bodies);
     report.frames = frames - 2;
-    report.hash = hash_text(state_hash(plan, state));
+    report.hash = hash_text(state_hash(plan, state, run.world));
     report.simd = plan.lanes.on ? fast::target_name(plan.target) : "none";
     const double ns = 1e9 / double(report.bodies) / double(report.frames);
     double inside = 0;
@@ -66,12 +66,16 @@ Report measure(const StagesOptions& o, const Setting& setting, const Plan<T>& pl
 }
 
 template <class T> Report fastest(const StagesOptions& o, Setting setting, std::int64_t frames) {
-    const Plan<T> plan = plan_run<T>(std::move(setting), {false, false, false}, o.run);
+    const bool free = has_free_bodies(setting.scene); // then the tree is needed, and plans change on the way
+    Plan<T> plan = free ? plan_run<T>(setting, {false, false, false}, o.run)
+                        : plan_run<T>(std::move(setting), {false, false, false}, o.run);
     Progress progress(o.common, "run", o.repeat);
     Report best;
     for (int k = 0; k < o.repeat; ++k) {
         progress.at(k);
-        const Report report = measure(o, setting, plan, frames);
+        Run<T> run = start_run(free ? Plan<T>(plan) : std::move(plan), setting, o.run);
+        const Report report = measure(o, setting, run, frames);
+        if (!free) plan = std::move(run.plan);
         if (k > 0 && report.hash != best.hash)
             throw PromiseError("two runs of the same gave hash " + best.hash + " and " + report.hash);
         if (k == 0 || report.total_ns_per_body_frame < best.total_ns_per_body_frame) best = report;

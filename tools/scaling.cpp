@@ -159,7 +159,8 @@ private:
         const std::int64_t frames = choice.frames > 0 ? choice.frames : scaling_frames(bodies);
         use_threads(threads);
         State<T> state = make_state(plan);
-        advance_frame(plan, state, tree.setting.tree, 1, 1);
+        advance(plan, state);
+        require_finite(plan, state, tree.setting.tree, 1);
         double seconds = 0;
         for (std::int64_t f = 0; f < frames; ++f) {
             const Time::time_point start = Time::now();

@@ -1,13 +1,13 @@
 #include "simulation.h"
 #include "formats/scene.h"
 #include "formats/tree.h"
+#include "lib/model/fnv.h"
 #include "lib/model/place.h"
 #include "lib/stages/frozen_rule.h"
 #include "lib/stages/state_arrays.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
@@ -94,17 +94,11 @@ Solver chosen_solver(const RunOptions& o) {
     throw UsageError("--solver is '" + o.solver + "', which is unknown");
 }
 
-// FNV-1a over little-endian bytes, fields and lengths in a fixed order.
+// Fields and lengths in a fixed order.
 struct Fingerprint {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    void add(std::uint64_t bits) {
-        for (unsigned shift = 0; shift < 64; shift += 8) hash = (hash ^ ((bits >> shift) & 0xff)) * 0x100000001b3u;
-    }
-    void add(double value) {
-        std::uint64_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
-        add(bits);
-    }
+    Fnv hash;
+    void add(std::uint64_t bits) { hash.add(bits); }
+    void add(double value) { hash.add(value); }
     void add(const Vec3& v) {
         for (int k = 0; k < 3; ++k) add(v[k]);
     }
@@ -132,13 +126,16 @@ struct Fingerprint {
             add(value);
         add(w.seed);
     }
-    void add(const Pull& pull) {
-        const Selector& on = pull.on;
-        for (const std::int64_t value : {std::int64_t(on.by), std::int64_t(on.tree), on.body, std::int64_t(on.branch),
-                                         std::int64_t(on.level), std::int64_t(pull.time.size())})
+    void add(const Selector& on) {
+        for (const std::int64_t value :
+             {std::int64_t(on.by), std::int64_t(on.tree), on.body, std::int64_t(on.branch), std::int64_t(on.level)})
             add(std::uint64_t(value));
         add(on.at);
         add(on.nearest);
+    }
+    void add(const Pull& pull) {
+        add(pull.on);
+        add(std::uint64_t(pull.time.size()));
         for (const double t : pull.time) add(t);
         for (const Vec3& f : pull.force) add(f);
     }
@@ -162,8 +159,29 @@ struct Fingerprint {
         for (const double value : {s.air_density, s.stiffness_scale, s.damping_scale}) add(value);
         add(std::uint64_t(s.pose));
         add(std::uint64_t(s.joint_inertia));
-        if (!s.joint_limit) return;
-        for (const Vec3& most : {s.joint_limit->branch, s.joint_limit->leaf, s.joint_limit->fruit}) add(most);
+        if (s.joint_limit)
+            for (const Vec3& most : {s.joint_limit->branch, s.joint_limit->leaf, s.joint_limit->fruit}) add(most);
+        // Parts that came later add nothing where they are absent: older states stay good.
+        if (s.fracture) add(*s.fracture);
+        for (const Ball& ball : s.balls) add(ball);
+        if (s.contact) add(*s.contact);
+    }
+    void add(const Fracture& f) {
+        for (const double value : {f.branch, f.leaf, f.petal, f.fruit, f.strength, f.spread}) add(value);
+        add(f.seed);
+        for (const Fracture::Joint& joint : f.joints) {
+            add(joint.on);
+            add(joint.torque);
+        }
+    }
+    void add(const Ball& ball) {
+        for (const Vec3& v : {ball.position, ball.velocity, ball.angular_velocity}) add(v);
+        for (const double value : {ball.radius, ball.mass}) add(value);
+    }
+    void add(const Contact& c) {
+        for (const double value : {c.restitution, c.friction, c.penalty, c.ground_height}) add(value);
+        for (const bool flag : {c.model == ContactModel::penalty, c.trees, c.leaves, c.ground})
+            add(std::uint64_t(flag));
     }
 };
 
@@ -178,6 +196,11 @@ template <class T> bool finite(const T& value) {
 
 std::string body_text(const Tree& tree, std::size_t i) {
     return "body " + std::to_string(i) + " (branch " + std::to_string(tree.branch[i]) + ")";
+}
+
+template <class T> std::string free_text(const World<T>& world, std::size_t k) {
+    if (k < world.balls) return "ball " + std::to_string(k);
+    return "what fell with " + body_text(*world.tree, std::size_t(world.free[k].parts.front().body));
 }
 
 // The stage before the spring that writes an array (state.h); visit_arrays names them in the order of the stages.
@@ -390,7 +413,7 @@ std::uint64_t fingerprint(const Setting& setting) {
     Fingerprint f;
     f.add(setting.tree);
     f.add(setting.scene);
-    return f.hash;
+    return f.hash.value();
 }
 
 namespace {
@@ -421,12 +444,25 @@ template <class T> Plan<T> plan_run(Setting&& setting, const Wishes& wishes, con
     return plan_of<T>(std::move(setting.tree), setting, wishes, o);
 }
 
+template <class T> Run<T> start_run(Plan<T> plan, const Setting& setting, const RunOptions& o) {
+    Run<T> run{std::move(plan), {}, {}};
+    run.state = make_state(run.plan);
+    try {
+        run.world = make_world(run.plan, setting.tree, setting.ranges);
+    } catch (const std::out_of_range& error) {
+        throw InputError(input_name(o.input), error.what());
+    }
+    return run;
+}
+
 template <class T>
-void advance_frame(const Plan<T>& plan, State<T>& state, const Tree& tree, std::int64_t frame, int substeps,
-                   StageClock* clock) {
+void advance_frame(Run<T>& run, const Tree& tree, std::int64_t frame, int substeps, StageClock* clock) {
     for (int k = 0; k < substeps; ++k) {
-        advance(plan, state, clock);
-        require_finite(plan, state, tree, frame);
+        advance(run.plan, run.state, run.world, clock);
+        require_finite(run.plan, run.state, tree, frame);
+        if (const std::optional<std::size_t> free = first_non_finite(run.world))
+            throw PromiseError("the simulation became non-finite in frame " + std::to_string(frame) +
+                               ": stage contacts, " + free_text(run.world, *free));
     }
 }
 
@@ -474,8 +510,10 @@ template Plan<float> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template Plan<double> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template Plan<float> plan_run(Setting&&, const Wishes&, const RunOptions&);
 template Plan<double> plan_run(Setting&&, const Wishes&, const RunOptions&);
-template void advance_frame(const Plan<float>&, State<float>&, const Tree&, std::int64_t, int, StageClock*);
-template void advance_frame(const Plan<double>&, State<double>&, const Tree&, std::int64_t, int, StageClock*);
+template Run<float> start_run(Plan<float>, const Setting&, const RunOptions&);
+template Run<double> start_run(Plan<double>, const Setting&, const RunOptions&);
+template void advance_frame(Run<float>&, const Tree&, std::int64_t, int, StageClock*);
+template void advance_frame(Run<double>&, const Tree&, std::int64_t, int, StageClock*);
 template void require_finite(const Plan<float>&, State<float>&, const Tree&, std::int64_t);
 template void require_finite(const Plan<double>&, State<double>&, const Tree&, std::int64_t);
 template void fill_frame(const State<float>&, std::int64_t, double, const MotionFields&, MotionFrame&);

@@ -1,6 +1,7 @@
 // simulation.h: what treesim and treeprofile share: the options of a run, its trees and scene, and one run as frames.
 #pragma once
 #include "common.h"
+#include "lib/free/world.h"
 #include "lib/model/motion.h"
 #include "lib/model/scene.h"
 #include "lib/reference/advance.h"
@@ -76,10 +77,18 @@ std::uint64_t fingerprint(const Setting&);
 template <class T> Plan<T> plan_run(const Setting&, const Wishes&, const RunOptions&);
 template <class T> Plan<T> plan_run(Setting&&, const Wishes&, const RunOptions&);
 
+// A run: trees, and what is free (World::on).
+template <class T> struct Run {
+    Plan<T> plan;
+    State<T> state;
+    World<T> world;
+};
+// At the start. Keeps a reference to the setting's tree where the scene has something free.
+template <class T> Run<T> start_run(Plan<T> plan, const Setting&, const RunOptions&);
+
 // Takes the steps of one frame. A state that became non-finite throws PromiseError with frame, stage and body.
 template <class T>
-void advance_frame(const Plan<T>&, State<T>&, const Tree&, std::int64_t frame, int substeps,
-                   StageClock* clock = nullptr);
+void advance_frame(Run<T>&, const Tree&, std::int64_t frame, int substeps, StageClock* clock = nullptr);
 
 // Throws that PromiseError where theta or theta_dot is non-finite.
 template <class T> void require_finite(const Plan<T>&, State<T>&, const Tree&, std::int64_t frame);

@@ -5,9 +5,11 @@
 #include "frame_queue.h"
 #include "frame_sink.h"
 #include "lib/fast/sleep.h"
+#include "lib/free/shown_tree.h"
 #include "lib/stages/frozen.h"
 #include "simulation.h"
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -24,7 +26,7 @@ struct Options {
     std::string fields, save_state, resume;
     GltfChoice gltf;
     std::optional<int> sides;
-    bool explain = false, hash = false, report_error = false, no_output = false;
+    bool explain = false, hash = false, report_error = false, report_cost = false, no_output = false;
 };
 
 const ToolInfo info = {
@@ -58,6 +60,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--report-error", o.report_error,
                  "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at "
                  "twice the step beside this one (half the time more); with --solver coupled");
+    app.add_flag("--report-cost", o.report_cost,
+                 "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
     app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
         ->option_text("FILE")
         ->check(file_name());
@@ -151,7 +155,9 @@ void visit_carried(const Plan<T>& plan, StateType& state, Saved& saved, Visit&& 
     }
 }
 
-template <class T> void restore(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state) {
+template <class T> void restore(const Options& o, const Setting& setting, Run<T>& run) {
+    Plan<T>& plan = run.plan;
+    State<T>& state = run.state;
     const SavedState saved = read_state(read_input(o.resume), input_name(o.resume));
     const auto refuse = [&](const std::string& field, const std::string& found, const std::string& expected) {
         if (found != expected)
@@ -172,6 +178,11 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
         throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
                                                    ", but this run's tree and scene have " +
                                                    hash_text(setting.fingerprint));
+    try {
+        restore_world(plan, state, run.world, saved.free_bodies);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(input_name(o.resume), std::string("/free_bodies: ") + error.what());
+    }
     present(plan, state); // its arrays
     visit_carried(plan, state, saved, [](std::vector<Vector3<T>>& to, const std::vector<Vec3>& from) {
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i].template cast<T>();
@@ -191,8 +202,9 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
     }
 }
 
-template <class T>
-void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state, std::int64_t frame) {
+template <class T> void save(const Options& o, const Setting& setting, Run<T>& run, std::int64_t frame) {
+    const Plan<T>& plan = run.plan;
+    State<T>& state = run.state;
     present(plan, state);
     SavedState saved;
     saved.frame = frame;
@@ -206,6 +218,7 @@ void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);
     saved.refresh = plan.refresh;
+    saved.free_bodies = saved_world(run.world);
     saved.frozen = saved_frozen(plan, state);
     visit_carried(plan, state, saved, [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
         for (const Vector3<T>& v : from) to.push_back(v.template cast<double>());
@@ -215,16 +228,19 @@ void save(const Options& o, const Setting& setting, const Plan<T>& plan, State<T
     output.finish();
 }
 
-std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, std::size_t bodies, const std::string& format,
-                                     const MotionFields& fields) {
+// shown: the tree that meshes are made of, the balls with it.
+std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, const Tree& shown, std::size_t bodies,
+                                     const std::string& format, const MotionFields& fields) {
     if (o.no_output) return nullptr;
-    if (format == "obj") return obj_sink(o.common.output, setting.tree, o.sides.value_or(8));
+    if (format == "obj") return obj_sink(o.common.output, shown, o.sides.value_or(8));
     const std::string source = with_command_line(setting.source, o.common);
     if (format == "glb")
-        return gltf_sink(o.common.output, setting.tree, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
+        return gltf_sink(o.common.output, shown, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
     MotionHeader header;
     header.fps = o.run.fps;
-    header.bodies = std::int64_t(bodies);
+    header.balls = std::int64_t(setting.scene.balls.size());
+    header.bodies = std::int64_t(bodies) + header.balls;
+    header.events = has_free_bodies(setting.scene);
     header.fields = fields;
     header.name = setting.tree.name;
     header.source = source;
@@ -262,10 +278,39 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
                         " inner steps missed the tolerance: this is no reference solution");
 }
 
+template <class T> void note_world(const World<T>& world, std::vector<std::string>& notes) {
+    if (!world.on()) return;
+    const WorldCounts& counts = world.counts;
+    std::string broke;
+    constexpr std::array<const char*, 4> kinds{"branches", "leaves", "fruit", "petals"};
+    static_assert(std::size_t(Kind::branch) == 0 && std::size_t(Kind::leaf) == 1 && std::size_t(Kind::fruit) == 2 &&
+                  std::size_t(Kind::petal) == 3);
+    std::uint64_t all = 0;
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        all += counts.broke[k];
+        if (counts.broke[k] > 0)
+            broke += (broke.empty() ? "" : ", ") + std::to_string(counts.broke[k]) + " " + kinds[k];
+    }
+    std::ostringstream text;
+    text.precision(3);
+    if (!world.tree) return;
+    text << all << " joints broke" << (broke.empty() ? "" : " (" + broke + ")") << ", " << counts.landed
+         << " leaves came to the ground, " << counts.hits << " hits";
+    notes.push_back(text.str());
+    if (world.contact.model != ContactModel::penalty) return;
+    text.str("");
+    text << "the paper's pair of penalty and impulse left " << counts.imbalance
+         << " N s of momentum out of balance (/contact/model)";
+    notes.push_back(text.str());
+}
+
 // Frames first..last into the sink; what ended the run early is thrown after the frames before it are safe.
 template <class T>
-std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>& plan, State<T>& state, FrameSink* sink,
-                        ErrorEstimate<T>* estimate, const MotionFields& fields, std::int64_t first, std::int64_t last) {
+std::int64_t run_frames(const Options& o, const Setting& setting, Run<T>& run, FrameSink* sink,
+                        ErrorEstimate<T>* estimate, const MotionFields& fields, std::int64_t first, std::int64_t last,
+                        std::chrono::duration<double, std::milli>& cost) {
+    const Plan<T>& plan = run.plan;
+    State<T>& state = run.state;
     std::optional<FrameQueue> queue;
     if (sink) queue.emplace(*sink, o.common.threads > 1 ? 2 : 1);
     Progress progress(o.common, "frame", last - first + 1);
@@ -273,14 +318,19 @@ std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>&
     try {
         for (std::int64_t f = first; f <= last; ++f) {
             if (interrupted()) throw Interrupted("interrupted after frame " + std::to_string(done));
-            if (f > 0) advance_frame(plan, state, setting.tree, f, o.run.substeps);
+            run.world.events = {};
+            const auto start = std::chrono::steady_clock::now();
+            if (f > 0) advance_frame(run, setting.tree, f, o.run.substeps);
+            cost += std::chrono::steady_clock::now() - start;
             if (f > 0 && estimate) {
                 present(plan, state);
                 estimate->follow(state);
             }
             if (queue) {
                 present(plan, state);
-                fill_frame(state, f, o.run.fps, fields, queue->next());
+                MotionFrame& frame = queue->next();
+                fill_frame(state, f, o.run.fps, fields, frame);
+                place_free_bodies(run.world, frame);
                 queue->push();
             }
             done = f;
@@ -291,49 +341,98 @@ std::int64_t run_frames(const Options& o, const Setting& setting, const Plan<T>&
         throw;
     } catch (const Interrupted&) {
         if (queue) queue->finish();
-        if (!o.save_state.empty() && done >= 0) save(o, setting, plan, state, done);
+        if (!o.save_state.empty() && done >= 0) save(o, setting, run, done);
         throw;
     }
     if (queue) queue->finish();
     return done;
 }
 
+template <class T> std::string cost_line(const Plan<T>& plan, const RunOptions& o, double ms, std::int64_t frames) {
+    std::ostringstream text;
+    text.precision(4);
+    text << "cost " << plan.bodies << " bodies, " << o.substeps << (o.substeps == 1 ? " step" : " steps")
+         << " a frame, ";
+    if (frames > 0)
+        text << ms / double(frames) << " ms a frame";
+    else
+        text << "no frame";
+    text << "\n";
+    return text.str();
+}
+
+// The first and the last, from the start or from a saved state.
+template <class T>
+std::pair<std::int64_t, std::int64_t> frames_to_make(const Options& o, const Setting& setting, Run<T>& run,
+                                                     std::int64_t frames) {
+    if (o.resume.empty()) return {0, frames - 1};
+    restore(o, setting, run);
+    const std::int64_t first = run.state.step / o.run.substeps + 1;
+    // --seconds counts the start, which is not written again
+    return {first, frames - 1 + first - (o.run.frames ? 0 : 1)};
+}
+
+// A mesh has to know from its first frame on which of its parts will come off: the run is made once before, without output. It is the
+// same again, bit by bit.
+template <class T>
+std::vector<std::uint32_t> what_breaks(const Options& o, const Setting& setting, Run<T> run, std::int64_t frames) {
+    const auto [first, last] = frames_to_make(o, setting, run, frames);
+    Progress progress(o.common, "frame (what breaks)", last - first + 1);
+    for (std::int64_t f = std::max<std::int64_t>(first, 1); f <= last; ++f) {
+        if (interrupted()) throw Interrupted("interrupted before the first frame, while finding out what breaks");
+        advance_frame(run, setting.tree, f, o.run.substeps);
+        progress.at(f - first + 1);
+    }
+    std::vector<std::uint32_t> broken = run.world.broken;
+    std::sort(broken.begin(), broken.end());
+    return broken;
+}
+
 template <class T> void simulate(Options& o, Setting setting, const std::string& format) {
     const MotionFields fields = chosen_fields(o);
     const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error};
-    const bool needs_tree = o.report_error || format == "obj" || format == "glb";
+    const bool needs_tree = o.report_error || format == "obj" || format == "glb" || has_free_bodies(setting.scene);
     if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
-    const Plan<T> plan =
-        needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
+    Plan<T> planned = needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
+    const std::int64_t frames = frames_of(o.run, seconds_default);
+    const bool mesh = format == "obj" || format == "glb";
+    std::vector<std::uint32_t> broken;
+    if (mesh && setting.scene.fracture)
+        broken = what_breaks(o, setting, start_run(Plan<T>(planned), setting, o.run), frames);
+    Run<T> run = start_run(std::move(planned), setting, o.run);
+    const Plan<T>& plan = run.plan;
+    State<T>& state = run.state;
     if (o.explain) std::cerr << explanation(plan, o.run);
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
     if (!o.run.refresh.empty() && o.run.refresh != "always" && plan.refresh == 0)
         o.common.notes.push_back("--refresh: nothing is kept in this run: " + plan.refresh_reason);
-    State<T> state = make_state(plan);
-    std::int64_t first = 0, last = frames_of(o.run, seconds_default) - 1;
-    if (!o.resume.empty()) {
-        restore(o, setting, plan, state);
-        first = state.step / o.run.substeps + 1;
-        last += first - (o.run.frames ? 0 : 1); // --seconds counts the start, which is not written again
-    }
+    const auto [first, last] = frames_to_make(o, setting, run, frames);
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
     interrupt_at_boundary();
-    const std::unique_ptr<FrameSink> sink = open_sink(o, setting, plan.bodies, format, fields);
+    const bool changed = mesh && (!broken.empty() || !setting.scene.balls.empty());
+    const Tree own = changed ? shown_tree(setting.tree, broken, setting.scene.balls) : Tree();
+    const Tree& shown = changed ? own : setting.tree;
+    o.gltf.loose = broken.size() + setting.scene.balls.size();
+    const std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, plan.bodies, format, fields);
+    std::chrono::duration<double, std::milli> cost{};
     const std::int64_t done =
-        run_frames(o, setting, plan, state, sink.get(), estimate ? &*estimate : nullptr, fields, first, last);
+        run_frames(o, setting, run, sink.get(), estimate ? &*estimate : nullptr, fields, first, last, cost);
+    if (o.report_cost) std::cerr << cost_line(plan, o.run, cost.count(), done - std::max<std::int64_t>(first, 1) + 1);
     if (o.explain) { // before the state is saved, which takes arrays of its own
         for (std::size_t k = 0; k < stage_count; ++k)
             std::cerr << "calls " << stage_name(Stage(k)) << " " << state.calls[k] << "\n";
         std::cerr << "allocated " << state.bytes() << " bytes\n";
+        if (run.world.on()) std::cerr << "free bodies " << run.world.bytes() << " bytes\n";
     }
-    if (!o.save_state.empty()) save(o, setting, plan, state, done);
-    if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state)) << "\n";
+    if (!o.save_state.empty()) save(o, setting, run, done);
+    if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state, run.world)) << "\n";
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(plan, state.flags, state.step - started, o.common.notes);
+    note_world(run.world, o.common.notes);
 }
 
 void work(Options& o) {

@@ -69,6 +69,11 @@ template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double t
         b.slope_F -= change;
         b.slope_N -= arm.cross(change);
     }
+    for (const Load<T>& load : state.loads) {
+        CoupledBody<T>& b = state.coupled[load.body];
+        b.F -= load.force;
+        b.N -= Vector3<T>(b.R * load.point_b).cross(load.force);
+    }
 }
 
 } // namespace

@@ -31,13 +31,12 @@ template <class T> Vector3<T> joint_spin(const State<T>& s, std::size_t i) {
 
 // The pulls' work, from their points at the start (sign 1) to those at the end (-1), as seen from the ground.
 template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, double time, double sign) {
-    for (const PlannedPull<T>& pull : plan.pulls) {
-        Vector3<T> point = s.x_w[pull.body] + s.R_wb[pull.body] * pull.point_b;
-        const GroundStep<T>* ground = ground_step_of(plan, s, pull.body);
+    visit_pushes(plan, s, time + plan.dt / 2, [&](std::size_t body, const Vector3<T>& point_b, const Vector3<T>& f) {
+        Vector3<T> point = s.x_w[body] + s.R_wb[body] * point_b;
+        const GroundStep<T>* ground = ground_step_of(plan, s, body);
         if (ground && sign < 0) point -= carried_by(*ground, T(plan.dt));
-        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time + plan.dt / 2);
-        s.account[s.guard[pull.body].tree].gained += sign * f.dot(point.template cast<double>());
-    }
+        s.account[s.guard[body].tree].gained += sign * f.template cast<double>().dot(point.template cast<double>());
+    });
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "analytic_lanes_step.h"
 #include "../stages/frozen.h"
+#include "clear_lanes.h"
 #include "frozen_lanes.h"
 #include "lane_tables.h"
 #include "targets.h"
@@ -7,12 +8,6 @@
 
 namespace bough::fast {
 namespace {
-
-// A pad, a body that is none, goes with its parent and hands on as good as nothing: an inertia [kg m^2] whose eigenvalues can be
-// found. Its spring is neither soft nor stiff over any step, so that no kernel takes a case for it that the bodies beside it do not
-// need; nothing bends it, and its motion stays 0.
-template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
-template <class T> constexpr T pad_rate2 = T(1e4); // [1/s^2] K over inertia
 
 template <class T> bool shorten(T* theta) {
     Vector3<T> t(theta[0], theta[1], theta[2]);
@@ -22,7 +17,7 @@ template <class T> bool shorten(T* theta) {
 }
 
 template <class T> int record_inward(const Plan<T>& plan) {
-    return analytic::inward_count(plan.wind, !plan.pulls.empty());
+    return analytic::inward_count(plan.wind, plan.pushes());
 }
 
 template <class T> AnalyticRows<T> rows_of(const Plan<T>& plan, State<T>& state) {
@@ -36,7 +31,7 @@ template <class T> AnalyticRows<T> rows_of(const Plan<T>& plan, State<T>& state)
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const AnalyticRows<T>& rows) {
-    const AnalyticLoads loads{plan.wind, !plan.pulls.empty(), plan.gravity};
+    const AnalyticLoads loads{plan.wind, plan.pushes(), plan.gravity};
     const AnalyticSweeps<T> sweeps =
         plan.refresh > 0 ? frozen_sweeps_for<T>(plan.target, loads) : analytic_sweeps_for<T>(plan.target, loads);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
@@ -70,11 +65,7 @@ template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lane
         const Slot<T> row(lanes.constants, count, slot);
         const std::int32_t body = lanes.layout.body[slot];
         if (body < 0) {
-            row.put(analytic::constant::R_pj, T(1));
-            row.put(analytic::constant::inertia_joint, Matrix3<T>(pad_inertia<T> * Matrix3<T>::Identity()));
-            row.put(analytic::constant::K, Vector3<T>(Vector3<T>::Constant(pad_inertia<T> * pad_rate2<T>)));
-            row.put(analytic::constant::bend, T(1));
-            row.put(analytic::constant::twist, T(1));
+            put_analytic_pad(row);
             continue;
         }
         const auto i = std::size_t(body);

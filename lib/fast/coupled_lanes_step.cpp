@@ -87,9 +87,10 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     rows.eta = T((-2 * h * pole.c / pole.p).real());
     if (plan.wind)
         put(rows.wind_change, wind_velocity(*plan.scene.wind, time + h) - wind_velocity(*plan.scene.wind, time));
-    for (std::size_t n = 0; n < lanes.pulls.size(); ++n) {
-        const Pull& pull = plan.scene.pulls[plan.pulls[plan.lanes.pull[n]].source];
-        put(lanes.pulls[n].change, pull_force(pull, time + h) - pull_force(pull, time));
+    for (PullOnLane<T>& on : lanes.pulls) {
+        if (on.source == no_source) continue;
+        const Pull& pull = plan.scene.pulls[on.source];
+        put(on.change, pull_force(pull, time + h) - pull_force(pull, time));
     }
     rows.shorten = shorten<T>;
     place_grounds(plan, state, time, slope);

@@ -22,14 +22,46 @@ template <class T> void resize_records(const Layout& layout, RowVector<T>& recor
     records.resize(layout.joints * record(count, Row<T>::lanes) / Row<T>::lanes);
 }
 
+namespace {
+
+template <class T> PullOnLane<T> on_lane(const Plan<T>& plan, std::size_t body, const Vector3<T>& point_b) {
+    const std::size_t slot = plan.lanes.layout.slot[body];
+    PullOnLane<T> pull{std::uint32_t(slot / Row<T>::lanes), std::uint32_t(slot % Row<T>::lanes), {}, {}, {}, no_source};
+    for (int j = 0; j < 3; ++j) pull.point[j] = point_b[j];
+    return pull;
+}
+
+// The pulls and the loads of this step, rising by row; what stands of the last step's loads goes.
+template <class T> void place_loads(const Plan<T>& plan, State<T>& state) {
+    Lanes<T>& lanes = state.lanes;
+    const std::size_t before = lanes.pulls.size();
+    std::erase_if(lanes.pulls, [&](const PullOnLane<T>& pull) {
+        lanes.pull_of_row[pull.row] = -1;
+        return pull.source == no_source;
+    });
+    if (before == 0 && state.loads.empty()) return;
+    for (const Load<T>& load : state.loads) {
+        PullOnLane<T> pull = on_lane(plan, load.body, load.point_b);
+        put(pull.force, load.force.template cast<double>());
+        lanes.pulls.push_back(pull);
+    }
+    std::stable_sort(lanes.pulls.begin(), lanes.pulls.end(),
+                     [](const PullOnLane<T>& a, const PullOnLane<T>& b) { return a.row < b.row; });
+    for (std::size_t k = lanes.pulls.size(); k-- > 0;) lanes.pull_of_row[lanes.pulls[k].row] = std::int32_t(k);
+}
+
+} // namespace
+
 template <class T> void pack_pulls(const Plan<T>& plan, State<T>& state) {
     state.lanes.pulls.clear();
     for (std::size_t k : plan.lanes.pull) {
-        const std::size_t slot = plan.lanes.layout.slot[plan.pulls[k].body];
-        PullOnLane<T> pull{std::uint32_t(slot / Row<T>::lanes), std::uint32_t(slot % Row<T>::lanes), {}, {}, {}};
-        for (int j = 0; j < 3; ++j) pull.point[j] = plan.pulls[k].point_b[j];
+        PullOnLane<T> pull = on_lane(plan, plan.pulls[k].body, plan.pulls[k].point_b);
+        pull.source = plan.pulls[k].source;
         state.lanes.pulls.push_back(pull);
     }
+    if (!plan.contact) return;
+    state.lanes.pull_of_row = plan.lanes.pull_of_row;
+    state.lanes.pull_of_row.resize(plan.lanes.layout.rows, -1);
 }
 
 template <class T> void place_tables(const Plan<T>& plan, State<T>& state, double middle, SweepRows<T>& rows) {
@@ -51,12 +83,13 @@ template <class T> void place_tables(const Plan<T>& plan, State<T>& state, doubl
         rows.profile_entries = plan.lanes.profile.size();
         rows.per_metre = plan.lanes.per_metre;
     }
+    if (plan.contact) place_loads(plan, state);
     if (lanes.pulls.empty()) return;
-    rows.pull_of_row = plan.lanes.pull_of_row.data();
+    rows.pull_of_row = plan.contact ? lanes.pull_of_row.data() : plan.lanes.pull_of_row.data();
     rows.pulls = lanes.pulls.data();
     rows.pull_count = lanes.pulls.size();
-    for (std::size_t k = 0; k < lanes.pulls.size(); ++k)
-        put(lanes.pulls[k].force, pull_force(plan.scene.pulls[plan.pulls[plan.lanes.pull[k]].source], middle));
+    for (PullOnLane<T>& pull : lanes.pulls)
+        if (pull.source != no_source) put(pull.force, pull_force(plan.scene.pulls[pull.source], middle));
 }
 
 template <class T> void place_block(const Plan<T>& plan, State<T>& state, const Block& block, CoupledRows<T>& rows) {

@@ -88,6 +88,7 @@ template <class T> struct Lanes {
     RowVector<T> outward, inward, accelerated; // a record a joint
     std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
     std::vector<PullOnLane<T>> pulls;
+    std::vector<std::int32_t> pull_of_row; // the plan's, and of State::loads, where there may be some
     std::vector<SweepFlags> flags;     // one a block
     std::vector<std::uint8_t> watched; // CoupledRows
     RowVector<T> energy_records, energy_sums, energy_fast,

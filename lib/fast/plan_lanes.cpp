@@ -2,6 +2,7 @@
 #include "../coupled/own_inertia.h"
 #include "../stages/wind.h"
 #include "analytic_lanes_step.h"
+#include "clear_lanes.h"
 #include "lane_tables.h"
 #include <algorithm>
 
@@ -14,10 +15,7 @@ template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
         const Slot<T> row(lanes.constants, constant::count, slot);
         const std::int32_t body = lanes.layout.body[slot];
         if (body < 0) {
-            row.put(constant::R_pj, T(1));
-            // A pad goes with its parent: no mass, no inertia, a spring never bent. What it hands on is 0, and its motion, which no
-            // saved state holds, stays 0.
-            row.put(constant::K, Vector3<T>(Vector3<T>::Ones()));
+            put_pad(row);
             continue;
         }
         const auto i = std::size_t(body);

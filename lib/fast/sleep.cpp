@@ -21,6 +21,7 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
     if (scene.wind && scene.wind->turbulence > 0) return "/wind/turbulence";
     if (scene.wind && scene.wind->gust_factor > 1) return "/wind/gust_factor";
     if (!scene.root_motion.empty()) return "/root_motion";
+    if (has_free_bodies(scene)) return scene.fracture ? "/fracture" : "/balls"; // whatever breaks or hits would have to wake it
     return {};
 }
 

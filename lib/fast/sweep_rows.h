@@ -28,10 +28,13 @@ constexpr std::size_t record(int count, int lanes) {
     return std::size_t((count + lanes - 1) / lanes * lanes);
 }
 
+constexpr std::size_t no_source = ~std::size_t(0);
+
 template <class T> struct PullOnLane {
     std::uint32_t row, lane;
     T point[3];            // [m] body frame
     T force[3], change[3]; // [N] at the step's middle, and (coupled) what it changes by over the step
+    std::size_t source;    // index into Scene::pulls, or no_source: a contact's load
 };
 
 template <class T> struct SweepRows {

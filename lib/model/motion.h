@@ -15,9 +15,28 @@ struct MotionFields {
     bool angles = false;   // theta, theta_dot
 };
 
+// What happened in the steps that led to a frame, arrays over events. Bodies as in the motion: the trees', then the balls.
+struct MotionEvents {
+    // broke   the joint of `body`; value: its spring's torque [N m]
+    // hit     `body`, a ball or the body whose joint broke, met `on`, -1: the ground; value: the impulse [N s]
+    // landed  `body`, a leaf or petal, came to the ground; value: its speed [m/s]
+    std::vector<std::string> what;
+    std::vector<std::int32_t> body, on; // on: -1 where there is none
+    std::vector<double> value;
+
+    void add(const char* event, std::int64_t of, std::int64_t other, double number) {
+        what.push_back(event);
+        body.push_back(std::int32_t(of));
+        on.push_back(std::int32_t(other));
+        value.push_back(number);
+    }
+};
+
 struct MotionHeader {
     double fps = 30;
-    std::int64_t bodies = 0;
+    std::int64_t bodies = 0;         // of the trees and the balls
+    std::int64_t balls = 0;  // how many of them, the last ones
+    bool events = false;     // frames list what broke, hit and landed
     MotionFields fields;
     std::string name;   // the tree's
     std::string source; // command lines that made it
@@ -33,6 +52,7 @@ struct MotionFrame {
     std::vector<Vec3> torque;           // [N m] of the joint's spring and damper on the body, joint frame
     std::vector<Vec3> theta;            // [rad] joint frame
     std::vector<Vec3> theta_dot;        // [rad/s] joint frame
+    MotionEvents events;
 };
 
 struct Motion {
@@ -57,6 +77,7 @@ struct SavedState {
     double articulated_step = 0;                      // [s] State::articulated_step
     double refresh = 0;                               // analytic: Plan::refresh
     std::vector<double> frozen;                       // analytic with it: saved_frozen of stages/frozen.h
+    std::vector<double> free_bodies;                  // saved_world of free/world.h; empty where nothing is free
     std::vector<double> sleep;                        // saved_sleep of fast/sleep.h; empty where nothing has settled
     std::string source;
 };

@@ -4,6 +4,7 @@
 #include "math.h"
 #include "tree.h"
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,6 +80,48 @@ enum class Pose : std::uint8_t {
     rest     // the drawn tree is unloaded; the run starts from it
 };
 
+// A joint breaks when the torque of its spring and damper, |T^T K (theta + beta theta_dot)|, exceeds its threshold; what it carried falls
+// (free/fracture.h). Infinite: never.
+struct Fracture {
+    static constexpr double never = std::numeric_limits<double>::infinity();
+    double branch = never, leaf = never, petal = never,
+           fruit = never; // [N m] by the kind of the body that the joint carries
+    double strength =
+        never; // [Pa] bending stress that wood stands: a branch's joint of radius r breaks at strength pi r^3 / 4 too
+    double spread = 0; // [1] each joint's threshold is times e^(spread z), z of a standard normal distribution by seed
+    std::uint64_t seed = 1;
+    struct Joint { // thresholds of single bodies, which come before the others
+        Selector on;
+        double torque = never; // [N m]
+    };
+    std::vector<Joint> joints;
+};
+
+// A free ball.
+struct Ball {
+    Vec3 position = Vec3::Zero();         // [m] of its centre
+    Vec3 velocity = Vec3::Zero();         // [m/s]
+    Vec3 angular_velocity = Vec3::Zero(); // [rad/s]
+    double radius = 0.1;                  // [m]
+    double mass = 1;                      // [kg]
+};
+
+// How free bodies meet trees and ground (free/contact.h).
+enum class ContactModel : std::uint8_t {
+    impulse, // one impulse a contact, equal and opposite
+    penalty  // the paper's pair: a penalty force on the tree, an impulse of an infinite mass on the free body
+};
+struct Contact {
+    ContactModel model = ContactModel::impulse;
+    double restitution = 0.2; // [1] 0..1
+    double friction = 0.5;    // [1] Coulomb's
+    double penalty = 50;      // [N s/m] zeta of the paper's pair
+    bool trees = true;        // what is free meets branches and fruit
+    bool leaves = false;      // ... leaves and petals too, and what falls of these meets trees
+    bool ground = true;       // there is one
+    double ground_height = 0; // [m]
+};
+
 // Which inertia a joint's oscillator has (spring.h).
 enum class JointInertia : std::uint8_t {
     branch, // scaled so that the branch's first mode keeps its frequency under any segmentation
@@ -103,6 +146,9 @@ struct Scene {
     double stiffness_scale = 1; // [1] multiplies every K
     double damping_scale = 1;   // [1] multiplies every beta
     std::optional<JointLimit> joint_limit;
+    std::optional<Fracture> fracture;
+    std::vector<Ball> balls;
+    std::optional<Contact> contact; // absent: its defaults, where something is free
 };
 
 // The first broken rule, or none. O(keys).

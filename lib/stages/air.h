@@ -6,10 +6,27 @@
 //   fruit        |u| u                                 (22)
 //   leaf, petal  |u| (u.n) n                           (23), first term
 #pragma once
+#include "../model/body_shape.h"
 #include "../model/math.h"
 #include "../model/tree.h"
 
 namespace bough {
+
+constexpr double cylinder_drag = 1.2, sphere_drag = 0.47, plate_drag = 1.2; // C_d; kappa is half of each
+
+// kappa rho A [kg/m]. size: as in Tree.
+inline double drag_area(Kind kind, const Vec3& size, double air_density) {
+    switch (kind) {
+    case Kind::leaf:
+    case Kind::petal:
+        return plate_drag / 2 * air_density * leaf_area(size[0], size[1]);
+    case Kind::fruit:
+        return sphere_drag / 2 * air_density * sphere_section(size[1]);
+    case Kind::branch:
+        break;
+    }
+    return cylinder_drag / 2 * air_density * frustum_section(size[0], size[1], size[2]);
+}
 
 template <class T> struct AirForce {
     Vector3<T> force; // [m^2/s^2] over kappa rho A

@@ -51,12 +51,11 @@ template <class T> void external_forces(const Plan<T>& plan, State<T>& state, do
         std::fill(state.f_w.begin(), state.f_w.end(), Vector3<T>::Zero());
         std::fill(state.tau_w.begin(), state.tau_w.end(), Vector3<T>::Zero());
     }
-    for (const PlannedPull<T>& pull : plan.pulls) {
-        const Vector3<T> f = pull_force(plan.scene.pulls[pull.source], time).template cast<T>();
-        const Vector3<T> arm = state.R_wb[pull.body] * pull.point_b;
-        state.f_w[pull.body] += f;
-        state.tau_w[pull.body] += arm.cross(f);
-    }
+    visit_pushes(plan, state, time, [&](std::size_t body, const Vector3<T>& point_b, const Vector3<T>& f) {
+        const Vector3<T> arm = state.R_wb[body] * point_b;
+        state.f_w[body] += f;
+        state.tau_w[body] += arm.cross(f);
+    });
 }
 
 template void external_forces(const Plan<float>&, State<float>&, double);

@@ -20,7 +20,18 @@ namespace bough {
 
 template <class T> void external_forces(const Plan<T>&, State<T>&, double time);
 
+// visit(body, point in its frame [m], force [N]) of each pull at `time` and of each load of a contact.
+template <class T, class Visit>
+void visit_pushes(const Plan<T>& plan, const State<T>& state, double time, Visit&& visit);
+
 // A pull's force [N] at time t: linear between its keys, zero outside them.
 Vec3 pull_force(const Pull&, double t);
+
+template <class T, class Visit>
+void visit_pushes(const Plan<T>& plan, const State<T>& state, double time, Visit&& visit) {
+    for (const PlannedPull<T>& pull : plan.pulls)
+        visit(pull.body, pull.point_b, Vector3<T>(pull_force(plan.scene.pulls[pull.source], time).template cast<T>()));
+    for (const Load<T>& load : state.loads) visit(load.body, load.point_b, load.force);
+}
 
 } // namespace bough

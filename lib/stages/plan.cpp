@@ -1,8 +1,8 @@
 #include "plan.h"
 #include "../fast/plan_lanes.h"
 #include "../fast/sleep.h"
-#include "../model/body_shape.h"
 #include "../model/branch_mode.h"
+#include "air.h"
 #include "pose.h"
 #include "state_arrays.h"
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace bough {
 
 const char* stage_name(Stage stage) {
     static constexpr const char* names[stage_count] = {
-        "wind_field",  "external_forces", "composite",  "drag",      "root_motion", "refresh",     "spring",
-        "articulated", "midpoint",        "body_loads", "resolvent", "lanes",       "state_update"};
+        "wind_field", "external_forces", "composite", "drag",  "root_motion",  "refresh",     "spring",   "articulated",
+        "midpoint",   "body_loads",      "resolvent", "lanes", "state_update", "free_flight", "contacts", "fracture"};
     return names[std::size_t(stage)];
 }
 
@@ -26,22 +26,6 @@ const char* solver_name(Solver solver) {
 }
 
 namespace {
-
-constexpr double cylinder_drag = 1.2, sphere_drag = 0.47, plate_drag = 1.2; // C_d; kappa is half of each
-
-double drag_area(const Tree& tree, std::size_t i, double air_density) {
-    const Vec3& size = tree.size[i];
-    switch (tree.kind[i]) {
-    case Kind::leaf:
-    case Kind::petal:
-        return plate_drag / 2 * air_density * leaf_area(size[0], size[1]);
-    case Kind::fruit:
-        return sphere_drag / 2 * air_density * sphere_section(size[1]);
-    case Kind::branch:
-        break;
-    }
-    return cylinder_drag / 2 * air_density * frustum_section(size[0], size[1], size[2]);
-}
 
 // Gives an array back. own: the tree that was handed over; null: it is somebody else's, and stays.
 template <class A> void give_back(A& array) {
@@ -140,7 +124,8 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
 
 template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree, const Scene& scene) {
     plan.drag_area.reserve(plan.bodies);
-    for (std::size_t i = 0; i < plan.bodies; ++i) plan.drag_area.push_back(T(drag_area(tree, i, scene.air_density)));
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        plan.drag_area.push_back(T(drag_area(tree.kind[i], tree.size[i], scene.air_density)));
 }
 
 // Drag's bounds. A side branch's weight is twice its parent's again (drag.h), up to 2^16.
@@ -249,6 +234,37 @@ template <class T> void plan_root_motion(Plan<T>& plan, const std::vector<TreeRa
               [](const MovedTree& a, const MovedTree& b) { return a.first_body < b.first_body; });
 }
 
+} // namespace
+
+template <class T> std::string forces_text(const Plan<T>& plan) {
+    std::string text;
+    const auto add = [&](bool on, const char* part) {
+        if (on) text += (text.empty() ? "" : ", ") + std::string(part);
+    };
+    add(plan.wind, "/wind");
+    add(!plan.pulls.empty(), "/pulls");
+    add(plan.contact && !plan.scene.balls.empty(), "/balls");
+    add(plan.contact && plan.scene.fracture.has_value(), "/fracture");
+    return text.empty() ? "no wind, no pulls" : text;
+}
+
+bool has_free_bodies(const Scene& scene) {
+    return scene.fracture || !scene.balls.empty();
+}
+
+bool may_push(const Scene& scene) {
+    const Contact contact = scene.contact.value_or(Contact());
+    if (!contact.trees) return false;
+    if (!scene.balls.empty()) return true;
+    if (!scene.fracture) return false;
+    const Fracture& f = *scene.fracture;
+    const bool wood =
+        f.branch < Fracture::never || f.fruit < Fracture::never || f.strength < Fracture::never || !f.joints.empty();
+    return wood || contact.leaves;
+}
+
+namespace {
+
 template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const auto add = [&plan](Stage stage, bool on, const std::string& reason) {
         plan.stages.push_back({stage, on, reason});
@@ -258,10 +274,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const std::string own = solver + " (evaluates it in its own pass)";
     const std::string moved = plan.root_motion ? "; roots moved by /root_motion" : "";
     const std::string limited = plan.joint_limit ? "; angles kept within /joint_limit" : "";
-    const std::string forces = !plan.forces                       ? "no wind, no pulls"
-                               : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
-                               : plan.wind                        ? "/wind"
-                                                                  : "/pulls";
+    const std::string forces = forces_text(plan);
     add(Stage::wind_field, (analytic || coupled) && plan.wind && !plan.lanes.on,
         !plan.wind            ? "no wind"
         : plan.lanes.on       ? "in lanes"
@@ -308,6 +321,17 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                           : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
                                             : "every scene (poses; velocities for /wind)") +
                   moved);
+    const Scene& scene = plan.scene;
+    const bool free = has_free_bodies(scene);
+    const std::string what = !scene.balls.empty() && scene.fracture ? "/balls, /fracture"
+                             : scene.fracture                       ? "/fracture (once something broke)"
+                                                                    : "/balls";
+    add(Stage::free_flight, free, free ? what : "no balls, no fracture");
+    add(Stage::contacts, free,
+        !free          ? "no balls, no fracture"
+        : plan.contact ? what + ": trees and ground"
+                       : what + ": ground alone; nothing free meets trees");
+    add(Stage::fracture, scene.fracture.has_value(), scene.fracture ? "/fracture" : "no fracture");
     State<T> empty;
     visit_arrays(plan, empty, [&](const char* name, auto& array, bool on, const std::string& reason) {
         plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
@@ -320,7 +344,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
         };
         if (analytic) {
             constexpr int L = fast::Row<T>::lanes;
-            const int inward = fast::analytic::inward_count(plan.wind, !plan.pulls.empty());
+            const int inward = fast::analytic::inward_count(plan.wind, plan.pushes());
             rows("lanes.now", layout.rows, fast::analytic::motion::count);
             if (frozen) rows("lanes.frozen", layout.rows, fast::analytic::frozen::count);
             rows("lanes.outward, inward", layout.joints,
@@ -361,7 +385,12 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
         for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
             plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
     give_back(own, &Tree::level, &Tree::s);
-    plan.forces = plan.wind || !plan.pulls.empty();
+    if (has_free_bodies(scene) && is_articulated(solver))
+        throw std::domain_error((scene.fracture ? "fracture" : "balls") +
+                                std::string(": only the coupled and the analytic solver meet free bodies, not ") +
+                                solver_name(solver));
+    plan.contact = may_push(scene);
+    plan.forces = plan.wind || plan.pushes();
     plan.velocity = (plan.wind && solver == Solver::analytic) || wishes.velocity;
     plan.torque = wishes.torque;
     plan_root_motion(plan, ranges);
@@ -369,6 +398,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.refresh_reason = solver != Solver::analytic ? std::string("solver ") + solver_name(solver)
                           : !(refresh > 0)           ? "not asked for"
                           : plan.root_motion         ? "/root_motion"
+                          : has_free_bodies(scene)   ? scene.fracture ? "/fracture" : "/balls"
                           : scene.joint_limit        ? "/joint_limit"
                                                      : "";
     if (plan.refresh_reason.empty()) {
@@ -394,7 +424,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
         fast::plan_sleep(plan, sleep);
         if (plan.lanes.on) plan.velocity = wishes.velocity; // the drag finds its own
     }
-    plan.pose = !plan.lanes.on || wishes.pose || wishes.velocity || wishes.torque;
+    plan.pose = !plan.lanes.on || wishes.pose || wishes.velocity || wishes.torque || has_free_bodies(scene);
     if (!plan.pose) give_back_bodies(plan);
     explain(plan, wishes);
     return plan;

@@ -29,9 +29,12 @@ enum class Stage : std::uint8_t {
     body_loads,
     resolvent,
     lanes,
-    state_update
+    state_update,
+    free_flight,
+    contacts,
+    fracture
 };
-constexpr std::size_t stage_count = 13;
+constexpr std::size_t stage_count = 16;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
@@ -89,6 +92,8 @@ template <class T> struct Plan {
     std::string refresh_reason; // why they are kept, or why not
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     bool root_motion = false, joint_limit = false;
+    bool contact = false;                                     // free bodies may push the trees: State::loads
+    bool pushes() const { return contact || !pulls.empty(); } // on single points
     bool pose = true; // false: with lanes and not wished for; of the arrays over bodies below only theta_start is there
     std::vector<PlannedStage> stages;
     std::vector<PlannedArray> arrays;
@@ -133,10 +138,17 @@ template <class T> struct Plan {
     fast::Target target = fast::Target::baseline; // what its code is compiled for
 };
 
+// What loads the bodies: the parts of the scene that do, or that none does.
+template <class T> std::string forces_text(const Plan<T>&);
+
+// Of free bodies (lib/free): whether the scene may have some at all, and whether they may push trees.
+bool has_free_bodies(const Scene&);
+bool may_push(const Scene&);
+
 // tree: joined and checked; ranges: of each of the scene's trees in it (one range for a tree on its own). Scales K and
 // beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).
 // Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow,
-// for one that starts beyond a joint limit (its body and angle), and for joint limits with an articulated solver.
+// for one that starts beyond a joint limit (its body and angle), for joint limits, fracture or balls with an articulated solver.
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 // sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
 // refresh: of the analytic solver, the tolerance of frozen coefficients (frozen.h); 0: none are kept, every step is worked out in full.

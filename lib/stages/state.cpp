@@ -3,12 +3,12 @@
 #include "../fast/analytic_rows.h"
 #include "../fast/coupled_lanes_step.h"
 #include "../fast/lane_tables.h"
+#include "../model/fnv.h"
 #include "root_term.h"
 #include "spring.h"
 #include "state_arrays.h"
 #include "state_update.h"
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <type_traits>
 
@@ -43,23 +43,6 @@ template <class T> void begin(const Plan<T>& plan, State<T>& state, const std::v
         fast::pack(plan, state, theta);
     if (!plan.pose) leave_out_angles(state);
 }
-
-// FNV-1a.
-class Hash {
-public:
-    template <class T> void add(T value) {
-        using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-        const Bits bits = std::bit_cast<Bits>(value);
-        for (unsigned shift = 0; shift < 8 * sizeof(T); shift += 8) {
-            hash ^= (bits >> shift) & 0xff;
-            hash *= 0x100000001b3u;
-        }
-    }
-    std::uint64_t value() const { return hash; }
-
-private:
-    std::uint64_t hash = 0xcbf29ce484222325u;
-};
 
 } // namespace
 
@@ -108,7 +91,7 @@ template <class T> std::size_t State<T>::bytes() const {
 }
 
 template <class T> std::uint64_t state_hash(const State<T>& state) {
-    Hash hash;
+    Fnv hash;
     for (const auto* array : {&state.theta, &state.theta_dot})
         for (const Vector3<T>& v : *array)
             for (int k = 0; k < 3; ++k) hash.add(v[k]);
@@ -122,7 +105,7 @@ template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>&
     static_assert(fast::motion::theta == 0 && fast::motion::theta_dot == 3 && fast::analytic::motion::theta == 0);
     const std::vector<std::size_t> motion_at = fast::motion_of_rows(plan, state);
     constexpr std::size_t lanes = fast::Row<T>::lanes;
-    Hash hash;
+    Fnv hash;
     for (const std::size_t first : {std::size_t(0), std::size_t(3)})
         for (const std::uint32_t slot : plan.lanes.layout.slot) {
             if (analytic && first > 0) {

@@ -35,6 +35,13 @@ template <class T> struct RootLoad {
     Vector3<T> omega, alpha; // [rad/s], [rad/s^2]
 };
 
+// A force on a body for one step, by a contact.
+template <class T> struct Load {
+    std::size_t body;
+    Vector3<T> point_b; // [m] body frame
+    Vector3<T> force;   // [N] world
+};
+
 template <class T> struct State {
     std::int64_t step = 0; // steps taken; the time is step * dt
 
@@ -58,6 +65,8 @@ template <class T> struct State {
     std::vector<T> drag_bound;                    // [N s/m] bound on the drag's change with the body's velocity
     std::vector<T> wind_bound;                    // [N s/m] how the force at rest falls with the body's velocity
     std::vector<T> turn_bound;                    // [N] bound on the wind's change with the body's direction, a radian
+
+    std::vector<Load<T>> loads; // of the step to come; with Plan::contact
 
     // composite
     std::vector<Vector3<T>> c_h_w;          // [kg m] first moment of the composite about own joint

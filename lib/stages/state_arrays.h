@@ -17,12 +17,7 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     const bool joints = analytic && !plan.lanes.on; // one by one, by the plain step
     const bool air = joints && plan.wind, loads = joints && plan.forces;
     const std::string wind = !plan.wind ? "no wind" : air ? "/wind" : analytic ? fast : solver;
-    const std::string forces = plan.forces && !analytic           ? solver
-                               : plan.forces && !joints           ? fast
-                               : plan.wind && !plan.pulls.empty() ? "/wind, /pulls"
-                               : plan.wind                        ? "/wind"
-                               : plan.forces                      ? "/pulls"
-                                                                  : "no wind, no pulls";
+    const std::string forces = plan.forces && !analytic ? solver : plan.forces && !joints ? fast : forces_text(plan);
     const std::string velocity = air             ? "/wind (drag)"
                                  : plan.velocity ? "output field velocity"
                                                  : "no wind, no output field velocity";

@@ -1,0 +1,175 @@
+#include "contact.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bough {
+namespace {
+
+Capsule placed(const Capsule& c, const Quat& q, const Vec3& x) {
+    return {x + q * c.a, x + q * c.b, c.radius_a, c.radius_b};
+}
+
+Capsule placed(const FreeBody& free, const FreePart& part) {
+    const Capsule own = placed(capsule_of(part.kind, part.size), part.q, part.joint);
+    return placed(own, free.motion.q, free.motion.x);
+}
+
+// Squared distance of a point from the way x ... x + d.
+double distance2(const Vec3& point, const Vec3& x, const Vec3& d) {
+    const double length2 = d.squaredNorm();
+    const double s = length2 > 0 ? std::clamp(Vec3(point - x).dot(d) / length2, 0.0, 1.0) : 0;
+    return Vec3(x + s * d - point).squaredNorm();
+}
+
+bool yields(const Contact& contact, Kind kind) {
+    return is_flat(kind) && !contact.leaves;
+}
+
+// One contact a pair of free part and tree body: where they meet first.
+void add_meeting(const FreeBody& free, std::size_t k, std::int64_t body, const Vec3& d, const Meeting& m,
+                 std::vector<ContactPoint>& found) {
+    ContactPoint c;
+    c.free = k;
+    c.body = body;
+    c.point = m.at.on_second;
+    c.normal = m.at.normal;
+    c.way = m.way;
+    c.gap = m.way > 0 ? 0 : std::min(0.0, m.at.gap);
+    c.arm = c.point - (free.motion.x + m.way * d);
+    found.push_back(c);
+}
+
+void find_ground(const FreeBody& free, std::size_t k, const Vec3& d, double height, std::vector<ContactPoint>& found) {
+    if (free.motion.x.y() + std::min(0.0, d.y()) - free.bound > height) return;
+    for (const FreePart& part : free.parts) {
+        const Capsule c = placed(free, part);
+        for (int end = 0; end < 2; ++end) {
+            const Vec3& center = end ? c.b : c.a;
+            const double gap = center.y() - (end ? c.radius_b : c.radius_a) - height;
+            if (gap + std::min(0.0, d.y()) > 0) continue;
+            if (end == 1 && c.a == c.b) continue;
+            Meeting m;
+            m.way = gap > 0 ? gap / -d.y() : 0;
+            m.at = {gap, Vec3::UnitY(), Vec3(center.x() + m.way * d.x(), height, center.z() + m.way * d.z())};
+            add_meeting(free, k, -1, d, m, found);
+        }
+    }
+}
+
+} // namespace
+
+template <class T>
+void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees, TreePoses<T>& poses,
+                   const Contact& contact, const FreeBody& free, std::size_t k, const Vec3& d, bool brute_force,
+                   std::vector<ContactPoint>& found, ContactTests& tests) {
+    if (contact.ground) find_ground(free, k, d, contact.ground_height, found);
+    if (!plan.contact || (yields(contact, free.parts.front().kind) && free.leaf())) return;
+    const Vec3& x = free.motion.x;
+    std::vector<std::uint32_t> stack;
+    for (const std::uint32_t root : trees.roots)
+        visit_subtree(trees, root, stack, [&](std::size_t i) {
+            if (plan.mass[i] == 0) return false; // it fell
+            const BodyPose pose = poses.of(i);
+            if (!brute_force) {
+                ++tests.reaches;
+                const double near =
+                    double(trees.reach[i]) * (1 + 1e-5) + free.bound; // angles in float, poses in double
+                if (distance2(pose.x, x, d) > near * near) return false;
+            }
+            if (yields(contact, tree.kind[i])) return true;
+            ++tests.bodies;
+            const Capsule own = placed(capsule_of(tree.kind[i], tree.size[i]), Quat(pose.R), pose.x);
+            for (const FreePart& part : free.parts) {
+                const Meeting m = meet(placed(free, part), d, own);
+                if (m.meets) add_meeting(free, k, std::int64_t(i), d, m, found);
+            }
+            return true;
+        });
+}
+
+namespace {
+
+struct Solving {
+    Mat3 free_mobility, mobility; // [1/kg] the free body's, both
+    double along = 0, across = 0; // [kg] effective masses
+    double target = 0;            // [m/s] least velocity apart
+    Vec3 tree_velocity = Vec3::Zero();
+    double normal_impulse = 0;
+    Vec3 friction = Vec3::Zero();
+};
+
+Mat3 mobility_of(const FreeBody& free, const Vec3& arm) {
+    const Mat3 r = cross_matrix(arm);
+    return Mat3::Identity() / free.mass - r * free.inverse_inertia_w() * r;
+}
+
+void push(FreeBody& free, const Vec3& arm, const Vec3& impulse) {
+    free.motion.v += impulse / free.mass;
+    free.motion.omega += free.inverse_inertia_w() * arm.cross(impulse);
+}
+
+} // namespace
+
+template <class T>
+void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& response, const Contact& contact,
+                    std::vector<FreeBody>& free, std::vector<ContactPoint>& points) {
+    std::vector<Solving> solving(points.size());
+    const double slow = 2 * plan.scene.gravity.norm() * plan.dt;
+    double fastest = 0;
+    response.begin();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        ContactPoint& c = points[k];
+        Solving& s = solving[k];
+        const Mat3 W = mobility_of(free[c.free], c.arm);
+        s.mobility = W;
+        if (c.body >= 0) {
+            const auto body = std::size_t(c.body);
+            s.mobility += response.mobility(plan, poses, body, c.point);
+            s.tree_velocity = poses.of(body).velocity_at(c.point);
+        }
+        s.along = 1 / c.normal.dot(s.mobility * c.normal);
+        s.across = 1 / s.mobility.trace(); // at most what any direction across has
+        c.approach = -c.normal.dot(Vec3(free[c.free].velocity_at(c.arm) - s.tree_velocity));
+        s.target = c.approach > slow ? contact.restitution * c.approach : 0;
+        fastest = std::max(fastest, c.approach);
+    }
+    response.begin();
+    constexpr int rounds = 100;
+    for (int round = 0; round < rounds; ++round) {
+        double change = 0;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            ContactPoint& c = points[k];
+            Solving& s = solving[k];
+            Vec3 v = free[c.free].velocity_at(c.arm) - s.tree_velocity;
+            if (c.body >= 0) v -= response.velocity(plan, poses, std::size_t(c.body), c.point);
+            const double apart = c.normal.dot(v);
+            const double before = s.normal_impulse;
+            s.normal_impulse = std::max(0.0, before + s.along * (s.target - apart));
+            const Vec3 sliding = v - apart * c.normal;
+            const Vec3 last = s.friction;
+            s.friction -= s.across * sliding;
+            const double most = contact.friction * s.normal_impulse, size = s.friction.norm();
+            if (size > most) s.friction *= size > 0 ? most / size : 0;
+            const Vec3 impulse = (s.normal_impulse - before) * c.normal + s.friction - last;
+            if (impulse.isZero(0)) continue;
+            change = std::max(change, impulse.norm() / s.along);
+            push(free[c.free], c.arm, impulse);
+            if (c.body >= 0) response.add(plan, poses, std::size_t(c.body), c.point, -impulse);
+        }
+        if (change <= 1e-9 * fastest) break;
+    }
+    for (std::size_t k = 0; k < points.size(); ++k)
+        points[k].impulse = solving[k].normal_impulse * points[k].normal + solving[k].friction;
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreePoses<T>&, const Contact&,           \
+                                const FreeBody&, std::size_t, const Vec3&, bool, std::vector<ContactPoint>&,           \
+                                ContactTests&);                                                                        \
+    template void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, const Contact&,                      \
+                                 std::vector<FreeBody>&, std::vector<ContactPoint>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough

@@ -1,0 +1,17 @@
+// flight.h: free bodies through the air, up to where they meet something: where they would go in a step, and how fast they are at its end.
+//
+// Air: (21)-(23) on each of a body's parts with its own velocity (air.h), half the speed's growth implicit,
+//   (m + h D) dv = h (m g + F),  (I + h D r^2) d omega = h tau,   D = sum kappa rho A 2 |u|, a bound on -dF/dv in any direction
+// so that what is light reaches the wind's speed and does not pass it. A single leaf or petal flies by leaf_flight.h.
+// Turning: I omega is kept but for the air's moment, and the body turned by it: torque-free flight keeps its angular momentum exactly.
+#pragma once
+#include "../model/scene.h"
+#include "../stages/wind.h"
+#include "free_body.h"
+
+namespace bough {
+
+// A step's flight: the motion at its end if nothing is met.
+FreeMotion fly(const FreeBody&, const Scene&, const WindTable<double>*, double h);
+
+} // namespace bough

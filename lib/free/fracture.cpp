@@ -1,0 +1,214 @@
+#include "fracture.h"
+#include "../fast/clear_lanes.h"
+#include "../growth/random.h"
+#include "../model/rotation_maps.h"
+#include "../stages/air.h"
+#include "../stages/state_update.h"
+#include <algorithm>
+#include <numbers>
+
+namespace bough {
+namespace {
+
+enum class Draw { radius, angle };
+
+// Of a standard normal distribution (Box and Muller).
+double normal_draw(RandomKey key) {
+    const double u = 1 - random_unit(key, Draw::radius), angle = 2 * std::numbers::pi * random_unit(key, Draw::angle);
+    return std::sqrt(-2 * std::log(u)) * std::cos(angle);
+}
+
+double of_kind(const Fracture& f, const Tree& tree, std::size_t i) {
+    switch (tree.kind[i]) {
+    case Kind::leaf:
+        return f.leaf;
+    case Kind::petal:
+        return f.petal;
+    case Kind::fruit:
+        return f.fruit;
+    case Kind::branch:
+        break;
+    }
+    const double r = tree.size[i][1];
+    return f.strength < Fracture::never ? std::min(f.branch, f.strength * std::numbers::pi * r * r * r / 4) : f.branch;
+}
+
+} // namespace
+
+std::vector<Breakable> breakable_joints(const Tree& tree, const std::vector<TreeRange>& ranges, const Fracture& f) {
+    std::vector<Breakable> joints;
+    std::vector<std::pair<std::uint32_t, double>> single;
+    for (const Fracture::Joint& joint : f.joints)
+        for (const Selected& target : select(tree, ranges, joint.on))
+            single.emplace_back(std::uint32_t(target.body), joint.torque);
+    // The last that names a body holds.
+    std::stable_sort(single.begin(), single.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        double torque = of_kind(f, tree, i);
+        const bool varies = f.spread > 0 && torque < Fracture::never;
+        if (varies) torque *= std::exp(f.spread * normal_draw(random_key(f.seed, 0, i)));
+        for (; next < single.size() && single[next].first == i; ++next) torque = single[next].second;
+        if (torque < Fracture::never) joints.push_back({std::uint32_t(i), torque});
+    }
+    return joints;
+}
+
+double spring_torque(const Vec3& theta, const Vec3& theta_dot, const Vec3& K, double beta) {
+    return (rotation_maps(theta).J_inverse.transpose() * K.cwiseProduct(Vec3(theta + beta * theta_dot))).norm();
+}
+
+namespace {
+
+struct Moving {
+    std::size_t body;
+    BodyPose pose;
+    Vec3 com, v; // of the centre of mass, world
+};
+
+FreeBody piece(const Tree& tree, double air_density, const std::vector<Moving>& bodies) {
+    FreeBody out;
+    Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
+    for (const Moving& b : bodies) {
+        const double m = tree.mass[b.body];
+        out.mass += m;
+        moment += m * b.com;
+        momentum += m * b.v;
+    }
+    FreeMotion& motion = out.motion;
+    motion.x = moment / out.mass;
+    motion.v = momentum / out.mass;
+    motion.q = Quat(bodies.front().pose.R).normalized();
+    const Mat3 R = motion.q.toRotationMatrix();
+    Vec3 spin = Vec3::Zero();
+    Mat3 inertia = Mat3::Zero(); // world
+    for (const Moving& b : bodies) {
+        const double m = tree.mass[b.body];
+        const Vec3 arm = b.com - motion.x;
+        const Mat3 I = b.pose.R * tree.inertia[b.body] * b.pose.R.transpose(), r = cross_matrix(arm);
+        spin += I * b.pose.omega + m * arm.cross(Vec3(b.v - motion.v));
+        inertia += I - m * r * r;
+        FreePart part;
+        part.body = std::int64_t(b.body);
+        part.kind = tree.kind[b.body];
+        part.size = tree.size[b.body];
+        part.q = (motion.q.conjugate() * Quat(b.pose.R)).normalized();
+        part.joint = R.transpose() * (b.pose.x - motion.x);
+        part.com = R.transpose() * arm;
+        part.drag_area = drag_area(part.kind, part.size, air_density);
+        out.parts.push_back(part);
+    }
+    out.inertia = R.transpose() * inertia * R;
+    out.inertia = (0.5 * (out.inertia + out.inertia.transpose())).eval();
+    finish(out);
+    motion.omega = out.inverse_inertia_w() * spin;
+    return out;
+}
+
+} // namespace
+
+template <class T>
+std::vector<FreeBody> pieces_of(const Plan<T>& plan, const Tree& tree, const Subtrees& trees, TreePoses<T>& poses,
+                                const std::vector<std::uint32_t>& joints) {
+    std::vector<FreeBody> pieces;
+    std::vector<std::uint32_t> stack;
+    std::vector<Moving> bodies;
+    for (const std::uint32_t joint : joints) {
+        bodies.clear();
+        visit_subtree(trees, joint, stack, [&](std::size_t i) {
+            if (i != joint && (plan.mass[i] == 0 || std::binary_search(joints.begin(), joints.end(), std::uint32_t(i))))
+                return false;
+            const BodyPose pose = poses.of(i);
+            const Vec3 com = pose.at(tree.com[i]);
+            bodies.push_back({i, pose, com, pose.velocity_at(com)});
+            return true;
+        });
+        pieces.push_back(piece(tree, plan.scene.air_density, bodies));
+    }
+    return pieces;
+}
+
+template <class T> Remaining whole_tree(const Plan<T>& plan, const Tree& tree) {
+    Remaining all;
+    const std::size_t n = tree.size_bodies();
+    all.c_mass = tree.mass;
+    all.gone.assign(n, 0);
+    for (std::size_t i = n; i-- > 0;)
+        if (tree.parent[i] >= 0) all.c_mass[std::size_t(tree.parent[i])] += all.c_mass[i];
+    if (plan.carried_moment.empty()) return all;
+    for (std::size_t i = 0; i < n; ++i) all.moment.push_back(tree.mass[i] * tree.com[i]);
+    for (std::size_t i = 0; i < n; ++i)
+        if (tree.parent[i] >= 0) all.moment[std::size_t(tree.parent[i])] += all.c_mass[i] * tree.joint_position[i];
+    return all;
+}
+
+namespace {
+
+// What carried it carries less.
+template <class T> void unload_path(Plan<T>& plan, std::size_t first, Remaining& rest) {
+    const double mass = rest.c_mass[first];
+    for (std::size_t i = first; plan.parent[i] >= 0;) {
+        const auto p = std::size_t(plan.parent[i]);
+        rest.c_mass[p] -= mass;
+        plan.c_mass[p] = T(rest.c_mass[p]);
+        if (!rest.moment.empty()) {
+            rest.moment[p] -= mass * plan.joint_position[i].template cast<double>();
+            plan.carried_moment[p] = rest.moment[p].template cast<T>();
+            if (plan.lanes.on) fast::put_carried_moment(plan, p);
+        }
+        i = p;
+    }
+}
+
+template <class T> void clear_body(Plan<T>& plan, State<T>& state, std::size_t i) {
+    // As a pad of the analytic step: an inertia next to nothing, on a spring neither soft nor stiff.
+    const bool analytic = plan.solver == Solver::analytic;
+    const T inertia = analytic ? fast::pad_inertia<T> : T(0);
+    const T stiffness = analytic ? fast::pad_inertia<T> * fast::pad_rate2<T> : T(1);
+    plan.mass[i] = plan.c_mass[i] = 0;
+    plan.inertia_joint[i] = inertia * Matrix3<T>::Identity();
+    plan.K[i] = Vector3<T>::Constant(stiffness);
+    plan.beta[i] = 0;
+    if (!plan.carried_moment.empty()) plan.carried_moment[i].setZero();
+    if (!plan.gravity_row.empty()) plan.gravity_row[i] = 0;
+    if (!plan.drag_area.empty()) plan.drag_area[i] = 0;
+    for (auto* array :
+         {&state.theta, &state.theta_dot, &state.scaled_rate, &state.theta_change, &state.theta_dot_change})
+        if (!array->empty()) (*array)[i].setZero();
+}
+
+} // namespace
+
+template <class T>
+void detach(Plan<T>& plan, State<T>& state, const Subtrees& trees, const std::vector<std::uint32_t>& joints,
+            Remaining& rest) {
+    std::vector<std::uint32_t> stack;
+    std::vector<std::size_t> left;
+    for (const std::uint32_t joint : joints) {
+        if (rest.gone[joint]) continue; // with what carried it
+        unload_path(plan, joint, rest);
+        visit_subtree(trees, joint, stack, [&](std::size_t i) {
+            if (rest.gone[i]) return false;
+            rest.gone[i] = 1;
+            rest.c_mass[i] = 0;
+            clear_body(plan, state, i);
+            left.push_back(i);
+            return true;
+        });
+    }
+    if (plan.lanes.on)
+        fast::clear_lanes(plan, state, left);
+    else
+        state_update(plan, state);
+}
+
+template std::vector<FreeBody> pieces_of(const Plan<float>&, const Tree&, const Subtrees&, TreePoses<float>&,
+                                         const std::vector<std::uint32_t>&);
+template std::vector<FreeBody> pieces_of(const Plan<double>&, const Tree&, const Subtrees&, TreePoses<double>&,
+                                         const std::vector<std::uint32_t>&);
+template Remaining whole_tree(const Plan<float>&, const Tree&);
+template Remaining whole_tree(const Plan<double>&, const Tree&);
+template void detach(Plan<float>&, State<float>&, const Subtrees&, const std::vector<std::uint32_t>&, Remaining&);
+template void detach(Plan<double>&, State<double>&, const Subtrees&, const std::vector<std::uint32_t>&, Remaining&);
+
+} // namespace bough

@@ -1,0 +1,38 @@
+#include "free_body.h"
+#include "../coupled/own_inertia.h"
+#include "../model/body_shape.h"
+#include "../model/scene.h"
+#include "../stages/air.h"
+#include "shape.h"
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace bough {
+
+void finish(FreeBody& body) {
+    body.inertia = own_inertia(body.inertia);
+    body.inverse_inertia = body.inertia.inverse();
+    body.bound = 0;
+    for (const FreePart& part : body.parts) {
+        const Capsule c = capsule_of(part.kind, part.size);
+        const Vec3 a = part.joint + part.q * c.a, b = part.joint + part.q * c.b;
+        body.bound = std::max({body.bound, a.norm() + c.radius_a, b.norm() + c.radius_b});
+    }
+}
+
+FreeBody free_ball(const Ball& ball, double air_density) {
+    FreeBody body;
+    body.motion.x = ball.position;
+    body.motion.v = ball.velocity;
+    body.motion.omega = ball.angular_velocity;
+    body.mass = ball.mass;
+    body.inertia = 0.4 * ball.mass * ball.radius * ball.radius * Mat3::Identity();
+    FreePart part;
+    part.size = Vec3(0, ball.radius, ball.radius);
+    part.drag_area = ::bough::drag_area(part.kind, part.size, air_density);
+    body.parts.push_back(part);
+    finish(body);
+    return body;
+}
+
+} // namespace bough

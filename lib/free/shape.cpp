@@ -1,0 +1,78 @@
+#include "shape.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bough {
+namespace {
+
+// Parameters in 0..1 of the nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
+std::pair<double, double> nearest_parameters(const Capsule& p, const Capsule& q) {
+    const Vec3 d1 = p.b - p.a, d2 = q.b - q.a, r = p.a - q.a;
+    const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r);
+    const auto unit = [](double x) { return std::clamp(x, 0.0, 1.0); };
+    if (a <= 0 && e <= 0) return {0, 0};
+    if (a <= 0) return {0, unit(f / e)};
+    const double c = d1.dot(r);
+    if (e <= 0) return {unit(-c / a), 0};
+    const double b = d1.dot(d2), denominator = a * e - b * b;
+    double s = denominator > 1e-12 * a * e ? unit((b * f - c * e) / denominator) : 0.5; // parallel: any
+    double t = (b * s + f) / e;
+    if (t < 0 || t > 1) {
+        t = unit(t);
+        s = unit((b * t - c) / a);
+    }
+    return {s, t};
+}
+
+constexpr double touching = 1e-6; // [m] gap that counts as none
+
+} // namespace
+
+Capsule capsule_of(Kind kind, const Vec3& size) {
+    switch (kind) {
+    case Kind::leaf:
+    case Kind::petal:
+        return {Vec3::Zero(), Vec3(0, 0, size[0]), size[1] / 4, size[1] / 4};
+    case Kind::fruit:
+        return {Vec3(0, 0, size[0]), Vec3(0, 0, size[0]), size[1], size[1]};
+    case Kind::branch:
+        break;
+    }
+    return {Vec3::Zero(), Vec3(0, 0, size[0]), size[1], size[2]};
+}
+
+Nearest nearest(const Capsule& first, const Capsule& second) {
+    const auto [s, t] = nearest_parameters(first, second);
+    const Vec3 p = first.a + s * (first.b - first.a), q = second.a + t * (second.b - second.a);
+    const double r1 = first.radius_a + s * (first.radius_b - first.radius_a);
+    const double r2 = second.radius_a + t * (second.radius_b - second.radius_a);
+    const Vec3 way = p - q;
+    const double distance = way.norm();
+    // Axes that cross have no line between them: across both then, or upward.
+    Vec3 normal = distance > 1e-12 ? Vec3(way / distance) : Vec3((first.b - first.a).cross(Vec3(second.b - second.a)));
+    if (!(distance > 1e-12)) normal = normal.norm() > 1e-12 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitY());
+    return {distance - r1 - r2, normal, q + r2 * normal};
+}
+
+Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second) {
+    const double length = d.norm();
+    Meeting meeting;
+    Capsule moved = first;
+    double way = 0;
+    while (true) {
+        meeting.at = nearest(moved, second);
+        if (meeting.at.gap <= touching) {
+            meeting.way = way;
+            meeting.meets = true;
+            return meeting;
+        }
+        if (!(length > 0) || way >= 1) return meeting;
+        // Past the nearest approach nothing is met any more: both are convex.
+        if (meeting.at.normal.dot(d) >= 0) return meeting;
+        way = std::min(1.0, way + std::max(meeting.at.gap, touching) / length);
+        moved.a = first.a + way * d;
+        moved.b = first.b + way * d;
+    }
+}
+
+} // namespace bough

@@ -1,0 +1,38 @@
+// shape.h: what a body is to a contact: a segment of its axis with a radius at each end, linear between.
+//
+//   branch       its axis from joint to tip, base and tip radius
+//   fruit, ball  its centre, its radius
+//   leaf, petal  its length, a quarter of its width (half the triangle's mean half width): a leaf is limp, and no contact needs its rim
+#pragma once
+#include "../model/kind.h"
+#include "../model/math.h"
+
+namespace bough {
+
+struct Capsule {
+    Vec3 a, b; // [m]
+    double radius_a, radius_b;
+};
+
+// In the body's frame. size: as in Tree.
+Capsule capsule_of(Kind kind, const Vec3& size);
+
+// How near two capsules are: along the line between the nearest points of their axes, where their radii are those of these points (exact for
+// equal radii; for a branch's taper of a few per cent off by the square of it).
+struct Nearest {
+    double gap;     // [m] between the surfaces, negative where they overlap
+    Vec3 normal;    // from the second to the first, unit
+    Vec3 on_second; // [m] point on the second's surface
+};
+Nearest nearest(const Capsule& first, const Capsule& second);
+
+// The part of the way d [m] that `first` goes before it meets `second` at rest, by conservative advancement: each advance is at most the gap, so
+// that nothing is passed through. 1: it does not meet it (the gap at the end is above zero); at: the nearest points then.
+struct Meeting {
+    double way = 1; // 0..1
+    bool meets = false;
+    Nearest at;
+};
+Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second);
+
+} // namespace bough

@@ -1,0 +1,83 @@
+#include "tree_poses.h"
+#include "../fast/analytic_rows.h"
+#include "../fast/lane_tables.h"
+#include "../model/rotation_maps.h"
+
+namespace bough {
+
+template <class T> void TreePoses<T>::begin(const Plan<T>& plan, const State<T>& state) {
+    plan_ = &plan;
+    state_ = &state;
+    time_ = double(state.step) * plan.dt;
+    if (place_.size() != plan.bodies) place_.assign(plan.bodies, 0);
+    for (const std::size_t body : body_) place_[body] = 0;
+    body_.clear();
+    pose_.resize(1); // place 0 is nobody's
+    if (plan.lanes.on) motion_at_ = fast::motion_of_rows(plan, state);
+}
+
+template <class T>
+Vec3 TreePoses<T>::motion(std::size_t body, int quantity, const std::vector<Vector3<T>>& array) const {
+    if (!plan_->lanes.on) return array[body].template cast<double>();
+    constexpr std::size_t lanes = fast::Row<T>::lanes;
+    const std::size_t slot = plan_->lanes.layout.slot[body];
+    const fast::RowVector<T>& rows = plan_->solver == Solver::analytic ? state_->lanes.now : state_->lanes.table;
+    const std::size_t first = motion_at_[slot / lanes] + std::size_t(quantity);
+    return {double(rows[first].lane[slot % lanes]), double(rows[first + 1].lane[slot % lanes]),
+            double(rows[first + 2].lane[slot % lanes])};
+}
+
+template <class T> Vec3 TreePoses<T>::theta(std::size_t body) const {
+    static_assert(fast::motion::theta == 0 && fast::analytic::motion::theta == 0);
+    return motion(body, 0, state_->theta);
+}
+
+template <class T> Vec3 TreePoses<T>::theta_dot(std::size_t body) const {
+    const bool analytic = plan_->solver == Solver::analytic;
+    return motion(body, analytic ? int(fast::analytic::motion::theta_dot) : int(fast::motion::theta_dot),
+                  state_->theta_dot);
+}
+
+template <class T> void TreePoses<T>::add(std::size_t i) {
+    const RotationMaps<double> maps = rotation_maps(theta(i));
+    const Mat3 R_pj = plan_->R_pj[i].template cast<double>();
+    const Vec3 d = plan_->joint_position[i].template cast<double>();
+    BodyPose pose;
+    if (plan_->parent[i] >= 0) {
+        const BodyPose& p = pose_[place_[std::size_t(plan_->parent[i])]];
+        pose.R_joint = p.R * R_pj;
+        pose.x = p.at(d);
+        pose.omega = p.omega;
+        pose.v = p.velocity_at(pose.x);
+    } else {
+        const std::int64_t spline = plan_->root_motion ? spline_under(plan_->moved, i) : -1;
+        const Ground ground = spline < 0 ? Ground() : ground_at(plan_->splines[std::size_t(spline)], time_);
+        pose.R_joint = ground.R * R_pj;
+        pose.x = ground.x + ground.R * d;
+        pose.omega = ground.omega;
+        pose.v = ground.v + ground.omega.cross(Vec3(ground.R * d));
+    }
+    pose.R = pose.R_joint * maps.R;
+    pose.omega += pose.R_joint * (maps.J * theta_dot(i));
+    place_[i] = std::uint32_t(pose_.size());
+    pose_.push_back(pose);
+    body_.push_back(i);
+}
+
+template <class T> BodyPose TreePoses<T>::of(std::size_t body) {
+    path_.clear();
+    for (std::size_t i = body; place_[i] == 0; i = std::size_t(plan_->parent[i])) {
+        path_.push_back(i);
+        if (plan_->parent[i] < 0) break;
+    }
+    while (!path_.empty()) {
+        add(path_.back());
+        path_.pop_back();
+    }
+    return pose_[place_[body]];
+}
+
+template class TreePoses<float>;
+template class TreePoses<double>;
+
+} // namespace bough

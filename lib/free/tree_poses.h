@@ -1,0 +1,43 @@
+// tree_poses.h: where single bodies of a tree are and how they move, worked out for those that are asked for and what carries them.
+//
+// A contact or a break concerns a few bodies of a tree that may have millions, whose state stands in the fast path's rows: no array over
+// bodies is made for them. Poses are kept until the next begin(). In double, from the angles in the run's precision.
+// Cost    O(bodies on the way to the root that were not asked for yet) a body; begin: O(bodies asked for), with lanes and O(rows).
+#pragma once
+#include "../stages/plan.h"
+#include "../stages/state.h"
+
+namespace bough {
+
+struct BodyPose {
+    Mat3 R;        // world from body
+    Mat3 R_joint;  // world from joint frame
+    Vec3 x;        // [m] own joint
+    Vec3 omega, v; // [rad/s], [m/s] of the joint
+    Vec3 at(const Vec3& point_b) const { return x + R * point_b; }
+    Vec3 velocity_at(const Vec3& point) const { return v + omega.cross(Vec3(point - x)); } // world
+};
+
+template <class T> class TreePoses {
+public:
+    // From here on, those of the state as it stands. Both are kept by reference until the next begin().
+    void begin(const Plan<T>&, const State<T>&);
+    // By value: what is asked for next may move what is kept.
+    BodyPose of(std::size_t body);
+    // [rad], [rad/s] joint frame.
+    Vec3 theta(std::size_t body) const;
+    Vec3 theta_dot(std::size_t body) const;
+
+private:
+    void add(std::size_t body);
+    Vec3 motion(std::size_t body, int quantity, const std::vector<Vector3<T>>& array) const;
+
+    const Plan<T>* plan_ = nullptr;
+    const State<T>* state_ = nullptr;
+    double time_ = 0;
+    std::vector<std::uint32_t> place_; // in pose_, 0: not yet
+    std::vector<BodyPose> pose_;
+    std::vector<std::size_t> body_, path_, motion_at_;
+};
+
+} // namespace bough

@@ -1,0 +1,323 @@
+#include "world.h"
+#include "../stages/external_forces.h"
+#include "flight.h"
+#include "landing.h"
+#include <algorithm>
+#include <bit>
+
+namespace bough {
+namespace {
+
+// A free body on its way through the step.
+struct Way {
+    FreeMotion start, next;       // next: if nothing is met
+    double first = 1;             // part of the step at which it meets something
+    std::size_t from = 0, to = 0; // its contacts
+};
+
+constexpr double together = 0.05;                      // of a step: what is met so soon after the first is met with it
+constexpr double slop = 1e-3;                          // [m] overlap that is left
+constexpr double push_out = 0.2;                       // of the rest, a step
+constexpr double quiet_speed = 0.02, quiet_time = 0.5; // [m/s], [s]
+
+std::int64_t name_of(const FreeBody& free, std::size_t k, const Tree& tree) {
+    return free.ball() ? std::int64_t(tree.size_bodies() + k) : free.parts.front().body;
+}
+
+template <class T> void fly_all(const Plan<T>& plan, World<T>& world, std::vector<Way>& ways) {
+    const WindTable<double>* wind = plan.wind ? &world.wind : nullptr;
+    const auto n = std::int64_t(world.free.size());
+#pragma omp parallel for schedule(static) if (n > 500)
+    for (std::int64_t k = 0; k < n; ++k) {
+        const FreeBody& free = world.free[std::size_t(k)];
+        Way& way = ways[std::size_t(k)];
+        way.start = way.next = free.motion;
+        if (!free.at_rest) way.next = fly(free, plan.scene, wind, plan.dt);
+    }
+}
+
+// What each meets first, and all that it meets with it.
+template <class T> std::vector<ContactPoint> meet_all(const Plan<T>& plan, World<T>& world, std::vector<Way>& ways) {
+    std::vector<ContactPoint> points;
+    for (std::size_t k = 0; k < world.free.size(); ++k) {
+        FreeBody& free = world.free[k];
+        Way& way = ways[k];
+        way.from = way.to = points.size();
+        if (free.at_rest || (free.leaf() && !world.contact.leaves)) continue;
+        find_contacts(plan, *world.tree, world.subtrees, world.poses, world.contact, free, k,
+                      Vec3(way.next.x - way.start.x), world.brute_force, points, world.counts.tests);
+        for (std::size_t c = way.from; c < points.size(); ++c) way.first = std::min(way.first, points[c].way);
+        std::erase_if(points, [&](const ContactPoint& c) { return c.free == k && c.way > way.first + together; });
+        way.to = points.size();
+    }
+    return points;
+}
+
+// Where the rest of the way from `x` leads to: up to what is met next and was not met already.
+template <class T>
+Vec3 go_on(const Plan<T>& plan, World<T>& world, std::size_t k, const Vec3& x, const Vec3& d,
+           const std::vector<ContactPoint>& points, const Way& way) {
+    std::vector<ContactPoint> next;
+    FreeBody& free = world.free[k];
+    const Vec3 start = free.motion.x;
+    free.motion.x = x;
+    find_contacts(plan, *world.tree, world.subtrees, world.poses, world.contact, free, k, d, world.brute_force, next,
+                  world.counts.tests);
+    free.motion.x = start;
+    double part = 1;
+    for (const ContactPoint& c : next) {
+        const bool known =
+            std::any_of(points.begin() + std::ptrdiff_t(way.from), points.begin() + std::ptrdiff_t(way.to),
+                        [&](const ContactPoint& p) { return p.body == c.body; });
+        if (!known && c.normal.dot(d) < 0) part = std::min(part, c.way);
+    }
+    return x + part * d;
+}
+
+// Its motion at the step's end, now that its velocity is known.
+template <class T>
+void finish_way(const Plan<T>& plan, World<T>& world, std::size_t k, const Way& way,
+                const std::vector<ContactPoint>& points) {
+    FreeBody& free = world.free[k];
+    const Vec3 v = free.motion.v, omega = free.motion.omega;
+    free.motion = way.next;
+    if (way.from == way.to) return;
+    const double h = plan.dt, left = h * (1 - way.first);
+    const Vec3 d = way.next.x - way.start.x, x = way.start.x + way.first * d;
+    free.motion.x = way.start.x;
+    free.motion.q = way.start.q;
+    Vec3 end = go_on(plan, world, k, x, Vec3((1 - way.first) * d + left * (v - way.next.v)), points, way);
+    bool on_ground_alone = true;
+    for (std::size_t c = way.from; c < way.to; ++c) {
+        const ContactPoint& p = points[c];
+        on_ground_alone = on_ground_alone && p.body < 0;
+        if (p.gap >= -slop) continue;
+        ++world.counts.pushed_out;
+        end += push_out * (-p.gap - slop) * p.normal;
+    }
+    free.motion.x = end;
+    free.motion.v = v;
+    free.motion.omega = omega;
+    const Quat met = quaternion_from_vector(Vec3(way.first * h * way.next.omega)) * way.start.q;
+    free.motion.q = (quaternion_from_vector(Vec3(left * omega)) * met).normalized();
+    const bool quiet = v.norm() < quiet_speed && omega.norm() * free.bound < quiet_speed;
+    free.quiet = quiet && on_ground_alone ? free.quiet + h : 0;
+    if (free.quiet < quiet_time) return;
+    free.at_rest = true;
+    free.motion.v = free.motion.omega = Vec3::Zero();
+}
+
+template <class T>
+void load_trees(const Plan<T>& plan, State<T>& state, World<T>& world, const std::vector<ContactPoint>& points,
+                const std::vector<Vec3>& on_tree) {
+    for (std::size_t c = 0; c < points.size(); ++c) {
+        if (points[c].body < 0 || on_tree[c].isZero(0)) continue;
+        const auto body = std::size_t(points[c].body);
+        const BodyPose pose = world.poses.of(body);
+        const Vec3 point_b = pose.R.transpose() * (points[c].point - pose.x);
+        state.loads.push_back({body, point_b.template cast<T>(), Vec3(on_tree[c] / plan.dt).template cast<T>()});
+    }
+}
+
+template <class T> void note_hits(const Plan<T>& plan, World<T>& world, const std::vector<ContactPoint>& points) {
+    const double slow = 2 * plan.scene.gravity.norm() * plan.dt;
+    for (const ContactPoint& c : points) {
+        world.counts.impulse += c.impulse.norm();
+        if (!(c.approach > slow) || c.impulse.isZero(0)) continue;
+        ++world.counts.hits;
+        world.events.add("hit", name_of(world.free[c.free], c.free, *world.tree), c.body, c.impulse.norm());
+    }
+}
+
+// The paper's pair, first half: zeta (v_rel . n) n on the tree, while they approach; the ground is met by an impulse as always.
+template <class T>
+std::vector<Vec3> penalties(const Plan<T>& plan, World<T>& world, std::vector<ContactPoint>& points) {
+    std::vector<Vec3> on_tree(points.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        ContactPoint& c = points[k];
+        if (c.body < 0) continue;
+        const Vec3 v = world.free[c.free].velocity_at(c.arm) - world.poses.of(std::size_t(c.body)).velocity_at(c.point);
+        c.approach = -v.dot(c.normal);
+        on_tree[k] = -plan.dt * world.contact.penalty * std::max(0.0, c.approach) * c.normal;
+    }
+    return on_tree;
+}
+
+// Second half: what makes the free body's velocity the tree's new one, where that pushes it away.
+template <class T>
+void match_velocities(World<T>& world, std::vector<ContactPoint>& points, const std::vector<Vec3>& on_tree) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        ContactPoint& c = points[k];
+        if (c.body < 0) continue;
+        FreeBody& free = world.free[c.free];
+        const double apart =
+            c.normal.dot(Vec3(free.velocity_at(c.arm) - world.poses.of(std::size_t(c.body)).velocity_at(c.point)));
+        const Mat3 r = cross_matrix(c.arm);
+        const Mat3 W = Mat3::Identity() / free.mass - r * free.inverse_inertia_w() * r;
+        c.impulse = std::max(0.0, -apart / c.normal.dot(W * c.normal)) * c.normal;
+        free.motion.v += c.impulse / free.mass;
+        free.motion.omega += free.inverse_inertia_w() * c.arm.cross(c.impulse);
+        world.counts.imbalance += (c.impulse + on_tree[k]).norm();
+    }
+}
+
+template <class T> void break_joints(Plan<T>& plan, State<T>& state, World<T>& world) {
+    std::vector<std::uint32_t> joints;
+    std::erase_if(world.breakable, [&](const Breakable& joint) {
+        const std::size_t i = joint.body;
+        if (world.remaining.gone[i]) return true;
+        // T^T makes a torque longer by up to half of pi.
+        const Vec3 theta = world.poses.theta(i), rate = world.poses.theta_dot(i);
+        const Vec3 K = plan.K[i].template cast<double>();
+        const double beta = double(plan.beta[i]);
+        if (!(1.6 * K.cwiseProduct(Vec3(theta + beta * rate)).norm() > joint.torque)) return false;
+        const double torque = spring_torque(theta, rate, K, beta);
+        if (!(torque > joint.torque)) return false;
+        joints.push_back(joint.body);
+        ++world.counts.broke[std::size_t(world.tree->kind[i])];
+        world.events.add("broke", std::int64_t(i), -1, torque);
+        return true;
+    });
+    if (joints.empty()) return;
+    for (FreeBody& piece : pieces_of(plan, *world.tree, world.subtrees, world.poses, joints))
+        world.free.push_back(std::move(piece));
+    detach(plan, state, world.subtrees, joints, world.remaining);
+    world.broken.insert(world.broken.end(), joints.begin(), joints.end());
+    if (!plan.contact) return;
+    for (const std::uint32_t joint : joints)
+        if (plan.parent[joint] >= 0 && !world.remaining.gone[std::size_t(plan.parent[joint])])
+            world.response.remake_path(plan, world.subtrees, std::size_t(plan.parent[joint]));
+}
+
+} // namespace
+
+template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, const std::vector<TreeRange>& ranges) {
+    World<T> world;
+    const Scene& scene = plan.scene;
+    if (!has_free_bodies(scene)) return world;
+    world.tree = &tree;
+    world.contact = scene.contact.value_or(Contact());
+    world.balls = scene.balls.size();
+    for (const Ball& ball : scene.balls) world.free.push_back(free_ball(ball, scene.air_density));
+    if (scene.fracture) {
+        world.breakable = breakable_joints(tree, ranges, *scene.fracture);
+        world.remaining = whole_tree(plan, tree);
+    }
+    if (scene.fracture || plan.contact) world.subtrees = make_subtrees(tree, plan.contact);
+    if (plan.contact) world.response.make(plan, tree, world.subtrees);
+    if (plan.wind) world.wind = make_wind_table<double>(*scene.wind, plan.top);
+    return world;
+}
+
+template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world, StageClock* clock) {
+    if (!world.on()) return advance(plan, state, clock);
+    const double middle = (double(state.step) + 0.5) * plan.dt;
+    const bool paper = world.contact.model == ContactModel::penalty;
+    std::vector<Way> ways(world.free.size());
+    std::vector<ContactPoint> points;
+    std::vector<Vec3> on_tree;
+    state.loads.clear();
+    if (!ways.empty()) {
+        run_stage(Stage::free_flight, state, clock, [&] {
+            if (plan.wind) evaluate_wind(*plan.scene.wind, middle, world.wind);
+            fly_all(plan, world, ways);
+        });
+        run_stage(Stage::contacts, state, clock, [&] {
+            world.poses.begin(plan, state);
+            points = meet_all(plan, world, ways);
+            for (std::size_t k = 0; k < ways.size(); ++k) { // as fast as they would be
+                world.free[k].motion.v = ways[k].next.v;
+                world.free[k].motion.omega = ways[k].next.omega;
+            }
+            if (paper) {
+                on_tree = penalties(plan, world, points);
+                std::vector<ContactPoint> ground;
+                for (const ContactPoint& c : points)
+                    if (c.body < 0) ground.push_back(c);
+                solve_contacts(plan, world.poses, world.response, world.contact, world.free, ground);
+            } else {
+                solve_contacts(plan, world.poses, world.response, world.contact, world.free, points);
+                for (const ContactPoint& c : points) on_tree.push_back(-c.impulse);
+            }
+            load_trees(plan, state, world, points, on_tree);
+        });
+    }
+    advance(plan, state, clock);
+    if (!ways.empty())
+        run_stage(Stage::contacts, state, clock, [&] {
+            if (paper) {
+                world.poses.begin(plan, state);
+                match_velocities(world, points, on_tree);
+            } else {
+                note_hits(plan, world, points);
+            }
+            for (std::size_t k = 0; k < ways.size(); ++k) {
+                finish_way(plan, world, k, ways[k], points);
+                FreeBody& free = world.free[k];
+                if (!free.leaf() || !world.contact.ground || free.at_rest) continue;
+                const double speed = free.motion.v.norm();
+                if (!lie_down(free, world.contact.ground_height, plan.dt)) continue;
+                ++world.counts.landed;
+                world.events.add("landed", name_of(free, k, *world.tree), -1, speed);
+            }
+        });
+    if (!plan.scene.fracture) return;
+    run_stage(Stage::fracture, state, clock, [&] {
+        world.poses.begin(plan, state);
+        break_joints(plan, state, world);
+    });
+}
+
+template <class T> std::size_t World<T>::bytes() const {
+    std::size_t parts = 0;
+    for (const FreeBody& body : free) parts += body.parts.capacity() * sizeof(FreePart);
+    return free.capacity() * sizeof(FreeBody) + parts + breakable.capacity() * sizeof(Breakable) +
+           remaining.gone.capacity() + remaining.c_mass.capacity() * sizeof(double) +
+           remaining.moment.capacity() * sizeof(Vec3) + response.bytes() +
+           sizeof(std::uint32_t) * (subtrees.first_child.capacity() + subtrees.child.capacity()) +
+           sizeof(float) * subtrees.reach.capacity();
+}
+
+template <class T> std::optional<std::size_t> first_non_finite(const World<T>& world) {
+    for (std::size_t k = 0; k < world.free.size(); ++k) {
+        const FreeMotion& m = world.free[k].motion;
+        if (!(m.x.allFinite() && m.v.allFinite() && m.omega.allFinite() && m.q.coeffs().allFinite())) return k;
+    }
+    return std::nullopt;
+}
+
+template <class T> void place_free_bodies(const World<T>& world, MotionFrame& frame) {
+    if (!world.on()) return;
+    const std::size_t bodies = world.tree->size_bodies();
+    for (auto* array :
+         {&frame.position, &frame.velocity, &frame.angular_velocity, &frame.torque, &frame.theta, &frame.theta_dot})
+        if (!array->empty()) array->resize(bodies + world.balls, Vec3::Zero());
+    if (!frame.rotation.empty()) frame.rotation.resize(bodies + world.balls, Quat::Identity());
+    for (std::size_t k = 0; k < world.free.size(); ++k) {
+        const FreeBody& free = world.free[k];
+        const FreeMotion& m = free.motion;
+        for (const FreePart& part : free.parts) {
+            const std::size_t i = free.ball() ? bodies + k : std::size_t(part.body);
+            if (!frame.position.empty()) frame.position[i] = m.x + m.q * part.joint;
+            if (!frame.rotation.empty()) {
+                frame.rotation[i] = (m.q * part.q).normalized();
+                if (frame.rotation[i].w() < 0) frame.rotation[i].coeffs() *= -1;
+            }
+            if (!frame.velocity.empty()) frame.velocity[i] = free.velocity_at(Vec3(m.q * part.com));
+            if (!frame.angular_velocity.empty()) frame.angular_velocity[i] = m.omega;
+        }
+    }
+    frame.events = world.events;
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template struct World<T>;                                                                                          \
+    template World<T> make_world(const Plan<T>&, const Tree&, const std::vector<TreeRange>&);                          \
+    template void advance(Plan<T>&, State<T>&, World<T>&, StageClock*);                                                \
+    template std::optional<std::size_t> first_non_finite(const World<T>&);                                             \
+    template void place_free_bodies(const World<T>&, MotionFrame&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough

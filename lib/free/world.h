@@ -1,0 +1,71 @@
+// world.h: what is free in a scene, and one step of it all: trees, what breaks off them, balls, ground (§6, §8).
+//
+// Order of a step:
+//   flight    each free body's way through the air (flight.h; leaves: leaf_flight.h)
+//   contacts  what they meet on it, and the impulses (contact.h); a free body goes to where it met something first, and on from there with
+//             its new velocity up to the next thing, which is the next step's. What overlaps is pushed out by a fifth a step
+//   trees     the plan's solver, with the contacts' forces (advance.h)
+//   paper     with the paper's pair of penalty and impulse: the free body takes on the tree's new velocity along the normal where that pushes it away
+//   fracture  joints whose springs' torque is above their threshold (fracture.h)
+// A scene without /fracture and /balls has no World, and its step is advance() alone.
+// What lies slow on the ground for half a second is at rest from then on. A leaf that comes to the ground lies down on it within some tenths of a second.
+// The hash of a run with free bodies goes on over them; saved() and restore() hold them for a run that is cut. Nothing hangs on threads.
+#pragma once
+#include "../model/motion.h"
+#include "../reference/advance.h"
+#include "contact.h"
+#include "fracture.h"
+
+namespace bough {
+
+struct WorldCounts {
+    std::array<std::uint64_t, 4> broke{}; // joints, by Kind of what they carried
+    std::uint64_t hits = 0, landed = 0;
+    ContactTests tests;
+    double imbalance = 0;         // [N s] of the paper's pair: sum of |impulse on the free body + impulse on the tree|
+    double impulse = 0;           // [N s] sum of the impulses on free bodies
+    std::uint64_t pushed_out = 0; // contacts that overlapped
+};
+
+template <class T> struct World {
+    const Tree* tree = nullptr;
+    Contact contact;
+    std::size_t balls = 0;             // the first of `free`
+    std::vector<FreeBody> free;        // then what broke off, in that order
+    std::vector<std::uint32_t> broken; // joints, in that order
+    std::vector<Breakable> breakable;  // joints that may break yet
+    Remaining remaining;               // with /fracture
+    Subtrees subtrees;                 // with /fracture, or where trees are pushed
+    TreePoses<T> poses;
+    TreeResponse<T> response; // where trees are pushed
+    WindTable<double> wind;
+    MotionEvents events; // since the caller last cleared them
+    WorldCounts counts;
+    bool brute_force = false; // for tests: nothing is pruned
+
+    bool on() const { return tree != nullptr; }
+    std::size_t bytes() const;
+};
+
+// Empty (on() false) where the scene has nothing free. The tree is kept by reference: joined, unscaled, as the plan was made from. Throws
+// std::out_of_range for a selector of /fracture that names no body. O(n).
+template <class T> World<T> make_world(const Plan<T>&, const Tree&, const std::vector<TreeRange>&);
+
+// One step of all; without a world that is on, advance(plan, state).
+template <class T> void advance(Plan<T>&, State<T>&, World<T>&, StageClock* clock = nullptr);
+
+// state_hash, gone on over broken joints and free bodies.
+template <class T> std::uint64_t state_hash(const Plan<T>&, const State<T>&, const World<T>&);
+
+// The first free body that is non-finite.
+template <class T> std::optional<std::size_t> first_non_finite(const World<T>&);
+
+// Poses (and velocities, where the frame has them) of what fell, in place of the tree's, and behind them the balls'.
+template <class T> void place_free_bodies(const World<T>&, MotionFrame&);
+
+// All that a run needs to go on besides State; restore() into a world, plan and state that were just made, before restart(). Throws
+// std::invalid_argument for what does not fit them.
+template <class T> std::vector<double> saved_world(const World<T>&);
+template <class T> void restore_world(Plan<T>&, State<T>&, World<T>&, const std::vector<double>&);
+
+} // namespace bough
