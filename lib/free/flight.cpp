@@ -26,6 +26,22 @@ AirLoad air_on(const FreeBody& free, const WindTable<double>& wind) {
     return load;
 }
 
+// From q on under the angular momentum L, world.
+void turn_freely(const FreeBody& free, const Vec3& L, double h, FreeMotion& motion) {
+    Quat q = motion.q;
+    const auto turn_about = [&](int axis, double time) {
+        const double along = Vec3(free.axes.col(axis)).dot(q.conjugate() * L);
+        const double rate = along * (1 / free.moments[axis] - 1 / free.moments[2]);
+        q = q * quaternion_from_vector(Vec3(time * rate * free.axes.col(axis)));
+    };
+    turn_about(0, h / 2);
+    turn_about(1, h);
+    turn_about(0, h / 2);
+    motion.q = (quaternion_from_vector(Vec3(h / free.moments[2] * L)) * q).normalized();
+    const Mat3 R = motion.q.toRotationMatrix();
+    motion.omega = R * free.inverse_inertia * R.transpose() * L;
+}
+
 } // namespace
 
 FreeMotion fly(const FreeBody& free, const Scene& scene, const WindTable<double>* wind, double h) {
@@ -35,11 +51,8 @@ FreeMotion fly(const FreeBody& free, const Scene& scene, const WindTable<double>
     const Mat3 R = free.motion.q.toRotationMatrix();
     const Mat3 inertia = R * free.inertia * R.transpose();
     next.omega += (inertia + h * air.turning * Mat3::Identity()).inverse() * Vec3(h * air.moment);
-    const Vec3 spin = inertia * next.omega;
     next.x += h * next.v;
-    next.q = (quaternion_from_vector(Vec3(h * next.omega)) * free.motion.q).normalized();
-    const Mat3 turned = next.q.toRotationMatrix();
-    next.omega = turned * free.inverse_inertia * turned.transpose() * spin;
+    turn_freely(free, Vec3(inertia * next.omega), h, next);
     return next;
 }
 

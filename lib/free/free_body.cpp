@@ -4,6 +4,7 @@
 #include "../model/scene.h"
 #include "../stages/air.h"
 #include "shape.h"
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -12,6 +13,10 @@ namespace bough {
 void finish(FreeBody& body) {
     body.inertia = own_inertia(body.inertia);
     body.inverse_inertia = body.inertia.inverse();
+    const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertia);
+    body.axes = principal.eigenvectors();
+    if (body.axes.determinant() < 0) body.axes.col(0) *= -1;
+    body.moments = principal.eigenvalues();
     body.bound = 0;
     for (const FreePart& part : body.parts) {
         const Capsule c = capsule_of(part.kind, part.size);

@@ -21,6 +21,8 @@ struct FreeBody {
     double mass = 0; // [kg]
     Mat3 inertia = Mat3::Zero(),
          inverse_inertia = Mat3::Zero(); // [kg m^2] about the centre of mass, own axes; and its inverse
+    Mat3 axes = Mat3::Identity();        // principal axes in columns, own axes; a rotation
+    Vec3 moments = Vec3::Zero();         // [kg m^2] about them, rising
     double bound = 0;                    // [m] farthest point from the centre of mass
     std::vector<FreePart> parts;
     bool at_rest = false; // it lies where it is from here on
@@ -37,7 +39,7 @@ struct FreeBody {
     } // arm from the centre of mass, world
 };
 
-// Sets inverse_inertia and bound from inertia and parts. A body without extent about some axis is given four roundings of the trace there.
+// Sets inverse_inertia, axes, moments and bound from inertia and parts. A body without extent about some axis is given four roundings of the trace there.
 void finish(FreeBody&);
 
 // A ball at rest in the air, as the scene describes it. drag_area from air_density and C_d = 0.47.

@@ -54,24 +54,24 @@ Nearest nearest(const Capsule& first, const Capsule& second) {
     return {distance - r1 - r2, normal, q + r2 * normal};
 }
 
-Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second) {
-    const double length = d.norm();
+Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second, const Capsule& end) {
+    const Vec3 da = d - (end.a - second.a), db = d - (end.b - second.b); // relative
+    const double length = std::max(da.norm(), db.norm());
     Meeting meeting;
-    Capsule moved = first;
     double way = 0;
     while (true) {
-        meeting.at = nearest(moved, second);
+        const Capsule p{first.a + way * d, first.b + way * d, first.radius_a, first.radius_b};
+        const Capsule q{second.a + way * (end.a - second.a), second.b + way * (end.b - second.b), second.radius_a,
+                        second.radius_b};
+        meeting.at = nearest(p, q);
         if (meeting.at.gap <= touching) {
             meeting.way = way;
             meeting.meets = true;
             return meeting;
         }
-        if (!(length > 0) || way >= 1) return meeting;
-        // Past the nearest approach nothing is met any more: both are convex.
-        if (meeting.at.normal.dot(d) >= 0) return meeting;
-        way = std::min(1.0, way + std::max(meeting.at.gap, touching) / length);
-        moved.a = first.a + way * d;
-        moved.b = first.b + way * d;
+        // What is left of the way does not close the gap.
+        if (way >= 1 || (1 - way) * length < meeting.at.gap) return meeting;
+        way = std::min(1.0, way + meeting.at.gap / length);
     }
 }
 

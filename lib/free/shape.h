@@ -26,13 +26,14 @@ struct Nearest {
 };
 Nearest nearest(const Capsule& first, const Capsule& second);
 
-// The part of the way d [m] that `first` goes before it meets `second` at rest, by conservative advancement: each advance is at most the gap, so
-// that nothing is passed through. 1: it does not meet it (the gap at the end is above zero); at: the nearest points then.
+// The part of their ways that two capsules go before they meet, by conservative advancement: each advance is at most the gap over the
+// fastest approach of any of their points, so that nothing is passed through. Ends go straight: `first` by d [m], `second` from where it is to `end`.
+// at: the nearest points then.
 struct Meeting {
-    double way = 1; // 0..1
+    double way = 1; // 0..1; 1 where they do not meet
     bool meets = false;
     Nearest at;
 };
-Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second);
+Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second, const Capsule& end);
 
 } // namespace bough

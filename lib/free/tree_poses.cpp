@@ -16,6 +16,16 @@ template <class T> void TreePoses<T>::begin(const Plan<T>& plan, const State<T>&
     if (plan.lanes.on) motion_at_ = fast::motion_of_rows(plan, state);
 }
 
+template <class T> void TreePoses<T>::begin_copy(const Plan<T>& plan, const State<T>& state) {
+    copy_.clear();
+    begin(plan, state);
+    copy_.reserve(plan.bodies);
+    std::vector<Vector3<T>> all;
+    all.reserve(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) all.push_back(theta(i).template cast<T>());
+    copy_ = std::move(all);
+}
+
 template <class T>
 Vec3 TreePoses<T>::motion(std::size_t body, int quantity, const std::vector<Vector3<T>>& array) const {
     if (!plan_->lanes.on) return array[body].template cast<double>();
@@ -29,7 +39,7 @@ Vec3 TreePoses<T>::motion(std::size_t body, int quantity, const std::vector<Vect
 
 template <class T> Vec3 TreePoses<T>::theta(std::size_t body) const {
     static_assert(fast::motion::theta == 0 && fast::analytic::motion::theta == 0);
-    return motion(body, 0, state_->theta);
+    return copy_.empty() ? motion(body, 0, state_->theta) : Vec3(copy_[body].template cast<double>());
 }
 
 template <class T> Vec3 TreePoses<T>::theta_dot(std::size_t body) const {
@@ -58,7 +68,7 @@ template <class T> void TreePoses<T>::add(std::size_t i) {
         pose.v = ground.v + ground.omega.cross(Vec3(ground.R * d));
     }
     pose.R = pose.R_joint * maps.R;
-    pose.omega += pose.R_joint * (maps.J * theta_dot(i));
+    if (copy_.empty()) pose.omega += pose.R_joint * (maps.J * theta_dot(i));
     place_[i] = std::uint32_t(pose_.size());
     pose_.push_back(pose);
     body_.push_back(i);

@@ -22,6 +22,8 @@ template <class T> class TreePoses {
 public:
     // From here on, those of the state as it stands. Both are kept by reference until the next begin().
     void begin(const Plan<T>&, const State<T>&);
+    // The same, to stay when the state moves on: all angles are copied, O(n), and there are poses alone, no velocities.
+    void begin_copy(const Plan<T>&, const State<T>&);
     // By value: what is asked for next may move what is kept.
     BodyPose of(std::size_t body);
     // [rad], [rad/s] joint frame.
@@ -38,6 +40,7 @@ private:
     std::vector<std::uint32_t> place_; // in pose_, 0: not yet
     std::vector<BodyPose> pose_;
     std::vector<std::size_t> body_, path_, motion_at_;
+    std::vector<Vector3<T>> copy_; // of theta; empty without
 };
 
 } // namespace bough

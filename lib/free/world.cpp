@@ -44,7 +44,7 @@ template <class T> std::vector<ContactPoint> meet_all(const Plan<T>& plan, World
         Way& way = ways[k];
         way.from = way.to = points.size();
         if (free.at_rest || (free.leaf() && !world.contact.leaves)) continue;
-        find_contacts(plan, *world.tree, world.subtrees, world.poses, world.contact, free, k,
+        find_contacts(plan, *world.tree, world.subtrees, TreeWay<T>{world.before, world.poses}, world.contact, free, k,
                       Vec3(way.next.x - way.start.x), world.brute_force, points, world.counts.tests);
         for (std::size_t c = way.from; c < points.size(); ++c) way.first = std::min(way.first, points[c].way);
         std::erase_if(points, [&](const ContactPoint& c) { return c.free == k && c.way > way.first + together; });
@@ -53,7 +53,7 @@ template <class T> std::vector<ContactPoint> meet_all(const Plan<T>& plan, World
     return points;
 }
 
-// Where the rest of the way from `x` leads to: up to what is met next and was not met already.
+// Where the rest of the way from `x` leads to: up to what is met next, trees where they are after the step, and was not met already.
 template <class T>
 Vec3 go_on(const Plan<T>& plan, World<T>& world, std::size_t k, const Vec3& x, const Vec3& d,
            const std::vector<ContactPoint>& points, const Way& way) {
@@ -61,8 +61,8 @@ Vec3 go_on(const Plan<T>& plan, World<T>& world, std::size_t k, const Vec3& x, c
     FreeBody& free = world.free[k];
     const Vec3 start = free.motion.x;
     free.motion.x = x;
-    find_contacts(plan, *world.tree, world.subtrees, world.poses, world.contact, free, k, d, world.brute_force, next,
-                  world.counts.tests);
+    find_contacts(plan, *world.tree, world.subtrees, TreeWay<T>{world.poses, world.poses}, world.contact, free, k, d,
+                  world.brute_force, next, world.counts.tests);
     free.motion.x = start;
     double part = 1;
     for (const ContactPoint& c : next) {
@@ -84,38 +84,36 @@ void finish_way(const Plan<T>& plan, World<T>& world, std::size_t k, const Way& 
     if (way.from == way.to) return;
     const double h = plan.dt, left = h * (1 - way.first);
     const Vec3 d = way.next.x - way.start.x, x = way.start.x + way.first * d;
-    free.motion.x = way.start.x;
-    free.motion.q = way.start.q;
     Vec3 end = go_on(plan, world, k, x, Vec3((1 - way.first) * d + left * (v - way.next.v)), points, way);
-    bool on_ground_alone = true;
+    bool lies = true; // on the ground alone, and not in it
     for (std::size_t c = way.from; c < way.to; ++c) {
         const ContactPoint& p = points[c];
-        on_ground_alone = on_ground_alone && p.body < 0;
-        if (p.gap >= -slop) continue;
-        ++world.counts.pushed_out;
-        end += push_out * (-p.gap - slop) * p.normal;
+        lies = lies && p.body < 0 && p.gap > -2 * slop;
+        // Not behind the point that was met, and of an overlap a part less.
+        const double least = p.gap < -slop ? p.gap + push_out * (-p.gap - slop) : std::min(0.0, p.gap);
+        const double beyond = least - p.gap - p.normal.dot(Vec3(end + p.arm - p.point));
+        if (!(beyond > 0)) continue;
+        world.counts.pushed_out += p.gap < -slop;
+        end += beyond * p.normal;
     }
     free.motion.x = end;
     free.motion.v = v;
     free.motion.omega = omega;
-    const Quat met = quaternion_from_vector(Vec3(way.first * h * way.next.omega)) * way.start.q;
-    free.motion.q = (quaternion_from_vector(Vec3(left * omega)) * met).normalized();
     const bool quiet = v.norm() < quiet_speed && omega.norm() * free.bound < quiet_speed;
-    free.quiet = quiet && on_ground_alone ? free.quiet + h : 0;
+    free.quiet = quiet && lies ? free.quiet + h : 0;
     if (free.quiet < quiet_time) return;
     free.at_rest = true;
     free.motion.v = free.motion.omega = Vec3::Zero();
 }
 
 template <class T>
-void load_trees(const Plan<T>& plan, State<T>& state, World<T>& world, const std::vector<ContactPoint>& points,
+void load_trees(const Plan<T>& plan, State<T>& state, const std::vector<ContactPoint>& points,
                 const std::vector<Vec3>& on_tree) {
     for (std::size_t c = 0; c < points.size(); ++c) {
         if (points[c].body < 0 || on_tree[c].isZero(0)) continue;
         const auto body = std::size_t(points[c].body);
-        const BodyPose pose = world.poses.of(body);
-        const Vec3 point_b = pose.R.transpose() * (points[c].point - pose.x);
-        state.loads.push_back({body, point_b.template cast<T>(), Vec3(on_tree[c] / plan.dt).template cast<T>()});
+        state.loads.push_back(
+            {body, points[c].point_b.template cast<T>(), Vec3(on_tree[c] / plan.dt).template cast<T>()});
     }
 }
 
@@ -143,21 +141,54 @@ std::vector<Vec3> penalties(const Plan<T>& plan, World<T>& world, std::vector<Co
     return on_tree;
 }
 
-// Second half: what makes the free body's velocity the tree's new one, where that pushes it away.
+// Second half: what makes the free body's velocity the tree's, where that pushes it away.
 template <class T>
 void match_velocities(World<T>& world, std::vector<ContactPoint>& points, const std::vector<Vec3>& on_tree) {
     for (std::size_t k = 0; k < points.size(); ++k) {
         ContactPoint& c = points[k];
         if (c.body < 0) continue;
         FreeBody& free = world.free[c.free];
-        const double apart =
-            c.normal.dot(Vec3(free.velocity_at(c.arm) - world.poses.of(std::size_t(c.body)).velocity_at(c.point)));
-        const Mat3 r = cross_matrix(c.arm);
-        const Mat3 W = Mat3::Identity() / free.mass - r * free.inverse_inertia_w() * r;
-        c.impulse = std::max(0.0, -apart / c.normal.dot(W * c.normal)) * c.normal;
-        free.motion.v += c.impulse / free.mass;
-        free.motion.omega += free.inverse_inertia_w() * c.arm.cross(c.impulse);
+        const Vec3 tree = world.poses.of(std::size_t(c.body)).velocity_at(c.point);
+        const double apart = c.normal.dot(Vec3(free.velocity_at(c.arm) - tree));
+        c.impulse = std::max(0.0, -apart / c.normal.dot(mobility_of(free, c.arm) * c.normal)) * c.normal;
+        push(free, c.arm, c.impulse);
         world.counts.imbalance += (c.impulse + on_tree[k]).norm();
+    }
+}
+
+// Contacts, impulses, and where all are after the step.
+template <class T> void meet_and_go(const Plan<T>& plan, State<T>& state, World<T>& world, std::vector<Way>& ways) {
+    std::vector<ContactPoint> points = meet_all(plan, world, ways);
+    for (std::size_t k = 0; k < ways.size(); ++k) { // turned, and as fast, as they would be: omega is of that q
+        world.free[k].motion = ways[k].next;
+        world.free[k].motion.x = ways[k].start.x;
+    }
+    std::vector<Vec3> on_tree;
+    if (world.contact.model == ContactModel::penalty) {
+        on_tree = penalties(plan, world, points);
+        std::vector<ContactPoint> ground;
+        for (const ContactPoint& c : points)
+            if (c.body < 0) ground.push_back(c);
+        solve_contacts(plan, world.poses, world.response, world.contact, world.free, ground);
+        match_velocities(world, points, on_tree);
+    } else {
+        solve_contacts(plan, world.poses, world.response, world.contact, world.free, points);
+        for (const ContactPoint& c : points) on_tree.push_back(-c.impulse);
+    }
+    load_trees(plan, state, points, on_tree);
+    note_hits(plan, world, points);
+    for (std::size_t k = 0; k < ways.size(); ++k) finish_way(plan, world, k, ways[k], points);
+}
+
+template <class T> void come_to_ground(const Plan<T>& plan, World<T>& world) {
+    if (!world.contact.ground) return;
+    for (std::size_t k = 0; k < world.free.size(); ++k) {
+        FreeBody& free = world.free[k];
+        if (!free.leaf() || free.at_rest) continue;
+        const double speed = free.motion.v.norm();
+        if (!lie_down(free, world.contact.ground_height, plan.dt)) continue;
+        ++world.counts.landed;
+        world.events.add("landed", name_of(free, k, *world.tree), -1, speed);
     }
 }
 
@@ -212,55 +243,22 @@ template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, co
 template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world, StageClock* clock) {
     if (!world.on()) return advance(plan, state, clock);
     const double middle = (double(state.step) + 0.5) * plan.dt;
-    const bool paper = world.contact.model == ContactModel::penalty;
-    std::vector<Way> ways(world.free.size());
-    std::vector<ContactPoint> points;
-    std::vector<Vec3> on_tree;
+    const bool moves = std::any_of(world.free.begin(), world.free.end(), [](const FreeBody& f) { return !f.at_rest; });
+    if (moves && plan.contact) run_stage(Stage::contacts, state, clock, [&] { world.before.begin_copy(plan, state); });
+    advance(plan, state, clock);
     state.loads.clear();
-    if (!ways.empty()) {
+    if (moves) {
+        std::vector<Way> ways(world.free.size());
         run_stage(Stage::free_flight, state, clock, [&] {
             if (plan.wind) evaluate_wind(*plan.scene.wind, middle, world.wind);
             fly_all(plan, world, ways);
         });
         run_stage(Stage::contacts, state, clock, [&] {
             world.poses.begin(plan, state);
-            points = meet_all(plan, world, ways);
-            for (std::size_t k = 0; k < ways.size(); ++k) { // as fast as they would be
-                world.free[k].motion.v = ways[k].next.v;
-                world.free[k].motion.omega = ways[k].next.omega;
-            }
-            if (paper) {
-                on_tree = penalties(plan, world, points);
-                std::vector<ContactPoint> ground;
-                for (const ContactPoint& c : points)
-                    if (c.body < 0) ground.push_back(c);
-                solve_contacts(plan, world.poses, world.response, world.contact, world.free, ground);
-            } else {
-                solve_contacts(plan, world.poses, world.response, world.contact, world.free, points);
-                for (const ContactPoint& c : points) on_tree.push_back(-c.impulse);
-            }
-            load_trees(plan, state, world, points, on_tree);
+            meet_and_go(plan, state, world, ways);
+            come_to_ground(plan, world);
         });
     }
-    advance(plan, state, clock);
-    if (!ways.empty())
-        run_stage(Stage::contacts, state, clock, [&] {
-            if (paper) {
-                world.poses.begin(plan, state);
-                match_velocities(world, points, on_tree);
-            } else {
-                note_hits(plan, world, points);
-            }
-            for (std::size_t k = 0; k < ways.size(); ++k) {
-                finish_way(plan, world, k, ways[k], points);
-                FreeBody& free = world.free[k];
-                if (!free.leaf() || !world.contact.ground || free.at_rest) continue;
-                const double speed = free.motion.v.norm();
-                if (!lie_down(free, world.contact.ground_height, plan.dt)) continue;
-                ++world.counts.landed;
-                world.events.add("landed", name_of(free, k, *world.tree), -1, speed);
-            }
-        });
     if (!plan.scene.fracture) return;
     run_stage(Stage::fracture, state, clock, [&] {
         world.poses.begin(plan, state);

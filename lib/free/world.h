@@ -1,11 +1,12 @@
 // world.h: what is free in a scene, and one step of it all: trees, what breaks off them, balls, ground (§6, §8).
 //
 // Order of a step:
+//   trees     the plan's solver, with the contacts' forces from the step before (advance.h)
 //   flight    each free body's way through the air (flight.h; leaves: leaf_flight.h)
-//   contacts  what they meet on it, and the impulses (contact.h); a free body goes to where it met something first, and on from there with
-//             its new velocity up to the next thing, which is the next step's. What overlaps is pushed out by a fifth a step
-//   trees     the plan's solver, with the contacts' forces (advance.h)
-//   paper     with the paper's pair of penalty and impulse: the free body takes on the tree's new velocity along the normal where that pushes it away
+//   contacts  what they meet on it, trees on their own ways, and the impulses (contact.h); a free body goes to where it met something
+//             first, and on from there with its new velocity up to the next thing, which is the next step's. It does not end behind the point that it
+//             met; what overlapped before is pushed out by a fifth a step. With the paper's pair, the tree takes the penalty force, and the free
+//             body the tree's velocity along the normal where that pushes it away
 //   fracture  joints whose springs' torque is above their threshold (fracture.h)
 // A scene without /fracture and /balls has no World, and its step is advance() alone.
 // What lies slow on the ground for half a second is at rest from then on. A leaf that comes to the ground lies down on it within some tenths of a second.
@@ -36,8 +37,8 @@ template <class T> struct World {
     std::vector<Breakable> breakable;  // joints that may break yet
     Remaining remaining;               // with /fracture
     Subtrees subtrees;                 // with /fracture, or where trees are pushed
-    TreePoses<T> poses;
-    TreeResponse<T> response; // where trees are pushed
+    TreePoses<T> poses, before;        // at a step's end; where trees are met, at its start
+    TreeResponse<T> response;          // where trees are pushed
     WindTable<double> wind;
     MotionEvents events; // since the caller last cleared them
     WorldCounts counts;
@@ -65,7 +66,7 @@ template <class T> void place_free_bodies(const World<T>&, MotionFrame&);
 
 // All that a run needs to go on besides State; restore() into a world, plan and state that were just made, before restart(). Throws
 // std::invalid_argument for what does not fit them.
-template <class T> std::vector<double> saved_world(const World<T>&);
+template <class T> std::vector<double> saved_world(const State<T>&, const World<T>&);
 template <class T> void restore_world(Plan<T>&, State<T>&, World<T>&, const std::vector<double>&);
 
 } // namespace bough

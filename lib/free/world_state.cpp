@@ -83,9 +83,15 @@ template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>&
     return hash.value();
 }
 
-template <class T> std::vector<double> saved_world(const World<T>& world) {
+template <class T> std::vector<double> saved_world(const State<T>& state, const World<T>& world) {
     std::vector<double> out;
     if (!world.on()) return out;
+    out.push_back(double(state.loads.size()));
+    for (const Load<T>& load : state.loads) {
+        out.push_back(double(load.body));
+        put(out, Vec3(load.point_b.template cast<double>()));
+        put(out, Vec3(load.force.template cast<double>()));
+    }
     out.push_back(double(world.broken.size()));
     for (const std::uint32_t joint : world.broken) out.push_back(double(joint));
     out.push_back(double(world.free.size()));
@@ -116,6 +122,12 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
     const Tree& tree = *world.tree;
     const std::size_t n = tree.size_bodies();
     Reader in(saved);
+    const std::size_t loads = in.index(saved.size() + 1, "a number of forces");
+    for (std::size_t k = 0; k < loads; ++k) {
+        const std::size_t body = in.index(n, "a body");
+        const Vec3 point = in.vector(), force = in.vector();
+        state.loads.push_back({body, point.template cast<T>(), force.template cast<T>()});
+    }
     const std::size_t breaks = in.index(n + 1, "a number of joints");
     for (std::size_t k = 0; k < breaks; ++k) world.broken.push_back(std::uint32_t(in.index(n, "a body")));
     const std::size_t bodies = in.index(n + world.balls + 1, "a number of free bodies");
@@ -156,8 +168,8 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
 
 template std::uint64_t state_hash(const Plan<float>&, const State<float>&, const World<float>&);
 template std::uint64_t state_hash(const Plan<double>&, const State<double>&, const World<double>&);
-template std::vector<double> saved_world(const World<float>&);
-template std::vector<double> saved_world(const World<double>&);
+template std::vector<double> saved_world(const State<float>&, const World<float>&);
+template std::vector<double> saved_world(const State<double>&, const World<double>&);
 template void restore_world(Plan<float>&, State<float>&, World<float>&, const std::vector<double>&);
 template void restore_world(Plan<double>&, State<double>&, World<double>&, const std::vector<double>&);
 
