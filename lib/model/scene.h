@@ -134,6 +134,15 @@ struct JointLimit {
     Vec3 branch{180, 180, 180}, leaf{180, 180, 180}, fruit{180, 180, 180}; // [deg]
 };
 
+// The air on leaves and petals, (23) and (24) of the paper in full: on those that hang (air.h) and on those that fly (leaf_flight.h).
+// Without it those that hang have the first term of (23) alone, kappa 0.6.
+struct LeafAir {
+    double kappa = 0.6;        // [1] scales what the air's pressure does: half of a plate's drag coefficient
+    double air_resistance = 4; // [1/s] nu: of motion along the normal, and of turning
+    double drag_ratio = 5;     // [1] xi: how much less of motion along the surface; above 0
+    double offset = 0;         // [deg] phi: turns the torque's axis about the normal: a leaf that flies spirals
+};
+
 struct Scene {
     std::vector<Placement> trees; // may be empty where the caller has the tree already
     Vec3 gravity{0, -9.81, 0};    // [m/s^2]; zero: absent
@@ -149,6 +158,7 @@ struct Scene {
     std::optional<Fracture> fracture;
     std::vector<Ball> balls;
     std::optional<Contact> contact; // absent: its defaults, where something is free
+    std::optional<LeafAir> leaves;
 };
 
 // The first broken rule, or none. O(keys).
