@@ -68,6 +68,10 @@ double wind_profile(const Wind& wind, double y) {
     return y > 0 ? std::pow(y / wind.reference_height, wind.profile) : 0;
 }
 
+Vec3 wind_at(const Wind& wind, const Vec3& place, double t) {
+    return wind_profile(wind, place.y()) * wind_velocity(wind, t);
+}
+
 template <class T> WindTable<T> make_wind_table(const Wind& wind, double top) {
     const std::size_t entries = wind.profile == 0 ? 1 : 65;
     WindTable<T> table;

@@ -16,6 +16,10 @@ Vec3 wind_velocity(const Wind&, double t);
 // Factor over height, (y / reference_height)^profile, 0 at and below the ground (1 everywhere for profile 0).
 double wind_profile(const Wind&, double y);
 
+// The wind's velocity [m/s] at a place [m] and time [s], evaluated directly: the definition, for bodies that are few and for tests;
+// what steps look up is the table below. O(1).
+Vec3 wind_at(const Wind&, const Vec3& place, double t);
+
 // The field as bodies see it: velocities at even heights from 0 to top, linear between, constant above.
 template <class T> struct WindTable {
     T per_metre = 0;                  // [1/m] entries a metre
