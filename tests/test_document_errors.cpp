@@ -193,9 +193,8 @@ TEST_CASE("scenes name the nested place") {
     CHECK_THAT(scene_error("\"wind\": \"gale\""),
                StartsWith("s: /wind: is \"gale\", expected calm, breeze, gusty, storm"));
     CHECK(scene_error("\"wind\": {\"velocity\": [1, 0, 0], \"gust\": 2}") ==
-          "s: /wind/gust: is an unknown field, expected one of gust_factor, gust_period, profile, reference_height, "
-          "seed, "
-          "turbulence, velocity");
+          "s: /wind/gust: is an unknown field, expected one of grid, gust_factor, gust_period, period, profile, "
+          "reference_height, seed, shelter, swirl, turbulence, velocity");
     CHECK(scene_error("\"wind\": {\"velocity\": [1, 0]}") == "s: /wind/velocity: has 2 numbers, expected 3 (x, y, z)");
     CHECK(scene_error("\"wind\": {}") == "s: /wind/velocity: is missing");
     CHECK(scene_error("\"wind\": {\"velocity\": [1, 0, 0], \"gust_period\": 0}") ==
@@ -272,6 +271,64 @@ TEST_CASE("root motion names the nested place") {
     CHECK_THAT(moved(good + ", \"rotations\": []"), StartsWith("s: /root_motion/0/rotations: is an unknown field"));
 }
 
+TEST_CASE("a grid over the ground, a swirl, a shelter say what is wrong with them") {
+    const auto wind = [](const std::string& fields) {
+        return scene_error("\"wind\": {\"velocity\": [1, 0, 0], " + fields + "}");
+    };
+    const std::string head = "\"grid\": {\"origin\": [0, 0], \"cell\": 2, \"columns\": 2, \"rows\": 3";
+    const auto grid = [&](const std::string& more) { return wind(head + more + "}"); };
+    CHECK(grid("") == "");
+    CHECK(grid(", \"velocity\": [1, 2, 3], \"octaves\": 3, \"persistence\": 0.5, \"phase\": [0, 1, 2, 3, 4, 5]") == "");
+    CHECK(grid(", \"velocity\": [[1, 2, 3], [1, 2, 3]]") ==
+          "s: /wind/grid/velocity: has 2 values, expected 1 or 6 (one for each cell)");
+    CHECK(grid(", \"velocity\": []") ==
+          "s: /wind/grid/velocity: is empty, expected one [x, y, z], or one for each cell");
+    CHECK(grid(", \"phase\": [1, 2]") == "s: /wind/grid/phase: has 2 values, expected 1 or 6 (one for each cell)");
+    CHECK(grid(", \"phase\": []") == "s: /wind/grid/phase: has 0 values, expected 1 or 6 (one for each cell)");
+    CHECK(grid(", \"octaves\": [0, 1, 2, -1, 0, 0]") == "s: /wind/grid/octaves/3: is -1, expected 0 to 32 octaves");
+    CHECK(grid(", \"octaves\": 33") == "s: /wind/grid/octaves: is 33, expected 0 to 32 octaves");
+    CHECK(grid(", \"octaves\": 1.5") == "s: /wind/grid/octaves: is 1.5, expected an integer");
+    CHECK(grid(", \"octaves\": [1, 1.5, 1, 1, 1, 1]") ==
+          "s: /wind/grid/octaves/1: is 1.5, expected an integer of 32 bits");
+    CHECK(grid(", \"octaves\": [1, 99999999999, 1, 1, 1, 1]") ==
+          "s: /wind/grid/octaves/1: is 99999999999, expected an integer of 32 bits");
+    CHECK(grid(", \"persistence\": -0.5") == "s: /wind/grid/persistence: is -0.5, expected 0 or more");
+    CHECK(grid(", \"frequency\": 0") == "s: /wind/grid/frequency: is 0, expected more than 0");
+    CHECK_THAT(grid(", \"speed\": 1"), StartsWith("s: /wind/grid/speed: is an unknown field"));
+    CHECK(wind("\"grid\": {\"origin\": [0], \"cell\": 2, \"columns\": 2, \"rows\": 3}") ==
+          "s: /wind/grid/origin: has 1 numbers, expected 2 (x, z)");
+    CHECK(wind("\"grid\": {\"origin\": [0, 0], \"cell\": 0, \"columns\": 2, \"rows\": 3}") ==
+          "s: /wind/grid/cell: is 0, expected more than 0");
+    CHECK(wind("\"grid\": {\"origin\": [0, 0], \"cell\": 1, \"columns\": 0, \"rows\": 3}") ==
+          "s: /wind/grid/columns: is 0, expected 1 or more");
+    CHECK(wind("\"grid\": {\"origin\": [0, 0], \"cell\": 1, \"columns\": 3000, \"rows\": 3000}") ==
+          "s: /wind/grid: has 9000000 cells, expected at most 4194304");
+    CHECK(wind("\"grid\": {\"origin\": [0, 0], \"cell\": 1, \"columns\": 1}") == "s: /wind/grid/rows: is missing");
+    CHECK(wind("\"grid\": 3") == "s: /wind/grid: is 3, expected an object");
+
+    CHECK(wind("\"swirl\": {\"angle\": 20}") == "");
+    CHECK(wind("\"swirl\": {\"angle\": [20, 30], \"radius\": [0, 4], \"wavelength\": 3, \"center\": [1, 2]}") == "");
+    CHECK(wind("\"swirl\": {}") == "s: /wind/swirl/angle: is missing");
+    CHECK(wind("\"swirl\": {\"angle\": [20, 30]}") ==
+          "s: /wind/swirl/angle: has 2 keys, expected 1 (radius names no more)");
+    CHECK(wind("\"swirl\": {\"angle\": 20, \"radius\": [0, 4]}") ==
+          "s: /wind/swirl/angle: has 1 keys, expected 2 (one for each radius)");
+    CHECK(wind("\"swirl\": {\"angle\": [1, 200], \"radius\": [0, 4]}") ==
+          "s: /wind/swirl/angle/1: is 200, expected -180 to 180 degrees");
+    CHECK(wind("\"swirl\": {\"angle\": [1, 2], \"radius\": [4, 4]}") ==
+          "s: /wind/swirl/radius/1: is 4, expected more than the one before it");
+    CHECK(wind("\"swirl\": {\"angle\": 1, \"period\": -1}") == "s: /wind/swirl/period: is -1, expected more than 0");
+    CHECK(wind("\"swirl\": {\"angle\": 1, \"wavelength\": 0}") ==
+          "s: /wind/swirl/wavelength: is 0, expected more than 0");
+
+    CHECK(wind("\"shelter\": {\"cell\": 0.5}") == "");
+    CHECK(wind("\"shelter\": {}") == "s: /wind/shelter/cell: is missing");
+    CHECK(wind("\"shelter\": {\"cell\": -1}") == "s: /wind/shelter/cell: is -1, expected more than 0");
+    CHECK(scene_error("\"wind\": {\"velocity\": [0, 0, 0], \"shelter\": {\"cell\": 1}}") ==
+          "s: /wind/shelter: needs a direction, but /wind/velocity is zero");
+    CHECK(wind("\"period\": 0") == "s: /wind/period: is 0, expected more than 0");
+}
+
 TEST_CASE("a wind document has its own places") {
     const auto wrong = [](const std::string& fields) {
         return error_of([&] { read_wind(R"({"format": "bough-wind", "version": 1, )" + fields + "}", "w"); });
@@ -279,6 +336,10 @@ TEST_CASE("a wind document has its own places") {
     CHECK(wrong("\"velocity\": [1, 0, 0]") == "");
     CHECK(wrong("\"velocity\": [1, 0, 0], \"turbulence\": -1") == "w: /turbulence: is -1, expected 0 or more");
     CHECK(wrong("\"speed\": 1") == "w: /velocity: is missing");
+    CHECK(wrong("\"velocity\": [1, 0, 0], \"swirl\": {\"angle\": \"wide\"}") ==
+          "w: /swirl/angle: is \"wide\", expected a number or a list of them");
+    CHECK(wrong("\"velocity\": [1, 0, 0], \"swirl\": {\"angle\": 1, \"period\": 0}") ==
+          "w: /swirl/period: is 0, expected more than 0");
 }
 
 TEST_CASE("motions name the line of the frame") {
@@ -378,6 +439,12 @@ TEST_CASE("cut or with any byte changed, a document is read as it stands or refu
     Scene scene;
     scene.trees = {{"a", {1, 2, 3}, 4}};
     scene.wind = Wind{};
+    scene.wind->grid.emplace();
+    scene.wind->grid->cell = 1;
+    scene.wind->grid->columns = scene.wind->grid->rows = 1;
+    scene.wind->swirl.emplace();
+    scene.wind->swirl->angle = {3};
+    scene.wind->period = 9;
     scene.pulls.resize(1);
     scene.pulls[0].time = {0};
     scene.pulls[0].force = {{1, 2, 3}};

@@ -203,6 +203,27 @@ TEST_CASE("scenes come back from both forms") {
     scene.trees = {{"oak.json", {1, 0, -0.1}, 30}, {"birch.safetensors", {0, 0, 1e-300}, -7.5}};
     scene.gravity = {0, -1.62, 0};
     scene.wind = Wind{{3, 0, 1}, 8, 0.2, 0.3, 1.5, 4, 18446744073709551615u};
+    WindGrid grid;
+    grid.x = -3.5;
+    grid.z = 0.1;
+    grid.cell = 2;
+    grid.columns = 2;
+    grid.rows = 1;
+    grid.velocity = {Vec3(1, 0.1, 1e-300), Vec3(-4, 0, 2)};
+    grid.octaves = {3};
+    grid.persistence = {0.25, 0.1};
+    grid.frequency = 0.7;
+    scene.wind->grid = grid;
+    WindSwirl swirl;
+    swirl.x = 0.3;
+    swirl.z = -0.2;
+    swirl.radius = {1};
+    swirl.angle = {12.5};
+    swirl.period = 2.5;
+    swirl.wavelength = 6;
+    scene.wind->swirl = swirl;
+    scene.wind->shelter = WindShelter{0.7};
+    scene.wind->period = 60;
     scene.air_density = 1.1;
     scene.pose = Pose::settled;
     scene.joint_inertia = JointInertia::paper;
@@ -248,6 +269,16 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(read.wind->gust_factor == 1.5);
         CHECK(read.wind->gust_period == 4);
         CHECK(read.wind->seed == scene.wind->seed);
+        REQUIRE((read.wind->grid && read.wind->swirl && read.wind->shelter));
+        const WindGrid& cells = *read.wind->grid;
+        CHECK((cells.x == grid.x && cells.z == grid.z && cells.cell == 2 && cells.columns == 2 && cells.rows == 1));
+        CHECK((cells.velocity == grid.velocity && cells.octaves == grid.octaves && cells.phase == grid.phase));
+        CHECK((cells.persistence == grid.persistence && cells.frequency == grid.frequency));
+        const WindSwirl& turn = *read.wind->swirl;
+        CHECK((turn.x == swirl.x && turn.z == swirl.z && turn.radius == swirl.radius && turn.angle == swirl.angle));
+        CHECK((turn.period == swirl.period && turn.wavelength == swirl.wavelength));
+        CHECK(read.wind->shelter->cell == 0.7);
+        CHECK(read.wind->period == 60);
         CHECK(read.air_density == 1.1);
         CHECK(read.pose == Pose::settled);
         CHECK(read.joint_inertia == JointInertia::paper);
@@ -383,5 +414,5 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 9);
+    CHECK(examples == 10);
 }

@@ -28,12 +28,18 @@ std::vector<Case> cases() {
                           {"wind", tree, windy},
                           {"moved", tree, moved},
                           {"everything", tree, everything()}};
+    Scene varied = windy;
+    varied.wind->swirl.emplace();
+    varied.wind->swirl->angle = {20};
+    varied.wind->shelter = WindShelter{3};
+    all.push_back({"wind over the ground", tree, varied});
     Scene pulled;
     pulled.pulls = pulls();
     windy.pulls = pulls();
     std::vector<Case> joints{{"analytic, gravity alone", tree, Scene{}},
                              {"analytic, nothing", tree, solver::empty_scene()},
                              {"analytic, pulls", tree, pulled},
+                             {"analytic, wind over the ground", tree, varied},
                              {"analytic, everything", tree, windy}};
     for (Case& c : joints) {
         c.solver = Solver::analytic;

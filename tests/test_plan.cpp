@@ -98,6 +98,14 @@ std::vector<Case> cases() {
     windy.wind = wind_preset("gusty");
     const Names blown = joined(joined(forces, velocities), drag);
     all.push_back({"wind", windy, {}, {"wind_field", "external_forces", "drag"}, blown});
+    Scene varied = windy;
+    varied.wind->grid.emplace();
+    varied.wind->grid->cell = 2;
+    varied.wind->grid->columns = varied.wind->grid->rows = 3;
+    varied.wind->swirl.emplace();
+    varied.wind->swirl->angle = {20};
+    varied.wind->shelter = WindShelter{3};
+    all.push_back({"wind over the ground", varied, {}, {"wind_field", "external_forces", "drag"}, blown});
     Scene still = empty_scene();
     still.wind = Wind{};
     all.push_back({"still air", still, {}, {"wind_field", "external_forces", "drag"}, blown});
@@ -186,8 +194,15 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
         CHECK(state.ground.size() == c.scene.root_motion.size());
         CHECK(state.root_load.capacity() == c.scene.root_motion.size());
         CHECK(state.coupled_ground.capacity() == (coupled ? c.scene.root_motion.size() : 0));
-        CHECK(state.wind.velocity.empty() != c.scene.wind.has_value());
-        CHECK(state.wind_change.velocity.empty() != (coupled && c.scene.wind.has_value()));
+        const bool field = c.name == "wind over the ground", uniform = c.scene.wind.has_value() && !field;
+        CHECK(state.wind.velocity.empty() != uniform);
+        CHECK(state.wind_change.velocity.empty() != (coupled && uniform));
+        CHECK(plan.field == field);
+        CHECK(plan.shelter.capacity() == (field ? plan.bodies : 0));
+        CHECK(state.wind.field.velocity.capacity() == (field ? 27u : 0u));
+        CHECK((state.wind.field.turn.capacity() > 0) == field);
+        for (const WindField<T>* table : {&state.wind_start, &state.wind_end})
+            CHECK(table->velocity.capacity() == (coupled && field ? 27u : 0u));
     }
 }
 
@@ -231,6 +246,15 @@ TEST_CASE("the constants of wind and gravity exist only with them") {
     CHECK(coupled_full.gravity_row.capacity() + coupled_full.inertia_factor.capacity() +
               coupled_full.inverse_weight.capacity() ==
           0);
+}
+
+TEST_CASE("the plan says what of the wind varies over the ground") {
+    for (const Case& c : cases()) {
+        if (c.name != "wind over the ground") continue;
+        const auto plan = plan_of(make_tree::branched(), c.scene);
+        CHECK(plan.stages[std::size_t(Stage::wind_field)].reason ==
+              "/wind; /wind/grid, 9 cells; /wind/swirl; /wind/shelter");
+    }
 }
 
 #ifndef BOUGH_SANITIZED

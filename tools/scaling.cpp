@@ -56,8 +56,8 @@ template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
     const bool streamed = plan.target == fast::Target::avx512 && fast::streams(layout);
     const fast::StepBytes bytes = plan.solver == Solver::coupled
                                       ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed)
-                                      : fast::analytic_step_bytes(layout, plan.wind, !plan.pulls.empty(), plan.gravity,
-                                                                  plan.refresh > 0, sizeof(T));
+                                      : fast::analytic_step_bytes(layout, plan.wind, plan.pushes(), plan.gravity,
+                                                                  plan.refresh > 0, sizeof(T), plan.field);
     const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
     cost.slots = each(std::uint64_t(layout.rows) * std::uint64_t(layout.lanes));
     cost.constants_in = each(bytes.constants.in);

@@ -125,6 +125,29 @@ struct Fingerprint {
         for (const double value : {w.reference_height, w.profile, w.turbulence, w.gust_factor, w.gust_period})
             add(value);
         add(w.seed);
+        // What is absent adds nothing, so that the runs without it keep their fingerprints.
+        if (w.grid) add(*w.grid);
+        if (w.swirl) add(*w.swirl);
+        if (w.shelter) add_named(3, {w.shelter->cell});
+        if (w.period) add_named(4, {*w.period});
+    }
+    void add_named(std::uint64_t name, const std::vector<double>& values) {
+        add(name);
+        add(std::uint64_t(values.size()));
+        for (const double value : values) add(value);
+    }
+    void add(const WindGrid& g) {
+        add_named(1, {g.x, g.z, g.cell, double(g.columns), double(g.rows), g.frequency});
+        add(std::uint64_t(g.velocity.size()));
+        for (const Vec3& v : g.velocity) add(v);
+        add_named(0, std::vector<double>(g.octaves.begin(), g.octaves.end()));
+        add_named(0, g.persistence);
+        add_named(0, g.phase);
+    }
+    void add(const WindSwirl& s) {
+        add_named(2, {s.x, s.z, s.period, s.wavelength.value_or(0)});
+        add_named(0, s.radius);
+        add_named(0, s.angle);
     }
     void add(const Selector& on) {
         for (const std::int64_t value :

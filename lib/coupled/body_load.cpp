@@ -2,12 +2,18 @@
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
+#include "../stages/shelter.h"
 #include "own_inertia.h"
 
 namespace bough {
 
 template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, double time) {
     const Wind& wind = *plan.scene.wind;
+    if (plan.field) {
+        evaluate_field(wind, wind_weather(wind, time), time, state.wind_start);
+        evaluate_field(wind, wind_weather(wind, time + plan.dt), time + plan.dt, state.wind_end);
+        return evaluate_wind(wind, time + plan.dt / 2, state.wind);
+    }
     evaluate_wind(wind, time, state.wind);
     evaluate_wind(wind, time + plan.dt, state.wind_change);
     for (std::size_t k = 0; k < state.wind.velocity.size(); ++k)
@@ -17,16 +23,24 @@ template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, dou
 
 namespace {
 
+// What the wind at a place changes by over the step.
+template <class T> Vector3<T> wind_change(const State<T>& state, const Vector3<T>& place) {
+    if (!state.wind_end.on()) return state.wind_change.at(place.y());
+    const Vector3<T> change = state.wind_end.at(place.x(), place.z()) - state.wind_start.at(place.x(), place.z());
+    return state.wind.factor(place.y()) * change;
+}
+
 template <class T> void add_air(const Plan<T>& plan, const State<T>& state, CoupledBody<T>& b, std::size_t i) {
-    const T y = b.x.y() + b.c.y(), scale = plan.drag_area[i];
-    const Vector3<T> u = state.wind.at(y) - b.v - b.omega.cross(b.c);
+    const T scale = plan.drag_area[i];
+    const Vector3<T> place = b.x + b.c;
+    const Vector3<T> u = sheltered(plan, i, state.wind.at(place)) - b.v - b.omega.cross(b.c);
     b.D = scale * air_damping(plan.kind[i], b.R, u);
     const Vector3<T> ahead = b.v - b.v_0 + (b.omega - b.omega_0).cross(b.c);
     b.air = scale * air_force(plan.kind[i], b.R, u).force;
     const Vector3<T> f = b.air + b.D * ahead;
     b.F -= f;
     b.N -= b.c.cross(f);
-    b.slope_F = -b.D * state.wind_change.at(y);
+    b.slope_F = -b.D * sheltered(plan, i, wind_change(state, place));
     b.slope_N = b.c.cross(b.slope_F);
     if (is_flat(plan.kind[i])) b.H += scale * plan.com[i].norm() * air_turning(plan.kind[i], b.R, u);
 }

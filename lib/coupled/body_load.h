@@ -20,7 +20,7 @@ namespace bough {
 
 template <class T> void body_loads(const Plan<T>&, State<T>&, double time);
 
-// Wind half a step on, and its change over the step, into state.wind, state.wind_change. O(1).
+// Wind half a step on, and its change over the step, into state.wind, state.wind_change (or wind_start, wind_end). O(its tables).
 template <class T> void wind_over_step(const Plan<T>&, State<T>&, double time);
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "energy_guard.h"
 #include "../stages/external_forces.h"
+#include "../stages/shelter.h"
 #include "midpoint.h"
 #include "turn_bounds.h"
 #include <algorithm>
@@ -83,7 +84,7 @@ template <class T>
 double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved, const Vector3<T>& own) {
     const CoupledBody<T>& y = s.coupled[i];
     const Vector3<T> mean = moved / T(plan.dt), ground = (moved - own) / T(plan.dt);
-    const Vector3<T> U = s.wind.at(y.x.y() + y.c.y()) - ground;
+    const Vector3<T> U = sheltered(plan, i, s.wind.at(Vector3<T>(y.x + y.c))) - ground;
     const Vector3<T> ahead = mean - y.v - y.omega.cross(y.c);
     const T speed = U.norm();
     const T most =

@@ -26,7 +26,7 @@ template <class W> struct Seen {
     W gravity, wind; // [kg m^2]
 };
 
-template <class T, bool wind, bool pulls, bool gravity, class Own>
+template <class T, bool wind, bool pulls, bool gravity, bool field, class Own>
 struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     using Base = SweepParts<T, AnalyticRows<T>>;
     using Base::L;
@@ -37,7 +37,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
 
     static constexpr bool forces = wind || pulls;
     static constexpr bool placed = forces || gravity; // something of the world's is felt
-    static constexpr int constant_count = analytic::constants(wind), inward_count = analytic::inward_count(wind, pulls);
+    static constexpr int constant_count = analytic::constants(wind), inward_count = analytic::inward_count(wind, pulls),
+                         outward_count = analytic::outward_count(field);
 
     const Block& block;
     T* scratch;
@@ -66,6 +67,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         M3<W> R_bw;
         V3<W> omega, v; // v of the joint
         W y;
+        W x{}, z{}; // with a field alone
     };
 
     // The air's force over kappa rho A, and its speed (air.h).
@@ -104,6 +106,16 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         }
     }
 
+    // On the body at rest, in its axes. p: the profile's factor there.
+    BOUGH_FORCE V3<W> wind_on(const Frame& f, std::uint32_t row, int lane, const W& p, const V3<W>& c) const {
+        if constexpr (field) {
+            const auto over = this->over_ground(f.x + dot(f.R_bw.x, c), f.z + dot(f.R_bw.z, c));
+            return this->sheltered(row, lane, p) * (f.R_bw * this->field_at(over, rows.field.middle));
+        } else {
+            return p * (f.R_bw * vector(rows.wind));
+        }
+    }
+
     template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane) const {
         const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
         const Rows<T> out = loaded_of(row, lane);
@@ -118,6 +130,10 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         const V3<W> r = k.vector(constant::joint_position);
         if constexpr (wind) {
             f.y = f.y + dot(f.R_bw.y, r);
+            if constexpr (field) {
+                f.x = f.x + dot(f.R_bw.x, r);
+                f.z = f.z + dot(f.R_bw.z, r);
+            }
             f.v = transposed_times(R, f.v + cross(f.omega, r));
             f.omega = transposed_times(R, f.omega) + own().template joint_rate<kind>(row, lane, theta, turn);
         }
@@ -126,7 +142,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         if constexpr (wind) {
             const V3<W> c = k.vector(constant::com);
             const W p = this->profile(f.y + dot(f.R_bw.y, c));
-            const V3<W> still = p * (f.R_bw * vector(rows.wind)), moving = still - f.v - cross(f.omega, c);
+            const V3<W> still = wind_on(f, row, lane, p, c), moving = still - f.v - cross(f.omega, c);
             const W scale = k.real(constant::drag_area);
             const W still2 = dot(still, still), still_speed = root(still2);
             W speed_0, speed_1;
@@ -149,12 +165,16 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
 
     template <Kind kind> void group_out(const Group& g) const {
         for (int lane = 0; lane < L; lane += width<T>) {
-            Records<T, outward::count> base;
+            Records<T, outward_count> base;
             Frame f{};
             const Rows<T> q = base.rows();
             if constexpr (placed) {
                 base.gather(rows.outward_records, &rows.base[g.first_base + std::size_t(lane)]);
                 f = {q.matrix(outward::R_bw), q.vector(outward::omega), q.vector(outward::v), q.real(outward::y)};
+                if constexpr (field) {
+                    f.x = q.real(outward::x);
+                    f.z = q.real(outward::z);
+                }
             }
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 step_out<kind>(f, row, lane);
@@ -163,9 +183,13 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                 q.set(outward::omega, f.omega);
                 q.set(outward::v, f.v);
                 q.set(outward::y, f.y);
+                if constexpr (field) {
+                    q.set(outward::x, f.x);
+                    q.set(outward::z, f.z);
+                }
                 base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
                              [&](std::uint32_t joint, int k, W w) {
-                                 write(rows.outward_records + joint * record(outward::count, L) + std::size_t(k), w);
+                                 write(rows.outward_records + joint * record(outward_count, L) + std::size_t(k), w);
                              });
             }
         }
@@ -332,18 +356,21 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
 };
 
 // A sweep's code for what the scene loads its bodies with.
-template <template <class, bool, bool, bool> class Sweep, class T, bool wind, bool pulls, bool gravity>
+template <template <class, bool, bool, bool, bool> class Sweep, class T, bool wind, bool pulls, bool gravity,
+          bool field = false>
 AnalyticSweeps<T> sweeps_with() {
     return {[](const AnalyticRows<T>& rows, const Block& block, T* scratch, SweepFlags& flags) {
                 const FlushToZero flush;
-                Sweep<T, wind, pulls, gravity>(rows, block, scratch, flags).out();
+                Sweep<T, wind, pulls, gravity, field>(rows, block, scratch, flags).out();
             },
             [](const AnalyticRows<T>& rows, const Block& block, T* scratch, SweepFlags& flags) {
                 const FlushToZero flush;
-                Sweep<T, wind, pulls, gravity>(rows, block, scratch, flags).in();
+                Sweep<T, wind, pulls, gravity, field>(rows, block, scratch, flags).in();
             }};
 }
-template <template <class, bool, bool, bool> class Sweep, class T> AnalyticSweeps<T> sweeps_of(AnalyticLoads loads) {
+template <template <class, bool, bool, bool, bool> class Sweep, class T>
+AnalyticSweeps<T> sweeps_of(AnalyticLoads loads) {
+    if (loads.field) return sweeps_with<Sweep, T, true, false, true, true>();
     if (loads.wind) // it has forces, and so room for pulls
         return loads.gravity ? sweeps_with<Sweep, T, true, false, true>() : sweeps_with<Sweep, T, true, false, false>();
     if (loads.pulls)

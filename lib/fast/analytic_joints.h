@@ -40,9 +40,9 @@ template <class X, class Real = RealOf<X>> struct Across {
     }
 };
 
-template <class T, bool wind, bool pulls, bool gravity, class Own>
-struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, Own> {
-    using Base = AnalyticChains<T, wind, pulls, gravity, Own>;
+template <class T, bool wind, bool pulls, bool gravity, bool field, class Own>
+struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
+    using Base = AnalyticChains<T, wind, pulls, gravity, field, Own>;
     using Base::about_half_turn2;
     using Base::Base;
     using Base::flags;

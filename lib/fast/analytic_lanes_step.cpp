@@ -31,7 +31,7 @@ template <class T> AnalyticRows<T> rows_of(const Plan<T>& plan, State<T>& state)
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const AnalyticRows<T>& rows) {
-    const AnalyticLoads loads{plan.wind, plan.pushes(), plan.gravity};
+    const AnalyticLoads loads{plan.wind, plan.pushes(), plan.gravity, plan.field};
     const AnalyticSweeps<T> sweeps =
         plan.refresh > 0 ? frozen_sweeps_for<T>(plan.target, loads) : analytic_sweeps_for<T>(plan.target, loads);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
@@ -87,10 +87,10 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state, cons
     const Layout& layout = plan.lanes.layout;
     Lanes<T>& lanes = state.lanes;
     lanes.now.resize(std::size_t(layout.rows) * analytic::motion::count);
-    resize_records(layout, lanes.outward, analytic::outward::count);
+    resize_records(layout, lanes.outward, analytic::outward_count(plan.field));
     resize_records(layout, lanes.inward, record_inward(plan));
     for (int k = 0; k < 3; ++k)
-        entry(lanes.outward, 0, analytic::outward::count, analytic::outward::R_bw + 4 * k) = 1; // the ground
+        entry(lanes.outward, 0, analytic::outward_count(plan.field), analytic::outward::R_bw + 4 * k) = 1; // the ground
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row(lanes.now, analytic::motion::count, layout.slot[i]);
         row.put(analytic::motion::theta, theta[i]);

@@ -81,8 +81,14 @@ enum : int {
     omega = 9, // [rad/s]
     v = 12,    // [m/s] of the body's joint
     y = 15,    // [m] its height
-    count = 16
+    count = 16,
+    x = 16, // [m] where the wind varies over the ground
+    z = 17,
+    field_count = 18
 };
+}
+constexpr int outward_count(bool field) {
+    return field ? int(outward::field_count) : int(outward::count);
 }
 // In the parent's axes, about the parent's joint.
 namespace inward {

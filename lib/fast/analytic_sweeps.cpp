@@ -7,9 +7,9 @@ namespace {
 
 using namespace analytic_step;
 
-template <class T, bool wind, bool pulls, bool gravity>
-struct AnalyticSweep : AnalyticJoints<T, wind, pulls, gravity, AnalyticSweep<T, wind, pulls, gravity>> {
-    using Base = AnalyticJoints<T, wind, pulls, gravity, AnalyticSweep>;
+template <class T, bool wind, bool pulls, bool gravity, bool field>
+struct AnalyticSweep : AnalyticJoints<T, wind, pulls, gravity, field, AnalyticSweep<T, wind, pulls, gravity, field>> {
+    using Base = AnalyticJoints<T, wind, pulls, gravity, field, AnalyticSweep>;
     using Base::Base;
     using typename Base::W;
 

@@ -6,7 +6,8 @@
 // back before the next one does. A joint's own step (wide_spring.h) follows as soon as its composite is there, two rows at a time,
 // which keep the units busy while each waits for its own eigenvalues. Joints wait for nothing further out than their blocks: one
 // visit to each block, and memory is gone through once a step.
-// What is absent is compiled out: a sweep exists with and without gravity, with wind, with pulls alone and with neither.
+// What is absent is compiled out: a sweep exists with and without gravity, with wind, with pulls alone and with neither; for a wind that varies
+// over the ground there is one, with gravity, which may be 0.
 // Each target's copy is compiled from one source, analytic_sweeps.cpp; targets.h chooses.
 #pragma once
 #include "analytic_rows.h"
@@ -16,6 +17,7 @@ namespace bough::fast {
 // What of the scene the sweeps are compiled for.
 struct AnalyticLoads {
     bool wind, pulls, gravity;
+    bool field; // the wind varies over the ground
 };
 
 template <class T> struct AnalyticSweeps {

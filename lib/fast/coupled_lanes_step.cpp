@@ -46,7 +46,9 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state, doub
         if (joint > 0) {
             const GroundStep<T>& g = state.coupled_ground[joint - 1];
             R = g.R;
+            entry(lanes.outward, joint, outward::count, outward::x) = g.x.x();
             entry(lanes.outward, joint, outward::count, outward::y) = g.x.y();
+            entry(lanes.outward, joint, outward::count, outward::z) = g.x.z();
             put(lanes.outward, joint, outward::count, outward::omega, g.omega);
             put(lanes.outward, joint, outward::count, outward::v, g.v);
             put(lanes.outward, joint, outward::count, outward::ahead_omega, Vector3<T>(g.omega - g.omega_0));
@@ -85,7 +87,9 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     put(rows.of_rate, -2 * h * pole.c / pole.p);
     put(rows.of_angle, -2 * h * h * pole.c / (pole.p * pole.p));
     rows.eta = T((-2 * h * pole.c / pole.p).real());
-    if (plan.wind)
+    if (plan.field)
+        place_field_change(plan, state, time, rows);
+    else if (plan.wind)
         put(rows.wind_change, wind_velocity(*plan.scene.wind, time + h) - wind_velocity(*plan.scene.wind, time));
     for (PullOnLane<T>& on : lanes.pulls) {
         if (on.source == no_source) continue;
@@ -98,7 +102,7 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
-    const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(plan.target, plan.wind, plan.gravity);
+    const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(plan.target, plan.wind, plan.gravity, plan.field);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
     const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);

@@ -11,7 +11,8 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
-template <class T> struct CoupledOut : SweepParts<T> {
+// field: with a wind that varies over the ground (WindField).
+template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
     using Parts = SweepParts<T>;
     using Parts::constants;
     using Parts::fast2;
@@ -31,15 +32,21 @@ template <class T> struct CoupledOut : SweepParts<T> {
         M3<W> R;
         W y;
         V3<W> omega, v, ahead_omega, ahead_v, own, turn, alpha, a;
+        W x{}, z{}; // with a field alone
     };
 
     BOUGH_FORCE static Frame read_frame(Records<T, outward::count>& r) {
         const Rows<T> q = r.rows();
-        return {q.matrix(outward::R),           q.real(outward::y),
+        Frame f{q.matrix(outward::R),           q.real(outward::y),
                 q.vector(outward::omega),       q.vector(outward::v),
                 q.vector(outward::ahead_omega), q.vector(outward::ahead_v),
                 q.vector(outward::own),         q.vector(outward::turn),
                 q.vector(outward::alpha),       q.vector(outward::a)};
+        if constexpr (field) {
+            f.x = q.real(outward::x);
+            f.z = q.real(outward::z);
+        }
+        return f;
     }
     BOUGH_FORCE static void write_frame(Records<T, outward::count>& r, const Frame& f) {
         const Rows<T> q = r.rows();
@@ -53,6 +60,10 @@ template <class T> struct CoupledOut : SweepParts<T> {
         q.set(outward::turn, f.turn);
         q.set(outward::alpha, f.alpha);
         q.set(outward::a, f.a);
+        if constexpr (field) {
+            q.set(outward::x, f.x);
+            q.set(outward::z, f.z);
+        }
     }
 
     // resolved_turn.h
@@ -98,6 +109,20 @@ template <class T> struct CoupledOut : SweepParts<T> {
         return out;
     }
 
+    // The wind where the profile is 1, and its change over the step.
+    BOUGH_FORCE V3<W> wind_here(const typename Parts::OverGround& over) const {
+        if constexpr (field)
+            return this->field_at(over, rows.field.middle);
+        else
+            return vector(rows.wind);
+    }
+    BOUGH_FORCE V3<W> wind_change_here(const typename Parts::OverGround& over) const {
+        if constexpr (field)
+            return this->field_at(over, rows.field_end) - this->field_at(over, rows.field_start);
+        else
+            return vector(rows.wind_change);
+    }
+
     // One row: the frame of its bodies from their parents'.
     template <bool wind, bool gravity, Kind kind>
     BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
@@ -124,6 +149,13 @@ template <class T> struct CoupledOut : SweepParts<T> {
             f.y = f.y + r.y;
             wind_factor = this->profile(f.y + c.y);
         }
+        typename Parts::OverGround over{};
+        if constexpr (field) {
+            f.x = f.x + r.x;
+            f.z = f.z + r.z;
+            over = this->over_ground(f.x + c.x, f.z + c.z);
+            wind_factor = this->sheltered(row, lane, wind_factor);
+        }
         const V3<W> w_0 = GJ * eta_0, w_ahead = GJ * half_rate, w = w_0 + w_ahead;
 
         const V3<W> spin_p = resolved(f.omega, h, mass, flags.fast_turns),
@@ -146,7 +178,7 @@ template <class T> struct CoupledOut : SweepParts<T> {
         V3<W> u{};
         typename Parts::Speed speed{};
         if constexpr (wind) {
-            u = wind_factor * vector(rows.wind) - f.v - cross(f.omega, c);
+            u = wind_factor * wind_here(over) - f.v - cross(f.omega, c);
             speed = Parts::template air_speed<kind>(u, R);
         }
 
@@ -193,7 +225,7 @@ template <class T> struct CoupledOut : SweepParts<T> {
             const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
             const auto air_on = Parts::template air<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm);
             out.set(loaded::D, air_on.D);
-            const V3<W> slope_F = air_on.D * (wind_factor * vector(rows.wind_change));
+            const V3<W> slope_F = air_on.D * (wind_factor * wind_change_here(over));
             at_com = at_com - air_on.force - rows.slope[0] * slope_F;
             slope = -(rows.slope[1] * slope_F);
         }

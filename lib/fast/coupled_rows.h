@@ -54,7 +54,9 @@ enum : int {
     turn = 25,
     alpha = 28,
     a = 31,
-    count = 34
+    x = 34, // where the wind varies over the ground,
+    z = 35, // whole rows having room for them
+    count = 36
 };
 }
 namespace inward {
@@ -81,6 +83,7 @@ template <class T> struct CoupledRows : SweepRows<T> {
     // x's weights in the changes of theta_dot and theta, and theta_dot's in that of theta.
     T of_rate[2], of_angle[2], eta;
     T wind_change[3]; // [m/s] of `wind` over the step
+    FieldTables<T> field_start, field_end;
     // theta past half a turn, of one body: the shorter way round (coupled/half_turn.h). False where it was not.
     bool (*shorten)(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h);
 };

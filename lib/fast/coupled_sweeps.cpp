@@ -9,10 +9,10 @@ namespace bough::fast {
 inline namespace BOUGH_TARGET {
 namespace {
 
-template <class T> struct Sweep {
+template <class T, bool field = false> struct Sweep {
     static constexpr int L = lanes<T>;
     const CoupledRows<T>& rows;
-    const CoupledOut<T> out{rows};
+    const CoupledOut<T, field> out{rows};
     const CoupledIn<T> in{rows};
 
     static std::size_t place(const Block& block, const Group& g) {
@@ -44,10 +44,10 @@ template <class T> struct Sweep {
     }
 };
 
-template <class T, bool wind, bool gravity>
+template <class T, bool wind, bool gravity, bool field = false>
 void outward_sweep(const CoupledRows<T>& rows, const Block& block, T* scratch, SweepFlags& flags) {
     const FlushToZero flush;
-    Sweep<T>{rows}.template block_out<wind, gravity>(block, scratch, flags);
+    Sweep<T, field>{rows}.template block_out<wind, gravity>(block, scratch, flags);
 }
 template <class T, bool wind, bool gravity>
 void inward_sweep(const CoupledRows<T>& rows, const Block& block, const T* scratch) {
@@ -62,7 +62,8 @@ template <class T> void accelerate_sweep(const CoupledRows<T>& rows, const Block
 
 } // namespace
 
-template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity) {
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field) {
+    if (field) return {outward_sweep<T, true, true, true>, inward_sweep<T, true, true>, accelerate_sweep<T>};
     if (wind)
         return gravity
                    ? CoupledSweeps<T>{outward_sweep<T, true, true>, inward_sweep<T, true, true>, accelerate_sweep<T>}
@@ -72,8 +73,8 @@ template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity) {
                : CoupledSweeps<T>{outward_sweep<T, false, false>, inward_sweep<T, false, false>, accelerate_sweep<T>};
 }
 
-template CoupledSweeps<float> coupled_sweeps(bool, bool);
-template CoupledSweeps<double> coupled_sweeps(bool, bool);
+template CoupledSweeps<float> coupled_sweeps(bool, bool, bool);
+template CoupledSweeps<double> coupled_sweeps(bool, bool, bool);
 
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

@@ -6,7 +6,8 @@
 // Terminal groups, most of a tree, go out and back before the next one does. Composites need every body of a subtree before the
 // accelerations can start, so 216 bytes a body in float wait in memory between the inward and the second outward sweep; the blocks
 // are taken in reverse order then, as the last ones are still in the cache. A block of whole trees goes on outward at once.
-// What is absent is compiled out: a sweep exists with and without wind, with and without gravity.
+// What is absent is compiled out: a sweep exists with and without wind, with and without gravity; for a wind that varies over the ground
+// there is one, with gravity, which may be 0.
 // Each target's copy is compiled from one source, coupled_sweeps.cpp; targets.h chooses.
 #pragma once
 #include "coupled_rows.h"

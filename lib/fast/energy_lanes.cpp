@@ -52,7 +52,9 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
         T* at = records + joint * size;
         for (int k = 0; k < 9; ++k) // by columns, as Eigen has them
             at[energy::start + k] = at[energy::end + k] = at[energy::R + k] = g.R.data()[k];
+        at[energy::x] = g.x.x();
         at[energy::y] = g.x.y();
+        at[energy::z] = g.x.z();
         for (int k = 0; k < 3; ++k) {
             at[energy::omega + k] = g.omega[k];
             at[energy::v + k] = g.v[k];
@@ -108,7 +110,7 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
     const std::vector<bool> blocks = watch(plan, state);
     const EnergyRows<T> energies = make_room(plan, state.lanes);
     if (plan.root_motion) place_grounds(plan, state);
-    const EnergySweepOf<T> weigh = energy_sweep_for<T>(plan.target, plan.wind);
+    const EnergySweepOf<T> weigh = energy_sweep_for<T>(plan.target, plan.wind, plan.field);
     const auto weigh_block = [&](const Block& block) {
         CoupledRows<T> mine = rows;
         place_block(plan, state, block, mine);

@@ -6,7 +6,7 @@ namespace bough::fast {
 inline namespace BOUGH_TARGET {
 namespace {
 
-template <class T> struct EnergySweep : SweepParts<T> {
+template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
     using Parts = SweepParts<T>;
     using Parts::constants;
     using Parts::L;
@@ -30,6 +30,7 @@ template <class T> struct EnergySweep : SweepParts<T> {
         M3<W> R; // at y*
         W y;
         V3<W> omega, v, turn;
+        W x{}, z{}; // with a wind that varies over the ground
     };
     struct Sums {
         W quantity[energy::sums] = {};
@@ -40,9 +41,14 @@ template <class T> struct EnergySweep : SweepParts<T> {
         const auto place = [&](int k) {
             return Place{q.matrix(k), q.vector(k + 9), q.vector(k + 12), q.vector(k + 15)};
         };
-        return {place(energy::start),     place(energy::end),  q.vector(energy::fast_omega),
+        Frame f{place(energy::start),     place(energy::end),  q.vector(energy::fast_omega),
                 q.vector(energy::fast_v), q.matrix(energy::R), q.real(energy::y),
                 q.vector(energy::omega),  q.vector(energy::v), q.vector(energy::turn)};
+        if constexpr (field) {
+            f.x = q.real(energy::x);
+            f.z = q.real(energy::z);
+        }
+        return f;
     }
     static void write_frame(Records<T, energy::count>& r, const Frame& f) {
         const Rows<T> q = r.rows();
@@ -61,6 +67,10 @@ template <class T> struct EnergySweep : SweepParts<T> {
         q.set(energy::omega, f.omega);
         q.set(energy::v, f.v);
         q.set(energy::turn, f.turn);
+        if constexpr (field) {
+            q.set(energy::x, f.x);
+            q.set(energy::z, f.z);
+        }
     }
 
     struct Body {
@@ -137,7 +147,14 @@ template <class T> struct EnergySweep : SweepParts<T> {
             f.y = f.y + r.y;
             const V3<W> c = f.R * b.com;
             rate_at_com = f.v + cross(f.omega, c);
-            air_velocity = this->profile(f.y + c.y) * vector(rows.wind);
+            if constexpr (field) {
+                f.x = f.x + r.x;
+                f.z = f.z + r.z;
+                air_velocity = this->sheltered(row, lane, this->profile(f.y + c.y)) *
+                               this->field_at(this->over_ground(f.x + c.x, f.z + c.z), rows.field.middle);
+            } else {
+                air_velocity = this->profile(f.y + c.y) * vector(rows.wind);
+            }
         }
 
         const V3<W> spin_0 = move(f.start, R_pj, d, theta_0, eta_0, arm);
@@ -211,10 +228,10 @@ template <class T> struct EnergySweep : SweepParts<T> {
     }
 };
 
-template <class T, bool wind>
+template <class T, bool wind, bool field = false>
 void energy_block(const CoupledRows<T>& rows, const EnergyRows<T>& energies, const Block& block) {
     const FlushToZero flush;
-    const EnergySweep<T> sweep(rows, energies);
+    const EnergySweep<T, field> sweep(rows, energies);
     for (std::uint32_t k = block.first_group; k < block.end_group; ++k) {
         const Group& g = rows.groups[k];
         if (!wind || g.kind == Kind::branch)
@@ -228,12 +245,13 @@ void energy_block(const CoupledRows<T>& rows, const EnergyRows<T>& energies, con
 
 } // namespace
 
-template <class T> EnergySweepOf<T> energy_sweep(bool wind) {
+template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field) {
+    if (field) return energy_block<T, true, true>;
     return wind ? energy_block<T, true> : energy_block<T, false>;
 }
 
-template EnergySweepOf<float> energy_sweep<float>(bool);
-template EnergySweepOf<double> energy_sweep<double>(bool);
+template EnergySweepOf<float> energy_sweep<float>(bool, bool);
+template EnergySweepOf<double> energy_sweep<double>(bool, bool);
 
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

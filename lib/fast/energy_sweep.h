@@ -20,7 +20,9 @@ enum : int {   // a record a joint
     omega = 52,
     v = 55,
     turn = 58,
-    count = 61
+    x = 61, // at y*, where the wind varies over the ground
+    z = 62,
+    count = 63
 };
 enum : int { kinetic = 0, gained = 1, slow = 2, mixed = 3, fast = 4, sums = 5 }; // of EnergyAccount [J]
 } // namespace energy

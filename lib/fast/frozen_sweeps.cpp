@@ -10,9 +10,9 @@ namespace {
 using namespace analytic_step;
 namespace kept = analytic::frozen;
 
-template <class T, bool wind, bool pulls, bool gravity>
-struct FrozenSweep : AnalyticJoints<T, wind, pulls, gravity, FrozenSweep<T, wind, pulls, gravity>> {
-    using Base = AnalyticJoints<T, wind, pulls, gravity, FrozenSweep>;
+template <class T, bool wind, bool pulls, bool gravity, bool field>
+struct FrozenSweep : AnalyticJoints<T, wind, pulls, gravity, field, FrozenSweep<T, wind, pulls, gravity, field>> {
+    using Base = AnalyticJoints<T, wind, pulls, gravity, field, FrozenSweep>;
     using Base::Base;
     using Base::flags;
     using Base::forces;

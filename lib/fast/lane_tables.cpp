@@ -64,6 +64,39 @@ template <class T> void pack_pulls(const Plan<T>& plan, State<T>& state) {
     state.lanes.pull_of_row.resize(plan.lanes.layout.rows, -1);
 }
 
+namespace {
+
+template <class T> FieldTables<T> tables_of(const WindField<T>& field) {
+    return {field.velocity.data(), field.turn.empty() ? nullptr : field.turn.data()};
+}
+
+template <class T> void place_field(const Plan<T>& plan, State<T>& state, double middle, FieldRows<T>& rows) {
+    evaluate_wind(*plan.scene.wind, middle, state.wind);
+    const WindField<T>& field = state.wind.field;
+    rows.middle = tables_of(field);
+    rows.x = field.x;
+    rows.z = field.z;
+    rows.per_metre = field.per_metre;
+    rows.columns = field.columns;
+    rows.rows = field.rows;
+    rows.cells = std::int32_t(field.cells());
+    rows.center_x = field.center_x;
+    rows.center_z = field.center_z;
+    rows.rings_per_metre = field.rings_per_metre;
+    rows.rings = std::int32_t(field.rings());
+    rows.shelter = plan.lanes.shelter.empty() ? nullptr : plan.lanes.shelter.front().lane;
+}
+
+} // namespace
+
+template <class T> void place_field_change(const Plan<T>& plan, State<T>& state, double time, CoupledRows<T>& rows) {
+    const Wind& wind = *plan.scene.wind;
+    evaluate_field(wind, wind_weather(wind, time), time, state.wind_start);
+    evaluate_field(wind, wind_weather(wind, time + plan.dt), time + plan.dt, state.wind_end);
+    rows.field_start = tables_of(state.wind_start);
+    rows.field_end = tables_of(state.wind_end);
+}
+
 template <class T> void place_tables(const Plan<T>& plan, State<T>& state, double middle, SweepRows<T>& rows) {
     Lanes<T>& lanes = state.lanes;
     const Layout& layout = plan.lanes.layout;
@@ -78,7 +111,10 @@ template <class T> void place_tables(const Plan<T>& plan, State<T>& state, doubl
     rows.h = T(plan.dt);
     put(rows.gravity, plan.scene.gravity);
     if (plan.wind) {
-        put(rows.wind, wind_velocity(*plan.scene.wind, middle));
+        if (plan.field)
+            place_field(plan, state, middle, rows.field);
+        else
+            put(rows.wind, wind_velocity(*plan.scene.wind, middle));
         rows.profile = plan.lanes.profile.data();
         rows.profile_entries = plan.lanes.profile.size();
         rows.per_metre = plan.lanes.per_metre;
@@ -147,6 +183,7 @@ template void put_body(const Plan<float>&, std::size_t, const Slot<float>&);
 template void resize_records(const Layout&, RowVector<float>&, int);
 template void pack_pulls(const Plan<float>&, State<float>&);
 template void place_tables(const Plan<float>&, State<float>&, double, SweepRows<float>&);
+template void place_field_change(const Plan<float>&, State<float>&, double, CoupledRows<float>&);
 template void place_block(const Plan<float>&, State<float>&, const Block&, CoupledRows<float>&);
 template std::vector<std::size_t> motion_of_rows(const Plan<float>&, const State<float>&);
 template void add_ports(const Plan<float>&, State<float>&, int);
@@ -155,6 +192,7 @@ template void put_body(const Plan<double>&, std::size_t, const Slot<double>&);
 template void resize_records(const Layout&, RowVector<double>&, int);
 template void pack_pulls(const Plan<double>&, State<double>&);
 template void place_tables(const Plan<double>&, State<double>&, double, SweepRows<double>&);
+template void place_field_change(const Plan<double>&, State<double>&, double, CoupledRows<double>&);
 template void place_block(const Plan<double>&, State<double>&, const Block&, CoupledRows<double>&);
 template std::vector<std::size_t> motion_of_rows(const Plan<double>&, const State<double>&);
 template void add_ports(const Plan<double>&, State<double>&, int);

@@ -27,6 +27,9 @@ template <class T> void pack_pulls(const Plan<T>&, State<T>&);
 // Fills in what SweepRows holds, with wind and pulls at the time `middle` [s].
 template <class T> void place_tables(const Plan<T>&, State<T>&, double middle, SweepRows<T>&);
 
+// The wind over the ground at the start and end of the coupled step from `time` [s].
+template <class T> void place_field_change(const Plan<T>&, State<T>&, double time, CoupledRows<T>&);
+
 // What blocks hand to the top, in the ports' order, from records of `count`. A sleeper's stands until it wakes, all others are set to zero.
 template <class T> void add_ports(const Plan<T>&, State<T>&, int count);
 

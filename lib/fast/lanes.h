@@ -34,6 +34,7 @@ template <class T> struct PlannedLanes {
     std::vector<std::size_t> pull;         // Plan::pulls in the order of rows
     std::vector<T> profile;                // [1] the wind's, over height
     T per_metre = 0;
+    RowVector<T> shelter; // of bodies, a row each row; empty without
     PlannedSleep sleep;
 };
 

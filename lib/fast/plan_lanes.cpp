@@ -65,7 +65,14 @@ template <class T> void plan_lanes(Plan<T>& plan) {
         fill(plan, lanes);
     fill_pulls(plan, lanes);
     if (!plan.wind) return;
-    const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top);
+    if (!plan.shelter.empty()) {
+        lanes.shelter.assign(lanes.layout.rows, Row<T>{});
+        for (std::size_t i = 0; i < plan.bodies; ++i) {
+            const std::size_t slot = lanes.layout.slot[i];
+            lanes.shelter[slot / Row<T>::lanes].lane[slot % Row<T>::lanes] = plan.shelter[i];
+        }
+    }
+    const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach);
     lanes.profile = table.profile;
     lanes.per_metre = table.per_metre;
 }

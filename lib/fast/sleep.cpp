@@ -1,5 +1,6 @@
 #include "sleep.h"
 #include "../stages/external_forces.h"
+#include "../stages/wind.h"
 #include "lane_tables.h"
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,7 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
     if (scheme_of(plan.scheme).poles > 1) return std::string("scheme ") + scheme_of(plan.scheme).name;
     if (scene.wind && scene.wind->turbulence > 0) return "/wind/turbulence";
     if (scene.wind && scene.wind->gust_factor > 1) return "/wind/gust_factor";
+    if (scene.wind && !steady(*scene.wind)) return scene.wind->grid ? "/wind/grid" : "/wind/swirl";
     if (!scene.root_motion.empty()) return "/root_motion";
     if (has_free_bodies(scene)) return scene.fracture ? "/fracture" : "/balls"; // whatever breaks or hits would have to wake it
     return {};

@@ -48,8 +48,8 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     return bytes;
 }
 
-StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, bool frozen,
-                              std::size_t real) {
+StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, bool frozen, std::size_t real,
+                              bool field) {
     const std::uint64_t rows = layout.rows, top = layout.blocks[0].end_row - layout.blocks[0].first_row;
     const auto kept = std::uint64_t(frozen ? int(analytic::frozen::count) : 0),
                constants = std::uint64_t(analytic::constants(wind)) + kept,
@@ -58,9 +58,9 @@ StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool 
                                               : 1),
                read = constants - left,
                motion = std::uint64_t(frozen ? int(analytic::motion::theta_dot) : int(analytic::motion::count));
-    const std::uint64_t records =
-        layout.joints * real *
-        (record(analytic::outward::count, layout.lanes) + record(analytic::inward_count(wind, pulls), layout.lanes));
+    const std::uint64_t records = layout.joints * real *
+                                  (record(analytic::outward_count(field), layout.lanes) +
+                                   record(analytic::inward_count(wind, pulls), layout.lanes));
     constexpr std::uint64_t index = sizeof(std::uint32_t);
     const std::uint64_t lanes = layout.base.size() + layout.landing.size() + layout.fork.size();
     StepBytes bytes;

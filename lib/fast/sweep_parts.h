@@ -91,6 +91,62 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         return low + (place - (rounded - B::rounder)) * (high - low);
     }
 
+    // The integer below, of 0 <= place < 2^22.
+    BOUGH_FORCE static W floor_of(const W& place) {
+        const W nearest = W(place + Bits<T>::rounder) - Bits<T>::rounder;
+        return nearest - where_above(nearest, place, all(T(1)));
+    }
+    BOUGH_FORCE static auto index_of(const W& whole) {
+        using B = Bits<T>;
+        return typename B::Wide(W(whole + B::rounder)) & 0x3fffff;
+    }
+    // Clamped; NaN: 0.
+    BOUGH_FORCE static W within(const W& place, std::int32_t most) {
+        return smaller(larger(place, W{}), all(T(most)));
+    }
+
+    // Where in the field's tables a place over the ground stands (WindField::at).
+    struct OverGround {
+        typename Bits<T>::Wide cell, ring;
+        W weight; // of the ring after
+    };
+    BOUGH_FORCE OverGround over_ground(const W& x, const W& z) const {
+        const FieldRows<T>& f = rows.field;
+        OverGround at{};
+        const W column = floor_of(within(W((x - f.x) * f.per_metre), f.columns - 1)),
+                row = floor_of(within(W((z - f.z) * f.per_metre), f.rows - 1));
+        at.cell = index_of(W(row * T(f.columns) + column));
+        if (!f.middle.turn) return at;
+        const W dx = x - f.center_x, dz = z - f.center_z;
+        const W place = within(W(root(W(dx * dx + dz * dz)) * f.rings_per_metre), f.rings - 1);
+        const W ring = smaller(floor_of(place), all(T(f.rings - 2)));
+        at.ring = index_of(ring);
+        at.weight = place - ring;
+        return at;
+    }
+    // The wind there where the profile is 1.
+    BOUGH_FORCE V3<W> field_at(const OverGround& at, const FieldTables<T>& tables) const {
+        const FieldRows<T>& f = rows.field;
+        const V3<W> v{look_up(tables.velocity, at.cell), look_up(tables.velocity + f.cells, at.cell),
+                      look_up(tables.velocity + 2 * std::ptrdiff_t(f.cells), at.cell)};
+        if (!tables.turn) return v;
+        const T *c = tables.turn, *s = c + f.rings;
+        const W c_0 = look_up(c, at.ring), s_0 = look_up(s, at.ring);
+        const W cosine = c_0 + at.weight * (look_up(c + 1, at.ring) - c_0),
+                sine = s_0 + at.weight * (look_up(s + 1, at.ring) - s_0);
+        const W one = 1 / root(W(cosine * cosine + sine * sine));
+        const W flat = v.x * v.x + v.z * v.z, least = all(T(1e-30));
+        const W k = one * sine * root(W((flat + v.y * v.y) / larger(flat, least)));
+        const V3<W> turned{one * cosine * v.x - k * v.z, one * cosine * v.y, k * v.x + one * cosine * v.z};
+        // A wind straight up or down stays.
+        return {choose_above(flat, least, turned.x, v.x), choose_above(flat, least, turned.y, v.y),
+                choose_above(flat, least, turned.z, v.z)};
+    }
+    BOUGH_FORCE W sheltered(std::uint32_t row, int lane, const W& factor) const {
+        const T* shelter = rows.field.shelter;
+        return shelter ? W(factor * read(shelter + row * std::size_t(L) + lane)) : factor;
+    }
+
     struct Speed {
         W speed, inverse;
     }; // [m/s] of the air that drags, and 1 over it, finite where it is 0

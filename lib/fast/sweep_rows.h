@@ -37,6 +37,20 @@ template <class T> struct PullOnLane {
     std::size_t source;    // index into Scene::pulls, or no_source: a contact's load
 };
 
+// A wind that varies over the ground, as WindField (stages/wind_field.h) has it: its place, and its tables at one time.
+template <class T> struct FieldTables {
+    const T* velocity;
+    const T* turn; // null: no swirl
+};
+template <class T> struct FieldRows {
+    FieldTables<T> middle; // of the step
+    T x, z, per_metre;
+    std::int32_t columns, rows, cells;
+    T center_x, center_z, rings_per_metre;
+    std::int32_t rings;
+    const T* shelter; // [1] a row of lanes for each row; null: none
+};
+
 template <class T> struct SweepRows {
     const Group* groups; // the layout's
     const std::uint32_t *base, *landing, *fork;
@@ -52,6 +66,7 @@ template <class T> struct SweepRows {
     const T* profile; // [1] factors over height
     std::size_t profile_entries;
     T per_metre;
+    FieldRows<T> field; // for sweeps that are compiled for it
 };
 
 // What a sweep over a block met with.

@@ -6,23 +6,23 @@
 namespace bough::fast {
 
 namespace baseline {
-template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
-template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field);
+template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 MemoryKernels memory_kernels();
 template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace baseline
 namespace counted {
-template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
-template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field);
+template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace counted
 #ifdef BOUGH_HAS_AVX2
 namespace avx2 {
-template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
-template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field);
+template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 MemoryKernels memory_kernels();
 template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
@@ -31,8 +31,8 @@ template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 #endif
 #ifdef BOUGH_HAS_AVX512
 namespace avx512 {
-template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity);
-template <class T> EnergySweepOf<T> energy_sweep(bool wind);
+template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field);
+template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 MemoryKernels memory_kernels();
 template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
@@ -90,28 +90,28 @@ void require(Target target) {
 
 } // namespace
 
-template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity) {
+template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity, bool field) {
     require(target);
-    if (target == counted_target) return counted::coupled_sweeps<T>(wind, gravity);
+    if (target == counted_target) return counted::coupled_sweeps<T>(wind, gravity, field);
 #ifdef BOUGH_HAS_AVX512
-    if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity);
+    if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity, field);
 #endif
 #ifdef BOUGH_HAS_AVX2
-    if (target == Target::avx2) return avx2::coupled_sweeps<T>(wind, gravity);
+    if (target == Target::avx2) return avx2::coupled_sweeps<T>(wind, gravity, field);
 #endif
-    return baseline::coupled_sweeps<T>(wind, gravity);
+    return baseline::coupled_sweeps<T>(wind, gravity, field);
 }
 
-template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind) {
+template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind, bool field) {
     require(target);
-    if (target == counted_target) return counted::energy_sweep<T>(wind);
+    if (target == counted_target) return counted::energy_sweep<T>(wind, field);
 #ifdef BOUGH_HAS_AVX512
-    if (target == Target::avx512) return avx512::energy_sweep<T>(wind);
+    if (target == Target::avx512) return avx512::energy_sweep<T>(wind, field);
 #endif
 #ifdef BOUGH_HAS_AVX2
-    if (target == Target::avx2) return avx2::energy_sweep<T>(wind);
+    if (target == Target::avx2) return avx2::energy_sweep<T>(wind, field);
 #endif
-    return baseline::energy_sweep<T>(wind);
+    return baseline::energy_sweep<T>(wind, field);
 }
 
 MemoryKernels memory_kernels_for(Target target) {
@@ -160,10 +160,10 @@ template <class T> AnalyticSweeps<T> frozen_sweeps_for(Target target, AnalyticLo
     return baseline::frozen_sweeps<T>(loads);
 }
 
-template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool);
-template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool);
-template EnergySweepOf<float> energy_sweep_for<float>(Target, bool);
-template EnergySweepOf<double> energy_sweep_for<double>(Target, bool);
+template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool, bool);
+template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool, bool);
+template EnergySweepOf<float> energy_sweep_for<float>(Target, bool, bool);
+template EnergySweepOf<double> energy_sweep_for<double>(Target, bool, bool);
 template ArithmeticKernel<float> arithmetic_kernel_for(Target);
 template ArithmeticKernel<double> arithmetic_kernel_for(Target);
 template AnalyticSweeps<float> analytic_sweeps_for(Target, AnalyticLoads);

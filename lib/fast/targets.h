@@ -22,8 +22,8 @@ Target best_target();
 std::optional<Target> target_named(const std::string&);
 
 // The target's code, which must be available.
-template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, bool wind, bool gravity);
-template <class T> EnergySweepOf<T> energy_sweep_for(Target, bool wind);
+template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, bool wind, bool gravity, bool field);
+template <class T> EnergySweepOf<T> energy_sweep_for(Target, bool wind, bool field);
 template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target, AnalyticLoads);
 template <class T> AnalyticSweeps<T> frozen_sweeps_for(Target, AnalyticLoads);
 

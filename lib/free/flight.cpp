@@ -1,5 +1,6 @@
 #include "flight.h"
 #include "../stages/air.h"
+#include "leaf_flight.h"
 #include <Eigen/LU>
 
 namespace bough {
@@ -10,12 +11,17 @@ struct AirLoad {
     double damping = 0, turning = 0;                  // [N s/m], [N m s]
 };
 
-AirLoad air_on(const FreeBody& free, const WindTable<double>& wind) {
+// Where there is no wind the air stands still.
+Vec3 wind_at(const WindTable<double>* wind, const Vec3& place) {
+    return wind ? wind->at(place) : Vec3(Vec3::Zero());
+}
+
+AirLoad air_on(const FreeBody& free, const WindTable<double>* wind) {
     AirLoad load;
     const Mat3 R = free.motion.q.toRotationMatrix();
     for (const FreePart& part : free.parts) {
         const Vec3 arm = R * part.com;
-        const Vec3 u = wind.at((free.motion.x + arm).y()) - free.velocity_at(arm);
+        const Vec3 u = wind_at(wind, Vec3(free.motion.x + arm)) - free.velocity_at(arm);
         const AirForce<double> air = air_force(part.kind, Mat3(R * part.q.toRotationMatrix()), u);
         load.force += part.drag_area * air.force;
         load.moment += part.drag_area * arm.cross(air.force);
@@ -24,6 +30,20 @@ AirLoad air_on(const FreeBody& free, const WindTable<double>& wind) {
         load.turning += d * arm.squaredNorm();
     }
     return load;
+}
+
+// A leaf's own axes are its frame's but for the centre of mass: x along the width, y the normal, principal (body_shape.h).
+FreeMotion fly_card(const FreeBody& free, const Scene& scene, const WindTable<double>* wind, double h) {
+    const FreePart& part = free.parts.front();
+    const Mat3 R = part.q.toRotationMatrix();
+    const Mat3 inertia = R.transpose() * free.inertia * R;
+    const LeafCard card{free.mass, inertia.diagonal(), leaf_area(part.size[0], part.size[1])};
+    FreeMotion next = free.motion;
+    next.q = (free.motion.q * part.q).normalized();
+    fly_leaf(scene.leaves.value_or(LeafAir()), card, wind_at(wind, free.motion.x), scene.gravity, scene.air_density, h,
+             next);
+    next.q = (next.q * part.q.conjugate()).normalized();
+    return next;
 }
 
 // From q on under the angular momentum L, world.
@@ -45,8 +65,9 @@ void turn_freely(const FreeBody& free, const Vec3& L, double h, FreeMotion& moti
 } // namespace
 
 FreeMotion fly(const FreeBody& free, const Scene& scene, const WindTable<double>* wind, double h) {
+    if (free.leaf()) return fly_card(free, scene, wind, h);
     FreeMotion next = free.motion;
-    const AirLoad air = wind ? air_on(free, *wind) : AirLoad();
+    const AirLoad air = scene.air_density > 0 ? air_on(free, wind) : AirLoad();
     next.v += h / (free.mass + h * air.damping) * (free.mass * scene.gravity + air.force);
     const Mat3 R = free.motion.q.toRotationMatrix();
     const Mat3 inertia = R * free.inertia * R.transpose();

@@ -14,7 +14,7 @@
 
 namespace bough {
 
-// A step's flight: the motion at its end if nothing is met.
+// A step's flight: the motion at its end if nothing is met. Without a wind the air stands still; in air of no density there is none.
 FreeMotion fly(const FreeBody&, const Scene&, const WindTable<double>*, double h);
 
 } // namespace bough

@@ -236,7 +236,7 @@ template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, co
     }
     if (scene.fracture || plan.contact) world.subtrees = make_subtrees(tree, plan.contact);
     if (plan.contact) world.response.make(plan, tree, world.subtrees);
-    if (plan.wind) world.wind = make_wind_table<double>(*scene.wind, plan.top);
+    if (plan.wind) world.wind = make_wind_table<double>(*scene.wind, plan.top, plan.reach);
     return world;
 }
 

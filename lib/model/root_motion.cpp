@@ -75,6 +75,19 @@ double highest(const RootSpline& spline, const Vec3& X) {
     return lift + (spline.rotation ? spline.pivot.y() + (X - spline.pivot).norm() : X.y());
 }
 
+double farthest(const RootSpline& spline, const Vec3& X, double x, double z) {
+    double moved = 0;
+    if (spline.position) {
+        QuinticSpline back = *spline.position;
+        for (auto* keys : {&back.x, &back.v, &back.a})
+            for (Vec3& key : *keys) key = -key;
+        const auto most = [&](int axis) { return std::max(greatest(*spline.position, axis), greatest(back, axis)); };
+        moved = std::hypot(most(0), most(2));
+    }
+    const Vec3& stands = spline.rotation ? spline.pivot : X;
+    return moved + std::hypot(stands.x() - x, stands.z() - z) + (spline.rotation ? (X - spline.pivot).norm() : 0);
+}
+
 std::int64_t spline_under(const std::vector<MovedTree>& moved, std::size_t body) {
     const auto after = std::upper_bound(moved.begin(), moved.end(), body,
                                         [](std::size_t b, const MovedTree& tree) { return b < tree.first_body; });

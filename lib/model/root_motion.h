@@ -40,6 +40,9 @@ Ground ground_at(const RootSpline&, double t);
 // A bound from above on the height [m] at which a point drawn at X ever is. O(keys).
 double highest(const RootSpline&, const Vec3& X);
 
+// And on its distance [m] over the ground from the vertical through (x, z). O(keys).
+double farthest(const RootSpline&, const Vec3& X, double x, double z);
+
 // Bodies [first, first + count) and the spline that moves their ground: a scene's moved trees, rising. A body's tree
 // stands together in the joined tree, so one entry serves all its roots and joints.
 struct MovedTree {

@@ -43,9 +43,38 @@ struct Placement {
     double yaw = 0;               // [deg] about +Y
 };
 
+// A square grid over the ground, seen from above: the velocity of the wind in each of its cells, the nearest cell's outside. A list holds
+// one value for all cells or one for each, row by row: columns are counted along x, rows along z.
+struct WindGrid {
+    double x = 0, z = 0; // [m] least corner
+    double cell = 0;     // [m] side of a cell
+    std::int32_t columns = 0, rows = 0;
+    std::vector<Vec3> velocity; // [m/s] mean at the reference height; empty: the wind's own in each
+    std::vector<std::int32_t> octaves{0};
+    std::vector<double> persistence{0.5}; // [1] amplitude of an octave over that of the one below
+    std::vector<double> phase{
+        0};                 // [rad] of the first octave at time 0; all of a cell's octaves are as far ahead in time
+    double frequency = 0.2; // [Hz] of the first octave
+};
+
+// The wind turned to and fro about the vertical, on cylinders about one axis.
+struct WindSwirl {
+    double x = 0, z = 0;              // [m] where the axis stands
+    std::vector<double> radius;       // [m] of the keys, rising; empty: one angle everywhere
+    std::vector<double> angle;        // [deg] largest turn at each key
+    double period = 4;                // [s]
+    std::optional<double> wavelength; // [m] along the radius, outward; absent: all cylinders turn at once
+};
+
+// Trees behind trees, and behind their own crown, have less wind (shelter.h).
+struct WindShelter {
+    double cell = 0; // [m] side of the columns of air
+};
+
 // Wind (design: one definition for all). Velocity at height y above the ground, time t:
 //   u(y, t) = (y / reference_height)^profile * [ V (1 + (gust_factor - 1) g(t / gust_period)) + |V| turbulence q(t) ]
 // g has mean 0, peak 1, period 1; q has unit variance along V, and 0.75 and 0.5 times that across and up.
+// With a grid V's first place is taken by the cell's own velocity; a swirl turns what is in brackets (wind_field.h).
 struct Wind {
     Vec3 velocity = Vec3::Zero(); // [m/s] mean at the reference height, blowing toward
     double reference_height = 10; // [m]
@@ -53,7 +82,12 @@ struct Wind {
     double turbulence = 0;        // [1] intensity: standard deviation along the wind over the mean
     double gust_factor = 1;       // [1] peak over mean, 1: no gusts
     double gust_period = 6;       // [s]
-    std::uint64_t seed = 1;       // of the turbulence
+    std::uint64_t seed = 1;       // of the turbulence, and of the grid's higher octaves
+    std::optional<WindGrid> grid;
+    std::optional<WindSwirl> swirl;
+    std::optional<WindShelter> shelter;
+    std::optional<double>
+        period; // [s] after which all of it repeats: each frequency is the nearest multiple of 1 / period, at least one
 };
 // calm 1, breeze 4, gusty 8, storm 20 m/s along +x. nullopt for another name.
 std::optional<Wind> wind_preset(const std::string& name);

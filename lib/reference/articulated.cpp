@@ -2,6 +2,7 @@
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
+#include "../stages/shelter.h"
 #include <limits>
 
 namespace bough {
@@ -63,8 +64,12 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
              const Vec3& a_own, double h) {
     static const Mat3 own_axes = Mat3::Identity();
     const Vec3& c = plan.com[i];
-    const double height = b.x_w.y() + b.R_wb.row(1).dot(c);
-    const Vec3 u = b.R_wb.transpose() * pass.wind.at(height) - b.v - b.omega.cross(c);
+    Vec3 place = b.x_w;
+    if (plan.field)
+        place += b.R_wb * c;
+    else
+        place.y() += b.R_wb.row(1).dot(c);
+    const Vec3 u = b.R_wb.transpose() * sheltered(plan, i, pass.wind.at(place)) - b.v - b.omega.cross(c);
     Vec3 f = plan.drag_area[i] * air_force(plan.kind[i], own_axes, u).force;
     if (h > 0) {
         const Mat3 D = h * plan.drag_area[i] * air_damping(plan.kind[i], own_axes, u);

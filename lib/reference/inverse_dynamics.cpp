@@ -1,6 +1,7 @@
 #include "inverse_dynamics.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
+#include "../stages/shelter.h"
 
 namespace bough {
 namespace {
@@ -47,7 +48,7 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
     const auto parent = [&](std::size_t i) { return std::size_t(plan.parent[i]); };
     WindTable<double> wind;
     if (plan.wind) {
-        wind = make_wind_table<double>(*plan.scene.wind, plan.top);
+        wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach);
         evaluate_wind(*plan.scene.wind, time, wind);
     }
     std::vector<Moving> body(n);
@@ -63,7 +64,8 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
         Vec3 f = Vec3::Zero();
         if (plan.wind)
             f = plan.drag_area[i] *
-                air_force(plan.kind[i], b.R, Vec3(wind.at(b.x.y() + c.y()) - b.v - b.omega.cross(c))).force;
+                air_force(plan.kind[i], b.R, Vec3(sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c)))
+                    .force;
         b.F = plan.mass[i] * a_com - weight - f;
         b.N = inertial - c.cross(weight + f);
         b.moment = inertial.norm() + c.cross(weight).norm() + c.cross(f).norm();

@@ -2,6 +2,7 @@
 #include "../stages/air.h"
 #include "../stages/energy.h"
 #include "../stages/root_term.h"
+#include "../stages/shelter.h"
 #include "../stages/wind.h"
 #include "advance.h"
 #include "ring_down.h"
@@ -16,14 +17,14 @@ constexpr double energy_tolerance = 0.01, growth_tolerance = 1.05, small_angle =
 
 // Moments [N m, body axes] of the air's forces on each joint's composite.
 template <class T> std::vector<Vec3> air_moments(const Plan<T>& plan, const State<T>& s, double time) {
-    WindTable<double> wind = make_wind_table<double>(*plan.scene.wind, plan.top);
+    WindTable<double> wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach);
     evaluate_wind(*plan.scene.wind, time, wind);
     const std::vector<BodyMotion> motion = body_motions(plan, s);
     std::vector<Vec3> f(plan.bodies), tau(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const BodyMotion& b = motion[i];
         const Vec3 c = b.R * plan.com[i].template cast<double>();
-        const Vec3 u = wind.at(b.x.y() + c.y()) - b.v - b.omega.cross(c);
+        const Vec3 u = sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c);
         f[i] = double(plan.drag_area[i]) * air_force<double>(plan.kind[i], b.R, u).force;
         tau[i] = c.cross(f[i]);
     }
@@ -102,7 +103,7 @@ template <class T> struct Audit {
 
 // Whether the tips' RMS must have settled: a steady wind, damping, and a quarter of the run as long as a period.
 template <class T> bool must_settle(const Plan<T>& plan, const StabilitySetup& setup, std::int64_t frames) {
-    if (!plan.wind || setup.scene.wind->turbulence != 0 || setup.scene.wind->gust_factor != 1) return false;
+    if (!plan.wind || !steady(*setup.scene.wind)) return false;
     for (std::size_t i = 0; i < plan.bodies; ++i)
         if (!(setup.tree.stiffness[i].minCoeff() > 0) || !(setup.tree.damping[i] > 0)) return false;
     Scene bare;

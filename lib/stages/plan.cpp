@@ -4,6 +4,7 @@
 #include "../model/branch_mode.h"
 #include "air.h"
 #include "pose.h"
+#include "shelter.h"
 #include "state_arrays.h"
 #include <algorithm>
 #include <charconv>
@@ -90,7 +91,7 @@ template <class T> void give_back_bodies(Plan<T>& plan) {
     const auto all = [](auto&... arrays) { (give_back(arrays), ...); };
     all(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint, plan.K,
         plan.beta, plan.inertia_factor, plan.gravity_row, plan.carried_moment, plan.drag_area, plan.kind, plan.sway,
-        plan.joint_distance, plan.com_distance, plan.inverse_weight);
+        plan.joint_distance, plan.com_distance, plan.inverse_weight, plan.shelter);
 }
 
 std::string text(double value) { // of four digits, whatever the locale
@@ -218,6 +219,24 @@ double highest_reach(const Tree& tree, const std::vector<RootSpline>& splines, c
     return top;
 }
 
+// Farthest point over the ground from (x, z) that a body could reach, likewise: the swirl's table covers it.
+double farthest_reach(const Tree& tree, const std::vector<RootSpline>& splines, const std::vector<MovedTree>& moved,
+                      double x, double z) {
+    const auto away = [&](std::size_t root) {
+        const std::int64_t spline = spline_under(moved, root);
+        const Vec3& drawn = tree.joint_position[root];
+        return spline < 0 ? std::hypot(drawn.x() - x, drawn.z() - z)
+                          : farthest(splines[std::size_t(spline)], drawn, x, z);
+    };
+    std::vector<double> reach(tree.size_bodies());
+    double farthest_point = 0;
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+        reach[i] = tree.parent[i] < 0 ? away(i) : reach[std::size_t(tree.parent[i])] + tree.joint_position[i].norm();
+        farthest_point = std::max(farthest_point, reach[i] + tree.size[i][0]);
+    }
+    return farthest_point;
+}
+
 template <class T> void plan_root_motion(Plan<T>& plan, const std::vector<TreeRange>& ranges) {
     const Scene& scene = plan.scene;
     plan.root_motion = !scene.root_motion.empty();
@@ -265,6 +284,17 @@ bool may_push(const Scene& scene) {
 
 namespace {
 
+// What of a wind varies over the ground, as the plan says it.
+std::string parts_of_field(const Wind& wind) {
+    const auto text_of = [](std::size_t n, const char* what) { return std::to_string(n) + what; };
+    std::string parts;
+    if (wind.grid)
+        parts += "; /wind/grid, " + text_of(std::size_t(wind.grid->columns) * std::size_t(wind.grid->rows), " cells");
+    if (wind.swirl) parts += "; /wind/swirl";
+    if (wind.shelter) parts += "; /wind/shelter";
+    return parts;
+}
+
 template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const auto add = [&plan](Stage stage, bool on, const std::string& reason) {
         plan.stages.push_back({stage, on, reason});
@@ -272,14 +302,15 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const bool analytic = plan.solver == Solver::analytic, coupled = plan.solver == Solver::coupled;
     const std::string solver = std::string("solver ") + solver_name(plan.solver);
     const std::string own = solver + " (evaluates it in its own pass)";
+    const std::string field = plan.wind ? parts_of_field(*plan.scene.wind) : "";
     const std::string moved = plan.root_motion ? "; roots moved by /root_motion" : "";
     const std::string limited = plan.joint_limit ? "; angles kept within /joint_limit" : "";
     const std::string forces = forces_text(plan);
     add(Stage::wind_field, (analytic || coupled) && plan.wind && !plan.lanes.on,
         !plan.wind            ? "no wind"
-        : plan.lanes.on       ? "in lanes"
-        : analytic || coupled ? "/wind"
-                              : own);
+        : plan.lanes.on       ? "in lanes" + field
+        : analytic || coupled ? "/wind" + field
+                              : own + field);
     const std::string fused = "in lanes";
     const bool joints = analytic && !plan.lanes.on; // one by one, by the plain step
     const auto why = [&](const std::string& plainly, const std::string& other) {
@@ -348,7 +379,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
             rows("lanes.now", layout.rows, fast::analytic::motion::count);
             if (frozen) rows("lanes.frozen", layout.rows, fast::analytic::frozen::count);
             rows("lanes.outward, inward", layout.joints,
-                 int(fast::record(fast::analytic::outward::count, L) + fast::record(inward, L)) / L);
+                 int(fast::record(fast::analytic::outward_count(plan.field), L) + fast::record(inward, L)) / L);
         } else {
             rows("lanes.table", layout.rows, fast::coupled_columns(fast::waits(layout), scheme_of(plan.scheme).poles));
             rows("lanes.outward, inward, accelerated", layout.joints, fast::records_of_joint<T>());
@@ -395,6 +426,9 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.torque = wishes.torque;
     plan_root_motion(plan, ranges);
     plan.top = plan.wind ? highest_reach(tree, plan.splines, plan.moved) : 0;
+    plan.field = plan.wind && varies_over_ground(*scene.wind);
+    if (plan.field && scene.wind->swirl)
+        plan.reach = farthest_reach(tree, plan.splines, plan.moved, scene.wind->swirl->x, scene.wind->swirl->z);
     plan.refresh_reason = solver != Solver::analytic ? std::string("solver ") + solver_name(solver)
                           : !(refresh > 0)           ? "not asked for"
                           : plan.root_motion         ? "/root_motion"
@@ -417,6 +451,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     give_back(weight);
     if (solver == Solver::coupled && plan.gravity) plan_carried_moments(plan, tree);
     plan_bodies(plan, tree, own);
+    if (plan.field && scene.wind->shelter) plan.shelter = shelter_factors(plan);
     plan.lanes.reason = "not asked for";
     if (simd) {
         plan.target = *simd;

@@ -130,6 +130,9 @@ template <class T> struct Plan {
     std::vector<T> joint_distance, com_distance; // [m] |joint_position|, |com|
     std::vector<T> inverse_weight;               // [m/rad] 1 / u_j
     double top = 0;                              // [m] highest point, for the wind's table
+    bool field = false;                          // it varies over the ground (wind_field.h), or there is shelter
+    double reach = 0;       // [m] the point farthest from the swirl's axis, over the ground; with a swirl alone
+    std::vector<T> shelter; // [1] wind at the body over the undisturbed one (shelter.h)
 
     std::vector<PlannedPull<T>> pulls;
 
@@ -148,7 +151,8 @@ bool may_push(const Scene&);
 // tree: joined and checked; ranges: of each of the scene's trees in it (one range for a tree on its own). Scales K and
 // beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).
 // Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow,
-// for one that starts beyond a joint limit (its body and angle), for joint limits, fracture or balls with an articulated solver.
+// for one that starts beyond a joint limit (its body and angle), for joint limits, fracture or balls with an articulated solver, for a swirl finer
+// than a table can hold (wind_field.h) and for columns of shelter that a body fills (shelter.h).
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 // sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
 // refresh: of the analytic solver, the tolerance of frozen coefficients (frozen.h); 0: none are kept, every step is worked out in full.

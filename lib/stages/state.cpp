@@ -58,11 +58,15 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     for (ArticulatedPass& pass : state.articulated) {
         pass.body.resize(plan.bodies);
         pass.ground.resize(plan.splines.size());
-        if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top);
+        if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach);
     }
-    if (plan.wind && !is_articulated(plan.solver)) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top);
+    if (plan.wind && !is_articulated(plan.solver))
+        state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach);
     if (plan.solver == Solver::coupled) {
-        state.wind_change = state.wind;
+        if (plan.field)
+            state.wind_start = state.wind_end = state.wind.field;
+        else
+            state.wind_change = state.wind;
         state.coupled_ground.resize(plan.splines.size());
         state.account.resize(plan.lanes.on ? plan.lanes.layout.ground.size()
                                            : std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1)));

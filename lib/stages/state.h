@@ -95,6 +95,7 @@ template <class T> struct State {
     std::vector<GuardBody<T>> guard;
     std::vector<EnergyAccount> account; // one a root
     WindTable<T> wind_change;           // [m/s] of the wind over the step
+    WindField<T> wind_start, wind_end;  // where it varies over the ground: at the step's start and end
     std::vector<GroundStep<T>> coupled_ground;
 
     // The fast path's rows, where the plan has lanes: then these are the state proper, and the arrays above are brought up to date when

@@ -26,7 +26,8 @@ double gust(double s) {
     return (std::exp(2 * (std::cos(two_pi * s) - 1)) - mean) / (1 - mean);
 }
 
-Vec3 turbulence(std::uint64_t seed, double speed, double t) {
+// q(t). period: after which it repeats, where it does.
+Vec3 turbulence(std::uint64_t seed, double speed, double t, const std::optional<double>& period) {
     const double scale = speed / 10;
     const double lowest = 0.02 * scale, ratio = std::pow(250.0, 1.0 / (waves - 1));
     std::array<double, waves> frequency, power;
@@ -37,6 +38,16 @@ Vec3 turbulence(std::uint64_t seed, double speed, double t) {
         power[std::size_t(w)] = n / std::pow(1 + 1.5 * n, 5.0 / 3.0); // per unit of log frequency, which is even here
         total += power[std::size_t(w)];
     }
+    if (period) {
+        std::size_t first = 0; // of those that come to the same frequency
+        for (std::size_t w = 0; w < frequency.size(); ++w) {
+            frequency[w] = std::max(1.0, std::round(frequency[w] * *period)) / *period;
+            if (frequency[w] != frequency[first]) first = w;
+            if (w == first) continue;
+            power[first] += power[w];
+            power[w] = 0;
+        }
+    }
     Vec3 q = Vec3::Zero();
     for (int c = 0; c < 3; ++c)
         for (int w = 0; w < waves; ++w)
@@ -45,22 +56,41 @@ Vec3 turbulence(std::uint64_t seed, double speed, double t) {
     return q;
 }
 
+double gust_factor(const Wind& wind, double t) {
+    return 1 + (wind.gust_factor - 1) * gust(t / whole_period(wind, wind.gust_period));
+}
+
+// The turbulence of a wind that has a mean velocity.
+Vec3 turbulent(const Wind& wind, double speed, double t) {
+    const Vec3 along = wind.velocity / speed;
+    const Vec3 side = Vec3::UnitY().cross(along);
+    // A wind straight up or down has no side of its own: take x.
+    const Vec3 across = side.norm() > 1e-9 ? Vec3(side.normalized()) : Vec3(Vec3::UnitX());
+    const Vec3 q = turbulence(wind.seed, speed, t, wind.period);
+    return speed * wind.turbulence * (q[0] * along + 0.75 * q[1] * across + 0.5 * q[2] * along.cross(across));
+}
+
 } // namespace
 
 Vec3 wind_velocity(const Wind& wind, double t) {
     const double speed = wind.velocity.norm();
     Vec3 v = wind.velocity;
     if (speed == 0) return v;
-    if (wind.gust_factor != 1) v *= 1 + (wind.gust_factor - 1) * gust(t / wind.gust_period);
-    if (wind.turbulence != 0) {
-        const Vec3 along = wind.velocity / speed;
-        const Vec3 side = Vec3::UnitY().cross(along);
-        // A wind straight up or down has no side of its own: take x.
-        const Vec3 across = side.norm() > 1e-9 ? Vec3(side.normalized()) : Vec3(Vec3::UnitX());
-        const Vec3 q = turbulence(wind.seed, speed, t);
-        v += speed * wind.turbulence * (q[0] * along + 0.75 * q[1] * across + 0.5 * q[2] * along.cross(across));
-    }
+    if (wind.gust_factor != 1) v *= gust_factor(wind, t);
+    if (wind.turbulence != 0) v += turbulent(wind, speed, t);
     return v;
+}
+
+WindWeather wind_weather(const Wind& wind, double t) {
+    const double speed = wind.velocity.norm();
+    WindWeather weather;
+    if (wind.gust_factor != 1) weather.gust = gust_factor(wind, t);
+    if (wind.turbulence != 0 && speed > 0) weather.turbulence = turbulent(wind, speed, t);
+    return weather;
+}
+
+double octave_phase(std::uint64_t seed, int octave) {
+    return phase(seed, 3, octave); // beside the three components of the turbulence
 }
 
 double wind_profile(const Wind& wind, double y) {
@@ -68,11 +98,18 @@ double wind_profile(const Wind& wind, double y) {
     return y > 0 ? std::pow(y / wind.reference_height, wind.profile) : 0;
 }
 
-template <class T> WindTable<T> make_wind_table(const Wind& wind, double top) {
+Vec3 wind_at(const Wind& wind, const Vec3& place, double t) {
+    const double factor = wind_profile(wind, place.y());
+    if (!varies_over_ground(wind)) return factor * wind_velocity(wind, t);
+    return factor * field_velocity(wind, wind_weather(wind, t), place.x(), place.z(), t);
+}
+
+template <class T> WindTable<T> make_wind_table(const Wind& wind, double top, double reach) {
     const std::size_t entries = wind.profile == 0 ? 1 : 65;
     WindTable<T> table;
     table.per_metre = T(double(entries - 1) / std::max(top, 1e-3));
-    table.velocity.resize(entries);
+    table.field = make_wind_field<T>(wind, reach);
+    if (!table.field.on()) table.velocity.resize(entries);
     for (std::size_t k = 0; k < entries; ++k)
         table.profile.push_back(
             T(entries == 1 ? 1 : wind_profile(wind, std::max(top, 1e-3) * double(k) / double(entries - 1))));
@@ -80,12 +117,13 @@ template <class T> WindTable<T> make_wind_table(const Wind& wind, double top) {
 }
 
 template <class T> void evaluate_wind(const Wind& wind, double t, WindTable<T>& table) {
+    if (table.field.on()) return evaluate_field(wind, wind_weather(wind, t), t, table.field);
     const Vector3<T> v = wind_velocity(wind, t).template cast<T>();
     for (std::size_t k = 0; k < table.velocity.size(); ++k) table.velocity[k] = table.profile[k] * v;
 }
 
-template WindTable<float> make_wind_table(const Wind&, double);
-template WindTable<double> make_wind_table(const Wind&, double);
+template WindTable<float> make_wind_table(const Wind&, double, double);
+template WindTable<double> make_wind_table(const Wind&, double, double);
 template void evaluate_wind(const Wind&, double, WindTable<float>&);
 template void evaluate_wind(const Wind&, double, WindTable<double>&);
 

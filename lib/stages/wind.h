@@ -1,26 +1,37 @@
-// wind.h: the wind's velocity, evaluated once a step into a table over height that bodies look theirs up in.
+// wind.h: the wind's velocity, evaluated once a step into tables over height and over the ground that bodies look theirs up in.
 //
 // The definition is at struct Wind (scene.h). g(s) = (e^(2 (cos 2 pi s - 1)) - m) / (1 - m), m its mean e^-2 I0(2): one
 // crest a period, mean 0, peak 1. q(t) is a sum of 24 cosines a component, frequencies even in the logarithm from 0.02 to
 // 5 Hz times (|V| / 10 m/s), amplitudes by Kaimal's spectrum f S ~ n / (1 + 1.5 n)^(5/3), n = f 50 m / |V|, phases from the
-// seed; unit variance over long times.
+// seed; unit variance over long times. Where the wind repeats (Wind::period), each frequency is the nearest multiple of 1 / period, at
+// least one, and waves that come to the same one are one wave of their power together, with the phase of the lowest.
 #pragma once
-#include "../model/scene.h"
-#include <vector>
+#include "wind_field.h"
 
 namespace bough {
 
-// Velocity at the reference height [m/s] at time t [s]. O(1).
+// Velocity at the reference height [m/s] at time t [s], of a wind that is the same all over the ground. O(1).
 Vec3 wind_velocity(const Wind&, double t);
+
+// What that wind's gusts and turbulence make of its velocity. O(1).
+WindWeather wind_weather(const Wind&, double t);
+// psi_k of wind_field.h [rad].
+double octave_phase(std::uint64_t seed, int octave);
 
 // Factor over height, (y / reference_height)^profile, 0 at and below the ground (1 everywhere for profile 0).
 double wind_profile(const Wind&, double y);
 
-// The field as bodies see it: velocities at even heights from 0 to top, linear between, constant above.
+// The wind's velocity [m/s] at a place [m] and time [s], evaluated directly: the definition, for bodies that are few and for tests;
+// what steps look up is the table below. Undisturbed: no shelter. O(1); 72 cosines with turbulence.
+Vec3 wind_at(const Wind&, const Vec3& place, double t);
+
+// The field as bodies see it: velocities at even heights from 0 to top, linear between, constant above; where it varies over the ground,
+// the profile's factor at those heights times the field's velocity there.
 template <class T> struct WindTable {
     T per_metre = 0;                  // [1/m] entries a metre
-    std::vector<Vector3<T>> velocity; // [m/s]
+    std::vector<Vector3<T>> velocity; // [m/s]; empty where there is a field
     std::vector<T> profile;           // factor at each entry, set up once
+    WindField<T> field;
 
     Vector3<T> at(T y) const {
         // A y that is not a number, in a run that diverges, is the ground: max keeps its first argument.
@@ -30,10 +41,21 @@ template <class T> struct WindTable {
         const T w = place - T(k);
         return velocity[k] + w * (velocity[k + 1] - velocity[k]);
     }
+    T factor(T y) const {
+        const T place = std::min(std::max(T(0), y * per_metre), T(profile.size() - 1));
+        if (profile.size() == 1) return profile[0];
+        const auto k = std::min(std::size_t(place), profile.size() - 2);
+        return profile[k] + (place - T(k)) * (profile[k + 1] - profile[k]);
+    }
+    Vector3<T> at(const Vector3<T>& place) const {
+        if (!field.on()) return at(place.y());
+        return factor(place.y()) * field.at(place.x(), place.z());
+    }
 };
 
-// Table for a scene whose highest body reaches `top` [m]: one entry for a uniform field, else 65.
-template <class T> WindTable<T> make_wind_table(const Wind&, double top);
+// Table for a scene whose highest body reaches `top` [m], and whose farthest is `reach` [m] from the swirl's axis (needed with a swirl
+// alone): one entry over height for profile 0, else 65. Throws as make_wind_field.
+template <class T> WindTable<T> make_wind_table(const Wind&, double top, double reach = 0);
 // Fills in the velocities at time t. O(entries). Allocates nothing.
 template <class T> void evaluate_wind(const Wind&, double t, WindTable<T>&);
 
