@@ -153,6 +153,7 @@ TEST_CASE("saved states come back from both forms") {
     state.solver = "articulated-reference";
     state.articulated_step = 0.1 / 3;
     state.fingerprint = 0xfedcba9876543210u;
+    state.free_bodies = {0.1 / 3, -1, 1e300};
     for (int i = 0; i < 20; ++i) {
         state.theta.push_back(random.vector());
         state.theta_dot.push_back(random.vector());
@@ -172,6 +173,7 @@ TEST_CASE("saved states come back from both forms") {
         CHECK(same(read.theta_dot, state.theta_dot));
         CHECK(same(read.scaled_rate, state.scaled_rate));
         CHECK(same(read.articulated_step, state.articulated_step));
+        CHECK(same(read.free_bodies, state.free_bodies));
         CHECK(read.scheme.empty());
         CHECK(read.theta_change.empty());
         CHECK(read.theta_dot_change.empty());
@@ -230,6 +232,19 @@ TEST_CASE("scenes come back from both forms") {
     scene.stiffness_scale = 0.5;
     scene.damping_scale = 2;
     scene.joint_limit = random_joint_limit(random);
+    scene.fracture = Fracture();
+    scene.fracture->leaf = 1e-4;
+    scene.fracture->strength = 4e7;
+    scene.fracture->spread = 0.3;
+    scene.fracture->seed = 18446744073709551615u;
+    scene.fracture->joints = {{{Selector::By::level, 0, 0, 0, 1, Vec3::Zero(), 2}, 3.5}, {{}, Fracture::never}};
+    scene.balls.resize(2);
+    scene.balls[1].position = random.vector();
+    scene.balls[1].velocity = random.vector();
+    scene.balls[1].angular_velocity = random.vector();
+    scene.balls[1].radius = 0.1 / 3;
+    scene.balls[1].mass = 7;
+    scene.contact = Contact{ContactModel::penalty, 0.7, 0.1, 20, false, true, false, -1.5};
     Pull pull;
     pull.time = {0, 1.5};
     pull.force = {{0, 0, 1}, {0.1, 0.2, 0.3}};
@@ -286,6 +301,23 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(read.damping_scale == 2);
         REQUIRE(read.joint_limit);
         CHECK(same(*read.joint_limit, *scene.joint_limit));
+        REQUIRE((read.fracture && read.contact));
+        CHECK((read.fracture->leaf == 1e-4 && read.fracture->strength == 4e7 && read.fracture->spread == 0.3));
+        CHECK((read.fracture->branch == Fracture::never && read.fracture->fruit == Fracture::never));
+        CHECK(read.fracture->seed == scene.fracture->seed);
+        REQUIRE(read.fracture->joints.size() == 2);
+        CHECK(read.fracture->joints[0].on.by == Selector::By::level);
+        CHECK(read.fracture->joints[0].on.level == 2);
+        CHECK(read.fracture->joints[0].torque == 3.5);
+        CHECK(read.fracture->joints[1].torque == Fracture::never);
+        REQUIRE(read.balls.size() == 2);
+        const Ball &thrown = read.balls[1], &meant = scene.balls[1];
+        CHECK((same(thrown.position, meant.position) && same(thrown.velocity, meant.velocity)));
+        CHECK((same(thrown.angular_velocity, meant.angular_velocity) && same(thrown.radius, meant.radius)));
+        CHECK(thrown.mass == 7);
+        CHECK((read.contact->model == ContactModel::penalty && read.contact->restitution == 0.7));
+        CHECK((read.contact->friction == 0.1 && read.contact->penalty == 20 && read.contact->ground_height == -1.5));
+        CHECK((!read.contact->trees && read.contact->leaves && !read.contact->ground));
         REQUIRE(read.pulls.size() == 4);
         CHECK(same(read.pulls[0].time, pull.time));
         CHECK(same(read.pulls[0].force, pull.force));
@@ -311,6 +343,9 @@ TEST_CASE("a scene of two lines has the defaults") {
     CHECK(read.pulls.empty());
     CHECK(read.root_motion.empty());
     CHECK_FALSE(read.joint_limit);
+    CHECK_FALSE(read.fracture);
+    CHECK_FALSE(read.contact);
+    CHECK(read.balls.empty());
     CHECK(read.gravity == defaults.gravity);
     CHECK(read.pose == Pose::drawn);
 

@@ -389,6 +389,9 @@ std::vector<std::uint32_t> what_breaks(const Options& o, const Setting& setting,
 }
 
 template <class T> void simulate(Options& o, Setting setting, const std::string& format) {
+    if (o.report_error && has_free_bodies(setting.scene))
+        throw UsageError(std::string("--report-error: not with a scene's ") +
+                         (setting.scene.fracture ? "fracture" : "balls") + ", which the second run would not have");
     const MotionFields fields = chosen_fields(o);
     const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error};
     const bool needs_tree = o.report_error || format == "obj" || format == "glb" || has_free_bodies(setting.scene);

@@ -74,7 +74,7 @@ template <class T>
 void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees, TreeWay<T> tree_way,
                    const Contact& contact, const FreeBody& free, std::size_t k, const Vec3& d, bool brute_force,
                    std::vector<ContactPoint>& found, ContactTests& tests) {
-    if (contact.ground) find_ground(free, k, d, contact.ground_height, found);
+    if (contact.ground && !free.leaf()) find_ground(free, k, d, contact.ground_height, found);
     if (!plan.contact || (yields(contact, free.parts.front().kind) && free.leaf())) return;
     const Vec3& x = free.motion.x;
     std::vector<std::uint32_t> stack;

@@ -6,6 +6,7 @@
 #include "../stages/wind.h"
 #include "advance.h"
 #include "ring_down.h"
+#include "stability_free.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -130,6 +131,10 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
     cell.solver = solver_name(solver);
     cell.precision = sizeof(T) == 4 ? "float" : "double";
     cell.promised = what.promised && !is_articulated(solver);
+    if (has_free_bodies(setup.scene)) {
+        run_free_cell(setup, solver, sizeof(T) == 4, frames, tick, cell);
+        return cell;
+    }
     const Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver, Scheme::p12,
                                       setup.simd, 0, setup.refresh);
     State<T> state = make_state(plan);
@@ -185,6 +190,9 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
         setup.scene.wind.reset();
         setup.scene.pulls.clear();
         setup.scene.root_motion.clear();
+        setup.scene.fracture.reset();
+        setup.scene.balls.clear();
+        setup.scene.contact.reset();
         what.apply(setup);
         const auto tick = [&] { progress(done, total); };
         const auto cell = [&](Solver solver, bool single) {
@@ -195,7 +203,7 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
         cell(Solver::coupled, true);
         cell(Solver::analytic, false);
         cell(Solver::analytic, true);
-        if (options.with_implicit) cell(Solver::articulated_implicit, false);
+        if (options.with_implicit && !has_free_bodies(setup.scene)) cell(Solver::articulated_implicit, false);
     }
     return report;
 }

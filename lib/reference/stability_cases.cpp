@@ -169,6 +169,103 @@ void own_trees(List& list) {
                      [=](StabilitySetup& s) { teleport(s, distance, span); });
 }
 
+// Highest drawn joint, and how far from the trunk's foot any is.
+std::pair<double, double> extent(const Tree& tree) {
+    std::vector<Quat> q(tree.size_bodies());
+    std::vector<Vec3> x(tree.size_bodies());
+    double top = 0, wide = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        const std::int32_t p = tree.parent[i];
+        const Quat above = p < 0 ? Quat(Quat::Identity()) : q[std::size_t(p)];
+        x[i] = above * tree.joint_position[i] + (p < 0 ? Vec3::Zero() : x[std::size_t(p)]);
+        q[i] = (above * tree.joint_rotation[i]).normalized();
+        top = std::max(top, x[i].y());
+        wide = std::max(wide, std::hypot(x[i].x(), x[i].z()));
+    }
+    return {top, wide};
+}
+
+// Balls side by side over the crown, layer on layer.
+void drop_balls(StabilitySetup& s, int count, double radius, double mass, double speed) {
+    const auto [top, wide] = extent(s.tree);
+    const int row = std::max(1, int(2 * wide / (3 * radius)));
+    for (int k = 0; k < count; ++k) {
+        const int i = k % row, j = k / row % row, layer = k / row / row;
+        Ball ball;
+        ball.radius = radius;
+        ball.mass = mass;
+        ball.position =
+            Vec3((i - row / 2) * 3 * radius, top + radius + 3 * radius * (layer + 1), (j - row / 2) * 3 * radius);
+        ball.velocity = Vec3(0, -speed, 0);
+        s.scene.balls.push_back(ball);
+    }
+}
+
+void break_at(StabilitySetup& s, double torque) {
+    Fracture f;
+    f.branch = f.leaf = f.petal = f.fruit = torque;
+    s.scene.fracture = f;
+}
+
+double mass_of(const Tree& tree) {
+    double sum = 0;
+    for (const double m : tree.mass) sum += m;
+    return sum;
+}
+
+void free_bodies(List& list) {
+    list.add("free bodies", "thresholds 0: all breaks in one step", true, [](StabilitySetup& s) { break_at(s, 0); });
+    list.add("free bodies", "thresholds infinite", true, [](StabilitySetup& s) { break_at(s, Fracture::never); });
+    list.add("free bodies", "thresholds 0.1 N m", true, [](StabilitySetup& s) { break_at(s, 0.1); });
+    list.add("free bodies", "10 000 balls", true, [](StabilitySetup& s) { drop_balls(s, 10000, 0.03, 0.05, 5); });
+    list.add("free bodies", "a ball of 1e+06 times the tree's mass", true,
+             [](StabilitySetup& s) { drop_balls(s, 1, 0.3, 1e6 * mass_of(s.tree), 5); });
+    list.add("free bodies", "balls of 1e-06 times the tree's mass", true,
+             [](StabilitySetup& s) { drop_balls(s, 100, 0.03, 1e-6 * mass_of(s.tree), 5); });
+    list.add("free bodies", "balls at 100 m/s", true, [](StabilitySetup& s) { drop_balls(s, 100, 0.1, 1, 100); });
+    list.add("free bodies", "balls at 100 m/s, thresholds 10 N m", true, [](StabilitySetup& s) {
+        drop_balls(s, 100, 0.1, 1, 100);
+        break_at(s, 10);
+    });
+    list.add("free bodies", "leaves only, thresholds 0", true, [](StabilitySetup& s) {
+        Splines twig = stem({Vec3(0, 2, 0), Vec3(0.3, 2, 0)}, {1e-3, 1e-3});
+        for (int k = 0; k < 20; ++k) {
+            twig.leaf_branch.push_back(0);
+            twig.leaf_at.push_back((k + 0.5) / 20);
+            twig.leaf_position.push_back(Vec3(0.3 * (k + 0.5) / 20, 2, 0));
+            twig.leaf_rotation.push_back(Quat(Eigen::AngleAxisd(k, Vec3(1, 2, 3).normalized())));
+            twig.leaf_length.push_back(0.08);
+            twig.leaf_width.push_back(0.05);
+        }
+        s.tree = segment(twig, wood_presets().front(), {});
+        // Of it the leaves alone, each on the ground's own joint.
+        std::vector<std::size_t> leaves;
+        for (std::size_t i = 0; i < s.tree.size_bodies(); ++i)
+            if (is_flat(s.tree.kind[i])) leaves.push_back(i);
+        Tree only;
+        only.resize(leaves.size());
+        for (std::size_t k = 0; k < leaves.size(); ++k) {
+            const std::size_t i = leaves[k];
+            only.parent[k] = -1;
+            only.kind[k] = s.tree.kind[i];
+            only.mass[k] = s.tree.mass[i];
+            only.com[k] = s.tree.com[i];
+            only.inertia[k] = s.tree.inertia[i];
+            only.joint_position[k] = Vec3(0.1 * double(k), 2, 0);
+            only.joint_rotation[k] = s.tree.joint_rotation[i];
+            only.stiffness[k] = s.tree.stiffness[i];
+            only.damping[k] = s.tree.damping[i];
+            only.size[k] = s.tree.size[i];
+            only.branch[k] = std::int32_t(k);
+            only.level[k] = 0;
+            only.s[k] = 0;
+        }
+        s.tree = only;
+        s.ranges = {{0, s.tree.size_bodies(), 0}};
+        break_at(s, 0);
+    });
+}
+
 } // namespace
 
 std::vector<StabilityCase> stability_cases() {
@@ -176,6 +273,7 @@ std::vector<StabilityCase> stability_cases() {
     single_axes(list);
     combinations(list);
     own_trees(list);
+    free_bodies(list);
     return list.cases;
 }
 
