@@ -204,7 +204,15 @@ TEST_CASE("scenes come back from both forms") {
     Scene scene;
     scene.trees = {{"oak.json", {1, 0, -0.1}, 30}, {"birch.safetensors", {0, 0, 1e-300}, -7.5}};
     scene.gravity = {0, -1.62, 0};
-    scene.wind = Wind{{3, 0, 1}, 8, 0.2, 0.3, 1.5, 4, 18446744073709551615u};
+    Wind wind;
+    wind.velocity = {3, 0, 1};
+    wind.reference_height = 8;
+    wind.profile = 0.2;
+    wind.turbulence = 0.3;
+    wind.gust_factor = 1.5;
+    wind.gust_period = 4;
+    wind.seed = 18446744073709551615u;
+    scene.wind = wind;
     WindGrid grid;
     grid.x = -3.5;
     grid.z = 0.1;
