@@ -158,6 +158,17 @@ JointLimit read_joint_limit(const json& value, const std::string& name) {
     return limit;
 }
 
+LeafAir read_leaves(const json& value, const std::string& name) {
+    LeafAir leaves;
+    ObjectReader object(value, name, "/leaves");
+    object.read("kappa", leaves.kappa);
+    object.read("air_resistance", leaves.air_resistance);
+    object.read("drag_ratio", leaves.drag_ratio);
+    object.read("offset", leaves.offset);
+    object.finish();
+    return leaves;
+}
+
 ordered_json numbers(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
@@ -215,6 +226,11 @@ ordered_json value_of(const Scene& scene) {
         fields["joint_limit"] = {{"branch", numbers(scene.joint_limit->branch)},
                                  {"leaf", numbers(scene.joint_limit->leaf)},
                                  {"fruit", numbers(scene.joint_limit->fruit)}};
+    if (scene.leaves)
+        fields["leaves"] = {{"kappa", scene.leaves->kappa},
+                            {"air_resistance", scene.leaves->air_resistance},
+                            {"drag_ratio", scene.leaves->drag_ratio},
+                            {"offset", scene.leaves->offset}};
     fields["stiffness_scale"] = scene.stiffness_scale;
     fields["damping_scale"] = scene.damping_scale;
     return fields;
@@ -244,6 +260,7 @@ Scene read_scene(std::string_view content, const std::string& name) {
     scene.pose = Pose(object.word("pose", poses, std::size_t(scene.pose)));
     scene.joint_inertia = JointInertia(object.word("joint_inertia", inertias, std::size_t(scene.joint_inertia)));
     if (object.has("joint_limit")) scene.joint_limit = read_joint_limit(object.need("joint_limit"), name);
+    if (object.has("leaves")) scene.leaves = read_leaves(object.need("leaves"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();

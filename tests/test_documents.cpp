@@ -209,6 +209,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.stiffness_scale = 0.5;
     scene.damping_scale = 2;
     scene.joint_limit = random_joint_limit(random);
+    scene.leaves = LeafAir{random.fraction(), random.fraction(), 1 + random.fraction(), random.fraction()};
     Pull pull;
     pull.time = {0, 1.5};
     pull.force = {{0, 0, 1}, {0.1, 0.2, 0.3}};
@@ -253,6 +254,11 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(read.joint_inertia == JointInertia::paper);
         CHECK(read.stiffness_scale == 0.5);
         CHECK(read.damping_scale == 2);
+        REQUIRE(read.leaves);
+        CHECK(same(read.leaves->kappa, scene.leaves->kappa));
+        CHECK(same(read.leaves->air_resistance, scene.leaves->air_resistance));
+        CHECK(same(read.leaves->drag_ratio, scene.leaves->drag_ratio));
+        CHECK(same(read.leaves->offset, scene.leaves->offset));
         REQUIRE(read.joint_limit);
         CHECK(same(*read.joint_limit, *scene.joint_limit));
         REQUIRE(read.pulls.size() == 4);
@@ -280,6 +286,7 @@ TEST_CASE("a scene of two lines has the defaults") {
     CHECK(read.pulls.empty());
     CHECK(read.root_motion.empty());
     CHECK_FALSE(read.joint_limit);
+    CHECK_FALSE(read.leaves);
     CHECK(read.gravity == defaults.gravity);
     CHECK(read.pose == Pose::drawn);
 

@@ -162,8 +162,12 @@ struct Fingerprint {
         for (const double value : {s.air_density, s.stiffness_scale, s.damping_scale}) add(value);
         add(std::uint64_t(s.pose));
         add(std::uint64_t(s.joint_inertia));
-        if (!s.joint_limit) return;
-        for (const Vec3& most : {s.joint_limit->branch, s.joint_limit->leaf, s.joint_limit->fruit}) add(most);
+        if (s.joint_limit)
+            for (const Vec3& most : {s.joint_limit->branch, s.joint_limit->leaf, s.joint_limit->fruit}) add(most);
+        if (s.leaves)
+            for (const double value :
+                 {s.leaves->kappa, s.leaves->air_resistance, s.leaves->drag_ratio, s.leaves->offset})
+                add(value);
     }
 };
 

@@ -50,6 +50,7 @@ template <class T> void place_tables(const Plan<T>& plan, State<T>& state, doubl
         rows.profile = plan.lanes.profile.data();
         rows.profile_entries = plan.lanes.profile.size();
         rows.per_metre = plan.lanes.per_metre;
+        rows.leaf = plan.leaf;
     }
     if (lanes.pulls.empty()) return;
     rows.pull_of_row = plan.lanes.pull_of_row.data();

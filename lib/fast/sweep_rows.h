@@ -3,6 +3,7 @@
 //
 // A row of a table is `count` quantities of 64 bytes each.
 #pragma once
+#include "../model/leaf_terms.h"
 #include "block.h"
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,7 @@ template <class T> struct SweepRows {
     const T* profile; // [1] factors over height
     std::size_t profile_entries;
     T per_metre;
+    LeafTerms<T> leaf;
 };
 
 // What a sweep over a block met with.
