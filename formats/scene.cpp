@@ -292,6 +292,17 @@ Contact read_contact(const json& value, const std::string& name) {
     return contact;
 }
 
+LeafAir read_leaves(const json& value, const std::string& name) {
+    LeafAir leaves;
+    ObjectReader object(value, name, "/leaves");
+    object.read("kappa", leaves.kappa);
+    object.read("air_resistance", leaves.air_resistance);
+    object.read("drag_ratio", leaves.drag_ratio);
+    object.read("offset", leaves.offset);
+    object.finish();
+    return leaves;
+}
+
 ordered_json numbers(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
@@ -423,6 +434,11 @@ ordered_json value_of(const Scene& scene) {
     if (scene.fracture) fields["fracture"] = value_of(*scene.fracture);
     for (const Ball& ball : scene.balls) fields["balls"].push_back(value_of(ball));
     if (scene.contact) fields["contact"] = value_of(*scene.contact);
+    if (scene.leaves)
+        fields["leaves"] = {{"kappa", scene.leaves->kappa},
+                            {"air_resistance", scene.leaves->air_resistance},
+                            {"drag_ratio", scene.leaves->drag_ratio},
+                            {"offset", scene.leaves->offset}};
     fields["stiffness_scale"] = scene.stiffness_scale;
     fields["damping_scale"] = scene.damping_scale;
     return fields;
@@ -456,6 +472,7 @@ Scene read_scene(std::string_view content, const std::string& name) {
     for (const json& value : object.list("balls"))
         scene.balls.push_back(read_ball(value, name, "/balls/" + std::to_string(scene.balls.size())));
     if (object.has("contact")) scene.contact = read_contact(object.need("contact"), name);
+    if (object.has("leaves")) scene.leaves = read_leaves(object.need("leaves"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();

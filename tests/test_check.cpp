@@ -149,6 +149,12 @@ TEST_CASE("each rule of a scene") {
     CHECK(broken(good, [](Scene& s) { s.joint_limit->leaf.z() = not_a_number; }) == "joint_limit/leaf/2");
     CHECK(broken(good, [](Scene& s) { s.joint_limit->branch.x() = 180.1; }) == "joint_limit/branch/0");
     CHECK(broken(good, [](Scene& s) { s.joint_limit->fruit.setZero(); }) == "joint_limit/fruit");
+    good.leaves = LeafAir{};
+    CHECK_FALSE(check(good).has_value());
+    CHECK(broken(good, [](Scene& s) { s.leaves->kappa = not_a_number; }) == "leaves/kappa");
+    CHECK(broken(good, [](Scene& s) { s.leaves->air_resistance = -1; }) == "leaves/air_resistance");
+    CHECK(broken(good, [](Scene& s) { s.leaves->drag_ratio = 0; }) == "leaves/drag_ratio");
+    CHECK(broken(good, [](Scene& s) { s.leaves->offset = not_a_number; }) == "leaves/offset");
 }
 
 TEST_CASE("a tree appended stands where it was put, as it was") {

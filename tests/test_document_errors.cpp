@@ -214,6 +214,14 @@ TEST_CASE("scenes name the nested place") {
     CHECK(scene_error("\"joint_limit\": \"30\"") ==
           "s: /joint_limit: is \"30\", expected a number of degrees or an object with branch, leaf, fruit");
     CHECK(scene_error("\"joint_limit\": {\"twig\": 5}").rfind("s: /joint_limit/twig: ", 0) == 0);
+    CHECK(scene_error("\"leaves\": {}") == "");
+    CHECK(scene_error("\"leaves\": {\"kappa\": -1}") == "s: /leaves/kappa: is -1, expected 0 or more");
+    CHECK(scene_error("\"leaves\": {\"air_resistance\": -2}") ==
+          "s: /leaves/air_resistance: is -2, expected 0 or more");
+    CHECK(scene_error("\"leaves\": {\"drag_ratio\": 0}") == "s: /leaves/drag_ratio: is 0, expected more than 0");
+    CHECK(scene_error("\"leaves\": {\"offset\": \"x\"}") == "s: /leaves/offset: is \"x\", expected a number");
+    CHECK(scene_error("\"leaves\": {\"nu\": 1}").rfind("s: /leaves/nu: is an unknown field", 0) == 0);
+    CHECK(scene_error("\"leaves\": 1").rfind("s: /leaves: is 1, expected ", 0) == 0);
     CHECK(scene_error("\"air_density\": 1, \"air_density\": 1") == "s: /air_density: appears twice");
     CHECK_THAT(scene_error("\"gravity\": [0, NaN, 0]"), StartsWith("s:1:") && Contains("/gravity/1 is NaN"));
 

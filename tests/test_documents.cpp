@@ -253,6 +253,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.balls[1].radius = 0.1 / 3;
     scene.balls[1].mass = 7;
     scene.contact = Contact{ContactModel::penalty, 0.7, 0.1, 20, false, true, false, -1.5};
+    scene.leaves = LeafAir{random.fraction(), random.fraction(), 1 + random.fraction(), random.fraction()};
     Pull pull;
     pull.time = {0, 1.5};
     pull.force = {{0, 0, 1}, {0.1, 0.2, 0.3}};
@@ -307,6 +308,11 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(read.joint_inertia == JointInertia::paper);
         CHECK(read.stiffness_scale == 0.5);
         CHECK(read.damping_scale == 2);
+        REQUIRE(read.leaves);
+        CHECK(same(read.leaves->kappa, scene.leaves->kappa));
+        CHECK(same(read.leaves->air_resistance, scene.leaves->air_resistance));
+        CHECK(same(read.leaves->drag_ratio, scene.leaves->drag_ratio));
+        CHECK(same(read.leaves->offset, scene.leaves->offset));
         REQUIRE(read.joint_limit);
         CHECK(same(*read.joint_limit, *scene.joint_limit));
         REQUIRE((read.fracture && read.contact));
@@ -354,6 +360,7 @@ TEST_CASE("a scene of two lines has the defaults") {
     CHECK_FALSE(read.fracture);
     CHECK_FALSE(read.contact);
     CHECK(read.balls.empty());
+    CHECK_FALSE(read.leaves);
     CHECK(read.gravity == defaults.gravity);
     CHECK(read.pose == Pose::drawn);
 

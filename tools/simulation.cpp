@@ -188,6 +188,10 @@ struct Fingerprint {
         if (s.fracture) add(*s.fracture);
         for (const Ball& ball : s.balls) add(ball);
         if (s.contact) add(*s.contact);
+        if (s.leaves)
+            for (const double value :
+                 {s.leaves->kappa, s.leaves->air_resistance, s.leaves->drag_ratio, s.leaves->offset})
+                add(value);
     }
     void add(const Fracture& f) {
         for (const double value : {f.branch, f.leaf, f.petal, f.fruit, f.strength, f.spread}) add(value);

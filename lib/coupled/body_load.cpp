@@ -2,6 +2,7 @@
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
+#include "../stages/leaf_air.h"
 #include "../stages/shelter.h"
 #include "own_inertia.h"
 
@@ -30,6 +31,15 @@ template <class T> Vector3<T> wind_change(const State<T>& state, const Vector3<T
     return state.wind.factor(place.y()) * change;
 }
 
+// leaf_air.h, but for nu I in the inertia, which is the resolvent's.
+template <class T> void add_leaf(const Plan<T>& plan, CoupledBody<T>& b, std::size_t i, const Vector3<T>& u) {
+    const T m = plan.mass[i], scale = plan.drag_area[i];
+    b.D += leaf_damping(plan.leaf, m, b.R);
+    b.air += leaf_resistance(plan.leaf, m, b.R, u);
+    b.N += leaf_spin_damping(plan.leaf, m, b.J, b.c) * b.omega_0 - leaf_torque(plan.leaf, scale, b.R, u);
+    b.H += leaf_turning(plan.leaf, scale, m, plan.com[i].norm(), b.R, u);
+}
+
 template <class T> void add_air(const Plan<T>& plan, const State<T>& state, CoupledBody<T>& b, std::size_t i) {
     const T scale = plan.drag_area[i];
     const Vector3<T> place = b.x + b.c;
@@ -37,6 +47,7 @@ template <class T> void add_air(const Plan<T>& plan, const State<T>& state, Coup
     b.D = scale * air_damping(plan.kind[i], b.R, u);
     const Vector3<T> ahead = b.v - b.v_0 + (b.omega - b.omega_0).cross(b.c);
     b.air = scale * air_force(plan.kind[i], b.R, u).force;
+    if (plan.leaf.on && is_flat(plan.kind[i])) add_leaf(plan, b, i, u);
     const Vector3<T> f = b.air + b.D * ahead;
     b.F -= f;
     b.N -= b.c.cross(f);

@@ -8,7 +8,8 @@
 // of its potential, which is block diagonal in the bodies' absolute rotations (the body's first moment is that of
 // all it carries: P = R (m c + sum over children of (mass outboard) d), a constant in the body's axes):
 //   H = (P.g) 1 - (P g^T + g P^T) / 2
-// The air's on plates: the bound of air.h on how fast its moment may turn.
+// The air's on plates: the bound of air.h on how fast its moment may turn, and leaf_air.h's where there is /leaves, which brings to N its torque
+// too: of that, nu I omega at omega_0, as its change is the resolvent's.
 // slope: known functions of time, the wind's velocity U and the pulls: D (U(t+h) - U(t)), f(t+h) - f(t).
 // Torque of the joint, world: rates^T (-K (theta_0 + beta eta_0)), and rates^T K eta_0 its rate.
 // Reads   the first part of coupled, theta, theta_dot, wind, wind_change. Writes the second. O(n), bodies in parallel. Errors none.

@@ -79,7 +79,8 @@ template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s, double tim
 namespace {
 
 // Work [J] of the air on a body that moved so far. Whatever the body does, its power is at most kappa rho A times 4/27 |U|^3 (branch,
-// fruit; at a third of the wind's speed U) or |u| U_n^2 / 4 (plate): what the linear model has beyond that is its error.
+// fruit; at a third of the wind's speed U) or |u| U_n^2 / 4 (plate), and of a leaf's resistance nu m |U|^2 / 4: what the linear model has beyond
+// that is its error. The torque of leaf_air.h is not booked: what it puts into a leaf that turns fast is taken again.
 template <class T>
 double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved, const Vector3<T>& own) {
     const CoupledBody<T>& y = s.coupled[i];
@@ -89,7 +90,10 @@ double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vec
     const T speed = U.norm();
     const T most =
         is_flat(plan.kind[i]) ? (U + ground - mean).norm() * speed * speed / 4 : T(4.0 / 27) * speed * speed * speed;
-    return double(std::min((y.air - y.D * ahead).dot(own), T(plan.dt) * plan.drag_area[i] * most));
+    T limit = T(plan.dt) * plan.drag_area[i] * most;
+    if (plan.leaf.on && is_flat(plan.kind[i]))
+        limit += T(plan.dt) * plan.mass[i] * plan.leaf.most * (speed * speed / 4);
+    return double(std::min((y.air - y.D * ahead).dot(own), limit));
 }
 
 template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t i) {

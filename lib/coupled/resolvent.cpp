@@ -1,4 +1,5 @@
 #include "resolvent.h"
+#include "../stages/leaf_air.h"
 #include "articulated_algebra.h"
 #include "midpoint.h"
 
@@ -35,6 +36,8 @@ template <class T, class S> struct Solve {
             q.A += s1 * cDc.template cast<S>();
             q.B += s1 * cD.template cast<S>();
             q.M += s1 * b.D.template cast<S>();
+            if (plan.leaf.on && is_flat(plan.kind[i]))
+                q.A += s1 * leaf_spin_damping(plan.leaf, m, b.J, b.c).template cast<S>();
         }
         if (plan.forces) {
             q.N += slope * b.slope_N.template cast<S>();

@@ -7,6 +7,7 @@
 #pragma once
 #include "analytic_sweeps.h"
 #include "sweep_parts.h"
+#include "wide_leaf.h"
 #include "wide_turn.h"
 
 namespace bough::fast {
@@ -97,6 +98,36 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         }
     }
 
+    Rows<T> leaf_torque_of(std::uint32_t row, int lane) const {
+        const std::size_t loads = (block.end_row - block.first_row) * std::size_t(loaded::count);
+        return {scratch + (loads + (row - block.first_row) * std::size_t(analytic::leaf_torque_count)) * L + lane};
+    }
+
+    // leaf_in_wind of external_forces.cpp, onto what is loaded.
+    [[gnu::noinline]] void add_leaf(std::uint32_t row, int lane, V3<W> still, V3<W> moving, V3<W> omega) const {
+        const Rows<const T> k = constants_of(row, lane);
+        const Rows<T> out = loaded_of(row, lane);
+        const LeafTerms<T>& terms = rows.leaf;
+        const W mass = k.real(constant::mass), lever = leaf_lever(terms, k.real(constant::drag_area));
+        const V3<W> c = k.vector(constant::com), n{W{}, all(T(1)), W{}}, v = still - moving;
+        const W along = terms.along * mass, across = terms.across * mass;
+        const V3<W> f{along * still.x, across * still.y, along * still.z},
+            drag_f{along * v.x, across * v.y, along * v.z};
+        const V3<W> at_rest = leaf_torque(terms, lever, n, still);
+        const Symmetric<W> spin = leaf_spin_damping(terms, mass, k.symmetric(constant::inertia_joint), c);
+        out.set(loaded::f, out.vector(loaded::f) + f);
+        out.set(loaded::tau, out.vector(loaded::tau) + cross(c, f) + at_rest);
+        out.set(loaded::drag_f, out.vector(loaded::drag_f) - drag_f);
+        leaf_torque_of(row, lane).set(0, leaf_torque(terms, lever, n, moving) - at_rest - spin * omega);
+        const W speed = root(dot(still, still)), per_arm = 1 / larger(k.real(constant::com_distance), all(T(1e-9)));
+        const W spread = 1 - dot(c, c) * (per_arm * per_arm), resisted = terms.most * mass, pressed = lever * per_arm;
+        const W bound = resisted + across * spread + pressed * (root(dot(moving, moving)) + speed);
+        const W sway = k.real(constant::sway);
+        out.set(loaded::drag, W(out.real(loaded::drag) + sway * bound));
+        out.set(loaded::wind, W(out.real(loaded::wind) + sway * resisted));
+        out.set(loaded::turn, W(out.real(loaded::turn) + 2 * speed * (resisted + pressed * speed)));
+    }
+
     template <bool frozen> BOUGH_FORCE static void prefetch_constants(const T* at) {
         if constexpr (frozen) {
             prefetch(at, analytic::first_of_coefficients * L);
@@ -156,6 +187,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             out.set(loaded::wind, W(sway * still_speed));
             constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);
             out.set(loaded::turn, W(turns * scale * still2));
+            if constexpr (kind == Kind::leaf)
+                if (rows.leaf.on) add_leaf(row, lane, still, moving, f.omega);
         } else if constexpr (pulls) {
             for (int j = 0; j < 6; ++j) out.set(loaded::f + j, W{});
         }
@@ -317,6 +350,9 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                                  &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)]);
                     add(q, forks.rows());
                 }
+                if constexpr (wind)
+                    if (rows.leaf.on && g.kind == Kind::leaf)
+                        q.drag_tau = q.drag_tau + leaf_torque_of(row, lane).vector(0);
                 own().joint_loaded(g.kind, row, lane, step_in(q, row, lane));
             }
             Records<T, inward_count> base;

@@ -37,7 +37,8 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
     const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
-    constexpr std::size_t count = analytic::loaded::count; // a row
+    const std::size_t count =
+        std::size_t(analytic::loaded::count + (plan.leaf.on ? analytic::leaf_torque_count : 0)); // a row
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
     T* top_scratch = room(lanes.scratch[threads], (blocks[0].end_row - blocks[0].first_row) * count);

@@ -74,6 +74,9 @@ enum : int {
 };
 }
 
+// And behind a block's rows of those, where the scene has /leaves: [N m] what a leaf's velocity changes of the air's torque.
+constexpr int leaf_torque_count = 3;
+
 // Between chains, a record a joint.
 namespace outward {
 enum : int {

@@ -6,6 +6,7 @@
 // Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1800. Errors none; what turns fast is counted and marked.
 #pragma once
 #include "sweep_parts.h"
+#include "wide_leaf.h"
 #include <algorithm>
 
 namespace bough::fast {
@@ -121,6 +122,35 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
             return this->field_at(over, rows.field_end) - this->field_at(over, rows.field_start);
         else
             return vector(rows.wind_change);
+    }
+
+    struct LeafIn {
+        M3<W> R;
+        V3<W> u, ahead, change; // [m/s] past the centre of mass; its velocity ahead; the wind's over the step
+        V3<W> omega_0, turn, own;
+    };
+    // leaf_air.h, onto what is loaded. nu I is damping, which the sweep inward has none of in turning: as s1 = 1/s and s2 = s1^2 are complex,
+    // s1 = x + y s2 with the reals x = |s1|^2 / (2 Re s1), y = 1 / (2 Re s1), and it goes to J and H in these parts.
+    [[gnu::noinline]] void add_leaf(const Rows<const T>& k, const Rows<T>& out, LeafIn in) const {
+        const LeafTerms<T>& terms = rows.leaf;
+        const W mass = k.real(constant::mass), scale = k.real(constant::drag_area), lever = leaf_lever(terms, scale);
+        const V3<W> com = k.vector(constant::com), c = out.vector(loaded::c);
+        const W speed2 = dot(in.u, in.u);
+        const Symmetric<W> J = out.symmetric(loaded::J), D = leaf_damping(terms, mass, in.R.y);
+        const Symmetric<W> G = leaf_spin_damping(terms, mass, J, c);
+        const Symmetric<W> H = across(W(2 * lever * speed2), in.R.y) +
+                               across(W(2 * terms.most * mass * root(dot(com, com)) * root(speed2)), in.R.z);
+        const V3<W> slope = D * in.change, f = D * (in.u + in.ahead) + rows.slope[0] * slope,
+                    fi = rows.slope[1] * slope;
+        const V3<W> bent_by = in.turn - rows.s1[0] * in.own;
+        const V3<W> N = G * in.omega_0 - leaf_torque(terms, lever, in.R.y, in.u) - cross(c, f) - H * bent_by,
+                    Ni = rows.s1[1] * (H * in.own) - cross(c, fi);
+        out.set(loaded::N, out.complex_vector(loaded::N) + complex(N, Ni));
+        out.set(loaded::F, out.complex_vector(loaded::F) + complex(-f, -fi));
+        out.set(loaded::D, out.symmetric(loaded::D) + D);
+        const T y = 1 / (2 * rows.s1[0]), x = (rows.s1[0] * rows.s1[0] + rows.s1[1] * rows.s1[1]) * y;
+        out.set(loaded::J, J + x * G);
+        out.set(loaded::H, out.symmetric(loaded::H) + H + y * G);
     }
 
     // One row: the frame of its bodies from their parents'.
@@ -244,6 +274,11 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
         }
         out.set(loaded::N, N);
         out.set(loaded::F, F);
+        if constexpr (wind && kind == Kind::leaf)
+            if (rows.leaf.on)
+                add_leaf(k, out,
+                         {R, u, f.ahead_v + cross(f.ahead_omega, c), wind_factor * vector(rows.wind_change),
+                          f.omega - f.ahead_omega, f.turn, f.own});
     }
 
     template <bool wind, bool gravity, Kind kind>

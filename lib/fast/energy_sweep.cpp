@@ -1,6 +1,7 @@
 // Compiled once for each target (CMakeLists.txt), with BOUGH_TARGET its name.
 #include "energy_sweep.h"
 #include "sweep_parts.h"
+#include "wide_leaf.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
@@ -195,7 +196,14 @@ template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
             } else {
                 most = T(4.0 / 27) * root(speed2) * speed2;
             }
-            gained -= smaller(dot(air_on.force, own), W(rows.h * scale * most));
+            V3<W> force = air_on.force;
+            W limit = rows.h * scale * most;
+            if constexpr (kind == Kind::leaf)
+                if (rows.leaf.on) {
+                    force = force + leaf_damping(rows.leaf, b.mass, f.R.y) * (u - ahead);
+                    limit = limit + T(0.25) * rows.h * rows.leaf.most * b.mass * speed2;
+                }
+            gained -= smaller(dot(force, own), limit);
         }
         if (rows.pulls && rows.pull_of_row[row] >= 0) book_pulls(row, lane, f, gained);
         sums.quantity[energy::gained] += gained;

@@ -118,6 +118,7 @@ template <class T> void place_tables(const Plan<T>& plan, State<T>& state, doubl
         rows.profile = plan.lanes.profile.data();
         rows.profile_entries = plan.lanes.profile.size();
         rows.per_metre = plan.lanes.per_metre;
+        rows.leaf = plan.leaf;
     }
     if (plan.contact) place_loads(plan, state);
     if (lanes.pulls.empty()) return;

@@ -3,6 +3,7 @@
 //
 // A row of a table is `count` quantities of 64 bytes each.
 #pragma once
+#include "../model/leaf_terms.h"
 #include "block.h"
 #include <cstddef>
 #include <cstdint>
@@ -67,6 +68,7 @@ template <class T> struct SweepRows {
     std::size_t profile_entries;
     T per_metre;
     FieldRows<T> field; // for sweeps that are compiled for it
+    LeafTerms<T> leaf;
 };
 
 // What a sweep over a block met with.

@@ -267,6 +267,14 @@ std::optional<Defect> check(const Contact& contact) {
     return std::nullopt;
 }
 
+std::optional<Defect> check(const LeafAir& leaves) {
+    if (auto defect = at_least("leaves/kappa", leaves.kappa, 0)) return defect;
+    if (auto defect = at_least("leaves/air_resistance", leaves.air_resistance, 0)) return defect;
+    if (auto defect = above_zero("leaves/drag_ratio", leaves.drag_ratio)) return defect;
+    if (std::isfinite(leaves.offset)) return std::nullopt;
+    return Defect{"leaves/offset", -1, "is not finite, expected degrees"};
+}
+
 } // namespace
 
 std::optional<Defect> check(const Scene& scene) {
@@ -288,6 +296,8 @@ std::optional<Defect> check(const Scene& scene) {
         if (auto defect = check(scene.balls[i], "balls/" + std::to_string(i))) return defect;
     if (scene.contact)
         if (auto defect = check(*scene.contact)) return defect;
+    if (scene.leaves)
+        if (auto defect = check(*scene.leaves)) return defect;
     if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
     return at_least("damping_scale", scene.damping_scale, 0);
 }

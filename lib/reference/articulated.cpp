@@ -2,6 +2,7 @@
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
+#include "../stages/leaf_air.h"
 #include "../stages/shelter.h"
 #include <limits>
 
@@ -60,6 +61,25 @@ void place(const Plan<double>& plan, const ArticulatedBody& parent, ArticulatedB
     b.a_bias = b.R_pb.transpose() * spin.cross(spin.cross(r));
 }
 
+// leaf_air.h, before the force is taken to the joint.
+void add_leaf(const Plan<double>& plan, ArticulatedBody& b, std::size_t i, const Vec3& u, const Vec3& a_own, double h,
+              Vec3& f) {
+    static const Mat3 own_axes = Mat3::Identity();
+    const Vec3& c = plan.com[i];
+    const double m = plan.mass[i], scale = plan.drag_area[i];
+    const Mat3 spin = leaf_spin_damping(plan.leaf, m, plan.inertia_joint[i], c);
+    f += leaf_resistance(plan.leaf, m, own_axes, u);
+    b.N += spin * b.omega - leaf_torque(plan.leaf, scale, own_axes, u);
+    if (!(h > 0)) return;
+    const Mat3 D = h * leaf_damping(plan.leaf, m, own_axes), cD = cross_left(c, D);
+    const Mat3 turning = h * leaf_turning(plan.leaf, scale, m, c.norm(), own_axes, u);
+    b.M += D;
+    b.B += cD;
+    b.A += cross_left(c, cD.transpose()) + h * spin + h * turning;
+    b.N += turning * b.omega;
+    f -= D * a_own;
+}
+
 void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i,
              const Vec3& a_own, double h) {
     static const Mat3 own_axes = Mat3::Identity();
@@ -84,6 +104,7 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
             b.N += turning * b.omega;
         }
     }
+    if (plan.leaf.on && is_flat(plan.kind[i])) add_leaf(plan, b, i, u, a_own, h, f);
     b.F -= f;
     b.N -= c.cross(f);
 }

@@ -1,6 +1,7 @@
 #include "inverse_dynamics.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
+#include "../stages/leaf_air.h"
 #include "../stages/shelter.h"
 
 namespace bough {
@@ -61,14 +62,19 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
         const Vec3 a_com = b.a + b.alpha.cross(c) + b.omega.cross(b.omega.cross(c));
         const Vec3 inertial = J * b.alpha + b.omega.cross(J * b.omega) + plan.mass[i] * c.cross(b.a);
         const Vec3 weight = plan.mass[i] * plan.scene.gravity;
-        Vec3 f = Vec3::Zero();
-        if (plan.wind)
-            f = plan.drag_area[i] *
-                air_force(plan.kind[i], b.R, Vec3(sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c)))
-                    .force;
+        Vec3 f = Vec3::Zero(), torque = Vec3::Zero();
+        if (plan.wind) {
+            const Vec3 u = sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c);
+            f = plan.drag_area[i] * air_force(plan.kind[i], b.R, u).force;
+            if (plan.leaf.on && is_flat(plan.kind[i])) {
+                f += leaf_resistance(plan.leaf, plan.mass[i], b.R, u);
+                torque = leaf_torque(plan.leaf, plan.drag_area[i], b.R, u) -
+                         leaf_spin_damping(plan.leaf, plan.mass[i], J, c) * b.omega;
+            }
+        }
         b.F = plan.mass[i] * a_com - weight - f;
-        b.N = inertial - c.cross(weight + f);
-        b.moment = inertial.norm() + c.cross(weight).norm() + c.cross(f).norm();
+        b.N = inertial - c.cross(weight + f) - torque;
+        b.moment = inertial.norm() + c.cross(weight).norm() + c.cross(f).norm() + torque.norm();
     }
     for (const PlannedPull<double>& pull : plan.pulls) {
         Moving& b = body[pull.body];

@@ -1,6 +1,7 @@
 #include "stability.h"
 #include "../stages/air.h"
 #include "../stages/energy.h"
+#include "../stages/leaf_air.h"
 #include "../stages/root_term.h"
 #include "../stages/shelter.h"
 #include "../stages/wind.h"
@@ -27,7 +28,16 @@ template <class T> std::vector<Vec3> air_moments(const Plan<T>& plan, const Stat
         const Vec3 c = b.R * plan.com[i].template cast<double>();
         const Vec3 u = sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c);
         f[i] = double(plan.drag_area[i]) * air_force<double>(plan.kind[i], b.R, u).force;
-        tau[i] = c.cross(f[i]);
+        tau[i].setZero();
+        if (plan.leaf.on && is_flat(plan.kind[i])) {
+            const LeafTerms<double> terms = leaf_terms<double>(plan.scene);
+            const double m = double(plan.mass[i]);
+            const Mat3 J = b.R * plan.inertia_joint[i].template cast<double>() * b.R.transpose();
+            f[i] += leaf_resistance<double>(terms, m, b.R, u);
+            tau[i] = leaf_torque<double>(terms, double(plan.drag_area[i]), b.R, u) -
+                     leaf_spin_damping<double>(terms, m, J, c) * b.omega;
+        }
+        tau[i] += c.cross(f[i]);
     }
     for (std::size_t i = plan.bodies; i-- > 0;) {
         if (plan.parent[i] >= 0) {

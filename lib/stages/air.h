@@ -14,12 +14,12 @@ namespace bough {
 
 constexpr double cylinder_drag = 1.2, sphere_drag = 0.47, plate_drag = 1.2; // C_d; kappa is half of each
 
-// kappa rho A [kg/m]. size: as in Tree.
-inline double drag_area(Kind kind, const Vec3& size, double air_density) {
+// kappa rho A [kg/m]. size: as in Tree. plate_kappa: of leaves and petals, where the scene has its own.
+inline double drag_area(Kind kind, const Vec3& size, double air_density, double plate_kappa = plate_drag / 2) {
     switch (kind) {
     case Kind::leaf:
     case Kind::petal:
-        return plate_drag / 2 * air_density * leaf_area(size[0], size[1]);
+        return plate_kappa * air_density * leaf_area(size[0], size[1]);
     case Kind::fruit:
         return sphere_drag / 2 * air_density * sphere_section(size[1]);
     case Kind::branch:

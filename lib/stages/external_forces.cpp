@@ -1,5 +1,6 @@
 #include "external_forces.h"
 #include "air.h"
+#include "leaf_air.h"
 #include "root_term.h"
 #include "shelter.h"
 #include <algorithm>
@@ -17,15 +18,39 @@ Vec3 pull_force(const Pull& pull, double t) {
 
 namespace {
 
+// still, moving: the air's velocity past the body at rest on its ground, and as it goes; turning: that ground's.
+template <class T>
+void leaf_in_wind(const Plan<T>& plan, State<T>& state, std::size_t i, const Vector3<T>& still,
+                  const Vector3<T>& moving, const Vector3<T>& turning) {
+    const Matrix3<T>& R = state.R_wb[i];
+    const T m = plan.mass[i], scale = plan.drag_area[i], k = leaf_lever(plan.leaf, scale);
+    const Vector3<T> c = R * plan.com[i];
+    const Matrix3<T> J = R * plan.inertia_joint[i] * R.transpose(), spin = leaf_spin_damping(plan.leaf, m, J, c);
+    const Vector3<T> f = leaf_resistance(plan.leaf, m, R, still),
+                     drag_f = leaf_resistance(plan.leaf, m, R, Vector3<T>(moving - still));
+    const Vector3<T> at_rest = leaf_torque(plan.leaf, scale, R, still);
+    state.f_w[i] += f;
+    state.tau_w[i] += c.cross(f) + at_rest - spin * turning;
+    state.drag_f_w[i] += drag_f;
+    state.drag_tau_w[i] +=
+        c.cross(drag_f) + leaf_torque(plan.leaf, scale, R, moving) - at_rest - spin * (state.omega_w[i] - turning);
+    const T arm = std::max(plan.com_distance[i], T(1e-9)), speed = still.norm();
+    const T spread = 1 - c.squaredNorm() / (arm * arm); // nu I over the arm's square is at most nu m times this
+    state.drag_bound[i] += m * (plan.leaf.most + plan.leaf.across * spread) + k / arm * (moving.norm() + speed);
+    state.wind_bound[i] += m * plan.leaf.most;
+    state.turn_bound[i] += 2 * speed * (m * plan.leaf.most + k / arm * speed);
+}
+
 template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::size_t i) {
     const Matrix3<T>& R = state.R_wb[i];
     const Vector3<T> arm = R * plan.com[i];
     const Vector3<T> place = state.x_w[i] + arm;
-    Vector3<T> wind = sheltered(plan, i, state.wind.at(place)), v = state.v_w[i];
+    Vector3<T> wind = sheltered(plan, i, state.wind.at(place)), v = state.v_w[i], turning = Vector3<T>::Zero();
     if (const Ground* ground = plan.root_motion ? ground_of(plan, state, i) : nullptr) {
         const Vec3 carried = ground->v + ground->omega.cross(place.template cast<double>() - ground->x);
         wind -= carried.template cast<T>();
         v -= carried.template cast<T>();
+        turning = ground->omega.template cast<T>();
     }
     const AirForce<T> still = air_force(plan.kind[i], R, wind);
     const AirForce<T> moving = air_force(plan.kind[i], R, Vector3<T>(wind - v));
@@ -39,6 +64,7 @@ template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::
     // Force and arm both turn: twice the force for |u| (u.n), three times for |u_n| u_n, the arm alone for a sphere.
     const T turns = plan.kind[i] == Kind::branch ? T(3) : is_flat(plan.kind[i]) ? T(2) : T(1);
     state.turn_bound[i] = turns * scale * wind.squaredNorm();
+    if (plan.leaf.on && is_flat(plan.kind[i])) leaf_in_wind<T>(plan, state, i, wind, wind - v, turning);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "../fast/sleep.h"
 #include "../model/branch_mode.h"
 #include "air.h"
+#include "leaf_air.h"
 #include "pose.h"
 #include "shelter.h"
 #include "state_arrays.h"
@@ -125,8 +126,16 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
 
 template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree, const Scene& scene) {
     plan.drag_area.reserve(plan.bodies);
+    const double plate_kappa = scene.leaves ? scene.leaves->kappa : plate_drag / 2;
     for (std::size_t i = 0; i < plan.bodies; ++i)
-        plan.drag_area.push_back(T(drag_area(tree.kind[i], tree.size[i], scene.air_density)));
+        plan.drag_area.push_back(T(drag_area(tree.kind[i], tree.size[i], scene.air_density, plate_kappa)));
+}
+
+// [m] What turns with a body is within this of its joint (drag.h): its centre of mass, and of a leaf with the torque of /leaves that its
+// inertia too, which is then at most its mass times the rest of this (external_forces.cpp).
+template <class T> double air_arm(const Plan<T>& plan, const Tree& tree, std::size_t i) {
+    if (!plan.leaf.on || !is_flat(tree.kind[i])) return tree.com[i].norm();
+    return std::sqrt(tree.com[i].squaredNorm() + tree.inertia[i].trace() / (2 * tree.mass[i]));
 }
 
 // Drag's bounds. A side branch's weight is twice its parent's again (drag.h), up to 2^16.
@@ -140,12 +149,12 @@ template <class T> void plan_air_bounds(Plan<T>& plan, const Tree& tree, const s
         const auto p = std::size_t(tree.parent[i]);
         if (!root) depth[i] = std::uint8_t(std::min(depth[p] + (continues_parent(tree, i) ? 0 : 1), 16));
         const double u = std::ldexp(weight[i], depth[i]);
-        const double r = root ? 0 : tree.joint_position[i].norm();
+        const double r = root ? 0 : tree.joint_position[i].norm(), arm = air_arm(plan, tree, i);
         sum[i] = u + (root ? 0 : sum[p]);
         moved[i] = root ? 0 : moved[p] + sum[p] * r;
-        plan.sway.push_back(T(moved[i] + sum[i] * tree.com[i].norm()));
+        plan.sway.push_back(T(moved[i] + sum[i] * arm));
         plan.joint_distance.push_back(T(r));
-        plan.com_distance.push_back(T(tree.com[i].norm()));
+        plan.com_distance.push_back(T(arm));
         plan.inverse_weight.push_back(T(1 / u));
     }
 }
@@ -261,6 +270,7 @@ template <class T> std::string forces_text(const Plan<T>& plan) {
         if (on) text += (text.empty() ? "" : ", ") + std::string(part);
     };
     add(plan.wind, "/wind");
+    add(plan.wind && plan.leaf.on, "/leaves");
     add(!plan.pulls.empty(), "/pulls");
     add(plan.contact && !plan.scene.balls.empty(), "/balls");
     add(plan.contact && plan.scene.fracture.has_value(), "/fracture");
@@ -412,6 +422,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.scene = scene;
     plan.gravity = !scene.gravity.isZero();
     plan.wind = scene.wind.has_value(); // a wind of no velocity is still air, which drags
+    if (plan.wind) plan.leaf = leaf_terms<T>(scene);
     for (std::size_t k = 0; k < scene.pulls.size(); ++k)
         for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
             plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});

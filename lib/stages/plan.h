@@ -5,6 +5,7 @@
 #include "../coupled/scheme.h"
 #include "../fast/lanes.h"
 #include "../fast/targets.h"
+#include "../model/leaf_terms.h"
 #include "../model/root_motion.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
@@ -126,6 +127,7 @@ template <class T> struct Plan {
     // Wind (drag.h, external_forces.h).
     std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)
     std::vector<Kind> kind;
+    LeafTerms<T> leaf;                           // on with /wind and /leaves (leaf_air.h)
     std::vector<T> sway;                         // [1] W_b: what the weights move the body's centre of mass by
     std::vector<T> joint_distance, com_distance; // [m] |joint_position|, |com|
     std::vector<T> inverse_weight;               // [m/rad] 1 / u_j
