@@ -277,7 +277,7 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
         if constexpr (wind && kind == Kind::leaf)
             if (rows.leaf.on)
                 add_leaf(k, out,
-                         {R, u, f.ahead_v + cross(f.ahead_omega, c), wind_factor * vector(rows.wind_change),
+                         {R, u, f.ahead_v + cross(f.ahead_omega, c), wind_factor * wind_change_here(over),
                           f.omega - f.ahead_omega, f.turn, f.own});
     }
 
