@@ -464,5 +464,5 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 10);
+    CHECK(examples == 11);
 }

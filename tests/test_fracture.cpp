@@ -263,12 +263,15 @@ TEST_CASE("Lanes and plain path break the same joints, and fall alike") {
     const Solver solver = GENERATE(Solver::coupled, Solver::analytic);
     const Tree tree = make_tree::random_tree(150, 8);
     Run<> plain(tree, lively(), {solver, std::nullopt}), lanes(tree, lively(), {solver, fast::Target::baseline});
-    plain.steps(12); // before rounding grows where leaves turn over and things hit
-    lanes.steps(12);
+    plain.steps(3); // before rounding grows: leaves that turn over in a storm are chaotic
+    lanes.steps(3);
     CHECK(plain.world.broken.size() > 5);
     REQUIRE(plain.world.broken == lanes.world.broken);
-    for (std::size_t k = 0; k < plain.world.free.size(); ++k)
-        CHECK((plain.world.free[k].motion.x - lanes.world.free[k].motion.x).norm() < 1e-6);
+    for (std::size_t k = 0; k < plain.world.free.size(); ++k) {
+        const FreeBody &a = plain.world.free[k], &b = lanes.world.free[k];
+        INFO(k << ", body " << a.parts.front().body << ", " << a.parts.size() << " parts, " << solver_name(solver));
+        CHECK((a.motion.x - b.motion.x).norm() < 1e-6);
+    }
 }
 
 TEMPLATE_TEST_CASE("A run that is cut goes on in the same bits", "", float, double) {

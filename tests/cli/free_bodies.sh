@@ -4,7 +4,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --species apple --bodies 400 --seed 2 --leaves --fruit -q | treeconvert - -q -o apple.json
 cat >scene.json <<'END'
-{"format": "bough-scene", "version": 1, "trees": [{"file": "apple.json"}], "wind": "gusty",
+{"format": "bough-scene", "version": 1, "trees": [{"file": "apple.json"}],
+ "wind": {"velocity": [8, 0, 0], "turbulence": 0.2, "gust_factor": 1.7, "swirl": {"angle": 20, "period": 3, "wavelength": 5},
+          "grid": {"origin": [-4, -4], "cell": 2, "columns": 4, "rows": 4, "velocity": [8, 0, 1], "octaves": 2, "frequency": 0.5}},
+ "leaves": {"air_resistance": 3, "drag_ratio": 6},
  "fracture": {"fruit": 0.05, "leaf": 0.0005, "spread": 0.4},
  "balls": [{"position": [0.3, 6, 0.1], "velocity": [0, -6, 0], "radius": 0.1, "mass": 1},
            {"position": [-0.5, 7, 0.4], "velocity": [0, -8, 0], "radius": 0.05, "mass": 0.3}]}
