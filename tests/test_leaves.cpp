@@ -278,25 +278,58 @@ TEST_CASE("A tree that is one leaf, and one of leaves alone, run on every path")
 }
 
 TEST_CASE("With /leaves every promised cell of the grid of extremes holds") {
-    for (const LeafAir& leaves : {LeafAir{}, spiralling, LeafAir{2, 30, 0.5, 60}})
-        for (const Simd& simd : {plainly, Simd(fast::best_target())}) {
-            StabilitySetup setup;
-            setup.tree = make_tree::branched();
-            setup.ranges = {{0, setup.tree.size_bodies(), 0}};
-            setup.scene.pose = Pose::rest;
-            setup.scene.leaves = leaves;
-            setup.simd = simd;
-            std::size_t promised = 0;
-            for (const StabilityCell& cell : measure_stability(setup, {40, false, ""}, [](auto, auto) {}).cells) {
-                if (!cell.promised) continue;
-                CAPTURE(leaves.offset, leaves.air_resistance, simd.has_value(), cell.group, cell.name, cell.solver,
-                        cell.precision, cell.note, cell.energy_drift, cell.rms_growth);
-                ++promised;
-                CHECK(cell.finite);
-                CHECK(cell.bounded);
-            }
-            CHECK(promised >= 160);
+    const auto holds = [](const LeafAir& leaves, const Simd& simd, const std::string& only, std::size_t least) {
+        StabilitySetup setup;
+        setup.tree = make_tree::branched();
+        setup.ranges = {{0, setup.tree.size_bodies(), 0}};
+        setup.scene.pose = Pose::rest;
+        setup.scene.leaves = leaves;
+        setup.simd = simd;
+        std::size_t promised = 0;
+        for (const StabilityCell& cell : measure_stability(setup, {40, false, only}, [](auto, auto) {}).cells) {
+            if (!cell.promised) continue;
+            CAPTURE(leaves.offset, leaves.air_resistance, simd.has_value(), cell.group, cell.name, cell.solver,
+                    cell.precision, cell.note, cell.energy_drift, cell.rms_growth);
+            ++promised;
+            CHECK(cell.finite);
+            CHECK(cell.bounded);
         }
+        CHECK(promised >= least);
+    };
+    holds(spiralling, fast::best_target(), "", 160);
+    for (const LeafAir& leaves : {LeafAir{}, LeafAir{2, 30, 0.5, 60}})
+        for (const Simd& simd : {plainly, Simd(fast::best_target())}) holds(leaves, simd, "wind", 8);
+}
+
+TEST_CASE(
+    "Soft or stiff, in still air or a storm, leaves go no faster than the wind drives them, at one step a frame") {
+    for (const double softer : {1e-3, 1.0, 1e6})
+        for (const double speed : {0.0, 5.0, 50.0})
+            for (const LeafAir& leaves : {LeafAir{}, spiralling, LeafAir{2, 30, 0.5, 60}})
+                for (const Path& path : paths()) {
+                    lanes::Case c{"", leafy(softer), with_leaves({}, leaves)};
+                    c.scene.wind = steady(Vec3(speed, 0, 0));
+                    c.scene.pose = Pose::rest;
+                    c.solver = path.solver;
+                    lanes::Run<> run(c, path.simd);
+                    double fastest = 0, slowest = 0;
+                    for (int k = 0; k < 400; ++k) {
+                        run.frame();
+                        if (k % 4 != 3) continue;
+                        const std::vector<BodyMotion> motion = body_motions(run.plan, run.state);
+                        double most = 0;
+                        for (std::size_t i = 0; i < c.tree.size_bodies(); ++i)
+                            if (is_flat(c.tree.kind[i]))
+                                most = std::max(
+                                    most,
+                                    Vec3(motion[i].v + motion[i].omega.cross(motion[i].R * c.tree.com[i])).norm());
+                        (k < 300 ? fastest : slowest) = std::max(k < 300 ? fastest : slowest, most);
+                    }
+                    CAPTURE(softer, speed, leaves.kappa, path.name, fastest, slowest);
+                    REQUIRE_FALSE(first_non_finite(run.state).has_value());
+                    CHECK(fastest <= 1.5 * speed + 3);
+                    CHECK(slowest <= 1.2 * fastest);
+                }
 }
 
 TEST_CASE("A leaf of no mass is refused") {

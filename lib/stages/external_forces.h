@@ -10,7 +10,10 @@
 // What the implicit step needs to know of the part at rest (drag.h): wind_bound = kappa rho A |u at rest| is what it falls by,
 // over the speed, from rest to going with the wind; that with the body's direction (force and arm both turn with it) at most turn_bound =
 // 3, 2, 1 (branch, leaf, fruit) times kappa rho A |u at rest|^2 a radian.
-// Reads   R_wb, x_w, v_w (with wind), time. Writes f_w, tau_w, drag_f_w, drag_tau_w and the bounds.
+// With /leaves a leaf's resistance and torque (leaf_air.h) are parted likewise and come to the same bounds: nu m and 2 k |u| over the arm to drag_bound (and
+// nu I, as what it is at that arm), nu m to wind_bound, twice their moments over the arm to turn_bound; the arm, Plan::com_distance, is then such that
+// its square holds the centre of mass's and the radius of gyration's.
+// Reads   R_wb, x_w, v_w (with wind; omega_w with /leaves), time. Writes f_w, tau_w, drag_f_w, drag_tau_w and the bounds.
 // After   state_update of the step before, wind_field. O(n + pulls), bodies in parallel. Errors none.
 #pragma once
 #include "plan.h"
