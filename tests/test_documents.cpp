@@ -202,7 +202,7 @@ TEST_CASE("scenes come back from both forms") {
     Scene scene;
     scene.trees = {{"oak.json", {1, 0, -0.1}, 30}, {"birch.safetensors", {0, 0, 1e-300}, -7.5}};
     scene.gravity = {0, -1.62, 0};
-    scene.wind = Wind{{3, 0, 1}, 8, 0.2, 0.3, 1.5, 4, 18446744073709551615u};
+    scene.wind = Wind{{3, 0, 1}, 8, 0.2, 0.3, 1.5, 4, 18446744073709551615u, {}, {}, {}, {}};
     WindGrid grid;
     grid.x = -3.5;
     grid.z = 0.1;
