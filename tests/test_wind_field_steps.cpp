@@ -182,7 +182,7 @@ TEST_CASE("two solves a step, and every target, come to the same in it") {
         for (const Case& c : cases(solver)) {
             if (c.tree.size_bodies() > 1000) continue;
             check_targets_agree(c, 1e-3); // in float some body may stand on the other side of a cell's edge for a step
-            if (fast::available(Target::avx512)) check_same_bits(c);
+            if (solver == Solver::coupled && fast::available(Target::avx512)) check_same_bits(c);
         }
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("the coupled step is of order 2 in swells and swirl, and goes to the r
     const coupled::Track truth = coupled::truth_of(branched);
     for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
         CAPTURE(scheme_of(scheme).name);
-        CHECK(coupled::order_at(branched, truth, scheme, 2) >= 1.9);
+        CHECK(coupled::order_at(branched, truth, scheme, 2) == Approx(2).margin(0.15));
     }
 }
 
