@@ -54,7 +54,7 @@ void read_each(ObjectReader& object, const std::string& key, std::vector<double>
     to = {value.get<double>()};
 }
 
-void read_each(ObjectReader& object, const std::string& key, std::vector<std::int32_t>& to) {
+void read_each(ObjectReader& object, const std::string& name, const std::string& key, std::vector<std::int32_t>& to) {
     if (!object.has(key)) return;
     const json& value = object.need(key);
     if (!value.is_array()) {
@@ -63,9 +63,9 @@ void read_each(ObjectReader& object, const std::string& key, std::vector<std::in
     }
     to.clear();
     for (const json& entry : value) {
-        const std::string place = key + "/" + std::to_string(to.size());
         if (!entry.is_number_integer() || entry.get<double>() != entry.get<std::int32_t>())
-            object.fail(place, "is " + text_of(ordered_json(entry)) + ", expected an integer of 32 bits");
+            throw InputError(name + ": " + object.at(key) + "/" + std::to_string(to.size()),
+                             "is " + text_of(ordered_json(entry)) + ", expected an integer of 32 bits");
         to.push_back(entry.get<std::int32_t>());
     }
 }
@@ -93,7 +93,7 @@ WindGrid read_grid(const json& value, const std::string& name, const std::string
     object.read("velocity", grid.velocity);
     if (object.has("velocity") && grid.velocity.empty())
         object.fail("velocity", "is empty, expected one [x, y, z], or one for each cell");
-    read_each(object, "octaves", grid.octaves);
+    read_each(object, name, "octaves", grid.octaves);
     read_each(object, "persistence", grid.persistence);
     read_each(object, "phase", grid.phase);
     object.read("frequency", grid.frequency);

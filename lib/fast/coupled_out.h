@@ -5,6 +5,7 @@
 // Writes  loaded; of solved rates and r, which then wait no longer in the cache than the row takes; records outward of forks
 // Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1800. Errors none; what turns fast is counted and marked.
 #pragma once
+#include "frame_over_ground.h"
 #include "sweep_parts.h"
 #include "wide_leaf.h"
 #include <algorithm>
@@ -29,25 +30,27 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
     using typename Parts::C;
     using typename Parts::W;
 
-    struct Frame { // of a body, at y*
+    struct Frame : FrameOverGround<W, field> { // of a body, at y*
         M3<W> R;
         W y;
         V3<W> omega, v, ahead_omega, ahead_v, own, turn, alpha, a;
-        W x{}, z{}; // with a field alone
     };
 
     BOUGH_FORCE static Frame read_frame(Records<T, outward::count>& r) {
         const Rows<T> q = r.rows();
-        Frame f{q.matrix(outward::R),           q.real(outward::y),
-                q.vector(outward::omega),       q.vector(outward::v),
-                q.vector(outward::ahead_omega), q.vector(outward::ahead_v),
-                q.vector(outward::own),         q.vector(outward::turn),
-                q.vector(outward::alpha),       q.vector(outward::a)};
-        if constexpr (field) {
-            f.x = q.real(outward::x);
-            f.z = q.real(outward::z);
-        }
-        return f;
+        FrameOverGround<W, field> over;
+        if constexpr (field) over = {q.real(outward::x), q.real(outward::z)};
+        return {over,
+                q.matrix(outward::R),
+                q.real(outward::y),
+                q.vector(outward::omega),
+                q.vector(outward::v),
+                q.vector(outward::ahead_omega),
+                q.vector(outward::ahead_v),
+                q.vector(outward::own),
+                q.vector(outward::turn),
+                q.vector(outward::alpha),
+                q.vector(outward::a)};
     }
     BOUGH_FORCE static void write_frame(Records<T, outward::count>& r, const Frame& f) {
         const Rows<T> q = r.rows();

@@ -1,5 +1,6 @@
 // Compiled once for each target (CMakeLists.txt), with BOUGH_TARGET its name.
 #include "energy_sweep.h"
+#include "frame_over_ground.h"
 #include "sweep_parts.h"
 #include "wide_leaf.h"
 
@@ -25,13 +26,12 @@ template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
         M3<W> R;
         V3<W> x, omega, v;
     };
-    struct Frame {
+    struct Frame : FrameOverGround<W, field> {
         Place start, end; // end's velocities: by slow joints
         V3<W> fast_omega, fast_v;
         M3<W> R; // at y*
         W y;
         V3<W> omega, v, turn;
-        W x{}, z{}; // with a wind that varies over the ground
     };
     struct Sums {
         W quantity[energy::sums] = {};
@@ -42,14 +42,18 @@ template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
         const auto place = [&](int k) {
             return Place{q.matrix(k), q.vector(k + 9), q.vector(k + 12), q.vector(k + 15)};
         };
-        Frame f{place(energy::start),     place(energy::end),  q.vector(energy::fast_omega),
-                q.vector(energy::fast_v), q.matrix(energy::R), q.real(energy::y),
-                q.vector(energy::omega),  q.vector(energy::v), q.vector(energy::turn)};
-        if constexpr (field) {
-            f.x = q.real(energy::x);
-            f.z = q.real(energy::z);
-        }
-        return f;
+        FrameOverGround<W, field> over;
+        if constexpr (field) over = {q.real(energy::x), q.real(energy::z)};
+        return {over,
+                place(energy::start),
+                place(energy::end),
+                q.vector(energy::fast_omega),
+                q.vector(energy::fast_v),
+                q.matrix(energy::R),
+                q.real(energy::y),
+                q.vector(energy::omega),
+                q.vector(energy::v),
+                q.vector(energy::turn)};
     }
     static void write_frame(Records<T, energy::count>& r, const Frame& f) {
         const Rows<T> q = r.rows();

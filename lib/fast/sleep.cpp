@@ -21,7 +21,11 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
     if (scheme_of(plan.scheme).poles > 1) return std::string("scheme ") + scheme_of(plan.scheme).name;
     if (scene.wind && scene.wind->turbulence > 0) return "/wind/turbulence";
     if (scene.wind && scene.wind->gust_factor > 1) return "/wind/gust_factor";
-    if (scene.wind && !steady(*scene.wind)) return scene.wind->grid ? "/wind/grid" : "/wind/swirl";
+    if (scene.wind && !steady(*scene.wind)) {
+        Wind without = *scene.wind;
+        without.swirl.reset();
+        return steady(without) ? "/wind/swirl" : "/wind/grid";
+    }
     if (!scene.root_motion.empty()) return "/root_motion";
     if (has_free_bodies(scene)) return scene.fracture ? "/fracture" : "/balls"; // whatever breaks or hits would have to wake it
     return {};

@@ -135,12 +135,13 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         const W cosine = c_0 + at.weight * (look_up(c + 1, at.ring) - c_0),
                 sine = s_0 + at.weight * (look_up(s + 1, at.ring) - s_0);
         const W one = 1 / root(W(cosine * cosine + sine * sine));
-        const W flat = v.x * v.x + v.z * v.z, least = all(T(1e-30));
-        const W k = one * sine * root(W((flat + v.y * v.y) / larger(flat, least)));
-        const V3<W> turned{one * cosine * v.x - k * v.z, one * cosine * v.y, k * v.x + one * cosine * v.z};
-        // A wind straight up or down stays.
-        return {choose_above(flat, least, turned.x, v.x), choose_above(flat, least, turned.y, v.y),
-                choose_above(flat, least, turned.z, v.z)};
+        // A wind straight up or down stays. (What is chosen is no sum of products, which targets with masks would not fuse as the others do.)
+        const W flat = v.x * v.x + v.z * v.z, all_of_it = flat + v.y * v.y, least = all(T(1e-30));
+        const W c_v = choose_above(flat, least, W(one * cosine), all(T(1))),
+                s_v = choose_above(flat, least, W(one * sine), W{}),
+                steep = choose_above(flat, least, W(all_of_it / larger(flat, least)), all(T(1)));
+        const W k = s_v * root(steep);
+        return {c_v * v.x - k * v.z, c_v * v.y, c_v * v.z + k * v.x};
     }
     BOUGH_FORCE W sheltered(std::uint32_t row, int lane, const W& factor) const {
         const T* shelter = rows.field.shelter;
