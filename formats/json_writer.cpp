@@ -97,7 +97,6 @@ bool is_left_out(const Field& field) {
     if (const Array* array = std::get_if<Array>(&field.value)) return array->entries() == 0;
     if (auto* text = std::get_if<std::string*>(&field.value)) return (*text)->empty();
     if (auto* words = std::get_if<std::vector<std::string>*>(&field.value)) return (*words)->empty();
-    if (auto* number = std::get_if<std::int64_t*>(&field.value)) return **number == 0; // what it is when absent
     return false;
 }
 

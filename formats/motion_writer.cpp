@@ -91,11 +91,18 @@ struct MotionWriter::Implementation {
     std::vector<std::int64_t> event_frame, event, event_body, event_on;
     std::vector<double> event_value;
 
+    // Of a scene without balls as it was before there were any.
+    std::vector<Field> written_header(std::vector<std::string>& words) {
+        std::vector<Field> fields = header_fields(header, words);
+        std::erase_if(fields, [&](const Field& field) { return field.name == "balls" && header.balls == 0; });
+        return fields;
+    }
+
     std::string header_text(const char* separator) {
         std::vector<std::string> words = words_of(header.fields);
         std::string text = "{\"format\": \"" + std::string(motion_type.format) + "\"" + separator +
                            "\"version\": " + std::to_string(motion_type.version);
-        for (const Field& field : header_fields(header, words))
+        for (const Field& field : written_header(words))
             if (!is_left_out(field)) text += separator + ("\"" + field.name + "\": ") + value_text(field);
         return text;
     }
@@ -143,7 +150,7 @@ struct MotionWriter::Implementation {
             tensors.push_back({"event_value", {"F64", {events}, 8 * events, {}}});
         }
         std::vector<std::string> words = words_of(header.fields);
-        output.write(safetensors_header(metadata_of(motion_type, header_fields(header, words)), tensors));
+        output.write(safetensors_header(metadata_of(motion_type, written_header(words)), tensors));
         output.write({reinterpret_cast<const char*>(frame.data()), 8 * frames});
         output.write({reinterpret_cast<const char*>(time.data()), 8 * frames});
         std::uint64_t offset = 0;
