@@ -295,7 +295,7 @@ template <class T> void note_world(const World<T>& world, std::vector<std::strin
     text.precision(3);
     if (!world.tree) return;
     text << all << " joints broke" << (broke.empty() ? "" : " (" + broke + ")") << ", " << counts.landed
-         << " leaves came to the ground, " << counts.hits << " hits";
+         << " leaves and petals landed, " << counts.hits << " hits";
     notes.push_back(text.str());
     if (world.contact.model != ContactModel::penalty) return;
     text.str("");
