@@ -57,10 +57,11 @@ std::vector<Path> paths() {
 }
 
 // Force and torque about the centre of mass by matrices in the leaf's own axes, written from the paper: (23), (24).
-struct Load {
+struct LeafLoad {
     Vec3 force, torque;
 };
-Load paper_load(const LeafAir& by, const Tree& tree, std::size_t i, const Mat3& R, const Vec3& u, const Vec3& omega) {
+LeafLoad paper_load(const LeafAir& by, const Tree& tree, std::size_t i, const Mat3& R, const Vec3& u,
+                    const Vec3& omega) {
     const double A = tree.size[i][0] * tree.size[i][1] / 2, phi = by.offset * std::acos(-1.0) / 180;
     const Vec3 v = R.transpose() * u, n(0, 1, 0), vn = v.dot(n) * n, vt = v - vn;
     const Mat3 nx = cross_matrix(n);
@@ -121,7 +122,7 @@ TEST_CASE("In a steady wind leaves come to rest where (23), (24), weight and spr
             if (!is_flat(tree.kind[i])) continue;
             const Mat3& R = state.R_wb[i];
             const Vec3 c = R * tree.com[i];
-            const Load load = paper_load(spiralling, tree, i, R, scene.wind->velocity, Vec3::Zero());
+            const LeafLoad load = paper_load(spiralling, tree, i, R, scene.wind->velocity, Vec3::Zero());
             const Vec3 moment = c.cross(Vec3(load.force + tree.mass[i] * scene.gravity)) + load.torque;
             const Vec3 spring =
                 body_rate_jacobian_inverse(state.theta[i]).transpose() * tree.stiffness[i].cwiseProduct(state.theta[i]);
@@ -142,7 +143,7 @@ TEST_CASE("What the articulated reference accelerates a leaf by is (23) and (24)
     solver::shake(alone, at, 6, 0.7, 8);
     const std::vector<BodyMotion> b = body_motions(alone, at);
     const Vec3 c = b[0].R * leaf.com[0], u = with.wind->velocity - b[0].omega.cross(c);
-    const Load load = paper_load(spiralling, leaf, 0, b[0].R, u, b[0].omega);
+    const LeafLoad load = paper_load(spiralling, leaf, 0, b[0].R, u, b[0].omega);
     const Mat3 I = b[0].R * leaf.inertia[0] * b[0].R.transpose();
     const Mat3 J = I + leaf.mass[0] * (c.squaredNorm() * Mat3::Identity() - c * c.transpose());
     const Mat3 T = body_rate_jacobian_inverse(at.theta[0]);

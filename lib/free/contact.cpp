@@ -51,18 +51,27 @@ void carry_along(ContactPoint& c, const Capsule& own, const Capsule& before, con
     c.point = pose.at(c.point_b);
 }
 
+// The lowest point of an end: of a branch the rim of its flat end, else of a sphere.
+Vec3 lowest(const Vec3& center, double radius, Kind kind, const Vec3& axis) {
+    if (kind != Kind::branch) return center - radius * Vec3::UnitY();
+    const Vec3 down = axis.y() * axis - Vec3::UnitY(); // across the axis
+    const double size = down.norm();
+    return size > 1e-9 ? Vec3(center + radius / size * down) : center;
+}
+
 void find_ground(const FreeBody& free, std::size_t k, const Vec3& d, double height, std::vector<ContactPoint>& found) {
     if (free.motion.x.y() + std::min(0.0, d.y()) - free.bound > height) return;
     for (const FreePart& part : free.parts) {
         const Capsule c = placed(free, part);
+        const Vec3 axis = free.motion.q * (part.q * Vec3(Vec3::UnitZ()));
         for (int end = 0; end < 2; ++end) {
-            const Vec3& center = end ? c.b : c.a;
-            const double gap = center.y() - (end ? c.radius_b : c.radius_a) - height;
-            if (gap + std::min(0.0, d.y()) > 0) continue;
             if (end == 1 && c.a == c.b) continue;
+            const Vec3 low = lowest(end ? c.b : c.a, end ? c.radius_b : c.radius_a, part.kind, axis);
+            const double gap = low.y() - height;
+            if (gap + std::min(0.0, d.y()) > 0) continue;
             Meeting m;
             m.way = gap > 0 ? gap / -d.y() : 0;
-            m.at = {gap, Vec3::UnitY(), Vec3(center.x() + m.way * d.x(), height, center.z() + m.way * d.z())};
+            m.at = {gap, Vec3::UnitY(), Vec3(low.x() + m.way * d.x(), height, low.z() + m.way * d.z())};
             add_meeting(free, k, -1, d, m, found);
         }
     }

@@ -2,7 +2,7 @@
 //
 // Found      A free body that would go d in the step meets a tree's body where their capsules do (shape.h) on their ways, the tree's from where it
 //            was before the step to where it is after it. Subtrees whose reach (subtree.h) the free body's own bound does not come near on the
-//            way are pruned: the result is that of looking at every body. The ground is a plane. A meeting is at a part `way` of the step, 0 for
+//            way are pruned: the result is that of looking at every body. The ground is a plane, which a branch meets with the rims of its flat ends. A meeting is at a part `way` of the step, 0 for
 //            what touches already.
 // Solved     Sequential impulses with accumulated bounds (Catto 2005): contact by contact, until nothing changes by more than 1e-9 of the fastest
 //            approach, or 100 rounds. Along the normal the velocity after is at least

@@ -94,6 +94,7 @@ void finish_way(const Plan<T>& plan, World<T>& world, std::size_t k, const Way& 
         const double beyond = least - p.gap - p.normal.dot(Vec3(end + p.arm - p.point));
         if (!(beyond > 0)) continue;
         world.counts.pushed_out += p.gap < -slop;
+        if (p.gap < -slop) world.counts.lifted -= beyond * free.mass * plan.scene.gravity.dot(p.normal);
         end += beyond * p.normal;
     }
     free.motion.x = end;

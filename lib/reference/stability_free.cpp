@@ -45,7 +45,9 @@ void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const 
         const Sum<T> now(plan, state, world);
         largest = std::max(largest, now.kinetic);
         const double rounding = 256 * double(std::numeric_limits<T>::epsilon()) * std::abs(start.total);
-        if (largest > 0) excess = std::max(excess, (now.total - start.total - rounding) / largest);
+        if (largest > 0)
+            excess =
+                std::max(excess, (now.total - start.total - std::max(0.0, world.counts.lifted) - rounding) / largest);
     }
     std::uint64_t broke = 0;
     for (const std::uint64_t n : world.counts.broke) broke += n;
