@@ -334,3 +334,33 @@ TEST_CASE("Without fracture and balls there is nothing: no calls, no bytes, the 
             if (stage.stage == Stage::fracture) CHECK(!stage.on);
     }
 }
+
+TEST_CASE("What a ball gave a branch that breaks in the same step goes with the branch") {
+    const Way way = GENERATE(from_range(ways));
+    INFO(name(way));
+    Scene scene = empty_scene();
+    scene.fracture = Fracture();
+    scene.fracture->joints = {{{Selector::By::body, 0, 0}, 0}};
+    scene.balls = {ball(Vec3(0, 0.14, 1.5), Vec3(0, -3, 0), 0.1, 0.7)};
+    // A spring that is bent a little, so that the joint breaks in the step in which the ball comes.
+    make_tree::Wood soft;
+    soft.youngs = soft.shear = 1e5;
+    Tree tree = make_tree::chain(1, 2, 0.025, 0.025, 0, soft);
+    tree.joint_rotation[0] = Quat::Identity();
+    Pull pull;
+    pull.on.body = 0;
+    pull.time = {0, 1};
+    pull.force = {Vec3(0.01, 0, 0), Vec3(0.01, 0, 0)};
+    scene.pulls = {pull};
+    Run<> run(tree, scene, way);
+    const double before = 0.7 * -3;
+    run.steps(1);
+    REQUIRE(run.world.free.size() == 2);
+    REQUIRE(run.world.counts.hits == 1);
+    CHECK(run.state.loads.empty());
+    double after = 0;
+    for (const FreeBody& free : run.world.free) after += free.mass * free.motion.v.y();
+    CHECK(after == Approx(before).epsilon(1e-9));
+    run.steps(3);
+    CHECK(!first_non_finite(run.world));
+}

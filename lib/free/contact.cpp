@@ -90,7 +90,7 @@ void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees,
     for (const std::uint32_t root : trees.roots)
         visit_subtree(trees, root, stack, [&](std::size_t i) {
             if (plan.mass[i] == 0) return false; // it fell
-            const BodyPose before = tree_way.before.of(i), after = tree_way.after.of(i);
+            const BodyPose &before = tree_way.before.of(i), &after = tree_way.after.of(i);
             if (!brute_force) {
                 ++tests.reaches;
                 const double near =
@@ -152,7 +152,8 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
             s.tree_velocity = poses.of(body).velocity_at(c.point);
         }
         s.along = 1 / c.normal.dot(s.mobility * c.normal);
-        s.across = 1 / s.mobility.trace(); // at most what any direction across has
+        s.across =
+            1 / (s.mobility.trace() - c.normal.dot(s.mobility * c.normal)); // at most what any direction across has
         c.approach = -c.normal.dot(Vec3(free[c.free].velocity_at(c.arm) - s.tree_velocity));
         s.target = c.approach > slow ? contact.restitution * c.approach : 0;
         fastest = std::max(fastest, c.approach);
@@ -180,7 +181,7 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
             push(free[c.free], c.arm, impulse);
             if (c.body >= 0) response.add(plan, poses, std::size_t(c.body), c.point, -impulse);
         }
-        if (change <= 1e-9 * fastest) break;
+        if (change <= 1e-6 * fastest) break;
     }
     for (std::size_t k = 0; k < points.size(); ++k)
         points[k].impulse = solving[k].normal_impulse * points[k].normal + solving[k].friction;

@@ -4,7 +4,7 @@
 //            was before the step to where it is after it. Subtrees whose reach (subtree.h) the free body's own bound does not come near on the
 //            way are pruned: the result is that of looking at every body. The ground is a plane, which a branch meets with the rims of its flat ends. A meeting is at a part `way` of the step, 0 for
 //            what touches already.
-// Solved     Sequential impulses with accumulated bounds (Catto 2005): contact by contact, until nothing changes by more than 1e-9 of the fastest
+// Solved     Sequential impulses with accumulated bounds (Catto 2005): contact by contact, until nothing changes by more than 1e-6 of the fastest
 //            approach, or 100 rounds. Along the normal the velocity after is at least
 //              -restitution times the velocity before  (0 for what comes slower than gravity makes it in two steps)
 //            and across it friction takes up to `friction` times the normal impulse. Trees answer as response.h says.

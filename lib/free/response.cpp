@@ -85,8 +85,8 @@ template <class T> void TreeResponse<T>::begin() {
 template <class T>
 void TreeResponse<T>::add(const Plan<T>& plan, TreePoses<T>& poses, std::size_t body, const Vec3& point,
                           const Vec3& impulse) {
-    BodyPose pose = poses.of(body);
-    Wrench w{Vec3(point - pose.x).cross(impulse), impulse};
+    const BodyPose* pose = &poses.of(body);
+    Wrench w{Vec3(point - pose->x).cross(impulse), impulse};
     for (std::size_t i = body;;) {
         if (place_[i] == 0) {
             place_[i] = std::uint32_t(u_.size());
@@ -96,13 +96,13 @@ void TreeResponse<T>::add(const Plan<T>& plan, TreePoses<T>& poses, std::size_t 
         u_[place_[i]] += w.moment;
         if (plan.parent[i] < 0) return;
         if (coupled_) {
-            const Vec3 t = pose.R.transpose() * w.moment, Et = joint_[i].E * t;
-            w.moment = pose.R * Vec3(spring(plan, i).cwiseProduct(Et));
-            w.force -= pose.R * Vec3(joint_[i].B.transpose() * Et);
+            const Vec3 t = pose->R.transpose() * w.moment, Et = joint_[i].E * t;
+            w.moment = pose->R * Vec3(spring(plan, i).cwiseProduct(Et));
+            w.force -= pose->R * Vec3(joint_[i].B.transpose() * Et);
         }
         i = std::size_t(plan.parent[i]);
-        const BodyPose parent = poses.of(i);
-        w.moment += Vec3(pose.x - parent.x).cross(w.force);
+        const BodyPose* parent = &poses.of(i);
+        w.moment += Vec3(pose->x - parent->x).cross(w.force);
         pose = parent;
     }
 }
@@ -114,7 +114,7 @@ std::pair<Vec3, Vec3> TreeResponse<T>::motion(const Plan<T>& plan, TreePoses<T>&
     Vec3 omega = Vec3::Zero(), v = Vec3::Zero(), x = Vec3::Zero();
     for (std::size_t k = path_.size(); k-- > 0;) {
         const std::size_t i = path_[k];
-        const BodyPose pose = poses.of(i);
+        const BodyPose& pose = poses.of(i);
         if (k + 1 < path_.size()) v += omega.cross(Vec3(pose.x - x));
         x = pose.x;
         Vec3 t = pose.R.transpose() * u_[place_[i]];

@@ -12,7 +12,8 @@ template <class T> void TreePoses<T>::begin(const Plan<T>& plan, const State<T>&
     if (place_.size() != plan.bodies) place_.assign(plan.bodies, 0);
     for (const std::size_t body : body_) place_[body] = 0;
     body_.clear();
-    pose_.resize(1); // place 0 is nobody's
+    pose_.clear();
+    pose_.emplace_back(); // place 0 is nobody's
     if (plan.lanes.on) motion_at_ = fast::motion_of_rows(plan, state);
 }
 
@@ -74,7 +75,7 @@ template <class T> void TreePoses<T>::add(std::size_t i) {
     body_.push_back(i);
 }
 
-template <class T> BodyPose TreePoses<T>::of(std::size_t body) {
+template <class T> const BodyPose& TreePoses<T>::of(std::size_t body) {
     path_.clear();
     for (std::size_t i = body; place_[i] == 0; i = std::size_t(plan_->parent[i])) {
         path_.push_back(i);

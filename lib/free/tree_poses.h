@@ -6,6 +6,7 @@
 #pragma once
 #include "../stages/plan.h"
 #include "../stages/state.h"
+#include <deque>
 
 namespace bough {
 
@@ -24,8 +25,8 @@ public:
     void begin(const Plan<T>&, const State<T>&);
     // The same, to stay when the state moves on: all angles are copied, O(n), and there are poses alone, no velocities.
     void begin_copy(const Plan<T>&, const State<T>&);
-    // By value: what is asked for next may move what is kept.
-    BodyPose of(std::size_t body);
+    // Stays where it is until the next begin().
+    const BodyPose& of(std::size_t body);
     // [rad], [rad/s] joint frame.
     Vec3 theta(std::size_t body) const;
     Vec3 theta_dot(std::size_t body) const;
@@ -38,7 +39,7 @@ private:
     const State<T>* state_ = nullptr;
     double time_ = 0;
     std::vector<std::uint32_t> place_; // in pose_, 0: not yet
-    std::vector<BodyPose> pose_;
+    std::deque<BodyPose> pose_;
     std::vector<std::size_t> body_, path_, motion_at_;
     std::vector<Vector3<T>> copy_; // of theta; empty without
 };

@@ -94,7 +94,7 @@ void finish_way(const Plan<T>& plan, World<T>& world, std::size_t k, const Way& 
         const double beyond = least - p.gap - p.normal.dot(Vec3(end + p.arm - p.point));
         if (!(beyond > 0)) continue;
         world.counts.pushed_out += p.gap < -slop;
-        if (p.gap < -slop) world.counts.lifted -= beyond * free.mass * plan.scene.gravity.dot(p.normal);
+        world.counts.lifted -= beyond * free.mass * plan.scene.gravity.dot(p.normal);
         end += beyond * p.normal;
     }
     free.motion.x = end;
@@ -193,6 +193,22 @@ template <class T> void come_to_ground(const Plan<T>& plan, World<T>& world) {
     }
 }
 
+// What contacts would have given, in the step to come, bodies that have just left goes to what left with them. first: of the new pieces.
+template <class T> void hand_over_loads(const Plan<T>& plan, State<T>& state, World<T>& world, std::size_t first) {
+    std::erase_if(state.loads, [&](const Load<T>& load) {
+        if (!world.remaining.gone[load.body]) return false;
+        for (std::size_t k = first; k < world.free.size(); ++k) {
+            FreeBody& piece = world.free[k];
+            for (const FreePart& part : piece.parts) {
+                if (part.body != std::int64_t(load.body)) continue;
+                const Vec3 at = part.joint + part.q * load.point_b.template cast<double>();
+                push(piece, Vec3(piece.motion.q * at), Vec3(plan.dt * load.force.template cast<double>()));
+            }
+        }
+        return true;
+    });
+}
+
 template <class T> void break_joints(Plan<T>& plan, State<T>& state, World<T>& world) {
     std::vector<std::uint32_t> joints;
     std::erase_if(world.breakable, [&](const Breakable& joint) {
@@ -214,6 +230,7 @@ template <class T> void break_joints(Plan<T>& plan, State<T>& state, World<T>& w
     for (FreeBody& piece : pieces_of(plan, *world.tree, world.subtrees, world.poses, joints))
         world.free.push_back(std::move(piece));
     detach(plan, state, world.subtrees, joints, world.remaining);
+    hand_over_loads(plan, state, world, world.free.size() - joints.size());
     world.broken.insert(world.broken.end(), joints.begin(), joints.end());
     if (!plan.contact) return;
     for (const std::uint32_t joint : joints)

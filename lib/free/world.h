@@ -26,7 +26,7 @@ struct WorldCounts {
     double imbalance = 0;         // [N s] of the paper's pair: sum of |impulse on the free body + impulse on the tree|
     double impulse = 0;           // [N s] sum of the impulses on free bodies
     std::uint64_t pushed_out = 0; // contacts that overlapped
-    double lifted = 0;            // [J] of potential energy that pushing them apart gave
+    double lifted = 0;            // [J] of potential energy that pushing apart, and not ending behind what was met, gave
 };
 
 template <class T> struct World {
