@@ -158,7 +158,8 @@ void match_velocities(World<T>& world, std::vector<ContactPoint>& points, const 
 }
 
 // Contacts, impulses, and where all are after the step.
-template <class T> void meet_and_go(const Plan<T>& plan, State<T>& state, World<T>& world, std::vector<Way>& ways) {
+template <class T>
+std::vector<ContactPoint> meet_and_go(const Plan<T>& plan, State<T>& state, World<T>& world, std::vector<Way>& ways) {
     std::vector<ContactPoint> points = meet_all(plan, world, ways);
     for (std::size_t k = 0; k < ways.size(); ++k) { // turned, and as fast, as they would be: omega is of that q
         world.free[k].motion = ways[k].next;
@@ -179,6 +180,7 @@ template <class T> void meet_and_go(const Plan<T>& plan, State<T>& state, World<
     load_trees(plan, state, points, on_tree);
     note_hits(plan, world, points);
     for (std::size_t k = 0; k < ways.size(); ++k) finish_way(plan, world, k, ways[k], points);
+    return points;
 }
 
 template <class T> void come_to_ground(const Plan<T>& plan, World<T>& world) {
@@ -193,23 +195,33 @@ template <class T> void come_to_ground(const Plan<T>& plan, World<T>& world) {
     }
 }
 
-// What contacts would have given, in the step to come, bodies that have just left goes to what left with them. first: of the new pieces.
-template <class T> void hand_over_loads(const Plan<T>& plan, State<T>& state, World<T>& world, std::size_t first) {
-    std::erase_if(state.loads, [&](const Load<T>& load) {
-        if (!world.remaining.gone[load.body]) return false;
-        for (std::size_t k = first; k < world.free.size(); ++k) {
-            FreeBody& piece = world.free[k];
-            for (const FreePart& part : piece.parts) {
-                if (part.body != std::int64_t(load.body)) continue;
-                const Vec3 at = part.joint + part.q * load.point_b.template cast<double>();
-                push(piece, Vec3(piece.motion.q * at), Vec3(plan.dt * load.force.template cast<double>()));
-            }
-        }
-        return true;
-    });
+// A body that leaves in the step in which it was met was no part of its tree any more: the impulse, which was the tree's to answer, is taken
+// back, and the two free bodies meet as such. first: of the new pieces.
+template <class T>
+void meet_pieces(State<T>& state, World<T>& world, const std::vector<ContactPoint>& points, std::size_t first) {
+    std::erase_if(state.loads, [&](const Load<T>& load) { return world.remaining.gone[load.body] != 0; });
+    const auto holds = [](const FreeBody& piece, std::int64_t body) {
+        return std::any_of(piece.parts.begin(), piece.parts.end(),
+                           [body](const FreePart& part) { return part.body == body; });
+    };
+    for (const ContactPoint& c : points) {
+        if (c.body < 0 || !world.remaining.gone[std::size_t(c.body)]) continue;
+        FreeBody& free = world.free[c.free];
+        const auto piece = std::find_if(world.free.begin() + std::ptrdiff_t(first), world.free.end(),
+                                        [&](const FreeBody& p) { return holds(p, c.body); });
+        push(free, c.arm, Vec3(-c.impulse));
+        const Vec3 arm = c.point - piece->motion.x;
+        const double approach = -c.normal.dot(Vec3(free.velocity_at(c.arm) - piece->velocity_at(arm)));
+        if (!(approach > 0)) continue;
+        const Mat3 W = mobility_of(free, c.arm) + mobility_of(*piece, arm);
+        const Vec3 impulse = (1 + world.contact.restitution) * approach / c.normal.dot(W * c.normal) * c.normal;
+        push(free, c.arm, impulse);
+        push(*piece, arm, Vec3(-impulse));
+    }
 }
 
-template <class T> void break_joints(Plan<T>& plan, State<T>& state, World<T>& world) {
+template <class T>
+void break_joints(Plan<T>& plan, State<T>& state, World<T>& world, const std::vector<ContactPoint>& points) {
     std::vector<std::uint32_t> joints;
     std::erase_if(world.breakable, [&](const Breakable& joint) {
         const std::size_t i = joint.body;
@@ -230,7 +242,7 @@ template <class T> void break_joints(Plan<T>& plan, State<T>& state, World<T>& w
     for (FreeBody& piece : pieces_of(plan, *world.tree, world.subtrees, world.poses, joints))
         world.free.push_back(std::move(piece));
     detach(plan, state, world.subtrees, joints, world.remaining);
-    hand_over_loads(plan, state, world, world.free.size() - joints.size());
+    meet_pieces(state, world, points, world.free.size() - joints.size());
     world.broken.insert(world.broken.end(), joints.begin(), joints.end());
     if (!plan.contact) return;
     for (const std::uint32_t joint : joints)
@@ -265,6 +277,7 @@ template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world,
     if (moves && plan.contact) run_stage(Stage::contacts, state, clock, [&] { world.before.begin_copy(plan, state); });
     advance(plan, state, clock);
     state.loads.clear();
+    std::vector<ContactPoint> points;
     if (moves) {
         std::vector<Way> ways(world.free.size());
         run_stage(Stage::free_flight, state, clock, [&] {
@@ -273,14 +286,14 @@ template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world,
         });
         run_stage(Stage::contacts, state, clock, [&] {
             world.poses.begin(plan, state);
-            meet_and_go(plan, state, world, ways);
+            points = meet_and_go(plan, state, world, ways);
             come_to_ground(plan, world);
         });
     }
     if (!plan.scene.fracture) return;
     run_stage(Stage::fracture, state, clock, [&] {
         world.poses.begin(plan, state);
-        break_joints(plan, state, world);
+        break_joints(plan, state, world, points);
     });
 }
 

@@ -190,7 +190,11 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
     report.fps = 1 / given.dt;
     std::vector<StabilityCase> cases = stability_cases();
     std::erase_if(cases, [&](const StabilityCase& c) {
-        return c.group.find(options.only) == std::string::npos && c.name.find(options.only) == std::string::npos;
+        const auto named = [](const std::string& text, const std::string& part) {
+            return text.find(part) != std::string::npos;
+        };
+        return (!named(c.group, options.only) && !named(c.name, options.only)) ||
+               (!options.without.empty() && named(c.name, options.without));
     });
     const std::int64_t total = std::int64_t(cases.size()) * (options.with_implicit ? 5 : 4);
     std::int64_t done = 0;
