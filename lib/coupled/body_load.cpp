@@ -32,7 +32,9 @@ template <class T> Vector3<T> wind_change(const State<T>& state, const Vector3<T
 }
 
 // leaf_air.h, but for nu I in the inertia, which is the resolvent's.
-template <class T> void add_leaf(const Plan<T>& plan, CoupledBody<T>& b, std::size_t i, const Vector3<T>& u) {
+// Apart, so that scenes without it have none of it in their way.
+template <class T>
+[[gnu::noinline]] void add_leaf(const Plan<T>& plan, CoupledBody<T>& b, std::size_t i, const Vector3<T>& u) {
     const T m = plan.mass[i], scale = plan.drag_area[i];
     b.D += leaf_damping(plan.leaf, m, b.R);
     b.air += leaf_resistance(plan.leaf, m, b.R, u);
