@@ -1,5 +1,5 @@
 #include "scene.h"
-#include "scene_fields.h"
+#include "scene_parts.h"
 
 namespace bough {
 namespace {
@@ -11,11 +11,6 @@ constexpr DocumentType scene_type{"bough-scene", 1};
 constexpr DocumentType wind_type{"bough-wind", 1};
 const std::vector<std::string> poses{"drawn", "settled", "rest"};
 const std::vector<std::string> inertias{"branch", "paper"};
-const std::vector<std::string> contact_models{"impulse", "penalty"};
-
-std::string text_of(const ordered_json& value) {
-    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-}
 
 // The document's fields as one object. In the binary form they all stand in __metadata__: what begins as an object, an
 // array or a number does is JSON text, anything else a string.
@@ -44,111 +39,6 @@ void read_type(ObjectReader& object, const std::string& name, const DocumentType
     check_version(name, version, type);
 }
 
-// One number, or a list of them.
-void read_each(ObjectReader& object, const std::string& key, std::vector<double>& to) {
-    if (!object.has(key)) return;
-    const json& value = object.need(key);
-    if (value.is_array()) return object.read(key, to);
-    if (!value.is_number())
-        object.fail(key, "is " + text_of(ordered_json(value)) + ", expected a number or a list of them");
-    to = {value.get<double>()};
-}
-
-void read_each(ObjectReader& object, const std::string& name, const std::string& key, std::vector<std::int32_t>& to) {
-    if (!object.has(key)) return;
-    const json& value = object.need(key);
-    if (!value.is_array()) {
-        to.assign(1, 0);
-        return object.read(key, to.front());
-    }
-    to.clear();
-    for (const json& entry : value) {
-        if (!entry.is_number_integer() || entry.get<double>() != entry.get<std::int32_t>())
-            throw InputError(name + ": " + object.at(key) + "/" + std::to_string(to.size()),
-                             "is " + text_of(ordered_json(entry)) + ", expected an integer of 32 bits");
-        to.push_back(entry.get<std::int32_t>());
-    }
-}
-
-// [x, z]
-void read_point(ObjectReader& object, const std::string& key, double& x, double& z) {
-    std::vector<double> numbers{x, z};
-    object.read(key, numbers);
-    if (numbers.size() != 2) object.fail(key, "has " + std::to_string(numbers.size()) + " numbers, expected 2 (x, z)");
-    x = numbers[0];
-    z = numbers[1];
-}
-
-WindGrid read_grid(const json& value, const std::string& name, const std::string& at) {
-    WindGrid grid;
-    ObjectReader object(value, name, at);
-    object.need("origin");
-    read_point(object, "origin", grid.x, grid.z);
-    for (const auto& [key, number] : {std::pair{"columns", &grid.columns}, {"rows", &grid.rows}}) {
-        object.need(key);
-        object.read(key, *number);
-    }
-    object.need("cell");
-    object.read("cell", grid.cell);
-    object.read("velocity", grid.velocity);
-    if (object.has("velocity") && grid.velocity.empty())
-        object.fail("velocity", "is empty, expected one [x, y, z], or one for each cell");
-    read_each(object, name, "octaves", grid.octaves);
-    read_each(object, "persistence", grid.persistence);
-    read_each(object, "phase", grid.phase);
-    object.read("frequency", grid.frequency);
-    object.finish();
-    return grid;
-}
-
-WindSwirl read_swirl(const json& value, const std::string& name, const std::string& at) {
-    WindSwirl swirl;
-    ObjectReader object(value, name, at);
-    read_point(object, "center", swirl.x, swirl.z);
-    object.read("radius", swirl.radius);
-    object.need("angle");
-    read_each(object, "angle", swirl.angle);
-    object.read("period", swirl.period);
-    if (object.has("wavelength")) object.read("wavelength", swirl.wavelength.emplace());
-    object.finish();
-    return swirl;
-}
-
-// at: the wind's own JSON pointer.
-void read_wind_fields(ObjectReader& object, Wind& wind, const std::string& name, const std::string& at) {
-    object.need("velocity");
-    object.read("velocity", wind.velocity);
-    object.read("reference_height", wind.reference_height);
-    object.read("profile", wind.profile);
-    object.read("turbulence", wind.turbulence);
-    object.read("gust_factor", wind.gust_factor);
-    object.read("gust_period", wind.gust_period);
-    object.read("seed", wind.seed);
-    if (object.has("grid")) wind.grid = read_grid(object.need("grid"), name, at + "/grid");
-    if (object.has("swirl")) wind.swirl = read_swirl(object.need("swirl"), name, at + "/swirl");
-    if (object.has("shelter")) {
-        ObjectReader shelter(object.need("shelter"), name, at + "/shelter");
-        shelter.need("cell");
-        shelter.read("cell", wind.shelter.emplace().cell);
-        shelter.finish();
-    }
-    if (object.has("period")) object.read("period", wind.period.emplace());
-    object.finish();
-}
-
-Wind read_wind_value(const json& value, const std::string& name) {
-    if (value.is_string()) {
-        const std::string preset = value.get<std::string>();
-        if (const std::optional<Wind> wind = wind_preset(preset)) return *wind;
-        throw InputError(name + ": /wind",
-                         "is " + in_quotes(preset) + ", expected calm, breeze, gusty, storm or an object");
-    }
-    Wind wind;
-    ObjectReader object(value, name, "/wind");
-    read_wind_fields(object, wind, name, "/wind");
-    return wind;
-}
-
 Placement read_placement(const json& value, const std::string& name, const std::string& at) {
     Placement tree;
     ObjectReader object(value, name, at);
@@ -158,33 +48,6 @@ Placement read_placement(const json& value, const std::string& name, const std::
     object.read("yaw", tree.yaw);
     object.finish();
     return tree;
-}
-
-Selector read_selector(const json& value, const std::string& name, const std::string& at) {
-    const std::vector<std::string> ways{"body", "branch", "nearest", "level"};
-    Selector on;
-    ObjectReader object(value, name, at);
-    std::vector<std::string> given;
-    for (std::size_t i = 0; i < ways.size(); ++i)
-        if (object.has(ways[i])) {
-            given.push_back(ways[i]);
-            on.by = Selector::By(i);
-        }
-    const auto only_for = [&](const char* key, bool allowed, const char* with) {
-        if (object.has(key) && !allowed) object.fail(key, std::string("goes only with ") + with);
-    };
-    object.read("body", on.body);
-    object.read("branch", on.branch);
-    object.read("nearest", on.nearest);
-    object.read("level", on.level);
-    object.read("tree", on.tree);
-    object.read("at", on.at);
-    object.finish();
-    if (given.empty()) throw InputError(name + ": " + at, "names no body, expected body, branch, nearest or level");
-    if (given.size() > 1) object.fail(given[1], "stands beside " + in_quotes(given[0]) + ", expected only one of them");
-    only_for("tree", on.by == Selector::By::body || on.by == Selector::By::branch, "body or branch");
-    only_for("at", on.by == Selector::By::branch, "branch");
-    return on;
 }
 
 Pull read_pull(const json& value, const std::string& name, const std::string& at) {
@@ -239,174 +102,11 @@ JointLimit read_joint_limit(const json& value, const std::string& name) {
     return limit;
 }
 
-Fracture read_fracture(const json& value, const std::string& name) {
-    Fracture fracture;
-    ObjectReader object(value, name, "/fracture");
-    for (const auto& [key, torque] : {std::pair{"branch", &fracture.branch},
-                                      {"leaf", &fracture.leaf},
-                                      {"petal", &fracture.petal},
-                                      {"fruit", &fracture.fruit},
-                                      {"strength", &fracture.strength},
-                                      {"spread", &fracture.spread}})
-        object.read(key, *torque);
-    object.read("seed", fracture.seed);
-    for (const json& entry : object.list("joints")) {
-        const std::string at = object.at("joints") + "/" + std::to_string(fracture.joints.size());
-        ObjectReader joint(entry, name, at);
-        Fracture::Joint& to = fracture.joints.emplace_back();
-        to.on = read_selector(joint.need("on"), name, joint.at("on"));
-        joint.read("torque", to.torque);
-        joint.finish();
-    }
-    object.finish();
-    return fracture;
-}
-
-Ball read_ball(const json& value, const std::string& name, const std::string& at) {
-    Ball ball;
-    ObjectReader object(value, name, at);
-    object.need("position");
-    object.read("position", ball.position);
-    object.read("velocity", ball.velocity);
-    object.read("angular_velocity", ball.angular_velocity);
-    object.need("radius");
-    object.read("radius", ball.radius);
-    object.need("mass");
-    object.read("mass", ball.mass);
-    object.finish();
-    return ball;
-}
-
-Contact read_contact(const json& value, const std::string& name) {
-    Contact contact;
-    ObjectReader object(value, name, "/contact");
-    contact.model = ContactModel(object.word("model", contact_models, std::size_t(contact.model)));
-    object.read("restitution", contact.restitution);
-    object.read("friction", contact.friction);
-    object.read("penalty", contact.penalty);
-    object.read("trees", contact.trees);
-    object.read("leaves", contact.leaves);
-    object.read("ground", contact.ground);
-    object.read("ground_height", contact.ground_height);
-    object.finish();
-    return contact;
-}
-
-LeafAir read_leaves(const json& value, const std::string& name) {
-    LeafAir leaves;
-    ObjectReader object(value, name, "/leaves");
-    object.read("kappa", leaves.kappa);
-    object.read("air_resistance", leaves.air_resistance);
-    object.read("drag_ratio", leaves.drag_ratio);
-    object.read("offset", leaves.offset);
-    object.finish();
-    return leaves;
-}
-
-ordered_json numbers(const Vec3& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
-// One value by itself, more as a list.
-template <class A> ordered_json each(const std::vector<A>& list) {
-    return list.size() == 1 ? ordered_json(list.front()) : ordered_json(list);
-}
-
-ordered_json value_of(const WindGrid& grid) {
-    ordered_json fields{
-        {"origin", {grid.x, grid.z}}, {"cell", grid.cell}, {"columns", grid.columns}, {"rows", grid.rows}};
-    if (grid.velocity.size() == 1)
-        fields["velocity"] = numbers(grid.velocity.front());
-    else
-        for (const Vec3& v : grid.velocity) fields["velocity"].push_back(numbers(v));
-    fields["octaves"] = each(grid.octaves);
-    fields["persistence"] = each(grid.persistence);
-    fields["phase"] = each(grid.phase);
-    fields["frequency"] = grid.frequency;
-    return fields;
-}
-
-ordered_json value_of(const WindSwirl& swirl) {
-    ordered_json fields{{"center", {swirl.x, swirl.z}}};
-    if (!swirl.radius.empty()) fields["radius"] = swirl.radius;
-    fields["angle"] = swirl.radius.empty() ? each(swirl.angle) : ordered_json(swirl.angle);
-    fields["period"] = swirl.period;
-    if (swirl.wavelength) fields["wavelength"] = *swirl.wavelength;
-    return fields;
-}
-
-ordered_json value_of(const Wind& wind) {
-    ordered_json fields{{"velocity", numbers(wind.velocity)},
-                        {"reference_height", wind.reference_height},
-                        {"profile", wind.profile},
-                        {"turbulence", wind.turbulence},
-                        {"gust_factor", wind.gust_factor},
-                        {"gust_period", wind.gust_period},
-                        {"seed", wind.seed}};
-    if (wind.grid) fields["grid"] = value_of(*wind.grid);
-    if (wind.swirl) fields["swirl"] = value_of(*wind.swirl);
-    if (wind.shelter) fields["shelter"] = {{"cell", wind.shelter->cell}};
-    if (wind.period) fields["period"] = *wind.period;
-    return fields;
-}
-
-ordered_json value_of(const Selector& on) {
-    switch (on.by) {
-    case Selector::By::body:
-        return {{"tree", on.tree}, {"body", on.body}};
-    case Selector::By::branch:
-        return {{"tree", on.tree}, {"branch", on.branch}, {"at", on.at}};
-    case Selector::By::nearest:
-        return {{"nearest", numbers(on.nearest)}};
-    case Selector::By::level:
-        break;
-    }
-    return {{"level", on.level}};
-}
-
 ordered_json value_of(const RootMotion& motion) {
     ordered_json fields{{"tree", motion.tree}, {"time", motion.time}};
     for (const Vec3& p : motion.position) fields["position"].push_back(numbers(p));
     for (const Quat& q : motion.rotation) fields["rotation"].push_back(ordered_json{q.x(), q.y(), q.z(), q.w()});
     return fields;
-}
-
-// JSON has no infinity: what never breaks is left out.
-ordered_json value_of(const Fracture& fracture) {
-    ordered_json fields = ordered_json::object();
-    for (const auto& [key, torque] : {std::pair{"branch", fracture.branch},
-                                      {"leaf", fracture.leaf},
-                                      {"petal", fracture.petal},
-                                      {"fruit", fracture.fruit},
-                                      {"strength", fracture.strength}})
-        if (torque < Fracture::never) fields[key] = torque;
-    fields["spread"] = fracture.spread;
-    fields["seed"] = fracture.seed;
-    for (const Fracture::Joint& joint : fracture.joints) {
-        ordered_json entry{{"on", value_of(joint.on)}};
-        if (joint.torque < Fracture::never) entry["torque"] = joint.torque;
-        fields["joints"].push_back(entry);
-    }
-    return fields;
-}
-
-ordered_json value_of(const Ball& ball) {
-    return {{"position", numbers(ball.position)},
-            {"velocity", numbers(ball.velocity)},
-            {"angular_velocity", numbers(ball.angular_velocity)},
-            {"radius", ball.radius},
-            {"mass", ball.mass}};
-}
-
-ordered_json value_of(const Contact& contact) {
-    return {{"model", contact_models[std::size_t(contact.model)]},
-            {"restitution", contact.restitution},
-            {"friction", contact.friction},
-            {"penalty", contact.penalty},
-            {"trees", contact.trees},
-            {"leaves", contact.leaves},
-            {"ground", contact.ground},
-            {"ground_height", contact.ground_height}};
 }
 
 ordered_json value_of(const Scene& scene) {
