@@ -43,6 +43,7 @@ template <class T> Report measure(const StagesOptions& o, const Setting& setting
         for (int k = 0; k < o.run.substeps; ++k) {
             const Time::time_point start = Time::now();
             advance(run.plan, state, run.world, &clock);
+            run.world.events = {};
             total += std::chrono::duration<double>(Time::now() - start).count();
         }
         require_finite(plan, state, setting.tree, f);

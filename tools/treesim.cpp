@@ -155,10 +155,9 @@ void visit_carried(const Plan<T>& plan, StateType& state, Saved& saved, Visit&& 
     }
 }
 
-template <class T> void restore(const Options& o, const Setting& setting, Run<T>& run) {
+template <class T> void restore(const Options& o, const Setting& setting, const SavedState& saved, Run<T>& run) {
     Plan<T>& plan = run.plan;
     State<T>& state = run.state;
-    const SavedState saved = read_state(read_input(o.resume), input_name(o.resume));
     const auto refuse = [&](const std::string& field, const std::string& found, const std::string& expected) {
         if (found != expected)
             throw InputError(input_name(o.resume), "/" + field + ": is " + found + ", but this run has " + expected);
@@ -363,10 +362,10 @@ template <class T> std::string cost_line(const Plan<T>& plan, const RunOptions& 
 
 // The first and the last, from the start or from a saved state.
 template <class T>
-std::pair<std::int64_t, std::int64_t> frames_to_make(const Options& o, const Setting& setting, Run<T>& run,
-                                                     std::int64_t frames) {
-    if (o.resume.empty()) return {0, frames - 1};
-    restore(o, setting, run);
+std::pair<std::int64_t, std::int64_t> frames_to_make(const Options& o, const Setting& setting, const SavedState* saved,
+                                                     Run<T>& run, std::int64_t frames) {
+    if (!saved) return {0, frames - 1};
+    restore(o, setting, *saved, run);
     const std::int64_t first = run.state.step / o.run.substeps + 1;
     // --seconds counts the start, which is not written again
     return {first, frames - 1 + first - (o.run.frames ? 0 : 1)};
@@ -375,11 +374,13 @@ std::pair<std::int64_t, std::int64_t> frames_to_make(const Options& o, const Set
 // A mesh has to know from its first frame on which of its parts will come off: the run is made once before, without output. It is the
 // same again, bit by bit.
 template <class T>
-std::vector<std::uint32_t> what_breaks(const Options& o, const Setting& setting, Run<T> run, std::int64_t frames) {
-    const auto [first, last] = frames_to_make(o, setting, run, frames);
+std::vector<std::uint32_t> what_breaks(const Options& o, const Setting& setting, const SavedState* saved, Run<T> run,
+                                       std::int64_t frames) {
+    const auto [first, last] = frames_to_make(o, setting, saved, run, frames);
     Progress progress(o.common, "frame (what breaks)", last - first + 1);
     for (std::int64_t f = std::max<std::int64_t>(first, 1); f <= last; ++f) {
         if (interrupted()) throw Interrupted("interrupted before the first frame, while finding out what breaks");
+        run.world.events = {};
         advance_frame(run, setting.tree, f, o.run.substeps);
         progress.at(f - first + 1);
     }
@@ -398,10 +399,14 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
     if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
     Plan<T> planned = needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
     const std::int64_t frames = frames_of(o.run, seconds_default);
+    interrupt_at_boundary();
+    std::optional<SavedState> saved; // read once: it may come from a pipe
+    if (!o.resume.empty()) saved = read_state(read_input(o.resume), input_name(o.resume));
+    const SavedState* const from = saved ? &*saved : nullptr;
     const bool mesh = format == "obj" || format == "glb";
     std::vector<std::uint32_t> broken;
     if (mesh && setting.scene.fracture)
-        broken = what_breaks(o, setting, start_run(Plan<T>(planned), setting, o.run), frames);
+        broken = what_breaks(o, setting, from, start_run(Plan<T>(planned), setting, o.run), frames);
     Run<T> run = start_run(std::move(planned), setting, o.run);
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
@@ -411,11 +416,10 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
     if (!o.run.refresh.empty() && o.run.refresh != "always" && plan.refresh == 0)
         o.common.notes.push_back("--refresh: nothing is kept in this run: " + plan.refresh_reason);
-    const auto [first, last] = frames_to_make(o, setting, run, frames);
+    const auto [first, last] = frames_to_make(o, setting, from, run, frames);
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
-    interrupt_at_boundary();
     const bool changed = mesh && (!broken.empty() || !setting.scene.balls.empty());
     const Tree own = changed ? shown_tree(setting.tree, broken, setting.scene.balls) : Tree();
     const Tree& shown = changed ? own : setting.tree;

@@ -9,9 +9,9 @@ Capsule placed(const Capsule& c, const Quat& q, const Vec3& x) {
     return {x + q * c.a, x + q * c.b, c.radius_a, c.radius_b};
 }
 
-Capsule placed(const FreeBody& free, const FreePart& part) {
+Capsule placed(const FreeMotion& motion, const FreePart& part) {
     const Capsule own = placed(capsule_of(part.kind, part.size), part.q, part.joint);
-    return placed(own, free.motion.q, free.motion.x);
+    return placed(own, motion.q, motion.x);
 }
 
 // Squared distance of a point from the way x ... x + d.
@@ -59,33 +59,39 @@ Vec3 lowest(const Vec3& center, double radius, Kind kind, const Vec3& axis) {
     return size > 1e-9 ? Vec3(center + radius / size * down) : center;
 }
 
-void find_ground(const FreeBody& free, std::size_t k, const Vec3& d, double height, std::vector<ContactPoint>& found) {
-    if (free.motion.x.y() + std::min(0.0, d.y()) - free.bound > height) return;
-    for (const FreePart& part : free.parts) {
-        const Capsule c = placed(free, part);
-        const Vec3 axis = free.motion.q * (part.q * Vec3(Vec3::UnitZ()));
-        for (int end = 0; end < 2; ++end) {
-            if (end == 1 && c.a == c.b) continue;
-            const Vec3 low = lowest(end ? c.b : c.a, end ? c.radius_b : c.radius_a, part.kind, axis);
-            const double gap = low.y() - height;
-            if (gap + std::min(0.0, d.y()) > 0) continue;
+void find_ground(const FreeBody& free, std::size_t k, const FreeMotion& end, double height,
+                 std::vector<ContactPoint>& found) {
+    const FreeMotion& start = free.motion;
+    if (std::min(start.x.y(), end.x.y()) - free.bound > height) return;
+    const auto low = [&](const FreeMotion& at, const FreePart& part, bool far) {
+        const Capsule c = placed(at, part);
+        const Vec3 axis = at.q * (part.q * Vec3(Vec3::UnitZ()));
+        return lowest(far ? c.b : c.a, far ? c.radius_b : c.radius_a, part.kind, axis);
+    };
+    for (const FreePart& part : free.parts)
+        for (const bool far : {false, true}) {
+            if (far && part.kind == Kind::fruit) continue; // one point
+            const Vec3 from = low(start, part, far), to = low(end, part, far);
+            const double gap = from.y() - height, closes = from.y() - to.y();
+            if (std::min(gap, to.y() - height) > 0) continue;
             Meeting m;
-            m.way = gap > 0 ? gap / -d.y() : 0;
-            m.at = {gap, Vec3::UnitY(), Vec3(low.x() + m.way * d.x(), height, low.z() + m.way * d.z())};
-            add_meeting(free, k, -1, d, m, found);
+            m.way = gap > 0 ? gap / closes : 0;
+            const Vec3 at = from + m.way * (to - from);
+            m.at = {gap, Vec3::UnitY(), Vec3(at.x(), height, at.z())};
+            add_meeting(free, k, -1, Vec3(end.x - start.x), m, found);
+            found.back().closing = (1 - m.way) * closes;
         }
-    }
 }
 
 } // namespace
 
 template <class T>
 void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees, TreeWay<T> tree_way,
-                   const Contact& contact, const FreeBody& free, std::size_t k, const Vec3& d, bool brute_force,
+                   const Contact& contact, const FreeBody& free, std::size_t k, const FreeMotion& end, bool brute_force,
                    std::vector<ContactPoint>& found, ContactTests& tests) {
-    if (contact.ground && !free.leaf()) find_ground(free, k, d, contact.ground_height, found);
+    if (contact.ground && !free.leaf()) find_ground(free, k, end, contact.ground_height, found);
     if (!plan.contact || (yields(contact, free.parts.front().kind) && free.leaf())) return;
-    const Vec3& x = free.motion.x;
+    const Vec3 x = free.motion.x, d = end.x - x;
     std::vector<std::uint32_t> stack;
     for (const std::uint32_t root : trees.roots)
         visit_subtree(trees, root, stack, [&](std::size_t i) {
@@ -100,12 +106,14 @@ void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees,
             if (yields(contact, tree.kind[i])) return true;
             ++tests.bodies;
             const Capsule own = capsule_of(tree.kind[i], tree.size[i]);
-            const Capsule start = placed(own, Quat(before.R), before.x), end = placed(own, Quat(after.R), after.x);
+            const Capsule start = placed(own, Quat(before.R), before.x), stop = placed(own, Quat(after.R), after.x);
             for (const FreePart& part : free.parts) {
-                const Meeting m = meet(placed(free, part), d, start, end);
+                const Capsule from = placed(free.motion, part), to = placed(end, part);
+                const Meeting m = meet(from, to, start, stop);
                 if (!m.meets) continue;
                 add_meeting(free, k, std::int64_t(i), d, m, found);
-                carry_along(found.back(), own, start, end, after);
+                found.back().closing = std::max(0.0, m.at.gap - nearest(to, stop).gap);
+                carry_along(found.back(), own, start, stop, after);
             }
             return true;
         });
@@ -135,27 +143,46 @@ struct Solving {
 } // namespace
 
 template <class T>
-void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& response, const Contact& contact,
-                    std::vector<FreeBody>& free, std::vector<ContactPoint>& points) {
+void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& response, TreeResponse<T>& rigid,
+                    const Contact& contact, std::vector<FreeBody>& free, std::vector<ContactPoint>& points) {
+    if (points.empty()) return;
     std::vector<Solving> solving(points.size());
     const double slow = 2 * plan.scene.gravity.norm() * plan.dt;
     double fastest = 0;
+    // What the springs will have made of the trees' velocities at the end of the step in which they answer.
     response.begin();
+    std::vector<std::size_t> joints;
+    for (const ContactPoint& c : points)
+        for (std::int64_t i = c.body; i >= 0; i = plan.parent[std::size_t(i)]) joints.push_back(std::size_t(i));
+    std::sort(joints.begin(), joints.end());
+    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+    for (const std::size_t joint : joints) response.add_spring(plan, poses, joint);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (points[k].body >= 0)
+            solving[k].tree_velocity = response.velocity(plan, poses, std::size_t(points[k].body), points[k].point);
+    response.begin();
+    rigid.begin();
     for (std::size_t k = 0; k < points.size(); ++k) {
         ContactPoint& c = points[k];
         Solving& s = solving[k];
         const Mat3 W = mobility_of(free[c.free], c.arm);
+        Vec3 now = Vec3::Zero();
         s.mobility = W;
+        double bounces = 1;
         if (c.body >= 0) {
             const auto body = std::size_t(c.body);
             s.mobility += response.mobility(plan, poses, body, c.point);
-            s.tree_velocity = poses.of(body).velocity_at(c.point);
+            now = poses.of(body).velocity_at(c.point);
+            s.tree_velocity += now;
+            const Mat3 unsprung = W + rigid.mobility(plan, poses, body, c.point);
+            bounces = c.normal.dot(s.mobility * c.normal) / c.normal.dot(unsprung * c.normal);
         }
         s.along = 1 / c.normal.dot(s.mobility * c.normal);
         s.across =
             1 / (s.mobility.trace() - c.normal.dot(s.mobility * c.normal)); // at most what any direction across has
-        c.approach = -c.normal.dot(Vec3(free[c.free].velocity_at(c.arm) - s.tree_velocity));
-        s.target = c.approach > slow ? contact.restitution * c.approach : 0;
+        c.approach = -c.normal.dot(Vec3(free[c.free].velocity_at(c.arm) - now));
+        s.target = c.approach > slow ? contact.restitution * bounces * c.approach : 0;
+        if (c.free_speed > 0) s.target = -c.free_speed;
         fastest = std::max(fastest, c.approach);
     }
     response.begin();
@@ -189,9 +216,9 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreeWay<T>, const Contact&,              \
-                                const FreeBody&, std::size_t, const Vec3&, bool, std::vector<ContactPoint>&,           \
+                                const FreeBody&, std::size_t, const FreeMotion&, bool, std::vector<ContactPoint>&,     \
                                 ContactTests&);                                                                        \
-    template void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, const Contact&,                      \
+    template void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, TreeResponse<T>&, const Contact&,    \
                                  std::vector<FreeBody>&, std::vector<ContactPoint>&);
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)

@@ -6,7 +6,9 @@
 //            what touches already.
 // Solved     Sequential impulses with accumulated bounds (Catto 2005): contact by contact, until nothing changes by more than 1e-6 of the fastest
 //            approach, or 100 rounds. Along the normal the velocity after is at least
-//              -restitution times the velocity before  (0 for what comes slower than gravity makes it in two steps)
+//              restitution x (effective mass without springs / with them) times the approach  (0 for what comes slower than gravity makes
+//              it in two steps): springs give back by themselves what they take. A body that meets several things one after another may
+//              go on up to the later ones, at gap / time left
 //            and across it friction takes up to `friction` times the normal impulse. Trees answer as response.h says.
 // Given      the free bodies their impulses; the tree the same, negative, as forces over the step to come (State::loads).
 // One contact alone, without friction: impulse = (1 + e) v_n / (1/m + r x n . I^-1 r x n + n.W n), W the tree's mobility there.
@@ -29,6 +31,8 @@ struct ContactPoint {
     double gap = 0;              // [m] at the step's start, where they overlap: negative; else 0
     Vec3 impulse = Vec3::Zero(); // [N s] on the free body
     double approach = 0;         // [m/s] before
+    double closing = 0;          // [m] that the two come nearer from the meeting to the step's end, if nothing is done
+    double free_speed = 0;       // [m/s] at which they may still come nearer: of what is met after something else
 };
 
 // The tests of one kind that a search made, and those that pruning spared it.
@@ -39,18 +43,19 @@ struct ContactTests {
 // A tree's way through a step.
 template <class T> struct TreeWay { TreePoses<T>&before, &after; };
 
-// What free body k meets on its way d [m], appended to `found` in a fixed order. brute_force: nothing is pruned.
+// What free body k meets on its way, from its present place and turn to `end`, appended to `found` in a fixed order. brute_force: nothing is pruned.
 template <class T>
 void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreeWay<T>, const Contact&, const FreeBody&,
-                   std::size_t k, const Vec3& d, bool brute_force, std::vector<ContactPoint>& found, ContactTests&);
+                   std::size_t k, const FreeMotion& end, bool brute_force, std::vector<ContactPoint>& found,
+                   ContactTests&);
 
 // Velocity [m/s] of a free body's point by a unit impulse there, `arm` [m] from its centre of mass [1/kg]; and what an impulse [N s] there does.
 Mat3 mobility_of(const FreeBody&, const Vec3& arm);
 void push(FreeBody&, const Vec3& arm, const Vec3& impulse);
 
-// Finds the impulses of all, poses those after the step, and gives the free bodies theirs.
+// Finds the impulses of all, poses those after the step, and gives the free bodies theirs. rigid: without springs.
 template <class T>
-void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, const Contact&, std::vector<FreeBody>&,
-                    std::vector<ContactPoint>&);
+void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, TreeResponse<T>& rigid, const Contact&,
+                    std::vector<FreeBody>&, std::vector<ContactPoint>&);
 
 } // namespace bough

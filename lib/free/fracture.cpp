@@ -3,6 +3,7 @@
 #include "../growth/random.h"
 #include "../model/rotation_maps.h"
 #include "../stages/air.h"
+#include "../stages/leaf_air.h"
 #include "../stages/state_update.h"
 #include <algorithm>
 #include <numbers>
@@ -66,7 +67,7 @@ struct Moving {
     Vec3 com, v; // of the centre of mass, world
 };
 
-FreeBody piece(const Tree& tree, double air_density, const std::vector<Moving>& bodies) {
+FreeBody piece(const Tree& tree, const Scene& scene, const std::vector<Moving>& bodies) {
     FreeBody out;
     Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
     for (const Moving& b : bodies) {
@@ -95,7 +96,7 @@ FreeBody piece(const Tree& tree, double air_density, const std::vector<Moving>& 
         part.q = (motion.q.conjugate() * Quat(b.pose.R)).normalized();
         part.joint = R.transpose() * (b.pose.x - motion.x);
         part.com = R.transpose() * arm;
-        part.drag_area = drag_area(part.kind, part.size, air_density);
+        part.drag_area = drag_area(part.kind, part.size, scene.air_density, plate_kappa(scene));
         out.parts.push_back(part);
     }
     out.inertia = R.transpose() * inertia * R;
@@ -123,7 +124,7 @@ std::vector<FreeBody> pieces_of(const Plan<T>& plan, const Tree& tree, const Sub
             bodies.push_back({i, pose, com, pose.velocity_at(com)});
             return true;
         });
-        pieces.push_back(piece(tree, plan.scene.air_density, bodies));
+        pieces.push_back(piece(tree, plan.scene, bodies));
     }
     return pieces;
 }

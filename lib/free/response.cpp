@@ -13,14 +13,11 @@ template <class T> typename TreeResponse<T>::Joint TreeResponse<T>::own(const Pl
     return joint;
 }
 
-namespace {
-
-template <class T> Vec3 spring(const Plan<T>& plan, std::size_t i) { // Z's diagonal, at rest body axes are the joint's
-    const double h = plan.dt;
+template <class T> Vec3 TreeResponse<T>::spring(const Plan<T>& plan, std::size_t i) const {
+    if (!sprung_) return Vec3::Zero();
+    const double h = plan.dt; // at rest body axes are the joint's
     return (h * double(plan.beta[i]) + h * h) * plan.K[i].template cast<double>();
 }
-
-} // namespace
 
 template <class T> void TreeResponse<T>::close(const Plan<T>& plan, std::size_t i, Joint& joint) const {
     Mat3 D = joint.A;
@@ -54,7 +51,8 @@ template <class T> void TreeResponse<T>::add_child(const Plan<T>& plan, std::siz
     parent.M += M;
 }
 
-template <class T> void TreeResponse<T>::make(const Plan<T>& plan, const Tree& tree, const Subtrees&) {
+template <class T> void TreeResponse<T>::make(const Plan<T>& plan, const Tree& tree, const Subtrees&, bool sprung) {
+    sprung_ = sprung;
     coupled_ = plan.solver == Solver::coupled;
     joint_.resize(plan.bodies);
     place_.assign(plan.bodies, 0);
@@ -66,13 +64,14 @@ template <class T> void TreeResponse<T>::make(const Plan<T>& plan, const Tree& t
     begin();
 }
 
-template <class T> void TreeResponse<T>::remake_path(const Plan<T>& plan, const Subtrees& trees, std::size_t body) {
-    for (std::int64_t i = std::int64_t(body); i >= 0; i = plan.parent[std::size_t(i)]) {
-        Joint joint = own(plan, std::size_t(i));
-        for (std::uint32_t k = trees.first_child[std::size_t(i) + 1]; k-- > trees.first_child[std::size_t(i)];)
+template <class T>
+void TreeResponse<T>::remake(const Plan<T>& plan, const Subtrees& trees, const std::vector<std::size_t>& bodies) {
+    for (const std::size_t i : bodies) {
+        Joint joint = own(plan, i);
+        for (std::uint32_t k = trees.first_child[i + 1]; k-- > trees.first_child[i];)
             if (plan.mass[trees.child[k]] > 0) add_child(plan, trees.child[k], joint); // in make()'s order
-        close(plan, std::size_t(i), joint);
-        joint_[std::size_t(i)] = joint;
+        close(plan, i, joint);
+        joint_[i] = joint;
     }
 }
 
@@ -82,29 +81,55 @@ template <class T> void TreeResponse<T>::begin() {
     u_.assign(1, Vec3::Zero());
 }
 
-template <class T>
-void TreeResponse<T>::add(const Plan<T>& plan, TreePoses<T>& poses, std::size_t body, const Vec3& point,
-                          const Vec3& impulse) {
-    const BodyPose* pose = &poses.of(body);
-    Wrench w{Vec3(point - pose->x).cross(impulse), impulse};
-    for (std::size_t i = body;;) {
-        if (place_[i] == 0) {
-            place_[i] = std::uint32_t(u_.size());
-            u_.push_back(Vec3::Zero());
-            touched_.push_back(i);
-        }
-        u_[place_[i]] += w.moment;
-        if (plan.parent[i] < 0) return;
-        if (coupled_) {
-            const Vec3 t = pose->R.transpose() * w.moment, Et = joint_[i].E * t;
-            w.moment = pose->R * Vec3(spring(plan, i).cwiseProduct(Et));
-            w.force -= pose->R * Vec3(joint_[i].B.transpose() * Et);
-        }
+template <class T> void TreeResponse<T>::put(std::size_t i, const Vec3& moment) {
+    if (place_[i] == 0) {
+        place_[i] = std::uint32_t(u_.size());
+        u_.push_back(Vec3::Zero());
+        touched_.push_back(i);
+    }
+    u_[place_[i]] += moment;
+}
+
+template <class T> void TreeResponse<T>::hand_on(const Plan<T>& plan, TreePoses<T>& poses, std::size_t from, Wrench w) {
+    const BodyPose* pose = &poses.of(from);
+    for (std::size_t i = from; plan.parent[i] >= 0;) {
         i = std::size_t(plan.parent[i]);
         const BodyPose* parent = &poses.of(i);
         w.moment += Vec3(pose->x - parent->x).cross(w.force);
         pose = parent;
+        put(i, w.moment);
+        if (!coupled_) continue;
+        const Vec3 t = pose->R.transpose() * w.moment, Et = joint_[i].E * t;
+        w.moment = pose->R * Vec3(spring(plan, i).cwiseProduct(Et));
+        w.force -= pose->R * Vec3(joint_[i].B.transpose() * Et);
     }
+}
+
+template <class T>
+void TreeResponse<T>::add(const Plan<T>& plan, TreePoses<T>& poses, std::size_t body, const Vec3& point,
+                          const Vec3& impulse) {
+    const BodyPose& pose = poses.of(body);
+    Wrench w{Vec3(point - pose.x).cross(impulse), impulse};
+    put(body, w.moment);
+    if (coupled_) {
+        const Vec3 t = pose.R.transpose() * w.moment, Et = joint_[body].E * t;
+        w.moment = pose.R * Vec3(spring(plan, body).cwiseProduct(Et));
+        w.force -= pose.R * Vec3(joint_[body].B.transpose() * Et);
+    }
+    hand_on(plan, poses, body, w);
+}
+
+// The moment t on the body and -t on its parent: beside what t alone hands on, Z E t, the parent takes -t: -A E t in all.
+template <class T> void TreeResponse<T>::add_spring(const Plan<T>& plan, TreePoses<T>& poses, std::size_t joint) {
+    const double h = plan.dt, beta = double(plan.beta[joint]);
+    const Vec3 t = -h * plan.K[joint].template cast<double>().cwiseProduct(
+                            Vec3(poses.theta(joint) + (h + beta) * poses.theta_dot(joint)));
+    const BodyPose& pose = poses.of(joint);
+    put(joint, pose.R * t);
+    if (!coupled_) return; // each joint by itself
+    const Vec3 Et = joint_[joint].E * t;
+    hand_on(plan, poses, joint,
+            {pose.R * Vec3(-(joint_[joint].A * Et)), pose.R * Vec3(-(joint_[joint].B.transpose() * Et))});
 }
 
 template <class T>

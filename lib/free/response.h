@@ -19,13 +19,16 @@ namespace bough {
 
 template <class T> class TreeResponse {
 public:
-    void make(const Plan<T>&, const Tree&, const Subtrees&);
-    // After what `body` carried is gone (Plan's constants say so): its path's again.
-    void remake_path(const Plan<T>&, const Subtrees&, std::size_t body);
+    // sprung: with Z; without it the instantaneous response, of a step of no length.
+    void make(const Plan<T>&, const Tree&, const Subtrees&, bool sprung = true);
+    // After what some bodies carried is gone (Plan's constants say so): those and all on their ways to the root, falling.
+    void remake(const Plan<T>&, const Subtrees&, const std::vector<std::size_t>& bodies);
     // Forgets all impulses.
     void begin();
     // An impulse [N s] on a point [m], world.
     void add(const Plan<T>&, TreePoses<T>&, std::size_t body, const Vec3& point, const Vec3& impulse);
+    // What the joint's own spring and damper do in the step: -h K (theta + (h + beta) theta_dot) on the body, the opposite on its parent.
+    void add_spring(const Plan<T>&, TreePoses<T>&, std::size_t joint);
     // What the impulses so far change of the point's velocity [m/s].
     Vec3 velocity(const Plan<T>&, TreePoses<T>&, std::size_t body, const Vec3& point);
     // Velocity of the point by a unit impulse there, impulses so far aside [1/kg].
@@ -43,9 +46,13 @@ private:
     Joint own(const Plan<T>&, std::size_t i) const;
     void add_child(const Plan<T>&, std::size_t child, Joint& parent) const;
     void close(const Plan<T>&, std::size_t i, Joint&) const;
+    Vec3 spring(const Plan<T>&, std::size_t i) const; // Z's diagonal
+    void put(std::size_t i, const Vec3& moment);
+    void hand_on(const Plan<T>&, TreePoses<T>&, std::size_t from,
+                 Wrench); // what the joint `from` passes to its parent, and so on
     std::pair<Vec3, Vec3> motion(const Plan<T>&, TreePoses<T>&, std::size_t body); // omega, v of the joint
 
-    bool coupled_ = true;
+    bool coupled_ = true, sprung_ = true;
     std::vector<Joint> joint_;
     std::vector<std::uint32_t> place_; // in u_, 0: nothing
     std::vector<Vec3> u_;              // [N m s] world

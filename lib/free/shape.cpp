@@ -48,30 +48,44 @@ Nearest nearest(const Capsule& first, const Capsule& second) {
     const double r2 = second.radius_a + t * (second.radius_b - second.radius_a);
     const Vec3 way = p - q;
     const double distance = way.norm();
-    // Axes that cross have no line between them: across both then, or upward.
-    Vec3 normal = distance > 1e-12 ? Vec3(way / distance) : Vec3((first.b - first.a).cross(Vec3(second.b - second.a)));
-    if (!(distance > 1e-12)) normal = normal.norm() > 1e-12 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitY());
+    Vec3 normal = way / distance;
+    if (!(distance >
+          1e-12)) { // axes that cross have no line between them: across both then, or across the second's, upward
+        normal = (first.b - first.a).cross(Vec3(second.b - second.a));
+        const Vec3 along = Vec3(second.b - second.a).normalized();
+        for (const Vec3& up : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitX())})
+            if (!(normal.norm() > 1e-12)) normal = up - along.dot(up) * along;
+        normal.normalize();
+    }
     return {distance - r1 - r2, normal, q + r2 * normal};
 }
 
-Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second, const Capsule& end) {
-    const Vec3 da = d - (end.a - second.a), db = d - (end.b - second.b); // relative
-    const double length = std::max(da.norm(), db.norm());
+Meeting meet(const Capsule& first, const Capsule& first_end, const Capsule& second, const Capsule& second_end) {
+    const auto between = [](const Capsule& from, const Capsule& to, double way) {
+        return Capsule{from.a + way * (to.a - from.a), from.b + way * (to.b - from.b), from.radius_a, from.radius_b};
+    };
+    double fastest = 0;
+    for (const Vec3& p : {Vec3(first_end.a - first.a), Vec3(first_end.b - first.b)})
+        for (const Vec3& q : {Vec3(second_end.a - second.a), Vec3(second_end.b - second.b)})
+            fastest = std::max(fastest, Vec3(p - q).norm());
+    // Most pairs never come near: by their bounding spheres.
+    const auto middle = [](const Capsule& c) { return Vec3(0.5 * (c.a + c.b)); };
+    const auto bound = [](const Capsule& c) { return 0.5 * Vec3(c.b - c.a).norm() + std::max(c.radius_a, c.radius_b); };
     Meeting meeting;
+    const double apart = Vec3(middle(first) - middle(second)).norm();
+    if (apart > bound(first) + bound(second) + fastest) return meeting;
     double way = 0;
-    while (true) {
-        const Capsule p{first.a + way * d, first.b + way * d, first.radius_a, first.radius_b};
-        const Capsule q{second.a + way * (end.a - second.a), second.b + way * (end.b - second.b), second.radius_a,
-                        second.radius_b};
-        meeting.at = nearest(p, q);
-        if (meeting.at.gap <= touching) {
+    constexpr int most_advances = 64;
+    for (int advance = 0;; ++advance) {
+        meeting.at = nearest(between(first, first_end, way), between(second, second_end, way));
+        if (meeting.at.gap <= touching || advance == most_advances) {
             meeting.way = way;
             meeting.meets = true;
             return meeting;
         }
         // What is left of the way does not close the gap.
-        if (way >= 1 || (1 - way) * length < meeting.at.gap) return meeting;
-        way = std::min(1.0, way + meeting.at.gap / length);
+        if (way >= 1 || (1 - way) * fastest < meeting.at.gap) return meeting;
+        way = std::min(1.0, way + meeting.at.gap / fastest);
     }
 }
 

@@ -27,13 +27,13 @@ struct Nearest {
 Nearest nearest(const Capsule& first, const Capsule& second);
 
 // The part of their ways that two capsules go before they meet, by conservative advancement: each advance is at most the gap over the
-// fastest approach of any of their points, so that nothing is passed through. Ends go straight: `first` by d [m], `second` from where it is to `end`.
-// at: the nearest points then.
+// fastest approach of any of their points, so that nothing is passed through. Ends go straight, from where they are to first_end, second_end. at:
+// the nearest points then. What is so near after 64 advances that these no longer bring it nearer (it grazes) counts as met.
 struct Meeting {
     double way = 1; // 0..1; 1 where they do not meet
     bool meets = false;
     Nearest at;
 };
-Meeting meet(const Capsule& first, const Vec3& d, const Capsule& second, const Capsule& end);
+Meeting meet(const Capsule& first, const Capsule& first_end, const Capsule& second, const Capsule& second_end);
 
 } // namespace bough

@@ -32,11 +32,12 @@ template <class T> void fly_all(const Plan<T>& plan, World<T>& world, std::vecto
         const FreeBody& free = world.free[std::size_t(k)];
         Way& way = ways[std::size_t(k)];
         way.start = way.next = free.motion;
-        if (!free.at_rest) way.next = fly(free, plan.scene, wind, plan.dt);
+        const bool lying = free.leaf() && free.quiet > 0; // lie_down turns it
+        if (!free.at_rest && !lying) way.next = fly(free, plan.scene, wind, plan.dt);
     }
 }
 
-// What each meets first, and all that it meets with it.
+// All that each meets, and how fast it may still come nearer to what it meets after the first.
 template <class T> std::vector<ContactPoint> meet_all(const Plan<T>& plan, World<T>& world, std::vector<Way>& ways) {
     std::vector<ContactPoint> points;
     for (std::size_t k = 0; k < world.free.size(); ++k) {
@@ -45,9 +46,14 @@ template <class T> std::vector<ContactPoint> meet_all(const Plan<T>& plan, World
         way.from = way.to = points.size();
         if (free.at_rest || (free.leaf() && !world.contact.leaves)) continue;
         find_contacts(plan, *world.tree, world.subtrees, TreeWay<T>{world.before, world.poses}, world.contact, free, k,
-                      Vec3(way.next.x - way.start.x), world.brute_force, points, world.counts.tests);
+                      way.next, world.brute_force, points, world.counts.tests);
         for (std::size_t c = way.from; c < points.size(); ++c) way.first = std::min(way.first, points[c].way);
-        std::erase_if(points, [&](const ContactPoint& c) { return c.free == k && c.way > way.first + together; });
+        const double left = plan.dt * (1 - way.first);
+        for (std::size_t c = way.from; c < points.size(); ++c) {
+            ContactPoint& p = points[c];
+            if (p.way <= way.first + together || !(p.way < 1)) continue;
+            p.free_speed = (p.way - way.first) * p.closing / (1 - p.way) / left;
+        }
         way.to = points.size();
     }
     return points;
@@ -61,7 +67,9 @@ Vec3 go_on(const Plan<T>& plan, World<T>& world, std::size_t k, const Vec3& x, c
     FreeBody& free = world.free[k];
     const Vec3 start = free.motion.x;
     free.motion.x = x;
-    find_contacts(plan, *world.tree, world.subtrees, TreeWay<T>{world.poses, world.poses}, world.contact, free, k, d,
+    FreeMotion end = free.motion;
+    end.x = x + d;
+    find_contacts(plan, *world.tree, world.subtrees, TreeWay<T>{world.poses, world.poses}, world.contact, free, k, end,
                   world.brute_force, next, world.counts.tests);
     free.motion.x = start;
     double part = 1;
@@ -171,10 +179,13 @@ std::vector<ContactPoint> meet_and_go(const Plan<T>& plan, State<T>& state, Worl
         std::vector<ContactPoint> ground;
         for (const ContactPoint& c : points)
             if (c.body < 0) ground.push_back(c);
-        solve_contacts(plan, world.poses, world.response, world.contact, world.free, ground);
+        solve_contacts(plan, world.poses, world.response, world.rigid, world.contact, world.free, ground);
+        std::size_t next = 0;
+        for (ContactPoint& c : points)
+            if (c.body < 0) c = ground[next++];
         match_velocities(world, points, on_tree);
     } else {
-        solve_contacts(plan, world.poses, world.response, world.contact, world.free, points);
+        solve_contacts(plan, world.poses, world.response, world.rigid, world.contact, world.free, points);
         for (const ContactPoint& c : points) on_tree.push_back(-c.impulse);
     }
     load_trees(plan, state, points, on_tree);
@@ -245,9 +256,15 @@ void break_joints(Plan<T>& plan, State<T>& state, World<T>& world, const std::ve
     meet_pieces(state, world, points, world.free.size() - joints.size());
     world.broken.insert(world.broken.end(), joints.begin(), joints.end());
     if (!plan.contact) return;
+    std::vector<std::size_t> path; // all that carried something that left, each once
     for (const std::uint32_t joint : joints)
-        if (plan.parent[joint] >= 0 && !world.remaining.gone[std::size_t(plan.parent[joint])])
-            world.response.remake_path(plan, world.subtrees, std::size_t(plan.parent[joint]));
+        for (std::int64_t i = plan.parent[joint]; i >= 0 && !world.remaining.gone[std::size_t(i)];
+             i = plan.parent[std::size_t(i)])
+            path.push_back(std::size_t(i));
+    std::sort(path.rbegin(), path.rend());
+    path.erase(std::unique(path.begin(), path.end()), path.end());
+    world.response.remake(plan, world.subtrees, path);
+    world.rigid.remake(plan, world.subtrees, path);
 }
 
 } // namespace
@@ -265,7 +282,10 @@ template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, co
         world.remaining = whole_tree(plan, tree);
     }
     if (scene.fracture || plan.contact) world.subtrees = make_subtrees(tree, plan.contact);
-    if (plan.contact) world.response.make(plan, tree, world.subtrees);
+    if (plan.contact) {
+        world.response.make(plan, tree, world.subtrees);
+        world.rigid.make(plan, tree, world.subtrees, false);
+    }
     if (plan.wind) world.wind = make_wind_table<double>(*scene.wind, plan.top, plan.reach);
     return world;
 }
@@ -302,7 +322,7 @@ template <class T> std::size_t World<T>::bytes() const {
     for (const FreeBody& body : free) parts += body.parts.capacity() * sizeof(FreePart);
     return free.capacity() * sizeof(FreeBody) + parts + breakable.capacity() * sizeof(Breakable) +
            remaining.gone.capacity() + remaining.c_mass.capacity() * sizeof(double) +
-           remaining.moment.capacity() * sizeof(Vec3) + response.bytes() +
+           remaining.moment.capacity() * sizeof(Vec3) + response.bytes() + rigid.bytes() +
            sizeof(std::uint32_t) * (subtrees.first_child.capacity() + subtrees.child.capacity()) +
            sizeof(float) * subtrees.reach.capacity();
 }

@@ -26,7 +26,7 @@ struct WorldCounts {
     double imbalance = 0;         // [N s] of the paper's pair: sum of |impulse on the free body + impulse on the tree|
     double impulse = 0;           // [N s] sum of the impulses on free bodies
     std::uint64_t pushed_out = 0; // contacts that overlapped
-    double lifted = 0;            // [J] of potential energy that pushing apart, and not ending behind what was met, gave
+    double lifted = 0; // [J] of potential energy that pushing apart, and not ending behind what was met, gave
 };
 
 template <class T> struct World {
@@ -39,7 +39,7 @@ template <class T> struct World {
     Remaining remaining;               // with /fracture
     Subtrees subtrees;                 // with /fracture, or where trees are pushed
     TreePoses<T> poses, before;        // at a step's end; where trees are met, at its start
-    TreeResponse<T> response;          // where trees are pushed
+    TreeResponse<T> response, rigid;   // where trees are pushed: with their springs, and without
     WindTable<double> wind;
     MotionEvents events; // since the caller last cleared them
     WorldCounts counts;

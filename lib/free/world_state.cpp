@@ -1,5 +1,6 @@
 #include "../model/fnv.h"
 #include "../stages/air.h"
+#include "../stages/leaf_air.h"
 #include "world.h"
 #include <algorithm>
 #include <cmath>
@@ -153,7 +154,7 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
             part.q = in.quaternion();
             part.joint = in.vector();
             part.com = in.vector();
-            part.drag_area = drag_area(part.kind, part.size, plan.scene.air_density);
+            part.drag_area = drag_area(part.kind, part.size, plan.scene.air_density, plate_kappa(plan.scene));
             free.parts.push_back(part);
         }
         finish(free);
@@ -163,7 +164,9 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
     if (!plan.scene.fracture) throw std::invalid_argument("has broken joints, but this scene has no fracture");
     detach(plan, state, world.subtrees, world.broken, world.remaining);
     std::erase_if(world.breakable, [&](const Breakable& joint) { return world.remaining.gone[joint.body] != 0; });
-    if (plan.contact) world.response.make(plan, tree, world.subtrees);
+    if (!plan.contact) return;
+    world.response.make(plan, tree, world.subtrees);
+    world.rigid.make(plan, tree, world.subtrees, false);
 }
 
 template std::uint64_t state_hash(const Plan<float>&, const State<float>&, const World<float>&);

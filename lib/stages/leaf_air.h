@@ -12,10 +12,16 @@
 #include "../model/leaf_terms.h"
 #include "../model/math.h"
 #include "../model/scene.h"
+#include "air.h"
 #include <algorithm>
 #include <numbers>
 
 namespace bough {
+
+// kappa of leaves and petals: the scene's own, or half a plate's drag coefficient.
+inline double plate_kappa(const Scene& scene) {
+    return scene.leaves ? scene.leaves->kappa : plate_drag / 2;
+}
 
 // Off where the scene has no /leaves.
 template <class T> LeafTerms<T> leaf_terms(const Scene& scene) {

@@ -51,7 +51,7 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan) {
         const double share =
             double(plan.drag_area[i]) / density * air_force(plan.kind[i], pose.R[i], e).force.dot(e) / (cell * cell);
         if (!(share < 1))
-            throw std::domain_error("wind/shelter/cell: is " + std::to_string(cell) + " m, but body " +
+            throw std::domain_error("/wind/shelter/cell: is " + std::to_string(cell) + " m, but body " +
                                     std::to_string(i) + " alone drags as much as " + std::to_string(share) +
                                     " columns have; expected a larger one");
         obstacles.push_back(
