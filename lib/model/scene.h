@@ -16,7 +16,8 @@ struct Selector {
     enum class By : std::uint8_t { body, branch, nearest, level };
     By by = By::body;
     std::int32_t tree = 0;       // which of the scene's trees (for body and branch); index into Scene::trees
-    std::int64_t body = 0;       // by body: its index in that tree's document
+    std::int64_t body = 0;       // by body: its index in that tree's document ...
+    std::optional<Vec3> point;   // ... and [m] a point in its frame; absent: its centre of mass
     std::int32_t branch = 0;     // by branch: number in the splines ...
     double at = 1;               // ... and fraction of its arc length, 0..1
     Vec3 nearest = Vec3::Zero(); // by nearest: [m] world point, drawn pose; the body whose axis is nearest to it
@@ -41,6 +42,7 @@ struct Placement {
     std::string file;             // tree document, relative to the scene file
     Vec3 position = Vec3::Zero(); // [m]
     double yaw = 0;               // [deg] about +Y
+    double start = 0; // [s] how far ahead in the wind this tree is: it sees at t what others see at t + start
 };
 
 // A square grid over the ground, seen from above: the velocity of the wind in each of its cells, the nearest cell's outside. A list holds
@@ -106,6 +108,68 @@ struct RootMotion {
     std::vector<double> time;   // [s] rising
     std::vector<Vec3> position; // [m] displacement from where the tree stands, one per time
     std::vector<Quat> rotation; // about the tree's own place (its Placement's position), one per time; unit length
+};
+
+// What walks on trees: a weight on a branch that runs from place to place, and leaps where the next is on another tree (walker.h).
+struct Walker {
+    double mass = 0.4; // [kg]
+    double push = 0.1; // [s] how long a leap's push and its landing take
+    struct Stop {
+        Selector on;     // one body; not by level
+        double time = 0; // [s] rising
+    };
+    std::vector<Stop> stops; // at least two
+};
+
+// What a scene changes of its trees' wood (wood_overrides.h), in this order: factors by kind, curves, forks.
+struct WoodFactors {
+    double stiffness = 1, damping = 1, density = 1; // [1]
+};
+struct WoodCurve {
+    std::optional<Selector> on; // these bodies and all they carry; absent: all trees
+    std::vector<double> radius; // [m] keys, rising: of the body that the joint carries, at its base
+    std::vector<double> stiffness,
+        damping;           // [N m/rad] of both bends, [s]; one for each key; either may be empty: stays
+    bool relative = false; // they multiply what the joints have
+};
+struct WoodFork {
+    double factor = 1; // [1] stiffness at a fork over what it would be
+    double length = 0; // [m] way from the fork over which that falls to 1
+};
+struct Wood {
+    WoodFactors branch, leaf, petal, fruit;
+    std::vector<WoodCurve> curves; // branches only; later ones come before earlier ones
+    std::optional<WoodFork> fork;
+};
+
+// What lies on the trees, as snow and rain do: mass over their area seen from above (static_load.h).
+struct StaticLoad {
+    double branch = 0, leaf = 0, petal = 0, fruit = 0; // [kg/m^2]
+};
+
+// Multipliers of (20)'s terms that come of the joints' own motion, one step late: for the analytic solver (fictitious.h).
+struct Fictitious {
+    double acceleration = 0; // [1] of -m p x a_j
+    double turning = 0;      // [1] of -I (alpha_p + omega_p x omega_c)
+    double gyroscopic = 0;   // [1] of -omega x (I omega)
+};
+
+// Which joints move; all others are rigid (reduce.h). A joint moves where all of these that are given let it.
+struct Simulate {
+    std::optional<std::int32_t> first_level, last_level; // of branches; what grows on one goes with it
+    double radius = 0;                                   // [m] least, of a branch's body at its base
+    std::vector<Selector> subtrees;                      // these bodies and all they carry; empty: all
+    struct Box {
+        Vec3 least = Vec3::Zero(), most = Vec3::Zero(); // [m] world, drawn pose: holds the joint
+    };
+    std::optional<Box> box;
+    double error = 0; // [m], or pixels with a view: what a joint moves by less than is rigid, by an estimate
+    struct View {
+        Vec3 from = Vec3::Zero(); // [m]
+        double angle = 40;        // [deg] of view, upright
+        double pixels = 1080;     // height of the picture
+    };
+    std::optional<View> view;
 };
 
 enum class Pose : std::uint8_t {
@@ -193,6 +257,11 @@ struct Scene {
     std::vector<Ball> balls;
     std::optional<Contact> contact; // absent: its defaults, where something is free
     std::optional<LeafAir> leaves;
+    std::optional<Wood> wood;
+    std::optional<StaticLoad> load;
+    std::optional<Fictitious> fictitious;
+    std::optional<Simulate> simulate;
+    std::vector<Walker> walkers;
 };
 
 // The first broken rule, or none. O(keys).

@@ -35,6 +35,10 @@ struct Tree {
     std::vector<std::int32_t> level;  // that branch's level, 0 for trunks
     std::vector<double> s;            // fraction of that branch's arc length at the body's own joint, 0..1
 
+    // Either may be empty: none.
+    std::vector<std::uint8_t> rigid; // 1: the body moves as its parent does, its joint holds the drawn pose (reduce.h)
+    std::vector<double> load; // [kg] what of the mass lies on the drawn tree and is not carried in its equilibrium
+
     std::string name;        // what the tree is called
     std::string material;    // wood preset or file that gave mass and stiffness
     std::string source;      // command lines that made it, oldest first, one a line
