@@ -1,0 +1,69 @@
+#include "material_change.h"
+#include "branch_mode.h"
+#include "wood.h"
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+std::string text(double value) {
+    std::array<char, 32> buffer;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    return std::string(buffer.data(), end);
+}
+
+const Material& own_material(const Tree& tree) {
+    if (const Material* own = find_wood(tree.material)) return *own;
+    std::string names;
+    for (const Material& m : wood_presets()) names += (names.empty() ? "" : ", ") + m.name;
+    const std::string is = tree.material.empty() ? "is not named" : "is \"" + tree.material + "\"";
+    throw std::domain_error(is + ", so that its numbers are not known and cannot be changed; expected one of " + names);
+}
+
+} // namespace
+
+std::optional<Defect> check(const MaterialChange& change) {
+    const std::array<std::pair<const char*, const std::optional<double>*>, 4> fields{
+        {{"E", &change.youngs_modulus},
+         {"G", &change.shear_modulus},
+         {"density", &change.density},
+         {"damping_ratio", &change.damping_ratio}}};
+    for (const auto& [name, value] : fields) {
+        if (!*value) continue;
+        const bool zero_allowed = value == &change.damping_ratio;
+        if (!std::isfinite(**value) || **value < 0 || (**value == 0 && !zero_allowed))
+            return Defect{std::string("material/") + name, -1,
+                          "is " + text(**value) + ", expected " + (zero_allowed ? "0 or more" : "more than 0")};
+    }
+    return std::nullopt;
+}
+
+void change_material(Tree& tree, const MaterialChange& change) {
+    if (!change.any()) return;
+    const Material& own = own_material(tree);
+    const double bend = change.youngs_modulus.value_or(own.youngs_modulus) / own.youngs_modulus;
+    const double twist = change.shear_modulus ? *change.shear_modulus / own.shear_modulus : bend;
+    const double heavier = change.density.value_or(own.density) / own.density;
+    const double damped = change.damping_ratio.value_or(own.damping_ratio) / own.damping_ratio;
+    const bool frequencies = bend != 1 || heavier != 1;
+    std::vector<double> before, after;
+    if (frequencies) before = branch_modes(tree).omega_bend;
+    const std::size_t n = tree.size_bodies();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (tree.kind[i] != Kind::branch) continue;
+        tree.stiffness[i] = tree.stiffness[i].cwiseProduct(Vec3(bend, bend, twist));
+        tree.mass[i] *= heavier;
+        tree.inertia[i] *= heavier;
+    }
+    if (frequencies) after = branch_modes(tree).omega_bend;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (tree.kind[i] != Kind::branch) continue;
+        tree.damping[i] *= damped;
+        if (frequencies && after[i] > 0) tree.damping[i] *= before[i] / after[i];
+    }
+}
+
+} // namespace bough

@@ -1,0 +1,30 @@
+// material_change.h: a tree's wood with other numbers than those of the material that it was made of (Tree::material, a preset of wood.h):
+// what stiffness.h would have given with them, without the splines.
+//
+//   bend of branches   times E / E_0        twist   times G / G_0, G = G_0 E / E_0 unless given
+//   mass, inertia of branches   times density / density_0
+//   damping of branches   times (zeta / zeta_0) (omega_0 / omega), omega the first bending frequency of the joint's branch (branch_mode.h)
+//                         before and after: it keeps its ratio, so that wood four times as stiff has half the beta
+// Leaves, petals and fruit stay as they are; what was edited in a tree keeps its proportion. O(bodies).
+#pragma once
+#include "tree.h"
+#include <optional>
+
+namespace bough {
+
+struct MaterialChange {
+    std::optional<double> youngs_modulus; // [Pa] E; each absent: the material's own
+    std::optional<double> shear_modulus;  // [Pa] G
+    std::optional<double> density;        // [kg/m^3]
+    std::optional<double> damping_ratio;  // [1]
+
+    bool any() const { return youngs_modulus || shear_modulus || density || damping_ratio; }
+};
+
+// The first broken rule, or none: finite, above 0; the damping ratio 0 or more.
+std::optional<Defect> check(const MaterialChange&);
+
+// Throws std::domain_error where the tree names no preset: what its wood has been is not known then.
+void change_material(Tree&, const MaterialChange&);
+
+} // namespace bough
