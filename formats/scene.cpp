@@ -109,12 +109,13 @@ ordered_json value_of(const RootMotion& motion) {
     return fields;
 }
 
-ordered_json value_of(const Scene& scene) {
+ordered_json value_of(const Scene& scene, const MaterialChange& material) {
     ordered_json fields{{"format", scene_type.format}, {"version", scene_type.version}};
     fields["trees"] = ordered_json::array();
     for (const Placement& tree : scene.trees)
         fields["trees"].push_back({{"file", tree.file}, {"position", numbers(tree.position)}, {"yaw", tree.yaw}});
     fields["gravity"] = numbers(scene.gravity);
+    if (material.any()) fields["material"] = value_of(material);
     if (scene.wind) fields["wind"] = value_of(*scene.wind);
     fields["air_density"] = scene.air_density;
     fields["pulls"] = ordered_json::array();
@@ -144,20 +145,15 @@ ordered_json value_of(const Scene& scene) {
     return fields;
 }
 
-} // namespace
-
-bool is_scene(std::string_view content) {
-    return document_format(content) == scene_type.format;
-}
-
-Scene read_scene(std::string_view content, const std::string& name) {
-    const json fields = fields_of(content, name, scene_type);
-    Scene scene;
+SceneDocument read_fields(const json& fields, const std::string& name) {
+    SceneDocument document;
+    Scene& scene = document.scene;
     ObjectReader object(fields, name, "");
     read_type(object, name, scene_type);
     for (const json& value : object.list("trees"))
         scene.trees.push_back(read_placement(value, name, "/trees/" + std::to_string(scene.trees.size())));
     object.read("gravity", scene.gravity);
+    if (object.has("material")) document.material = read_material_change(object.need("material"), name);
     if (object.has("wind")) scene.wind = read_wind_value(object.need("wind"), name);
     object.read("air_density", scene.air_density);
     for (const json& value : object.list("pulls"))
@@ -176,8 +172,59 @@ Scene read_scene(std::string_view content, const std::string& name) {
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();
+    refuse(check(document.material), name, {});
     refuse(check(scene), name, {});
-    return scene;
+    return document;
+}
+
+// An error that the document has by itself stays its own; any other comes of an override.
+SceneDocument read_overridden(const json& fields, const std::string& name, const std::vector<SceneOverride>& changes) {
+    json result = fields;
+    for (const SceneOverride& change : changes) override_field(result, change);
+    try {
+        return read_fields(result, name);
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        std::string own;
+        try {
+            read_fields(fields, name);
+        } catch (const InputError& before) {
+            own = before.what();
+        }
+        if (own == what) throw;
+        const std::string told = what.rfind(name + ": ", 0) == 0 ? what.substr(name.size() + 2) : what;
+        const std::size_t end = told.find(": ");
+        if (end == std::string::npos) throw;
+        const std::string at = told.substr(0, end);
+        throw InputError(nearest_override(changes, at).given + ": " + at, told.substr(end + 2));
+    }
+}
+
+} // namespace
+
+bool is_scene(std::string_view content) {
+    return document_format(content) == scene_type.format;
+}
+
+SceneDocument read_scene_document(std::string_view content, const std::string& name,
+                                  const std::vector<SceneOverride>& changes) {
+    const json fields = fields_of(content, name, scene_type);
+    return changes.empty() ? read_fields(fields, name) : read_overridden(fields, name, changes);
+}
+
+SceneDocument changed(const SceneDocument& document, const std::vector<SceneOverride>& changes) {
+    return read_overridden(json(value_of(document.scene, document.material)), "the scene", changes);
+}
+
+Scene read_scene(std::string_view content, const std::string& name) {
+    SceneDocument document = read_scene_document(content, name);
+    if (document.material.any())
+        throw InputError(name + ": /material", "changes the wood of trees, which are not read here");
+    return std::move(document.scene);
+}
+
+std::string wind_text(const Wind& wind) {
+    return text_of(value_of(wind));
 }
 
 Wind read_wind(std::string_view content, const std::string& name) {
@@ -194,10 +241,10 @@ Wind read_wind(std::string_view content, const std::string& name) {
     return *scene.wind;
 }
 
-void write_scene(Output& output, const Scene& scene, Form form) {
-    if (const std::optional<Defect> defect = check(scene))
-        throw OutputError(output.name(), "/" + defect->field + " " + defect->message);
-    const ordered_json fields = value_of(scene);
+void write_scene(Output& output, const Scene& scene, Form form, const MaterialChange& material) {
+    for (const std::optional<Defect>& defect : {check(scene), check(material)})
+        if (defect) throw OutputError(output.name(), "/" + defect->field + " " + defect->message);
+    const ordered_json fields = value_of(scene, material);
     if (form == Form::safetensors) {
         std::vector<std::pair<std::string, std::string>> metadata;
         for (const auto& [key, value] : fields.items())

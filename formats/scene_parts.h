@@ -1,6 +1,7 @@
 // scene_parts.h: the parts of a scene's document, each read from and written as a JSON value. `name`: the file; `at`: the part's JSON pointer.
 #pragma once
 #include "lib/model/scene.h"
+#include "scene.h"
 #include "scene_fields.h"
 
 namespace bough {
@@ -25,5 +26,14 @@ LeafAir read_leaves(const nlohmann::json&, const std::string& name);
 nlohmann::ordered_json value_of(const Fracture&);
 nlohmann::ordered_json value_of(const Ball&);
 nlohmann::ordered_json value_of(const Contact&);
+
+// ---- scene_material.cpp ----
+MaterialChange read_material_change(const nlohmann::json&, const std::string& name);
+nlohmann::ordered_json value_of(const MaterialChange&);
+
+// ---- scene_overrides.cpp ----
+void override_field(nlohmann::json& document, const SceneOverride&);
+// Which of them a place in the document comes of: the one whose path goes along with its JSON pointer farthest.
+const SceneOverride& nearest_override(const std::vector<SceneOverride>&, const std::string& at);
 
 } // namespace bough

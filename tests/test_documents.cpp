@@ -452,7 +452,7 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else if (is_tree(text))
             CHECK_NOTHROW(read_tree(text, "README.md"));
         else if (is_scene(text))
-            CHECK_NOTHROW(read_scene(text, "README.md"));
+            CHECK_NOTHROW(read_scene_document(text, "README.md"));
         else if (is_motion(text))
             CHECK(read_motion(text, "README.md").frame.size() == 1);
         else if (is_state(text))
