@@ -4,6 +4,7 @@
 #include "lib/model/place.h"
 #include "lib/stages/frozen_rule.h"
 #include "lib/stages/state_arrays.h"
+#include "set_option.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,16 +14,17 @@
 namespace bough {
 namespace {
 
-Wind chosen_wind(const std::string& wind) {
-    if (const std::optional<Wind> preset = wind_preset(wind)) return *preset;
+std::optional<Wind> chosen_wind(const std::string& wind) {
+    if (wind.empty()) return std::nullopt;
+    if (const std::optional<Wind> preset = wind_preset(wind)) return preset;
     std::error_code none;
     if (wind.find_first_of("./") == std::string::npos && !std::filesystem::exists(wind, none))
         throw UsageError("--wind is '" + wind + "', neither calm, breeze, gusty, storm nor a file");
     return read_wind(read_input(wind), input_name(wind));
 }
 
-void apply(const RunOptions& o, Scene& scene) {
-    if (!o.wind.empty()) scene.wind = chosen_wind(o.wind);
+void apply(const RunOptions& o, const std::optional<Wind>& wind, Scene& scene) {
+    if (wind) scene.wind = wind;
     if (o.seed) {
         if (!scene.wind) throw UsageError("--seed: only with a wind, whose turbulence is what it seeds");
         scene.wind->seed = *o.seed;
@@ -44,6 +46,30 @@ void apply(const RunOptions& o, Scene& scene) {
     }
 }
 
+constexpr const char* empty_scene = R"({"format": "bough-scene", "version": 1})";
+
+// The document with the options applied, and what --set asks for last of all: once in the document itself, which may wait for it to be
+// complete, and once more behind the other options.
+SceneDocument chosen_document(const RunOptions& o, std::string_view content, const std::string& name) {
+    const std::optional<Wind> wind = chosen_wind(o.wind);
+    const std::vector<SceneOverride> set = overrides_of(o.set);
+    std::vector<SceneOverride> first = set;
+    if (wind && !set.empty()) first.insert(first.begin(), {"--wind " + o.wind, {"wind"}, wind_text(*wind)});
+    SceneDocument document = read_scene_document(content, name, first);
+    apply(o, wind, document.scene);
+    return set.empty() ? document : changed(document, set);
+}
+
+// Throws InputError where the wood of the tree of this file is not known.
+Tree with_material(Tree tree, const MaterialChange& change, const std::string& file) {
+    try {
+        change_material(tree, change);
+    } catch (const std::domain_error& error) {
+        throw InputError(input_name(file) + ": /material", error.what());
+    }
+    return tree;
+}
+
 // The first tree, often the only one and large, is taken as it is; others are copied behind it.
 void stand(Setting& setting, Tree tree, const Placement& at) {
     const std::vector<std::int32_t>& branch = setting.tree.branch;
@@ -61,13 +87,17 @@ void stand(Setting& setting, Tree tree, const Placement& at) {
     setting.ranges.push_back({first, bodies, first_branch});
 }
 
-void read_scene_trees(Setting& setting, const std::string& scene_file) {
+std::string tree_file(const std::string& scene_file, const Placement& place) {
     const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
+    return (folder / place.file).string();
+}
+
+void read_scene_trees(Setting& setting, const std::string& scene_file, const MaterialChange& material) {
     if (setting.scene.trees.empty())
         throw InputError(input_name(scene_file), "/trees: is empty or missing, expected at least one tree");
     for (const Placement& place : setting.scene.trees) {
-        const std::string file = (folder / place.file).string();
-        stand(setting, read_tree(Input(file)), place);
+        const std::string file = tree_file(scene_file, place);
+        stand(setting, with_material(read_tree(Input(file)), material, file), place);
     }
 }
 
@@ -184,6 +214,7 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
         ->option_text("NAME|FILE");
     app.add_option("--seed", o.seed, "Seed of the wind's turbulence")->option_text("N")->check(whole_number(0));
     app.add_option("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)")->option_text("X,Y,Z");
+    add_set_option(app, o.set);
     std::vector<std::string> solvers;
     for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
     app.add_option("--solver", o.solver, solver_help())->option_text("NAME")->check(CLI::IsMember(solvers));
@@ -296,22 +327,34 @@ Setting read_setting(const RunOptions& o) {
         throw UsageError("--tolerance: only with --solver articulated-reference");
     Setting setting;
     const Input input(o.input);
-    if (is_scene(input.content())) {
-        setting.scene = read_scene(input.all(), input.name());
-        apply(o, setting.scene);
-        read_scene_trees(setting, o.input);
+    const bool scene = is_scene(input.content());
+    SceneDocument document =
+        scene ? chosen_document(o, input.all(), input.name()) : chosen_document(o, empty_scene, "the scene");
+    setting.scene = std::move(document.scene);
+    if (scene) {
+        read_scene_trees(setting, o.input, document.material);
     } else {
-        apply(o, setting.scene);
-        stand(setting, read_tree(input), Placement());
+        if (!setting.scene.trees.empty())
+            throw UsageError("--set trees: INPUT is a tree, which stands where it was drawn; a scene places trees");
+        stand(setting, with_material(read_tree(input), document.material, o.input), Placement());
     }
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
     return setting;
 }
 
+std::vector<std::string> files_read(const RunOptions& o) {
+    std::vector<std::string> files{o.input};
+    if (!o.wind.empty() && !wind_preset(o.wind)) files.push_back(o.wind);
+    const Input input(o.input);
+    if (is_scene(input.content()))
+        for (const Placement& place : chosen_document(o, input.all(), input.name()).scene.trees)
+            files.push_back(tree_file(o.input, place));
+    return files;
+}
+
 Scene chosen_scene(const RunOptions& o) {
-    Scene scene;
-    apply(o, scene);
+    Scene scene = chosen_document(o, empty_scene, "the scene").scene;
     if (const std::optional<Defect> defect = check(scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
     return scene;

@@ -27,6 +27,7 @@ struct RunOptions {
     std::string refresh;      // as given: a tolerance or always; empty: chosen_refresh
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
+    std::vector<std::string> set; // as given: PATH=VALUE, set_option.h
 };
 
 // seconds_default: what runs without --seconds and --frames.
@@ -66,6 +67,9 @@ struct Setting {
 };
 // Reads a tree, or a scene and its trees. Throws UsageError, InputError.
 Setting read_setting(const RunOptions&);
+
+// The files that read_setting reads: INPUT, the trees of a scene, the wind's. Throws as it does where the scene cannot be read.
+std::vector<std::string> files_read(const RunOptions&);
 
 // What the options make of an empty scene, without trees. Throws UsageError, InputError.
 Scene chosen_scene(const RunOptions&);

@@ -9,6 +9,9 @@ make -s SECONDS=0.5 >log 2>&1 || fail "make: $(tail -n 5 log)"
     fail "make gave $(ls -R)"
 [[ $(find frames -name '*.obj' | wc -l) -eq 16 ]] || fail "half a second is not 16 frames"
 make -q SECONDS=0.5 || fail "a second make has something to do: $(make -n SECONDS=0.5)"
+cp frames/maple_0015.obj soft.obj
+make -s -B SECONDS=0.5 SET='--set material.E=1e9' >log 2>&1 || fail "make with --set: $(tail -n 5 log)"
+! cmp -s frames/maple_0015.obj soft.obj || fail "--set of the Makefile changes nothing"
 touch maple.xml
 ! make -q SECONDS=0.5 || fail "a newer XML gives nothing to do"
 

@@ -1,0 +1,107 @@
+#include "notes.h"
+#include <array>
+#include <iomanip>
+#include <sstream>
+
+namespace bough {
+
+template <class T> std::string explanation(const Plan<T>& plan, const RunOptions& run) {
+    std::ostringstream text;
+    text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s, solver "
+         << solver_name(plan.solver);
+    if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
+    text << "\n";
+    for (const PlannedStage& stage : plan.stages)
+        text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
+    std::size_t used = 0, left = 0;
+    for (const PlannedArray& array : plan.arrays) {
+        text << "array " << array.name << (array.on ? " on, " : " left out, ") << array.bytes
+             << " bytes: " << array.reason << "\n";
+        (array.on ? used : left) += array.bytes;
+    }
+    text << "constants of bodies in document order "
+         << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
+    text << "state: " << used << " bytes, left out " << left << " bytes\n";
+    return text.str();
+}
+
+template <class T>
+void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps, std::vector<std::string>& notes) {
+    if (flags.buckling > 0)
+        notes.push_back(std::to_string(flags.buckling) +
+                        " times a joint was softer than gravity's pull on it (buckling)");
+    if (flags.bounded_lambda > 0)
+        notes.push_back(std::to_string(flags.bounded_lambda) + " times a joint's growth in a step was bounded");
+    if (flags.half_turns > 0)
+        notes.push_back(std::to_string(flags.half_turns) +
+                        " times a joint turned past half a turn: the small angles that the method assumes are left");
+    if (flags.energy_guard > 0)
+        notes.push_back(std::to_string(flags.energy_guard) +
+                        " times a joint was kept from gaining energy in a turn of more than 0.3 rad in a step");
+    if (flags.limited > 0)
+        notes.push_back(std::to_string(flags.limited) + " times a joint was stopped at its limit, as asked");
+    if (flags.fast_turns > 0)
+        notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
+    if (flags.refreshed > 0) {
+        std::ostringstream share;
+        share << std::setprecision(3) << 100 * double(flags.refreshed) / (double(steps) * double(plan.bodies));
+        notes.push_back(share.str() + " % of the bodies' steps made their joints' coefficients anew (--refresh)");
+    }
+    if (flags.asleep > 0)
+        notes.push_back(std::to_string(flags.asleep) + " of " + std::to_string(std::uint64_t(steps) * plan.bodies) +
+                        " steps of a body were left out: at rest below " + rate_text(plan.lanes.sleep.rate) +
+                        " rad/s (--sleep)");
+    if (flags.unresolved > 0)
+        notes.push_back(std::to_string(flags.unresolved) + " of " + std::to_string(flags.inner_steps) +
+                        " inner steps missed the tolerance: this is no reference solution");
+}
+
+template <class T> void note_world(const World<T>& world, std::vector<std::string>& notes) {
+    if (!world.on()) return;
+    const WorldCounts& counts = world.counts;
+    std::string broke;
+    constexpr std::array<const char*, 4> kinds{"branches", "leaves", "fruit", "petals"};
+    static_assert(std::size_t(Kind::branch) == 0 && std::size_t(Kind::leaf) == 1 && std::size_t(Kind::fruit) == 2 &&
+                  std::size_t(Kind::petal) == 3);
+    std::uint64_t all = 0;
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        all += counts.broke[k];
+        if (counts.broke[k] > 0)
+            broke += (broke.empty() ? "" : ", ") + std::to_string(counts.broke[k]) + " " + kinds[k];
+    }
+    std::ostringstream text;
+    text.precision(3);
+    if (!world.tree) return;
+    text << all << " joints broke" << (broke.empty() ? "" : " (" + broke + ")") << ", " << counts.landed
+         << " leaves and petals landed, " << counts.hits << " hits";
+    notes.push_back(text.str());
+    if (world.contact.model != ContactModel::penalty) return;
+    text.str("");
+    text << "the paper's pair of penalty and impulse left " << counts.imbalance
+         << " N s of momentum out of balance (/contact/model)";
+    notes.push_back(text.str());
+}
+
+template <class T> std::string cost_line(const Plan<T>& plan, const RunOptions& o, double ms, std::int64_t frames) {
+    std::ostringstream text;
+    text.precision(4);
+    text << "cost " << plan.bodies << " bodies, " << o.substeps << (o.substeps == 1 ? " step" : " steps")
+         << " a frame, ";
+    if (frames > 0)
+        text << ms / double(frames) << " ms a frame";
+    else
+        text << "no frame";
+    text << "\n";
+    return text.str();
+}
+
+template std::string explanation(const Plan<float>&, const RunOptions&);
+template std::string explanation(const Plan<double>&, const RunOptions&);
+template void note_flags(const Plan<float>&, const StepFlags&, std::int64_t, std::vector<std::string>&);
+template void note_flags(const Plan<double>&, const StepFlags&, std::int64_t, std::vector<std::string>&);
+template void note_world(const World<float>&, std::vector<std::string>&);
+template void note_world(const World<double>&, std::vector<std::string>&);
+template std::string cost_line(const Plan<float>&, const RunOptions&, double, std::int64_t);
+template std::string cost_line(const Plan<double>&, const RunOptions&, double, std::int64_t);
+
+} // namespace bough

@@ -1,0 +1,124 @@
+#include "treesim_options.h"
+#include "formats/obj.h"
+
+namespace bough {
+
+const ToolInfo treesim_info = {
+    "treesim",
+    "Moves a tree or a scene in time and writes its frames.\n"
+    "Usage: treesim TREE|SCENE [--wind NAME|FILE] [--seconds S|--frames N] [-o FILE] ...",
+    "Frames go to stdout as JSON lines: a header line, then a frame a line. -o frames/oak_%04d.obj writes a mesh a\n"
+    "frame and frames/oak.mtl, -o oak.glb one skinned and animated mesh. --resume goes on after the saved frame with "
+    "the same tree and scene; --seconds and\n"
+    "--frames then say how many frames are added.\n"
+    "  treesim tree.json --wind gusty --seconds 10 > motion.jsonl\n"
+    "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite or a loop that does not close, 4 output not written, 130 "
+    "interrupted (frames so far stay).",
+    {"jsonl", "json", "safetensors", "obj", "glb"}};
+
+namespace {
+
+constexpr double sleep_default = 1e-5; // [rad/s]
+
+} // namespace
+
+void declare(CLI::App& app, TreesimOptions& o) {
+    o.run.sleep_default = sleep_default;
+    add_run_options(app, o.run, seconds_default);
+    add_sleep_option(app, o.run);
+    add_loop_options(app, o.loop);
+    app.add_option("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
+        ->option_text("LIST");
+    app.add_option("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
+        ->option_text("N")
+        ->check(whole_number(3, 256));
+    add_max_joints(app, o.gltf);
+    add_key_tolerance(app, o.gltf);
+    app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
+    app.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
+    app.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
+    app.add_flag("--report-error", o.report_error,
+                 "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at "
+                 "twice the step beside this one (half the time more); with --solver coupled");
+    app.add_flag("--report-cost", o.report_cost,
+                 "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
+    app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
+        ->option_text("FILE")
+        ->check(file_name());
+    app.add_option("--resume", o.resume, "Go on from this state")->option_text("FILE");
+    app.add_flag("--watch", o.watch,
+                 "Run, and again whenever the scene, one of its trees or the wind's file has changed, until Ctrl-C; -o "
+                 "FILE is written anew each time, whole or not at all");
+}
+
+MotionFields chosen_fields(const TreesimOptions& o) {
+    if (o.fields.empty()) return {};
+    MotionFields fields{false, false, false, false};
+    for (const std::string& name : split_list(o.fields)) {
+        bool* field = name == "pose"       ? &fields.pose
+                      : name == "velocity" ? &fields.velocity
+                      : name == "torque"   ? &fields.torque
+                      : name == "angles"   ? &fields.angles
+                                           : nullptr;
+        if (!field) throw UsageError("--fields holds '" + name + "', expected pose, velocity, torque, angles");
+        *field = true;
+    }
+    return fields;
+}
+
+std::string chosen_format(const CommonOptions& common) {
+    if (!common.format.empty()) return common.format;
+    const std::string kind = ending(common.output);
+    if (kind == ".json" || kind == ".safetensors" || kind == ".obj") return kind.substr(1);
+    if (kind == ".glb") {
+        if (common.output.find('%') != std::string::npos)
+            throw UsageError("-o is '" + common.output + "', but a .glb holds all frames, so its name takes no number");
+        return "glb";
+    }
+    for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
+        if (kind == known)
+            throw UsageError("-o is '" + common.output + "', but " + known +
+                             " is not written; there are .jsonl, .json, .safetensors, .obj, .glb");
+    return "jsonl";
+}
+
+void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
+    if (o.no_output) {
+        if (o.common.output != "-") throw UsageError("--no-output: not with -o");
+        if (!o.common.format.empty()) throw UsageError("--no-output: not with --format");
+        if (!o.fields.empty()) throw UsageError("--no-output: not with --fields");
+    }
+    if (o.report_error && o.run.solver != solver_name(Solver::coupled))
+        throw UsageError("--report-error: only with --solver coupled, whose error is its step's alone");
+    const bool mesh = format == "obj" || format == "glb";
+    if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb)");
+    if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
+    if (o.gltf.given() && format != "glb")
+        throw UsageError(std::string(o.gltf.key_tolerance ? "--key-tolerance" : "--max-joints") + ": only with .glb");
+    if (format == "obj") {
+        const std::string wrong = o.common.output == "-" ? "a pattern such as frames/oak_%04d.obj is needed"
+                                                         : valid_sequence(o.common.output);
+        if (!wrong.empty()) throw UsageError("-o is '" + o.common.output + "': " + wrong);
+    }
+    if (o.save_state == "-" && !o.no_output && o.common.output == "-")
+        throw UsageError("--save-state -: frames and state cannot both go to stdout");
+    refuse_contradictions(o.loop, o.run);
+    if (o.loop.seconds) {
+        const std::pair<bool, const char*> others[] = {{!o.save_state.empty(), "--save-state"},
+                                                       {!o.resume.empty(), "--resume"},
+                                                       {o.report_error, "--report-error"}};
+        for (const auto& [given, name] : others)
+            if (given) throw UsageError(std::string("--loop: not with ") + name);
+        const MotionFields fields = chosen_fields(o);
+        if (o.loop.blend && (!fields.pose || fields.velocity || fields.torque || fields.angles))
+            throw UsageError("--loop-blend: only with --fields pose, which it changes");
+    }
+    if (o.watch) {
+        if (o.run.input == "-") throw UsageError("--watch: not with stdin, which cannot be read again");
+        if (o.no_output || o.common.output == "-") throw UsageError("--watch: needs -o FILE, written anew by each run");
+        if (!o.resume.empty()) throw UsageError("--watch: not with --resume, which goes on with one scene alone");
+    }
+    if (o.resume == "-" && o.run.input == "-") throw UsageError("--resume -: the input is read from stdin already");
+}
+
+} // namespace bough

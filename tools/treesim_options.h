@@ -1,0 +1,31 @@
+// treesim_options.h: what treesim is asked to do: its options, and which of them contradict each other.
+#pragma once
+#include "frame_sink.h"
+#include "loop.h"
+#include "simulation.h"
+
+namespace bough {
+
+constexpr double seconds_default = 10;
+
+struct TreesimOptions {
+    CommonOptions common;
+    RunOptions run;
+    std::string fields, save_state, resume;
+    GltfChoice gltf;
+    std::optional<int> sides;
+    LoopChoice loop;
+    bool explain = false, hash = false, report_error = false, report_cost = false, no_output = false, watch = false;
+};
+
+extern const ToolInfo treesim_info;
+void declare(CLI::App&, TreesimOptions&);
+
+// Throws UsageError for a name that is none.
+MotionFields chosen_fields(const TreesimOptions&);
+// jsonl, json, safetensors, obj or glb: --format, else by the output's ending. Throws UsageError for the ending of a format that is not written.
+std::string chosen_format(const CommonOptions&);
+// Throws UsageError.
+void refuse_contradictions(const TreesimOptions&, const std::string& format);
+
+} // namespace bough
