@@ -4,6 +4,7 @@
 #include "formats/obj.h"
 #include "frame_queue.h"
 #include "frame_sink.h"
+#include "join.h"
 #include "lib/fast/sleep.h"
 #include "lib/free/shown_tree.h"
 #include "lib/stages/frozen.h"
@@ -24,6 +25,8 @@ struct Options {
     CommonOptions common;
     RunOptions run;
     std::string fields, save_state, resume;
+    JoinOptions join;
+    const CLI::App* app = nullptr; // for what was given
     GltfChoice gltf;
     std::optional<int> sides;
     bool explain = false, hash = false, report_error = false, report_cost = false, no_output = false;
@@ -45,6 +48,7 @@ constexpr double sleep_default = 1e-5; // [rad/s]
 
 void declare(CLI::App& app, Options& o) {
     o.run.sleep_default = sleep_default;
+    o.app = &app;
     add_run_options(app, o.run, seconds_default);
     add_sleep_option(app, o.run);
     app.add_option("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
@@ -66,6 +70,15 @@ void declare(CLI::App& app, Options& o) {
         ->option_text("FILE")
         ->check(file_name());
     app.add_option("--resume", o.resume, "Go on from this state")->option_text("FILE");
+    app.add_option("--shard", o.run.shard,
+                   "Only the i-th of n parts of a scene's trees; bodies move as they do in the whole (--join)")
+        ->option_text("i/n");
+    app.add_option(
+           "--join", o.join.parts,
+           "Put the motions of all parts of a scene together (-o), or their saved states (--hash), and do nothing "
+           "else")
+        ->option_text("PART...")
+        ->expected(1, 1000000);
 }
 
 MotionFields chosen_fields(const Options& o) {
@@ -213,6 +226,8 @@ template <class T> void save(const Options& o, const Setting& setting, Run<T>& r
     saved.solver = o.run.solver;
     saved.scheme = scheme_name(o.run);
     saved.fingerprint = setting.fingerprint;
+    saved.part = setting.part.part;
+    saved.parts = setting.part.parts;
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);
@@ -237,10 +252,13 @@ std::unique_ptr<FrameSink> open_sink(Options& o, const Setting& setting, const T
         return gltf_sink(o.common.output, shown, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
     MotionHeader header;
     header.fps = o.run.fps;
-    header.balls = std::int64_t(setting.scene.balls.size());
+    header.balls = std::int64_t(setting.scene.balls.size() + setting.scene.walkers.size());
     header.bodies = std::int64_t(bodies) + header.balls;
     header.events = has_free_bodies(setting.scene);
     header.fields = fields;
+    header.part = setting.part.part;
+    header.parts = setting.part.parts;
+    header.first_body = setting.part.first_body;
     header.name = setting.tree.name;
     header.source = source;
     return motion_sink(o.common.output, format, header);
@@ -278,7 +296,7 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
 }
 
 template <class T> void note_world(const World<T>& world, std::vector<std::string>& notes) {
-    if (!world.on()) return;
+    if (!world.on() || (!world.remaining.gone.size() && world.free.empty())) return;
     const WorldCounts& counts = world.counts;
     std::string broke;
     constexpr std::array<const char*, 4> kinds{"branches", "leaves", "fruit", "petals"};
@@ -292,7 +310,6 @@ template <class T> void note_world(const World<T>& world, std::vector<std::strin
     }
     std::ostringstream text;
     text.precision(3);
-    if (!world.tree) return;
     text << all << " joints broke" << (broke.empty() ? "" : " (" + broke + ")") << ", " << counts.landed
          << " leaves and petals landed, " << counts.hits << " hits";
     notes.push_back(text.str());
@@ -391,8 +408,8 @@ std::vector<std::uint32_t> what_breaks(const Options& o, const Setting& setting,
 
 template <class T> void simulate(Options& o, Setting setting, const std::string& format) {
     if (o.report_error && has_free_bodies(setting.scene))
-        throw UsageError(std::string("--report-error: not with a scene's ") +
-                         (setting.scene.fracture ? "fracture" : "balls") + ", which the second run would not have");
+        throw UsageError(std::string("--report-error: not with a scene's ") + (free_part(setting.scene) + 1) +
+                         ", which the second run would not have");
     const MotionFields fields = chosen_fields(o);
     const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error};
     const bool needs_tree = o.report_error || format == "obj" || format == "glb" || has_free_bodies(setting.scene);
@@ -420,10 +437,12 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
-    const bool changed = mesh && (!broken.empty() || !setting.scene.balls.empty());
-    const Tree own = changed ? shown_tree(setting.tree, broken, setting.scene.balls) : Tree();
+    const std::vector<Ball> balls =
+        mesh ? shown_balls(setting.tree, setting.scene, run.world.walkers) : std::vector<Ball>();
+    const bool changed = mesh && (!broken.empty() || !balls.empty());
+    const Tree own = changed ? shown_tree(setting.tree, broken, balls) : Tree();
     const Tree& shown = changed ? own : setting.tree;
-    o.gltf.loose = broken.size() + setting.scene.balls.size();
+    o.gltf.loose = broken.size() + balls.size();
     const std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, plan.bodies, format, fields);
     std::chrono::duration<double, std::milli> cost{};
     const std::int64_t done =
@@ -442,7 +461,25 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
     note_world(run.world, o.common.notes);
 }
 
+// What has nothing to do with putting parts together would be ignored.
+void put_together(const Options& o) {
+    const std::vector<std::string> known{"--join", "-o", "--format", "--hash", "--no-output", "-q", "--threads"};
+    for (const CLI::Option* option : o.app->get_options())
+        if (option->count() > 0 &&
+            std::none_of(known.begin(), known.end(), [&](const std::string& name) { return option->check_name(name); }))
+            throw UsageError(option->get_name() + ": not with --join");
+    const std::string format = o.no_output ? "" : chosen_format(o.common);
+    if (format == "obj" || format == "glb")
+        throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
+    interrupt_at_boundary();
+    JoinOptions join = o.join;
+    join.hash = o.hash;
+    const std::string line = join_parts(join, o.common, format, !o.no_output);
+    if (!line.empty()) std::cerr << line << "\n";
+}
+
 void work(Options& o) {
+    if (!o.join.parts.empty()) return put_together(o);
     if (o.run.input.empty()) throw UsageError("INPUT: missing");
     const std::string format = o.no_output ? "" : chosen_format(o.common);
     chosen_fields(o);

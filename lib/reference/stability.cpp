@@ -19,14 +19,14 @@ constexpr double energy_tolerance = 0.01, growth_tolerance = 1.05, small_angle =
 
 // Moments [N m, body axes] of the air's forces on each joint's composite.
 template <class T> std::vector<Vec3> air_moments(const Plan<T>& plan, const State<T>& s, double time) {
-    WindTable<double> wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach);
+    WindTable<double> wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     evaluate_wind(*plan.scene.wind, time, wind);
     const std::vector<BodyMotion> motion = body_motions(plan, s);
     std::vector<Vec3> f(plan.bodies), tau(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const BodyMotion& b = motion[i];
         const Vec3 c = b.R * plan.com[i].template cast<double>();
-        const Vec3 u = sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c);
+        const Vec3 u = wind_on_body_at(plan, i, wind, Vec3(b.x + c)) - b.v - b.omega.cross(c);
         f[i] = double(plan.drag_area[i]) * air_force<double>(plan.kind[i], b.R, u).force;
         tau[i].setZero();
         if (plan.leaf.on && is_flat(plan.kind[i])) {
