@@ -284,8 +284,8 @@ void break_joints(Plan<T>& plan, State<T>& state, World<T>& world, const std::ve
 
 // The walkers' loads of the step to come, and what they do in it.
 template <class T> void tread(const Plan<T>& plan, State<T>& state, World<T>& world) {
-    const double t = double(state.step) * plan.dt;
-    const auto within = [&](double time) { return time > t && time <= t + plan.dt; };
+    const double t = double(state.step) * plan.dt, end = double(state.step + 1) * plan.dt;
+    const auto within = [&](double time) { return time > t && time <= end; };
     for (std::size_t k = 0; k < world.walkers.size(); ++k) {
         const Walk& walk = world.walkers[k];
         const auto name = std::int64_t(world.tree->size_bodies() + world.balls + k);

@@ -194,7 +194,8 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
             return text.find(part) != std::string::npos;
         };
         return (!named(c.group, options.only) && !named(c.name, options.only)) ||
-               (!options.without.empty() && named(c.name, options.without));
+               std::any_of(options.without.begin(), options.without.end(),
+                           [&](const std::string& word) { return named(c.group, word) || named(c.name, word); });
     });
     const std::int64_t total = std::int64_t(cases.size()) * (options.with_implicit ? 5 : 4);
     std::int64_t done = 0;
@@ -203,6 +204,7 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
         setup.scene.pose = Pose::rest;
         setup.scene.wind.reset();
         setup.scene.pulls.clear();
+        setup.scene.walkers.clear();
         setup.scene.root_motion.clear();
         setup.scene.fracture.reset();
         setup.scene.balls.clear();

@@ -504,7 +504,8 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
         fast::plan_sleep(plan, sleep);
         if (plan.lanes.on) plan.velocity = wishes.velocity; // the drag finds its own
     }
-    plan.pose = !plan.lanes.on || wishes.pose || wishes.velocity || wishes.torque || scene.fracture || !scene.balls.empty();
+    plan.pose =
+        !plan.lanes.on || wishes.pose || wishes.velocity || wishes.torque || scene.fracture || !scene.balls.empty();
     if (!plan.pose) give_back_bodies(plan);
     explain(plan, wishes);
     return plan;
