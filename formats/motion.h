@@ -22,6 +22,21 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
+// Reads a motion frame by frame: of JSON lines and safetensors one frame is held at a time, of JSON all of them.
+class MotionFrames {
+public:
+    // The content must stay. Throws InputError, as next() does.
+    MotionFrames(std::string_view content, const std::string& name);
+    ~MotionFrames();
+    MotionFrames(MotionFrames&&) noexcept;
+    const MotionHeader& header() const; // `events` once one has come
+    bool next(MotionFrame&);            // false: there is none left
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
 bool is_motion(std::string_view content);
 Motion read_motion(std::string_view content, const std::string& name);
 

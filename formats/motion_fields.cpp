@@ -21,8 +21,15 @@ std::vector<std::string> words_of(const MotionFields& fields) {
 }
 
 std::vector<Field> header_fields(MotionHeader& header, std::vector<std::string>& words) {
-    return {{"fps", &header.fps}, {"bodies", &header.bodies},       optional({"balls", &header.balls}),
-            {"fields", &words},   optional({"name", &header.name}), optional({"source", &header.source})};
+    return {{"fps", &header.fps},
+            {"bodies", &header.bodies},
+            optional({"balls", &header.balls}),
+            {"fields", &words},
+            optional({"name", &header.name}),
+            optional({"source", &header.source}),
+            optional({"part", &header.part}),
+            optional({"parts", &header.parts}),
+            optional({"first_body", &header.first_body})};
 }
 
 std::vector<Field> frame_fields(MotionFrame& frame) {

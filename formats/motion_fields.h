@@ -23,7 +23,7 @@ extern const std::vector<FrameArray> frame_arrays;
 
 std::vector<std::string> words_of(const MotionFields&); // {"pose", "velocity"}
 // What an event may be; in the binary form its number here. And the arrays over events that are integers there, in the file's order.
-inline const std::vector<std::string> event_words{"broke", "hit", "landed"};
+inline const std::vector<std::string> event_words{"broke", "hit", "landed", "leapt"};
 constexpr std::array<const char*, 4> event_integers{"event_frame", "event", "event_body", "event_on"};
 
 // The header's fields; `words` stands for header.fields.

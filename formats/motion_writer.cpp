@@ -91,10 +91,15 @@ struct MotionWriter::Implementation {
     std::vector<std::int64_t> event_frame, event, event_body, event_on;
     std::vector<double> event_value;
 
-    // Of a scene without balls as it was before there were any.
+    // Of a scene without balls, and of a whole one, as it was before there were any and parts.
     std::vector<Field> written_header(std::vector<std::string>& words) {
         std::vector<Field> fields = header_fields(header, words);
         std::erase_if(fields, [&](const Field& field) { return field.name == "balls" && header.balls == 0; });
+        const std::array<std::string, 3> of_part{"part", "parts", "first_body"};
+        if (header.parts == 1)
+            std::erase_if(fields, [&](const Field& field) {
+                return std::find(of_part.begin(), of_part.end(), field.name) != of_part.end();
+            });
         return fields;
     }
 

@@ -39,17 +39,6 @@ void read_type(ObjectReader& object, const std::string& name, const DocumentType
     check_version(name, version, type);
 }
 
-Placement read_placement(const json& value, const std::string& name, const std::string& at) {
-    Placement tree;
-    ObjectReader object(value, name, at);
-    object.need("file");
-    object.read("file", tree.file);
-    object.read("position", tree.position);
-    object.read("yaw", tree.yaw);
-    object.finish();
-    return tree;
-}
-
 Pull read_pull(const json& value, const std::string& name, const std::string& at) {
     Pull pull;
     ObjectReader object(value, name, at);
@@ -112,8 +101,7 @@ ordered_json value_of(const RootMotion& motion) {
 ordered_json value_of(const Scene& scene, const MaterialChange& material) {
     ordered_json fields{{"format", scene_type.format}, {"version", scene_type.version}};
     fields["trees"] = ordered_json::array();
-    for (const Placement& tree : scene.trees)
-        fields["trees"].push_back({{"file", tree.file}, {"position", numbers(tree.position)}, {"yaw", tree.yaw}});
+    for (const Placement& tree : scene.trees) fields["trees"].push_back(value_of(tree));
     fields["gravity"] = numbers(scene.gravity);
     if (material.any()) fields["material"] = value_of(material);
     if (scene.wind) fields["wind"] = value_of(*scene.wind);
@@ -134,6 +122,7 @@ ordered_json value_of(const Scene& scene, const MaterialChange& material) {
                                  {"fruit", numbers(scene.joint_limit->fruit)}};
     if (scene.fracture) fields["fracture"] = value_of(*scene.fracture);
     for (const Ball& ball : scene.balls) fields["balls"].push_back(value_of(ball));
+    for (const Walker& walker : scene.walkers) fields["walkers"].push_back(value_of(walker));
     if (scene.contact) fields["contact"] = value_of(*scene.contact);
     if (scene.leaves)
         fields["leaves"] = {{"kappa", scene.leaves->kappa},
@@ -150,8 +139,9 @@ SceneDocument read_fields(const json& fields, const std::string& name) {
     Scene& scene = document.scene;
     ObjectReader object(fields, name, "");
     read_type(object, name, scene_type);
+    std::size_t tree = 0;
     for (const json& value : object.list("trees"))
-        scene.trees.push_back(read_placement(value, name, "/trees/" + std::to_string(scene.trees.size())));
+        read_placements(value, name, "/trees/" + std::to_string(tree++), scene.trees);
     object.read("gravity", scene.gravity);
     if (object.has("material")) document.material = read_material_change(object.need("material"), name);
     if (object.has("wind")) scene.wind = read_wind_value(object.need("wind"), name);
@@ -167,6 +157,8 @@ SceneDocument read_fields(const json& fields, const std::string& name) {
     if (object.has("fracture")) scene.fracture = read_fracture(object.need("fracture"), name);
     for (const json& value : object.list("balls"))
         scene.balls.push_back(read_ball(value, name, "/balls/" + std::to_string(scene.balls.size())));
+    for (const json& value : object.list("walkers"))
+        scene.walkers.push_back(read_walker(value, name, "/walkers/" + std::to_string(scene.walkers.size())));
     if (object.has("contact")) scene.contact = read_contact(object.need("contact"), name);
     if (object.has("leaves")) scene.leaves = read_leaves(object.need("leaves"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
@@ -255,7 +247,8 @@ void write_scene(Output& output, const Scene& scene, Form form, const MaterialCh
     std::string text = "{";
     for (const auto& [key, value] : fields.items()) {
         text += (text.size() > 1 ? ",\n" : "\n") + text_of(key) + ": ";
-        if (key == "trees" || key == "pulls" || key == "root_motion" || key == "balls") { // one a line
+        if (key == "trees" || key == "pulls" || key == "root_motion" || key == "balls" ||
+            key == "walkers") { // one a line
             text += "[";
             for (const ordered_json& entry : value)
                 text += (&entry == &value.front() ? "\n  " : ",\n  ") + text_of(entry);

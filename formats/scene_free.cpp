@@ -55,6 +55,7 @@ Contact read_contact(const json& value, const std::string& name) {
     contact.model = ContactModel(object.word("model", contact_models, std::size_t(contact.model)));
     object.read("restitution", contact.restitution);
     object.read("friction", contact.friction);
+    object.read("rolling", contact.rolling);
     object.read("penalty", contact.penalty);
     object.read("trees", contact.trees);
     object.read("leaves", contact.leaves);
@@ -106,6 +107,7 @@ ordered_json value_of(const Contact& contact) {
     return {{"model", contact_models[std::size_t(contact.model)]},
             {"restitution", contact.restitution},
             {"friction", contact.friction},
+            {"rolling", contact.rolling},
             {"penalty", contact.penalty},
             {"trees", contact.trees},
             {"leaves", contact.leaves},

@@ -13,6 +13,12 @@ nlohmann::ordered_json numbers(const Vec3&);
 Selector read_selector(const nlohmann::json&, const std::string& name, const std::string& at);
 nlohmann::ordered_json value_of(const Selector&);
 
+// ---- scene_trees.cpp: where trees stand, and who walks on them ----
+void read_placements(const nlohmann::json&, const std::string& name, const std::string& at, std::vector<Placement>&);
+Walker read_walker(const nlohmann::json&, const std::string& name, const std::string& at);
+nlohmann::ordered_json value_of(const Placement&);
+nlohmann::ordered_json value_of(const Walker&);
+
 // ---- scene_wind.cpp ----
 void read_wind_fields(ObjectReader&, Wind&, const std::string& name, const std::string& at);
 Wind read_wind_value(const nlohmann::json&, const std::string& name);

@@ -32,18 +32,23 @@ Selector read_selector(const json& value, const std::string& name, const std::st
     object.read("level", on.level);
     object.read("tree", on.tree);
     object.read("at", on.at);
+    if (object.has("point")) object.read("point", on.point.emplace());
     object.finish();
     if (given.empty()) throw InputError(name + ": " + at, "names no body, expected body, branch, nearest or level");
     if (given.size() > 1) object.fail(given[1], "stands beside " + in_quotes(given[0]) + ", expected only one of them");
     only_for("tree", on.by == Selector::By::body || on.by == Selector::By::branch, "body or branch");
     only_for("at", on.by == Selector::By::branch, "branch");
+    only_for("point", on.by == Selector::By::body, "body");
     return on;
 }
 
 ordered_json value_of(const Selector& on) {
     switch (on.by) {
-    case Selector::By::body:
-        return {{"tree", on.tree}, {"body", on.body}};
+    case Selector::By::body: {
+        ordered_json fields{{"tree", on.tree}, {"body", on.body}};
+        if (on.point) fields["point"] = numbers(*on.point);
+        return fields;
+    }
     case Selector::By::branch:
         return {{"tree", on.tree}, {"branch", on.branch}, {"at", on.at}};
     case Selector::By::nearest:

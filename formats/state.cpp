@@ -29,6 +29,8 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             {"solver", &state.solver},
             optional({"scheme", &state.scheme}),
             {"fingerprint", &fingerprint},
+            optional({"part", &state.part}),
+            optional({"parts", &state.parts}),
             optional({"source", &state.source}),
             array("theta", state.theta, {}),
             array("theta_dot", state.theta_dot, body),
@@ -81,6 +83,9 @@ void check_state(const SavedState& state, const std::string& name) {
         throw InputError(name + ": /" + field, message);
     };
     if (state.frame < 0) fail("frame", "is " + std::to_string(state.frame) + ", expected 0 or more");
+    if (state.parts < 1 || state.part < 1 || state.part > state.parts)
+        fail("part", "is " + std::to_string(state.part) + " of " + std::to_string(state.parts) +
+                         ", expected 1 to the number of /parts");
     if (!(state.fps > 0)) fail("fps", "is not above 0, expected frames a second");
     if (state.substeps < 1) fail("substeps", "is " + std::to_string(state.substeps) + ", expected 1 or more");
     if (state.precision != "float" && state.precision != "double")
@@ -107,7 +112,10 @@ SavedState read_state(std::string_view content, const std::string& name) {
 
 void write_state(Output& output, const SavedState& state, Form form) {
     std::string fingerprint = hexadecimal(state.fingerprint);
-    write_document(output, form, type, fields_of(const_cast<SavedState&>(state), fingerprint)); // a writer only looks
+    std::vector<Field> fields = fields_of(const_cast<SavedState&>(state), fingerprint); // a writer only looks
+    if (state.parts == 1) // as it was before there were any
+        std::erase_if(fields, [](const Field& field) { return field.name == "part" || field.name == "parts"; });
+    write_document(output, form, type, fields);
 }
 
 } // namespace bough

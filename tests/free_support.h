@@ -48,6 +48,7 @@ inline Scene empty_scene() {
     scene.contact = Contact();
     scene.contact->friction = 0;
     scene.contact->restitution = 0;
+    scene.contact->rolling = 0;
     scene.contact->ground = false;
     return scene;
 }

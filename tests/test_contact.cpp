@@ -356,3 +356,19 @@ TEST_CASE("A stick that falls comes to rest on the ground, and not in it") {
     CHECK(stick.motion.x.y() > 0.0);
     CHECK(stick.motion.x.y() < 0.05);
 }
+
+TEST_CASE("A ball that rolls comes to rest after v^2 / 2 a, a = c g / (1 + I / m r^2)") {
+    Scene scene = empty_scene();
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.contact->ground = true;
+    scene.contact->friction = 0.8;
+    scene.contact->rolling = GENERATE(0.03, 0.1);
+    const double r = 0.1, v = 2;
+    scene.balls = {ball(Vec3(3, r, 0), Vec3(v, 0, 0), r)};
+    scene.balls[0].angular_velocity = Vec3(0, 0, -v / r);
+    Run<> run(hinged_rod(), scene, ways[0], 1.0 / 240);
+    run.steps(240 * 12);
+    CHECK(run.ball().at_rest);
+    const double a = scene.contact->rolling * 9.81 / 1.4;
+    CHECK(run.ball().motion.x.x() - 3 == Approx(v * v / (2 * a)).epsilon(0.02));
+}

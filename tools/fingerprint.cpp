@@ -65,6 +65,7 @@ struct Fingerprint {
             add(std::uint64_t(value));
         add(on.at);
         add(on.nearest);
+        if (on.point) add(*on.point);
     }
     void add(const Pull& pull) {
         add(pull.on);
@@ -83,6 +84,8 @@ struct Fingerprint {
     }
     void add(const Scene& s) {
         add(s.gravity);
+        for (std::size_t k = 0; k < s.trees.size(); ++k)
+            if (s.trees[k].start != 0) add_named(6, {double(k), s.trees[k].start});
         add(std::uint64_t(s.wind.has_value()));
         if (s.wind) add(*s.wind);
         add(std::uint64_t(s.pulls.size()));
@@ -98,10 +101,20 @@ struct Fingerprint {
         if (s.fracture) add(*s.fracture);
         for (const Ball& ball : s.balls) add(ball);
         if (s.contact) add(*s.contact);
+        for (const Walker& walker : s.walkers) add(walker);
         if (s.leaves)
             for (const double value :
                  {s.leaves->kappa, s.leaves->air_resistance, s.leaves->drag_ratio, s.leaves->offset})
                 add(value);
+    }
+    void add(const Walker& walker) {
+        add_named(5, {walker.mass, walker.push}); // its radius is only seen
+        add(std::uint64_t(walker.stops.size()));
+        for (const Walker::Stop& stop : walker.stops) {
+            add(stop.on);
+            add(stop.time);
+            add(std::uint64_t(stop.leap));
+        }
     }
     void add(const Fracture& f) {
         for (const double value : {f.branch, f.leaf, f.petal, f.fruit, f.strength, f.spread}) add(value);
@@ -116,7 +129,7 @@ struct Fingerprint {
         for (const double value : {ball.radius, ball.mass}) add(value);
     }
     void add(const Contact& c) {
-        for (const double value : {c.restitution, c.friction, c.penalty, c.ground_height}) add(value);
+        for (const double value : {c.restitution, c.friction, c.rolling, c.penalty, c.ground_height}) add(value);
         for (const bool flag : {c.model == ContactModel::penalty, c.trees, c.leaves, c.ground})
             add(std::uint64_t(flag));
     }

@@ -57,7 +57,7 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
 }
 
 template <class T> void note_world(const World<T>& world, std::vector<std::string>& notes) {
-    if (!world.on()) return;
+    if (!world.on() || (!world.remaining.gone.size() && world.free.empty())) return;
     const WorldCounts& counts = world.counts;
     std::string broke;
     constexpr std::array<const char*, 4> kinds{"branches", "leaves", "fruit", "petals"};
@@ -71,7 +71,6 @@ template <class T> void note_world(const World<T>& world, std::vector<std::strin
     }
     std::ostringstream text;
     text.precision(3);
-    if (!world.tree) return;
     text << all << " joints broke" << (broke.empty() ? "" : " (" + broke + ")") << ", " << counts.landed
          << " leaves and petals landed, " << counts.hits << " hits";
     notes.push_back(text.str());

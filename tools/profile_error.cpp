@@ -118,8 +118,9 @@ void work(ErrorCommand& o) {
     reading.refresh.clear();
     Setting setting = read_setting(reading);
     if (has_free_bodies(setting.scene))
-        throw InputError(input_name(o.run.input), std::string(setting.scene.fracture ? "/fracture" : "/balls") +
-                                                      ": treeprofile error has no reference solution of free bodies");
+        throw InputError(input_name(o.run.input),
+                         free_part(setting.scene) + std::string(": treeprofile error has no reference "
+                                                                "solution of free bodies and walkers"));
     let_move(o, setting.scene);
     const Problem problem{
         setting.tree, setting.ranges, setting.scene, o.run.fps, frames_of(o.run, seconds_default), chosen_simd(o.run)};

@@ -79,6 +79,8 @@ template <class T> void save(const TreesimOptions& o, const Setting& setting, Ru
     saved.solver = o.run.solver;
     saved.scheme = scheme_name(o.run);
     saved.fingerprint = setting.fingerprint;
+    saved.part = setting.part.part;
+    saved.parts = setting.part.parts;
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);

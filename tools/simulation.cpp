@@ -1,9 +1,9 @@
 #include "simulation.h"
 #include "formats/scene.h"
 #include "formats/tree.h"
-#include "lib/model/place.h"
 #include "lib/stages/frozen_rule.h"
 #include "lib/stages/state_arrays.h"
+#include "scene_trees.h"
 #include "set_option.h"
 #include <algorithm>
 #include <array>
@@ -49,56 +49,18 @@ void apply(const RunOptions& o, const std::optional<Wind>& wind, Scene& scene) {
 constexpr const char* empty_scene = R"({"format": "bough-scene", "version": 1})";
 
 // The document with the options applied, and what --set asks for last of all: once in the document itself, which may wait for it to be
-// complete, and once more behind the other options.
+// complete, and of fields that other options set too, once more behind these.
 SceneDocument chosen_document(const RunOptions& o, std::string_view content, const std::string& name) {
     const std::optional<Wind> wind = chosen_wind(o.wind);
-    const std::vector<SceneOverride> set = overrides_of(o.set);
-    std::vector<SceneOverride> first = set;
-    if (wind && !set.empty()) first.insert(first.begin(), {"--wind " + o.wind, {"wind"}, wind_text(*wind)});
+    std::vector<SceneOverride> first = overrides_of(o.set), last;
+    for (const SceneOverride& change : first)
+        for (const char* field :
+             {"wind", "gravity", "pose", "joint_inertia", "stiffness_scale", "damping_scale", "joint_limit"})
+            if (change.path.front() == field) last.push_back(change);
+    if (wind && !first.empty()) first.insert(first.begin(), {"--wind " + o.wind, {"wind"}, wind_text(*wind)});
     SceneDocument document = read_scene_document(content, name, first);
     apply(o, wind, document.scene);
-    return set.empty() ? document : changed(document, set);
-}
-
-// Throws InputError where the wood of the tree of this file is not known.
-Tree with_material(Tree tree, const MaterialChange& change, const std::string& file) {
-    try {
-        change_material(tree, change);
-    } catch (const std::domain_error& error) {
-        throw InputError(input_name(file) + ": /material", error.what());
-    }
-    return tree;
-}
-
-// The first tree, often the only one and large, is taken as it is; others are copied behind it.
-void stand(Setting& setting, Tree tree, const Placement& at) {
-    const std::vector<std::int32_t>& branch = setting.tree.branch;
-    const std::int32_t first_branch = branch.empty() ? 0 : *std::max_element(branch.begin(), branch.end()) + 1;
-    const std::size_t first = setting.tree.size_bodies(), bodies = tree.size_bodies();
-    if (!tree.source.empty() && setting.source.find(tree.source) == std::string::npos)
-        setting.source += (setting.source.empty() ? "" : "\n") + tree.source;
-    const double yaw = at.yaw * 3.14159265358979323846 / 180;
-    if (first == 0) {
-        setting.tree = std::move(tree);
-        place(setting.tree, at.position, yaw);
-    } else {
-        append(setting.tree, tree, at.position, yaw);
-    }
-    setting.ranges.push_back({first, bodies, first_branch});
-}
-
-std::string tree_file(const std::string& scene_file, const Placement& place) {
-    const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
-    return (folder / place.file).string();
-}
-
-void read_scene_trees(Setting& setting, const std::string& scene_file, const MaterialChange& material) {
-    if (setting.scene.trees.empty())
-        throw InputError(input_name(scene_file), "/trees: is empty or missing, expected at least one tree");
-    for (const Placement& place : setting.scene.trees) {
-        const std::string file = tree_file(scene_file, place);
-        stand(setting, with_material(read_tree(Input(file)), material, file), place);
-    }
+    return last.empty() ? document : changed(document, last);
 }
 
 // A line of help: what each solver is for, the default marked.
@@ -301,6 +263,9 @@ double chosen_refresh(const RunOptions& o, const Scene& scene) {
 double chosen_sleep(const RunOptions& o) {
     if (o.sleep.empty()) return o.simd == "off" ? 0 : o.sleep_default;
     if (o.sleep == "off") return 0;
+    if (!o.shard.empty())
+        throw UsageError("--sleep " + o.sleep +
+                         ": not with --shard; trees sleep by blocks, which those of the whole share");
     const std::optional<double> rate = parse_number(o.sleep);
     if (!rate || !(*rate > 0))
         throw UsageError("--sleep is '" + o.sleep + "', expected a rate above 0 [rad/s], or off");
@@ -332,8 +297,9 @@ Setting read_setting(const RunOptions& o) {
         scene ? chosen_document(o, input.all(), input.name()) : chosen_document(o, empty_scene, "the scene");
     setting.scene = std::move(document.scene);
     if (scene) {
-        read_scene_trees(setting, o.input, document.material);
+        stand_trees(setting, o.input, o.shard, document.material);
     } else {
+        if (!o.shard.empty()) throw UsageError("--shard: only with a scene, whose trees it parts");
         if (!setting.scene.trees.empty())
             throw UsageError("--set trees: INPUT is a tree, which stands where it was drawn; a scene places trees");
         stand(setting, with_material(read_tree(input), document.material, o.input), Placement());
@@ -364,11 +330,21 @@ namespace {
 
 // tree: const Tree& or Tree&&, as make_plan takes it.
 template <class T, class TreeType>
-Plan<T> plan_of(TreeType&& tree, const Setting& setting, const Wishes& wishes, const RunOptions& o) {
+Plan<T> plan_of(TreeType&& tree, const Setting& setting, Wishes wishes, const RunOptions& o) {
+    wishes.top = setting.part.top;
+    wishes.reach = setting.part.reach;
+    wishes.clocks = setting.part.clocks;
     try {
+        const Solver solver = chosen_solver(o);
+        std::optional<fast::Target> simd = chosen_simd(o);
+        double sleep = chosen_sleep(o), refresh = chosen_refresh(o, setting.scene);
+        if (setting.part.parts > 1) sleep = 0; // trees sleep by blocks, which those of a whole scene share
+        if (setting.part.moved) {              // as make_plan decides for the whole
+            sleep = refresh = 0;
+            if (solver == Solver::analytic) simd.reset();
+        }
         Plan<T> plan = make_plan<T>(std::forward<TreeType>(tree), setting.ranges, setting.scene, wishes,
-                                    1 / (o.fps * o.substeps), chosen_solver(o), chosen_scheme(o), chosen_simd(o),
-                                    chosen_sleep(o), chosen_refresh(o, setting.scene));
+                                    1 / (o.fps * o.substeps), solver, chosen_scheme(o), simd, sleep, refresh);
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {
@@ -394,6 +370,8 @@ template <class T> Run<T> start_run(Plan<T> plan, const Setting& setting, const 
     try {
         run.world = make_world(run.plan, setting.tree, setting.ranges);
     } catch (const std::out_of_range& error) {
+        throw InputError(input_name(o.input), error.what());
+    } catch (const std::domain_error& error) {
         throw InputError(input_name(o.input), error.what());
     }
     return run;

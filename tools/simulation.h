@@ -28,6 +28,7 @@ struct RunOptions {
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
     std::vector<std::string> set; // as given: PATH=VALUE, set_option.h
+    std::string shard; // "i/n", of treesim; empty: all
 };
 
 // seconds_default: what runs without --seconds and --frames.
@@ -57,12 +58,23 @@ std::string rate_text(double rate); // "1e-05"
 double chosen_refresh(const RunOptions&, const Scene&);
 double analytic_refresh(const RunOptions&); // whatever the solver and the wind
 
+// Which part of a scene's trees a run has (scene_trees.h), and what it must know of the whole.
+struct Part {
+    std::int32_t part = 1, parts = 1;
+    std::int64_t first_body = 0;  // in the whole scene's order
+    double top = 0, reach = 0;    // Wishes
+    std::vector<double> clocks{}; // likewise
+    bool moved =
+        false; // the ground of some tree moves, of this part or another: then what a still ground allows is left out
+};
+
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {
     Tree tree;
     std::vector<TreeRange> ranges;
     Scene scene;
-    std::string source;            // command lines of the inputs
+    std::string source; // command lines of the inputs
+    Part part = {};
     std::uint64_t fingerprint = 0; // fingerprint(), where a state is saved or resumed: of the whole tree
 };
 // Reads a tree, or a scene and its trees. Throws UsageError, InputError.

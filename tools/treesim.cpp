@@ -24,10 +24,13 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         return gltf_sink(o.common.output, shown, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
     MotionHeader header;
     header.fps = o.run.fps;
-    header.balls = std::int64_t(setting.scene.balls.size());
+    header.balls = std::int64_t(setting.scene.balls.size() + setting.scene.walkers.size());
     header.bodies = std::int64_t(bodies) + header.balls;
     header.events = has_free_bodies(setting.scene);
     header.fields = fields;
+    header.part = setting.part.part;
+    header.parts = setting.part.parts;
+    header.first_body = setting.part.first_body;
     header.name = setting.tree.name;
     header.source = source;
     return motion_sink(o.common.output, format, header);
@@ -109,8 +112,8 @@ std::vector<std::uint32_t> what_breaks(const TreesimOptions& o, const Setting& s
 // Returns the number of frames made.
 template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& format) {
     if (o.report_error && has_free_bodies(setting.scene))
-        throw UsageError(std::string("--report-error: not with a scene's ") +
-                         (setting.scene.fracture ? "fracture" : "balls") + ", which the second run would not have");
+        throw UsageError(std::string("--report-error: not with a scene's ") + (free_part(setting.scene) + 1) +
+                         ", which the second run would not have");
     const MotionFields fields = chosen_fields(o);
     const bool loops = o.loop.seconds.has_value();
     const std::int64_t frames = loops ? loop_frames(o.loop, o.run) : frames_of(o.run, seconds_default);
@@ -141,10 +144,12 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
-    const bool changed = mesh && (!broken.empty() || !setting.scene.balls.empty());
-    const Tree own = changed ? shown_tree(setting.tree, broken, setting.scene.balls) : Tree();
+    const std::vector<Ball> balls =
+        mesh ? shown_balls(setting.tree, setting.scene, run.world.walkers) : std::vector<Ball>();
+    const bool changed = mesh && (!broken.empty() || !balls.empty());
+    const Tree own = changed ? shown_tree(setting.tree, broken, balls) : Tree();
     const Tree& shown = changed ? own : setting.tree;
-    o.gltf.loose = broken.size() + setting.scene.balls.size();
+    o.gltf.loose = broken.size() + balls.size();
     std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, plan.bodies, format, fields);
     LoopStart loop;
     if (loops) {
@@ -177,7 +182,25 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
     return simulate<double>(o, std::move(setting), format);
 }
 
+// What has nothing to do with putting parts together would be ignored.
+void put_together(const TreesimOptions& o) {
+    const std::vector<std::string> known{"--join", "-o", "--format", "--hash", "--no-output", "-q", "--threads"};
+    for (const CLI::Option* option : o.app->get_options())
+        if (option->count() > 0 &&
+            std::none_of(known.begin(), known.end(), [&](const std::string& name) { return option->check_name(name); }))
+            throw UsageError(option->get_name() + ": not with --join");
+    const std::string format = o.no_output ? "" : chosen_format(o.common);
+    if (format == "obj" || format == "glb")
+        throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
+    interrupt_at_boundary();
+    JoinOptions join = o.join;
+    join.hash = o.hash;
+    const std::string line = join_parts(join, o.common, format, !o.no_output);
+    if (!line.empty()) std::cerr << line << "\n";
+}
+
 void work(TreesimOptions& o) {
+    if (!o.join.parts.empty()) return put_together(o);
     if (o.run.input.empty()) throw UsageError("INPUT: missing");
     const std::string format = o.no_output ? "" : chosen_format(o.common);
     chosen_fields(o);

@@ -24,6 +24,7 @@ constexpr double sleep_default = 1e-5; // [rad/s]
 
 void declare(CLI::App& app, TreesimOptions& o) {
     o.run.sleep_default = sleep_default;
+    o.app = &app;
     add_run_options(app, o.run, seconds_default);
     add_sleep_option(app, o.run);
     add_loop_options(app, o.loop);
@@ -46,6 +47,15 @@ void declare(CLI::App& app, TreesimOptions& o) {
         ->option_text("FILE")
         ->check(file_name());
     app.add_option("--resume", o.resume, "Go on from this state")->option_text("FILE");
+    app.add_option("--shard", o.run.shard,
+                   "Only the i-th of n parts of a scene's trees; bodies move as they do in the whole (--join)")
+        ->option_text("i/n");
+    app.add_option(
+           "--join", o.join.parts,
+           "Put the motions of all parts of a scene together (-o), or their saved states (--hash), and do nothing "
+           "else")
+        ->option_text("PART...")
+        ->expected(1, 1000000);
     app.add_flag("--watch", o.watch,
                  "Run, and again whenever the scene, one of its trees or the wind's file has changed, until Ctrl-C; -o "
                  "FILE is written anew each time, whole or not at all");
@@ -104,9 +114,11 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         throw UsageError("--save-state -: frames and state cannot both go to stdout");
     refuse_contradictions(o.loop, o.run);
     if (o.loop.seconds) {
-        const std::pair<bool, const char*> others[] = {{!o.save_state.empty(), "--save-state"},
-                                                       {!o.resume.empty(), "--resume"},
-                                                       {o.report_error, "--report-error"}};
+        const std::pair<bool, const char*> others[] = {
+            {!o.save_state.empty(), "--save-state"},
+            {!o.resume.empty(), "--resume"},
+            {o.report_error, "--report-error"},
+            {!o.run.shard.empty(), "--shard"}}; // each part would end in its own time
         for (const auto& [given, name] : others)
             if (given) throw UsageError(std::string("--loop: not with ") + name);
         const MotionFields fields = chosen_fields(o);

@@ -1,6 +1,7 @@
 // treesim_options.h: what treesim is asked to do: its options, and which of them contradict each other.
 #pragma once
 #include "frame_sink.h"
+#include "join.h"
 #include "loop.h"
 #include "simulation.h"
 
@@ -12,6 +13,8 @@ struct TreesimOptions {
     CommonOptions common;
     RunOptions run;
     std::string fields, save_state, resume;
+    JoinOptions join;
+    const CLI::App* app = nullptr; // for what was given
     GltfChoice gltf;
     std::optional<int> sides;
     LoopChoice loop;

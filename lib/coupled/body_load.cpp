@@ -11,8 +11,8 @@ namespace bough {
 template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, double time) {
     const Wind& wind = *plan.scene.wind;
     if (plan.field) {
-        evaluate_field(wind, wind_weather(wind, time), time, state.wind_start);
-        evaluate_field(wind, wind_weather(wind, time + plan.dt), time + plan.dt, state.wind_end);
+        evaluate_field(wind, time, state.wind_start);
+        evaluate_field(wind, time + plan.dt, state.wind_end);
         return evaluate_wind(wind, time + plan.dt / 2, state.wind);
     }
     evaluate_wind(wind, time, state.wind);
@@ -25,9 +25,10 @@ template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, dou
 namespace {
 
 // What the wind at a place changes by over the step.
-template <class T> Vector3<T> wind_change(const State<T>& state, const Vector3<T>& place) {
+template <class T> Vector3<T> wind_change(const State<T>& state, const Vector3<T>& place, std::size_t clock) {
     if (!state.wind_end.on()) return state.wind_change.at(place.y());
-    const Vector3<T> change = state.wind_end.at(place.x(), place.z()) - state.wind_start.at(place.x(), place.z());
+    const Vector3<T> change =
+        state.wind_end.at(place.x(), place.z(), clock) - state.wind_start.at(place.x(), place.z(), clock);
     return state.wind.factor(place.y()) * change;
 }
 
@@ -45,7 +46,7 @@ template <class T>
 template <class T> void add_air(const Plan<T>& plan, const State<T>& state, CoupledBody<T>& b, std::size_t i) {
     const T scale = plan.drag_area[i];
     const Vector3<T> place = b.x + b.c;
-    const Vector3<T> u = sheltered(plan, i, state.wind.at(place)) - b.v - b.omega.cross(b.c);
+    const Vector3<T> u = wind_on_body_at(plan, i, state.wind, place) - b.v - b.omega.cross(b.c);
     b.D = scale * air_damping(plan.kind[i], b.R, u);
     const Vector3<T> ahead = b.v - b.v_0 + (b.omega - b.omega_0).cross(b.c);
     b.air = scale * air_force(plan.kind[i], b.R, u).force;
@@ -53,7 +54,7 @@ template <class T> void add_air(const Plan<T>& plan, const State<T>& state, Coup
     const Vector3<T> f = b.air + b.D * ahead;
     b.F -= f;
     b.N -= b.c.cross(f);
-    b.slope_F = -b.D * sheltered(plan, i, wind_change(state, place));
+    b.slope_F = -b.D * sheltered(plan, i, wind_change(state, place, clock_of(plan, i)));
     b.slope_N = b.c.cross(b.slope_F);
     if (is_flat(plan.kind[i])) b.H += scale * plan.com[i].norm() * air_turning(plan.kind[i], b.R, u);
 }

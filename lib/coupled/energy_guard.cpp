@@ -85,7 +85,7 @@ template <class T>
 double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved, const Vector3<T>& own) {
     const CoupledBody<T>& y = s.coupled[i];
     const Vector3<T> mean = moved / T(plan.dt), ground = (moved - own) / T(plan.dt);
-    const Vector3<T> U = sheltered(plan, i, s.wind.at(Vector3<T>(y.x + y.c))) - ground;
+    const Vector3<T> U = wind_on_body_at(plan, i, s.wind, Vector3<T>(y.x + y.c)) - ground;
     const Vector3<T> ahead = mean - y.v - y.omega.cross(y.c);
     const T speed = U.norm();
     const T most =

@@ -140,7 +140,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     // On the body at rest, in its axes. p: the profile's factor there.
     BOUGH_FORCE V3<W> wind_on(const Frame& f, std::uint32_t row, int lane, const W& p, const V3<W>& c) const {
         if constexpr (field) {
-            const auto over = this->over_ground(f.x + dot(f.R_bw.x, c), f.z + dot(f.R_bw.z, c));
+            const auto over = this->over_ground(row, lane, f.x + dot(f.R_bw.x, c), f.z + dot(f.R_bw.z, c));
             return this->sheltered(row, lane, p) * (f.R_bw * this->field_at(over, rows.field.middle));
         } else {
             return p * (f.R_bw * vector(rows.wind));

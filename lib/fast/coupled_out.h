@@ -186,7 +186,7 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
         if constexpr (field) {
             f.x = f.x + r.x;
             f.z = f.z + r.z;
-            over = this->over_ground(f.x + c.x, f.z + c.z);
+            over = this->over_ground(row, lane, f.x + c.x, f.z + c.z);
             wind_factor = this->sheltered(row, lane, wind_factor);
         }
         const V3<W> w_0 = GJ * eta_0, w_ahead = GJ * half_rate, w = w_0 + w_ahead;

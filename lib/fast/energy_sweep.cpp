@@ -156,7 +156,7 @@ template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
                 f.x = f.x + r.x;
                 f.z = f.z + r.z;
                 air_velocity = this->sheltered(row, lane, this->profile(f.y + c.y)) *
-                               this->field_at(this->over_ground(f.x + c.x, f.z + c.z), rows.field.middle);
+                               this->field_at(this->over_ground(row, lane, f.x + c.x, f.z + c.z), rows.field.middle);
             } else {
                 air_velocity = this->profile(f.y + c.y) * vector(rows.wind);
             }

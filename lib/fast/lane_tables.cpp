@@ -59,7 +59,7 @@ template <class T> void pack_pulls(const Plan<T>& plan, State<T>& state) {
         pull.source = plan.pulls[k].source;
         state.lanes.pulls.push_back(pull);
     }
-    if (!plan.contact) return;
+    if (!plan.loads) return;
     state.lanes.pull_of_row = plan.lanes.pull_of_row;
     state.lanes.pull_of_row.resize(plan.lanes.layout.rows, -1);
 }
@@ -80,19 +80,22 @@ template <class T> void place_field(const Plan<T>& plan, State<T>& state, double
     rows.columns = field.columns;
     rows.rows = field.rows;
     rows.cells = std::int32_t(field.cells());
+    rows.all_cells = std::int32_t(field.velocity.size() / 3);
     rows.center_x = field.center_x;
     rows.center_z = field.center_z;
     rows.rings_per_metre = field.rings_per_metre;
     rows.rings = std::int32_t(field.rings());
+    rows.all_rings = std::int32_t(field.turn.size() / 2);
     rows.shelter = plan.lanes.shelter.empty() ? nullptr : plan.lanes.shelter.front().lane;
+    rows.clock = plan.lanes.clock.empty() ? nullptr : plan.lanes.clock.front().lane;
 }
 
 } // namespace
 
 template <class T> void place_field_change(const Plan<T>& plan, State<T>& state, double time, CoupledRows<T>& rows) {
     const Wind& wind = *plan.scene.wind;
-    evaluate_field(wind, wind_weather(wind, time), time, state.wind_start);
-    evaluate_field(wind, wind_weather(wind, time + plan.dt), time + plan.dt, state.wind_end);
+    evaluate_field(wind, time, state.wind_start);
+    evaluate_field(wind, time + plan.dt, state.wind_end);
     rows.field_start = tables_of(state.wind_start);
     rows.field_end = tables_of(state.wind_end);
 }
@@ -120,9 +123,9 @@ template <class T> void place_tables(const Plan<T>& plan, State<T>& state, doubl
         rows.per_metre = plan.lanes.per_metre;
         rows.leaf = plan.leaf;
     }
-    if (plan.contact) place_loads(plan, state);
+    if (plan.loads) place_loads(plan, state);
     if (lanes.pulls.empty()) return;
-    rows.pull_of_row = plan.contact ? lanes.pull_of_row.data() : plan.lanes.pull_of_row.data();
+    rows.pull_of_row = plan.loads ? lanes.pull_of_row.data() : plan.lanes.pull_of_row.data();
     rows.pulls = lanes.pulls.data();
     rows.pull_count = lanes.pulls.size();
     for (PullOnLane<T>& pull : lanes.pulls)

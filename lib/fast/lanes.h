@@ -35,6 +35,7 @@ template <class T> struct PlannedLanes {
     std::vector<T> profile;                // [1] the wind's, over height
     T per_metre = 0;
     RowVector<T> shelter; // of bodies, a row each row; empty without
+    RowVector<T> clock;   // likewise
     PlannedSleep sleep;
 };
 
@@ -90,8 +91,8 @@ template <class T> struct Lanes {
     std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
     std::vector<PullOnLane<T>> pulls;
     std::vector<std::int32_t> pull_of_row; // the plan's, and of State::loads, where there may be some
-    std::vector<SweepFlags> flags;     // one a block
-    std::vector<std::uint8_t> watched; // CoupledRows
+    std::vector<SweepFlags> flags;         // one a block
+    std::vector<std::uint8_t> watched;     // CoupledRows
     RowVector<T> energy_records, energy_sums, energy_fast,
         energy_ground;           // EnergyRows; empty until something turns fast
     std::vector<BlockRest> rest; // one a block; empty where nothing may sleep

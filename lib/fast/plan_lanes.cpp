@@ -37,6 +37,17 @@ template <class T> void fill_pulls(const Plan<T>& plan, PlannedLanes<T>& lanes) 
         lanes.pull_of_row[slot(lanes.pull[k]) / std::size_t(Row<T>::lanes)] = std::int32_t(k);
 }
 
+// A number of each body, or nothing.
+template <class T, class Number>
+void fill_of_bodies(const Layout& layout, const std::vector<Number>& of_body, RowVector<T>& rows) {
+    if (of_body.empty()) return;
+    rows.assign(layout.rows, Row<T>{});
+    for (std::size_t i = 0; i < of_body.size(); ++i) {
+        const std::size_t slot = layout.slot[i];
+        rows[slot / Row<T>::lanes].lane[slot % Row<T>::lanes] = T(of_body[i]);
+    }
+}
+
 template <class T> std::string reason_against(const Plan<T>& plan) {
     if (is_articulated(plan.solver)) return std::string("solver ") + solver_name(plan.solver);
     if (plan.joint_limit) return "/joint_limit";
@@ -65,14 +76,9 @@ template <class T> void plan_lanes(Plan<T>& plan) {
         fill(plan, lanes);
     fill_pulls(plan, lanes);
     if (!plan.wind) return;
-    if (!plan.shelter.empty()) {
-        lanes.shelter.assign(lanes.layout.rows, Row<T>{});
-        for (std::size_t i = 0; i < plan.bodies; ++i) {
-            const std::size_t slot = lanes.layout.slot[i];
-            lanes.shelter[slot / Row<T>::lanes].lane[slot % Row<T>::lanes] = plan.shelter[i];
-        }
-    }
-    const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach);
+    fill_of_bodies(lanes.layout, plan.shelter, lanes.shelter);
+    fill_of_bodies(lanes.layout, plan.clock, lanes.clock);
+    const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     lanes.profile = table.profile;
     lanes.per_metre = table.per_metre;
 }

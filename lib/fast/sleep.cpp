@@ -27,7 +27,7 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
         return steady(without) ? "/wind/swirl" : "/wind/grid";
     }
     if (!scene.root_motion.empty()) return "/root_motion";
-    if (has_free_bodies(scene)) return scene.fracture ? "/fracture" : "/balls"; // whatever breaks or hits would have to wake it
+    if (has_free_bodies(scene)) return free_part(scene); // whatever breaks, hits or treads would have to wake it
     return {};
 }
 

@@ -110,27 +110,28 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         typename Bits<T>::Wide cell, ring;
         W weight; // of the ring after
     };
-    BOUGH_FORCE OverGround over_ground(const W& x, const W& z) const {
+    BOUGH_FORCE OverGround over_ground(std::uint32_t body_row, int lane, const W& x, const W& z) const {
         const FieldRows<T>& f = rows.field;
         OverGround at{};
         const W column = floor_of(within(W((x - f.x) * f.per_metre), f.columns - 1)),
                 row = floor_of(within(W((z - f.z) * f.per_metre), f.rows - 1));
-        at.cell = index_of(W(row * T(f.columns) + column));
+        const W clock = f.clock ? read(f.clock + body_row * std::size_t(L) + lane) : W{};
+        at.cell = index_of(W(clock * T(f.cells) + (row * T(f.columns) + column)));
         if (!f.middle.turn) return at;
         const W dx = x - f.center_x, dz = z - f.center_z;
         const W place = within(W(root(W(dx * dx + dz * dz)) * f.rings_per_metre), f.rings - 1);
         const W ring = smaller(floor_of(place), all(T(f.rings - 2)));
-        at.ring = index_of(ring);
+        at.ring = index_of(W(clock * T(f.rings) + ring));
         at.weight = place - ring;
         return at;
     }
     // The wind there where the profile is 1.
     BOUGH_FORCE V3<W> field_at(const OverGround& at, const FieldTables<T>& tables) const {
         const FieldRows<T>& f = rows.field;
-        const V3<W> v{look_up(tables.velocity, at.cell), look_up(tables.velocity + f.cells, at.cell),
-                      look_up(tables.velocity + 2 * std::ptrdiff_t(f.cells), at.cell)};
+        const V3<W> v{look_up(tables.velocity, at.cell), look_up(tables.velocity + f.all_cells, at.cell),
+                      look_up(tables.velocity + 2 * std::ptrdiff_t(f.all_cells), at.cell)};
         if (!tables.turn) return v;
-        const T *c = tables.turn, *s = c + f.rings;
+        const T *c = tables.turn, *s = c + f.all_rings;
         const W c_0 = look_up(c, at.ring), s_0 = look_up(s, at.ring);
         const W cosine = c_0 + at.weight * (look_up(c + 1, at.ring) - c_0),
                 sine = s_0 + at.weight * (look_up(s + 1, at.ring) - s_0);

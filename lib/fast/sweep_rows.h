@@ -46,10 +46,11 @@ template <class T> struct FieldTables {
 template <class T> struct FieldRows {
     FieldTables<T> middle; // of the step
     T x, z, per_metre;
-    std::int32_t columns, rows, cells;
+    std::int32_t columns, rows, cells, all_cells; // cells: of one clock
     T center_x, center_z, rings_per_metre;
-    std::int32_t rings;
+    std::int32_t rings, all_rings;
     const T* shelter; // [1] a row of lanes for each row; null: none
+    const T* clock;   // likewise: which of the wind's clocks
 };
 
 template <class T> struct SweepRows {

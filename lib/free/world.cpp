@@ -1,9 +1,11 @@
 #include "world.h"
+#include "../growth/skin.h"
 #include "../stages/external_forces.h"
 #include "flight.h"
 #include "landing.h"
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 
 namespace bough {
 namespace {
@@ -165,6 +167,18 @@ void match_velocities(World<T>& world, std::vector<ContactPoint>& points, const 
     }
 }
 
+// Rolling resistance: the ground pushes a lever of rolling x bound off the point below the centre, against the turning and no more than stops it.
+template <class T> void resist_rolling(World<T>& world, const std::vector<ContactPoint>& points) {
+    for (const ContactPoint& c : points) {
+        FreeBody& free = world.free[c.free];
+        const double spin = free.motion.omega.norm(), push = c.impulse.dot(c.normal);
+        if (c.body >= 0 || !(push > 0) || !(spin > 0)) continue;
+        const Vec3 axis = free.motion.omega / spin;
+        const double slower = world.contact.rolling * free.bound * push * axis.dot(free.inverse_inertia_w() * axis);
+        free.motion.omega -= std::min(slower, spin) * axis;
+    }
+}
+
 // Contacts, impulses, and where all are after the step.
 template <class T>
 std::vector<ContactPoint> meet_and_go(const Plan<T>& plan, State<T>& state, World<T>& world, std::vector<Way>& ways) {
@@ -188,6 +202,7 @@ std::vector<ContactPoint> meet_and_go(const Plan<T>& plan, State<T>& state, Worl
         solve_contacts(plan, world.poses, world.response, world.rigid, world.contact, world.free, points);
         for (const ContactPoint& c : points) on_tree.push_back(-c.impulse);
     }
+    if (world.contact.rolling > 0) resist_rolling(world, points);
     load_trees(plan, state, points, on_tree);
     note_hits(plan, world, points);
     for (std::size_t k = 0; k < ways.size(); ++k) finish_way(plan, world, k, ways[k], points);
@@ -267,6 +282,25 @@ void break_joints(Plan<T>& plan, State<T>& state, World<T>& world, const std::ve
     world.rigid.remake(plan, world.subtrees, path);
 }
 
+// The walkers' loads of the step to come, and what they do in it.
+template <class T> void tread(const Plan<T>& plan, State<T>& state, World<T>& world) {
+    const double t = double(state.step) * plan.dt, end = double(state.step + 1) * plan.dt;
+    const auto within = [&](double time) { return time > t && time <= end; };
+    for (std::size_t k = 0; k < world.walkers.size(); ++k) {
+        const Walk& walk = world.walkers[k];
+        const auto name = std::int64_t(world.tree->size_bodies() + world.balls + k);
+        for (const WalkLeg& leg : walk.legs) {
+            if (!leg.leap) continue;
+            if (within(leg.start + walk.push))
+                world.events.add("leapt", name, std::int64_t(leg.pieces.front().body), leg.leave.norm());
+            if (within(leg.end - walk.push))
+                world.events.add("landed", name, std::int64_t(leg.pieces.back().body), leg.land.norm());
+        }
+        if (const std::optional<WalkerLoad> load = walker_load(walk, t, plan.dt))
+            state.loads.push_back({load->body, load->point_b.template cast<T>(), load->force.template cast<T>()});
+    }
+}
+
 } // namespace
 
 template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, const std::vector<TreeRange>& ranges) {
@@ -281,6 +315,11 @@ template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, co
         world.breakable = breakable_joints(tree, ranges, *scene.fracture);
         world.remaining = whole_tree(plan, tree);
     }
+    if (scene.fracture && !scene.walkers.empty())
+        throw std::domain_error("walkers: not with /fracture, which may break off what they walk on");
+    for (std::size_t k = 0; k < scene.walkers.size(); ++k)
+        world.walkers.push_back(
+            make_walk(tree, ranges, scene.walkers[k], scene.gravity, "/walkers/" + std::to_string(k)));
     if (scene.fracture || plan.contact) world.subtrees = make_subtrees(tree, plan.contact);
     if (plan.contact) {
         world.response.make(plan, tree, world.subtrees);
@@ -295,6 +334,7 @@ template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world,
     const double middle = (double(state.step) + 0.5) * plan.dt;
     const bool moves = std::any_of(world.free.begin(), world.free.end(), [](const FreeBody& f) { return !f.at_rest; });
     if (moves && plan.contact) run_stage(Stage::contacts, state, clock, [&] { world.before.begin_copy(plan, state); });
+    if (!world.walkers.empty()) run_stage(Stage::walkers, state, clock, [&] { tread(plan, state, world); });
     advance(plan, state, clock);
     state.loads.clear();
     std::vector<ContactPoint> points;
@@ -340,8 +380,8 @@ template <class T> void place_free_bodies(const World<T>& world, MotionFrame& fr
     const std::size_t bodies = world.tree->size_bodies();
     for (auto* array :
          {&frame.position, &frame.velocity, &frame.angular_velocity, &frame.torque, &frame.theta, &frame.theta_dot})
-        if (!array->empty()) array->resize(bodies + world.balls, Vec3::Zero());
-    if (!frame.rotation.empty()) frame.rotation.resize(bodies + world.balls, Quat::Identity());
+        if (!array->empty()) array->resize(bodies + world.balls + world.walkers.size(), Vec3::Zero());
+    if (!frame.rotation.empty()) frame.rotation.resize(bodies + world.balls + world.walkers.size(), Quat::Identity());
     for (std::size_t k = 0; k < world.free.size(); ++k) {
         const FreeBody& free = world.free[k];
         const FreeMotion& m = free.motion;
@@ -356,7 +396,32 @@ template <class T> void place_free_bodies(const World<T>& world, MotionFrame& fr
             if (!frame.angular_velocity.empty()) frame.angular_velocity[i] = m.omega;
         }
     }
+    for (std::size_t k = 0; k < world.walkers.size(); ++k) {
+        const std::size_t i = bodies + world.balls + k;
+        const WalkerPlace place = walker_place(world.walkers[k], frame.time);
+        const auto at = [&](std::size_t body, const Vec3& point_b) {
+            return Vec3(frame.position[body] + frame.rotation[body] * point_b);
+        };
+        if (!frame.position.empty())
+            frame.position[i] = (1 - place.part) * at(place.body, place.point_b) +
+                                place.part * at(place.next, place.next_b) + place.bow;
+        if (!frame.velocity.empty()) frame.velocity[i] = walker_velocity(world.walkers[k], frame.time);
+    }
     frame.events = world.events;
+}
+
+std::vector<Ball> shown_balls(const Tree& tree, const Scene& scene, const std::vector<Walk>& walkers) {
+    std::vector<Ball> balls = scene.balls;
+    if (walkers.empty()) return balls;
+    std::vector<Mat3> R_wb;
+    std::vector<Vec3> x_w;
+    drawn_pose(tree, R_wb, x_w);
+    for (const Walk& walk : walkers) {
+        const WalkerPlace place = walker_place(walk, 0);
+        balls.push_back({Vec3(x_w[place.body] + R_wb[place.body] * place.point_b), Vec3::Zero(), Vec3::Zero(),
+                         walk.radius, walk.mass});
+    }
+    return balls;
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

@@ -1,6 +1,7 @@
 // world.h: what is free in a scene, and one step of it all: trees, what breaks off them, balls, ground (§6, §8).
 //
 // Order of a step:
+//   walkers   their weight on what they are on goes to the forces of the step (walker.h)
 //   trees     the plan's solver, with the contacts' forces from the step before (advance.h)
 //   flight    each free body's way through the air (flight.h; leaves: leaf_flight.h)
 //   contacts  what they meet on it, trees on their own ways, and the impulses (contact.h); a free body goes to where it met something
@@ -8,7 +9,7 @@
 //             met; what overlapped before is pushed out by a fifth a step. With the paper's pair, the tree takes the penalty force, and the free
 //             body the tree's velocity along the normal where that pushes it away
 //   fracture  joints whose springs' torque is above their threshold (fracture.h)
-// A scene without /fracture and /balls has no World, and its step is advance() alone.
+// A scene without /fracture, /balls and /walkers has no World, and its step is advance() alone.
 // What lies slow on the ground for half a second is at rest from then on. A leaf that comes to the ground lies down on it within some tenths of a second.
 // The hash of a run with free bodies goes on over them; saved() and restore() hold them for a run that is cut. Nothing hangs on threads.
 #pragma once
@@ -16,6 +17,7 @@
 #include "../reference/advance.h"
 #include "contact.h"
 #include "fracture.h"
+#include "walker.h"
 
 namespace bough {
 
@@ -35,11 +37,12 @@ template <class T> struct World {
     std::size_t balls = 0;             // the first of `free`
     std::vector<FreeBody> free;        // then what broke off, in that order
     std::vector<std::uint32_t> broken; // joints, in that order
-    std::vector<Breakable> breakable;  // joints that may break yet
-    Remaining remaining;               // with /fracture
-    Subtrees subtrees;                 // with /fracture, or where trees are pushed
-    TreePoses<T> poses, before;        // at a step's end; where trees are met, at its start
-    TreeResponse<T> response, rigid;   // where trees are pushed: with their springs, and without
+    std::vector<Walk> walkers;
+    std::vector<Breakable> breakable; // joints that may break yet
+    Remaining remaining;              // with /fracture
+    Subtrees subtrees;                // with /fracture, or where trees are pushed
+    TreePoses<T> poses, before;       // at a step's end; where trees are met, at its start
+    TreeResponse<T> response, rigid;  // where trees are pushed: with their springs, and without
     WindTable<double> wind;
     MotionEvents events; // since the caller last cleared them
     WorldCounts counts;
@@ -50,7 +53,7 @@ template <class T> struct World {
 };
 
 // Empty (on() false) where the scene has nothing free. The tree is kept by reference: joined, unscaled, as the plan was made from. Throws
-// std::out_of_range for a selector of /fracture that names no body. O(n).
+// std::out_of_range for a selector of /fracture or /walkers that names no body, std::domain_error for walkers on what may break. O(n).
 template <class T> World<T> make_world(const Plan<T>&, const Tree&, const std::vector<TreeRange>&);
 
 // One step of all; without a world that is on, advance(plan, state).
@@ -62,8 +65,11 @@ template <class T> std::uint64_t state_hash(const Plan<T>&, const State<T>&, con
 // The first free body that is non-finite.
 template <class T> std::optional<std::size_t> first_non_finite(const World<T>&);
 
-// Poses (and velocities, where the frame has them) of what fell, in place of the tree's, and behind them the balls'.
+// Poses (and velocities, where the frame has them) of what fell, in place of the tree's, and behind them the balls', then the walkers'.
 template <class T> void place_free_bodies(const World<T>&, MotionFrame&);
+
+// The balls of the scene, and behind them the walkers as the balls that they are shown as, where they begin.
+std::vector<Ball> shown_balls(const Tree&, const Scene&, const std::vector<Walk>&);
 
 // All that a run needs to go on besides State; restore() into a world, plan and state that were just made, before restart(). Throws
 // std::invalid_argument for what does not fit them.

@@ -1,11 +1,9 @@
-#include "scene.h"
+#include "check_parts.h"
 #include <array>
 #include <charconv>
 
 namespace bough {
-namespace {
-
-std::string text(double value) {
+std::string shortest_text(double value) {
     std::array<char, 32> buffer;
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
     return std::string(buffer.data(), end);
@@ -18,18 +16,30 @@ std::optional<Defect> finite(const std::string& field, const Vec3& value) {
 
 std::optional<Defect> at_least(const std::string& field, double value, double low) {
     if (std::isfinite(value) && value >= low) return std::nullopt;
-    return Defect{field, -1, "is " + text(value) + ", expected " + text(low) + " or more"};
+    return Defect{field, -1, "is " + shortest_text(value) + ", expected " + shortest_text(low) + " or more"};
 }
 
 std::optional<Defect> above_zero(const std::string& field, double value) {
     if (std::isfinite(value) && value > 0) return std::nullopt;
-    return Defect{field, -1, "is " + text(value) + ", expected more than 0"};
+    return Defect{field, -1, "is " + shortest_text(value) + ", expected more than 0"};
+}
+
+std::optional<Defect> finite(const std::string& field, double value) {
+    if (std::isfinite(value)) return std::nullopt;
+    return Defect{field, -1, "is not finite, expected a number"};
+}
+
+namespace {
+
+std::string text(double value) {
+    return shortest_text(value);
 }
 
 std::optional<Defect> check(const Placement& tree, const std::string& at) {
     if (tree.file.empty()) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
     if (auto defect = finite(at + "/position", tree.position)) return defect;
     if (!std::isfinite(tree.yaw)) return Defect{at + "/yaw", -1, "is not finite, expected degrees"};
+    if (!std::isfinite(tree.start)) return Defect{at + "/start", -1, "is not finite, expected seconds"};
     return std::nullopt;
 }
 
@@ -121,32 +131,6 @@ std::optional<Defect> check(const Wind& wind) {
     if (auto defect = above_zero("wind/shelter/cell", wind.shelter->cell)) return defect;
     if (wind.velocity.isZero(0)) return Defect{"wind/shelter", -1, "needs a direction, but /wind/velocity is zero"};
     return std::nullopt;
-}
-
-// `trees` of 0: the caller has the one tree that the scene is for.
-std::optional<Defect> check(const Selector& on, const std::string& at, std::size_t trees) {
-    const std::size_t count = trees == 0 ? 1 : trees;
-    const auto index = [&](const char* field, std::int64_t value) -> std::optional<Defect> {
-        if (value >= 0) return std::nullopt;
-        return Defect{at + field, -1, "is " + std::to_string(value) + ", expected 0 or more"};
-    };
-    if (on.tree < 0 || std::size_t(on.tree) >= count)
-        return Defect{at + "/tree", -1,
-                      "is " + std::to_string(on.tree) + ", expected a tree of the scene, 0 to less than " +
-                          std::to_string(count)};
-    switch (on.by) {
-    case Selector::By::body:
-        return index("/body", on.body);
-    case Selector::By::level:
-        return index("/level", on.level);
-    case Selector::By::nearest:
-        return finite(at + "/nearest", on.nearest);
-    case Selector::By::branch:
-        break;
-    }
-    if (auto defect = index("/branch", on.branch)) return defect;
-    if (on.at >= 0 && on.at <= 1) return std::nullopt;
-    return Defect{at + "/at", -1, "is " + text(on.at) + ", expected 0 to 1"};
 }
 
 std::optional<Defect> check(const Pull& pull, const std::string& at, std::size_t trees) {
@@ -261,6 +245,7 @@ std::optional<Defect> check(const Contact& contact) {
     if (!(contact.restitution >= 0 && contact.restitution <= 1))
         return Defect{"contact/restitution", -1, "is " + text(contact.restitution) + ", expected 0 to 1"};
     if (auto defect = at_least("contact/friction", contact.friction, 0)) return defect;
+    if (auto defect = at_least("contact/rolling", contact.rolling, 0)) return defect;
     if (auto defect = at_least("contact/penalty", contact.penalty, 0)) return defect;
     if (!std::isfinite(contact.ground_height))
         return Defect{"contact/ground_height", -1, "is not finite, expected metres"};
@@ -276,6 +261,34 @@ std::optional<Defect> check(const LeafAir& leaves) {
 }
 
 } // namespace
+
+// `trees` of 0: the caller has the one tree that the scene is for.
+std::optional<Defect> check(const Selector& on, const std::string& at, std::size_t trees) {
+    const std::size_t count = trees == 0 ? 1 : trees;
+    const auto index = [&](const char* field, std::int64_t value) -> std::optional<Defect> {
+        if (value >= 0) return std::nullopt;
+        return Defect{at + field, -1, "is " + std::to_string(value) + ", expected 0 or more"};
+    };
+    if (on.tree < 0 || std::size_t(on.tree) >= count)
+        return Defect{at + "/tree", -1,
+                      "is " + std::to_string(on.tree) + ", expected a tree of the scene, 0 to less than " +
+                          std::to_string(count)};
+    switch (on.by) {
+    case Selector::By::body:
+        if (on.point)
+            if (auto defect = finite(at + "/point", *on.point)) return defect;
+        return index("/body", on.body);
+    case Selector::By::level:
+        return index("/level", on.level);
+    case Selector::By::nearest:
+        return finite(at + "/nearest", on.nearest);
+    case Selector::By::branch:
+        break;
+    }
+    if (auto defect = index("/branch", on.branch)) return defect;
+    if (on.at >= 0 && on.at <= 1) return std::nullopt;
+    return Defect{at + "/at", -1, "is " + text(on.at) + ", expected 0 to 1"};
+}
 
 std::optional<Defect> check(const Scene& scene) {
     for (std::size_t i = 0; i < scene.trees.size(); ++i)
@@ -298,6 +311,8 @@ std::optional<Defect> check(const Scene& scene) {
         if (auto defect = check(*scene.contact)) return defect;
     if (scene.leaves)
         if (auto defect = check(*scene.leaves)) return defect;
+    for (std::size_t i = 0; i < scene.walkers.size(); ++i)
+        if (auto defect = check(scene.walkers[i], "walkers/" + std::to_string(i), scene.trees.size())) return defect;
     if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
     return at_least("damping_scale", scene.damping_scale, 0);
 }

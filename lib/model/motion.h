@@ -15,11 +15,12 @@ struct MotionFields {
     bool angles = false;   // theta, theta_dot
 };
 
-// What happened in the steps that led to a frame, arrays over events. Bodies as in the motion: the trees', then the balls.
+// What happened in the steps that led to a frame, arrays over events. Bodies as in the motion: the trees', then balls, then walkers.
 struct MotionEvents {
     // broke   the joint of `body`; value: its spring's torque [N m]
     // hit     `body`, a ball or the body whose joint broke, met `on`, -1: the ground; value: the impulse [N s]
-    // landed  `body`, a leaf or petal, came to the ground; value: its speed [m/s]
+    // landed  `body`, a leaf or petal, came to the ground; or a walker to the body `on`; value: its speed [m/s]
+    // leapt   `body`, a walker, from the body `on`; value: its speed [m/s]
     std::vector<std::string> what;
     std::vector<std::int32_t> body, on; // on: -1 where there is none
     std::vector<double> value;
@@ -34,9 +35,12 @@ struct MotionEvents {
 
 struct MotionHeader {
     double fps = 30;
-    std::int64_t bodies = 0;         // of the trees and the balls
+    std::int64_t bodies = 0; // of the trees, the balls and walkers
     std::int64_t balls = 0;  // how many of them, the last ones
     bool events = false;     // frames list what broke, hit and landed
+    // Of a motion that is a part of another: which, of how many, and where its first body stands in the whole.
+    std::int32_t part = 1, parts = 1;
+    std::int64_t first_body = 0;
     MotionFields fields;
     std::string name;   // the tree's
     std::string source; // command lines that made it
@@ -65,12 +69,13 @@ struct SavedState {
     std::int64_t frame = 0; // the last frame that was made
     double fps = 30;
     std::int32_t substeps = 1;
-    std::string precision;         // "float" or "double"
-    std::string solver;            // "analytic" ...
-    std::string scheme;            // "P12" ..., of the coupled solver; empty with all others
-    std::uint64_t fingerprint = 0; // of the tree and the scene it belongs to
-    std::vector<Vec3> theta;       // [rad]; floats are exact in doubles
-    std::vector<Vec3> theta_dot;   // [rad/s]
+    std::string precision;            // "float" or "double"
+    std::string solver;               // "analytic" ...
+    std::string scheme;               // "P12" ..., of the coupled solver; empty with all others
+    std::uint64_t fingerprint = 0;    // of the tree and the scene it belongs to
+    std::int32_t part = 1, parts = 1; // of a scene's trees (MotionHeader)
+    std::vector<Vec3> theta;          // [rad]; floats are exact in doubles
+    std::vector<Vec3> theta_dot;      // [rad/s]
     // What else a solver carries from step to step; each has its own, the others' stay empty.
     std::vector<Vec3> theta_change, theta_dot_change; // coupled: [rad], [rad/s] of the last step
     std::vector<Vec3> scaled_rate;                    // all others: State::scaled_rate; analytic [sqrt(J)]

@@ -112,11 +112,13 @@ struct RootMotion {
 
 // What walks on trees: a weight on a branch that runs from place to place, and leaps where the next is on another tree (walker.h).
 struct Walker {
-    double mass = 0.4; // [kg]
-    double push = 0.1; // [s] how long a leap's push and its landing take
+    double mass = 0.4;    // [kg]
+    double radius = 0.06; // [m] of the ball that it is shown as
+    double push = 0.1;    // [s] how long a leap's push takes, and its landing
     struct Stop {
-        Selector on;     // one body; not by level
-        double time = 0; // [s] rising
+        Selector on;       // one body; not by level
+        double time = 0;   // [s] rising
+        bool leap = false; // to here through the air, also where wood leads here
     };
     std::vector<Stop> stops; // at least two
 };
@@ -213,6 +215,7 @@ struct Contact {
     ContactModel model = ContactModel::impulse;
     double restitution = 0.2; // [1] 0..1
     double friction = 0.5;    // [1] Coulomb's
+    double rolling = 0.03;    // [1] rolling resistance on the ground: lever of its push over the body's radius
     double penalty = 50;      // [N s/m] zeta of the paper's pair
     bool trees = true;        // what is free meets branches and fruit
     bool leaves = false;      // ... leaves and petals too, and what falls of these meets trees

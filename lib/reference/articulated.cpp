@@ -89,7 +89,7 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
         place += b.R_wb * c;
     else
         place.y() += b.R_wb.row(1).dot(c);
-    const Vec3 u = b.R_wb.transpose() * sheltered(plan, i, pass.wind.at(place)) - b.v - b.omega.cross(c);
+    const Vec3 u = b.R_wb.transpose() * wind_on_body_at(plan, i, pass.wind, place) - b.v - b.omega.cross(c);
     Vec3 f = plan.drag_area[i] * air_force(plan.kind[i], own_axes, u).force;
     if (h > 0) {
         const Mat3 D = h * plan.drag_area[i] * air_damping(plan.kind[i], own_axes, u);

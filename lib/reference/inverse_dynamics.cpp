@@ -49,7 +49,7 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
     const auto parent = [&](std::size_t i) { return std::size_t(plan.parent[i]); };
     WindTable<double> wind;
     if (plan.wind) {
-        wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach);
+        wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
         evaluate_wind(*plan.scene.wind, time, wind);
     }
     std::vector<Moving> body(n);
@@ -64,7 +64,7 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
         const Vec3 weight = plan.mass[i] * plan.scene.gravity;
         Vec3 f = Vec3::Zero(), torque = Vec3::Zero();
         if (plan.wind) {
-            const Vec3 u = sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c);
+            const Vec3 u = wind_on_body_at(plan, i, wind, Vec3(b.x + c)) - b.v - b.omega.cross(c);
             f = plan.drag_area[i] * air_force(plan.kind[i], b.R, u).force;
             if (plan.leaf.on && is_flat(plan.kind[i])) {
                 f += leaf_resistance(plan.leaf, plan.mass[i], b.R, u);

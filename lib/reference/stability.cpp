@@ -19,14 +19,14 @@ constexpr double energy_tolerance = 0.01, growth_tolerance = 1.05, small_angle =
 
 // Moments [N m, body axes] of the air's forces on each joint's composite.
 template <class T> std::vector<Vec3> air_moments(const Plan<T>& plan, const State<T>& s, double time) {
-    WindTable<double> wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach);
+    WindTable<double> wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     evaluate_wind(*plan.scene.wind, time, wind);
     const std::vector<BodyMotion> motion = body_motions(plan, s);
     std::vector<Vec3> f(plan.bodies), tau(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const BodyMotion& b = motion[i];
         const Vec3 c = b.R * plan.com[i].template cast<double>();
-        const Vec3 u = sheltered(plan, i, wind.at(Vec3(b.x + c))) - b.v - b.omega.cross(c);
+        const Vec3 u = wind_on_body_at(plan, i, wind, Vec3(b.x + c)) - b.v - b.omega.cross(c);
         f[i] = double(plan.drag_area[i]) * air_force<double>(plan.kind[i], b.R, u).force;
         tau[i].setZero();
         if (plan.leaf.on && is_flat(plan.kind[i])) {
@@ -194,7 +194,8 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
             return text.find(part) != std::string::npos;
         };
         return (!named(c.group, options.only) && !named(c.name, options.only)) ||
-               (!options.without.empty() && named(c.name, options.without));
+               std::any_of(options.without.begin(), options.without.end(),
+                           [&](const std::string& word) { return named(c.group, word) || named(c.name, word); });
     });
     const std::int64_t total = std::int64_t(cases.size()) * (options.with_implicit ? 5 : 4);
     std::int64_t done = 0;
@@ -203,6 +204,7 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
         setup.scene.pose = Pose::rest;
         setup.scene.wind.reset();
         setup.scene.pulls.clear();
+        setup.scene.walkers.clear();
         setup.scene.root_motion.clear();
         setup.scene.fracture.reset();
         setup.scene.balls.clear();

@@ -44,10 +44,10 @@ struct StabilityReport {
 };
 
 struct StabilityOptions {
-    std::int64_t frames = 100; // steps a cell
-    bool with_implicit = true; // beside coupled and analytic in double and float, articulated_implicit
-    std::string only;          // cases whose group or name contains this; empty: all
-    std::string without{};     // none whose name contains this; empty: all
+    std::int64_t frames = 100;          // steps a cell
+    bool with_implicit = true;          // beside coupled and analytic in double and float, articulated_implicit
+    std::string only;                   // cases whose group or name contains this; empty: all
+    std::vector<std::string> without{}; // none whose group or name contains one of these
 };
 
 // One cell: `frames` steps of the case with this solver and precision. tick once a step; may throw.

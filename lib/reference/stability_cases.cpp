@@ -1,8 +1,10 @@
 #include "stability_cases.h"
 #include "../growth/segment.h"
 #include "../model/wood.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace bough {
 namespace {
@@ -85,6 +87,49 @@ void teleport(StabilitySetup& s, double distance, double span) {
     s.scene.root_motion = {motion};
 }
 
+double mass_of(const Tree& tree) {
+    double sum = 0;
+    for (const double m : tree.mass) sum += m;
+    return sum;
+}
+
+// To and fro, a full swing in 0.2 s, with the given greatest acceleration [m/s^2] of a sine that long.
+void shake(StabilitySetup& s, double acceleration) {
+    const double omega = 2 * std::numbers::pi / 0.2, most = acceleration / (omega * omega);
+    RootMotion motion;
+    for (int k = 0; k <= 20; ++k) {
+        motion.time.push_back(0.5 + 0.05 * k);
+        motion.position.push_back(Vec3(most * std::sin(omega * 0.05 * k), 0, 0));
+    }
+    s.scene.root_motion = {motion};
+}
+
+// The tree again and again, five metres apart, until there are so many.
+void plant(StabilitySetup& s, int trees) {
+    const Tree one = s.tree;
+    for (int k = 1; k < trees; ++k) {
+        const std::int32_t branches =
+            s.ranges.back().first_branch + 1 + *std::max_element(one.branch.begin(), one.branch.end());
+        const std::size_t first = append(s.tree, one, Vec3(5.0 * (k % 32), 0, 5.0 * (k / 32)), k);
+        s.ranges.push_back({first, one.size_bodies(), branches});
+    }
+}
+
+// From the foot of the tree to where its first branch ends, and a leap back.
+void walk(StabilitySetup& s, double mass, double seconds) {
+    Walker walker;
+    walker.mass = mass;
+    for (const auto& [at, time] : {std::pair{0.0, 0.2}, {1.0, 0.2 + seconds}, {0.0, 0.5 + 2 * seconds}}) {
+        Walker::Stop stop;
+        stop.on.by = Selector::By::branch;
+        stop.on.at = at;
+        stop.time = time;
+        stop.leap = !walker.stops.empty() && at == 0;
+        walker.stops.push_back(stop);
+    }
+    s.scene.walkers = {walker};
+}
+
 struct List {
     std::vector<StabilityCase> cases;
     void add(const char* group, const std::string& name, bool promised, std::function<void(StabilitySetup&)> apply) {
@@ -107,6 +152,7 @@ void single_axes(List& list) {
                  [speed](StabilitySetup& s) { blow(s, speed); });
     for (const double x : {0.0, 10.0, 100.0, 1000.0})
         list.add("gravity", "g x " + number(x), x == 0, [x](StabilitySetup& s) { s.scene.gravity *= x; });
+    list.add("gravity", "upside down", true, [](StabilitySetup& s) { s.scene.gravity *= -1; });
     for (const double x : {1e-6, 1e-9, 1e6})
         list.add("mass", "tips x " + number(x), x == 1e-6 || x == 1e6, [x](StabilitySetup& s) {
             scale_tips(s, x);
@@ -167,6 +213,23 @@ void own_trees(List& list) {
         for (const double span : {1e-3, 0.1})
             list.add("ground", "jumps " + number(distance) + " m in " + number(span) + " s", false,
                      [=](StabilitySetup& s) { teleport(s, distance, span); });
+    for (const double g : {1.0, 100.0})
+        list.add("ground", "shakes at " + number(g) + " g", false, [g](StabilitySetup& s) { shake(s, 9.81 * g); });
+    list.add("forest", "1 000 trees of 10 bodies", true, [](StabilitySetup& s) {
+        pole(s, 10, 3, 0.05);
+        plant(s, 1000);
+    });
+    list.add("forest", "one tree on 1 000 places, each ahead in the wind", true, [](StabilitySetup& s) {
+        pole(s, 10, 3, 0.05);
+        plant(s, 1000);
+        blow(s, 20);
+        s.scene.wind->gust_factor = 1.6;
+        s.scene.trees.resize(1000);
+        for (std::size_t k = 0; k < 1000; ++k) s.scene.trees[k].start = 0.1 * double(k);
+    });
+    list.add("walkers", "0.4 kg", true, [](StabilitySetup& s) { walk(s, 0.4, 0.5); });
+    list.add("walkers", "10 kg, out to the tip", false, [](StabilitySetup& s) { walk(s, 10, 0.5); });
+    list.add("walkers", "in a hundredth of a second", false, [](StabilitySetup& s) { walk(s, 0.4, 0.01); });
 }
 
 // Highest drawn joint, and how far from the trunk's foot any is.
@@ -205,12 +268,6 @@ void break_at(StabilitySetup& s, double torque) {
     Fracture f;
     f.branch = f.leaf = f.petal = f.fruit = torque;
     s.scene.fracture = f;
-}
-
-double mass_of(const Tree& tree) {
-    double sum = 0;
-    for (const double m : tree.mass) sum += m;
-    return sum;
 }
 
 void free_bodies(List& list) {

@@ -24,6 +24,28 @@ template <class T> struct Sum {
     }
 };
 
+// What walkers do to the trees in a step: their force times the way of the point it acts on.
+template <class T> struct WalkersWork {
+    struct Push {
+        WalkerLoad load;
+        Vec3 before; // [m]
+    };
+    std::vector<Push> pushes;
+    static Vec3 place(const State<T>& state, const WalkerLoad& load) {
+        return (state.x_w[load.body] + state.R_wb[load.body] * load.point_b.template cast<T>()).template cast<double>();
+    }
+    WalkersWork(const Plan<T>& plan, const State<T>& state, const World<T>& world) {
+        for (const Walk& walk : world.walkers)
+            if (const auto load = walker_load(walk, double(state.step) * plan.dt, plan.dt))
+                pushes.push_back({*load, place(state, *load)});
+    }
+    double done(const State<T>& after) const { // [J]
+        double work = 0;
+        for (const Push& p : pushes) work += p.load.force.dot(place(after, p.load) - p.before);
+        return work;
+    }
+};
+
 template <class T>
 void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const std::function<void()>& tick,
          StabilityCell& cell) {
@@ -31,12 +53,14 @@ void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const 
     State<T> state = make_state(plan);
     World<T> world = make_world(plan, setup.tree, setup.ranges);
     const Sum<T> start(plan, state, world);
-    double largest = start.kinetic, excess = 0, fastest = 0;
+    double largest = start.kinetic, excess = 0, fastest = 0, work = 0;
     cell.finite = true;
     for (std::int64_t k = 0; k < frames && cell.finite; ++k) {
         tick();
+        const WalkersWork<T> walkers(plan, state, world);
         advance(plan, state, world);
         present(plan, state);
+        work += walkers.done(state);
         cell.frames = k + 1;
         cell.finite = !first_non_finite(state) && !first_non_finite(world);
         if (!cell.finite) break;
@@ -46,8 +70,8 @@ void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const 
         largest = std::max(largest, now.kinetic);
         const double rounding = 256 * double(std::numeric_limits<T>::epsilon()) * std::abs(start.total);
         if (largest > 0)
-            excess =
-                std::max(excess, (now.total - start.total - std::max(0.0, world.counts.lifted) - rounding) / largest);
+            excess = std::max(excess, (now.total - start.total - work - std::max(0.0, world.counts.lifted) - rounding) /
+                                          largest);
     }
     std::uint64_t broke = 0;
     for (const std::uint64_t n : world.counts.broke) broke += n;

@@ -45,7 +45,7 @@ template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::
     const Matrix3<T>& R = state.R_wb[i];
     const Vector3<T> arm = R * plan.com[i];
     const Vector3<T> place = state.x_w[i] + arm;
-    Vector3<T> wind = sheltered(plan, i, state.wind.at(place)), v = state.v_w[i], turning = Vector3<T>::Zero();
+    Vector3<T> wind = wind_on_body_at(plan, i, state.wind, place), v = state.v_w[i], turning = Vector3<T>::Zero();
     if (const Ground* ground = plan.root_motion ? ground_of(plan, state, i) : nullptr) {
         const Vec3 carried = ground->v + ground->omega.cross(place.template cast<double>() - ground->x);
         wind -= carried.template cast<T>();

@@ -16,8 +16,9 @@ namespace bough {
 
 const char* stage_name(Stage stage) {
     static constexpr const char* names[stage_count] = {
-        "wind_field", "external_forces", "composite", "drag",  "root_motion",  "refresh",     "spring",   "articulated",
-        "midpoint",   "body_loads",      "resolvent", "lanes", "state_update", "free_flight", "contacts", "fracture"};
+        "wind_field",   "external_forces", "composite", "drag",       "root_motion", "refresh",
+        "spring",       "articulated",     "midpoint",  "body_loads", "resolvent",   "lanes",
+        "state_update", "free_flight",     "contacts",  "fracture",   "walkers"};
     return names[std::size_t(stage)];
 }
 
@@ -92,7 +93,7 @@ template <class T> void give_back_bodies(Plan<T>& plan) {
     const auto all = [](auto&... arrays) { (give_back(arrays), ...); };
     all(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint, plan.K,
         plan.beta, plan.inertia_factor, plan.gravity_row, plan.carried_moment, plan.drag_area, plan.kind, plan.sway,
-        plan.joint_distance, plan.com_distance, plan.inverse_weight, plan.shelter);
+        plan.joint_distance, plan.com_distance, plan.inverse_weight, plan.shelter, plan.clock);
 }
 
 std::string text(double value) { // of four digits, whatever the locale
@@ -245,6 +246,26 @@ double farthest_reach(const Tree& tree, const std::vector<RootSpline>& splines, 
     return farthest_point;
 }
 
+template <class T> WindReach reach_of(const Plan<T>& plan, const Tree& tree) {
+    WindReach reach{highest_reach(tree, plan.splines, plan.moved), 0};
+    if (const std::optional<WindSwirl>& swirl = plan.scene.wind->swirl)
+        reach.reach = farthest_reach(tree, plan.splines, plan.moved, swirl->x, swirl->z);
+    return reach;
+}
+
+// Which of the wind's clocks each body goes by, where there are several.
+template <class T>
+void plan_clocks(Plan<T>& plan, const std::vector<TreeRange>& ranges, const std::vector<double>& whole) {
+    plan.clocks = whole.empty() ? wind_clocks(plan.scene) : whole;
+    if (plan.clocks.size() == 1) return;
+    plan.clock.resize(plan.bodies);
+    for (std::size_t k = 0; k < std::min(ranges.size(), plan.scene.trees.size()); ++k) {
+        const auto which = std::find(plan.clocks.begin(), plan.clocks.end(), plan.scene.trees[k].start);
+        std::fill_n(plan.clock.begin() + std::ptrdiff_t(ranges[k].first_body), ranges[k].bodies,
+                    std::uint32_t(which - plan.clocks.begin()));
+    }
+}
+
 template <class T> void plan_root_motion(Plan<T>& plan, const std::vector<TreeRange>& ranges) {
     const Scene& scene = plan.scene;
     plan.root_motion = !scene.root_motion.empty();
@@ -273,11 +294,15 @@ template <class T> std::string forces_text(const Plan<T>& plan) {
     add(!plan.pulls.empty(), "/pulls");
     add(plan.contact && !plan.scene.balls.empty(), "/balls");
     add(plan.contact && plan.scene.fracture.has_value(), "/fracture");
+    add(!plan.scene.walkers.empty(), "/walkers");
     return text.empty() ? "no wind, no pulls" : text;
 }
 
-bool has_free_bodies(const Scene& scene) {
-    return scene.fracture || !scene.balls.empty();
+const char* free_part(const Scene& scene) {
+    return scene.fracture           ? "/fracture"
+           : !scene.balls.empty()   ? "/balls"
+           : !scene.walkers.empty() ? "/walkers"
+                                    : nullptr;
 }
 
 bool may_push(const Scene& scene) {
@@ -304,6 +329,11 @@ std::string parts_of_field(const Wind& wind) {
     return parts;
 }
 
+// What varies from tree to tree.
+std::string parts_of_clocks(const std::vector<double>& clocks) {
+    return clocks.size() == 1 ? "" : "; /trees' starts, " + std::to_string(clocks.size()) + " clocks";
+}
+
 template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const auto add = [&plan](Stage stage, bool on, const std::string& reason) {
         plan.stages.push_back({stage, on, reason});
@@ -311,7 +341,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     const bool analytic = plan.solver == Solver::analytic, coupled = plan.solver == Solver::coupled;
     const std::string solver = std::string("solver ") + solver_name(plan.solver);
     const std::string own = solver + " (evaluates it in its own pass)";
-    const std::string field = plan.wind ? parts_of_field(*plan.scene.wind) : "";
+    const std::string field = plan.wind ? parts_of_field(*plan.scene.wind) + parts_of_clocks(plan.clocks) : "";
     const std::string moved = plan.root_motion ? "; roots moved by /root_motion" : "";
     const std::string limited = plan.joint_limit ? "; angles kept within /joint_limit" : "";
     const std::string forces = forces_text(plan);
@@ -362,7 +392,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                                             : "every scene (poses; velocities for /wind)") +
                   moved);
     const Scene& scene = plan.scene;
-    const bool free = has_free_bodies(scene);
+    const bool free = scene.fracture || !scene.balls.empty();
     const std::string what = !scene.balls.empty() && scene.fracture ? "/balls, /fracture"
                              : scene.fracture                       ? "/fracture (once something broke)"
                                                                     : "/balls";
@@ -372,6 +402,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
         : plan.contact ? what + ": trees and ground"
                        : what + ": ground alone; nothing free meets trees");
     add(Stage::fracture, scene.fracture.has_value(), scene.fracture ? "/fracture" : "no fracture");
+    add(Stage::walkers, !scene.walkers.empty(), scene.walkers.empty() ? "no walkers" : "/walkers");
     State<T> empty;
     visit_arrays(plan, empty, [&](const char* name, auto& array, bool on, const std::string& reason) {
         plan.arrays.push_back({name, on, plan.bodies * sizeof(array[0]), reason});
@@ -427,22 +458,26 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
             plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
     give_back(own, &Tree::level, &Tree::s);
     if (has_free_bodies(scene) && is_articulated(solver))
-        throw std::domain_error((scene.fracture ? "fracture" : "balls") +
-                                std::string(": only the coupled and the analytic solver meet free bodies, not ") +
+        throw std::domain_error(std::string(free_part(scene) + 1) +
+                                ": only the coupled and the analytic solver meet free bodies and walkers, not " +
                                 solver_name(solver));
     plan.contact = may_push(scene);
+    plan.loads = plan.contact || !scene.walkers.empty();
     plan.forces = plan.wind || plan.pushes();
     plan.velocity = (plan.wind && solver == Solver::analytic) || wishes.velocity;
     plan.torque = wishes.torque;
     plan_root_motion(plan, ranges);
-    plan.top = plan.wind ? highest_reach(tree, plan.splines, plan.moved) : 0;
-    plan.field = plan.wind && varies_over_ground(*scene.wind);
-    if (plan.field && scene.wind->swirl)
-        plan.reach = farthest_reach(tree, plan.splines, plan.moved, scene.wind->swirl->x, scene.wind->swirl->z);
+    if (plan.wind) {
+        const WindReach reach = reach_of(plan, tree);
+        plan.top = std::max(reach.top, wishes.top);
+        plan.reach = std::max(reach.reach, wishes.reach);
+        plan_clocks(plan, ranges, wishes.clocks);
+    }
+    plan.field = plan.wind && (varies_over_ground(*scene.wind) || !plan.clock.empty());
     plan.refresh_reason = solver != Solver::analytic ? std::string("solver ") + solver_name(solver)
                           : !(refresh > 0)           ? "not asked for"
                           : plan.root_motion         ? "/root_motion"
-                          : has_free_bodies(scene)   ? scene.fracture ? "/fracture" : "/balls"
+                          : has_free_bodies(scene)   ? free_part(scene)
                           : scene.joint_limit        ? "/joint_limit"
                                                      : "";
     if (plan.refresh_reason.empty()) {
@@ -461,7 +496,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     give_back(weight);
     if (solver == Solver::coupled && plan.gravity) plan_carried_moments(plan, tree);
     plan_bodies(plan, tree, own);
-    if (plan.field && scene.wind->shelter) plan.shelter = shelter_factors(plan);
+    if (plan.wind && scene.wind->shelter) plan.shelter = shelter_factors(plan);
     plan.lanes.reason = "not asked for";
     if (simd) {
         plan.target = *simd;
@@ -469,13 +504,21 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
         fast::plan_sleep(plan, sleep);
         if (plan.lanes.on) plan.velocity = wishes.velocity; // the drag finds its own
     }
-    plan.pose = !plan.lanes.on || wishes.pose || wishes.velocity || wishes.torque || has_free_bodies(scene);
+    plan.pose =
+        !plan.lanes.on || wishes.pose || wishes.velocity || wishes.torque || scene.fracture || !scene.balls.empty();
     if (!plan.pose) give_back_bodies(plan);
     explain(plan, wishes);
     return plan;
 }
 
 } // namespace
+
+WindReach wind_reach(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene) {
+    Plan<double> plan;
+    plan.scene = scene;
+    plan_root_motion(plan, ranges);
+    return reach_of(plan, tree);
+}
 
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,

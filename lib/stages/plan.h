@@ -33,9 +33,10 @@ enum class Stage : std::uint8_t {
     state_update,
     free_flight,
     contacts,
-    fracture
+    fracture,
+    walkers
 };
-constexpr std::size_t stage_count = 16;
+constexpr std::size_t stage_count = 17;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
@@ -60,6 +61,9 @@ struct Wishes {
     // Poses and angles as they go. Without (and without the two above) a fast path keeps neither them nor their constants in document
     // order: a run then has its hash, and the angles that present() brings for a saved state.
     bool pose = true;
+    // [m] What the wind's tables reach at least, whatever the tree at hand does: a part of a larger scene looks its wind up in the same.
+    double top = 0, reach = 0;
+    std::vector<double> clocks{}; // [s] the wind's of the whole, in its order (wind_clocks)
 };
 
 struct PlannedStage {
@@ -93,8 +97,9 @@ template <class T> struct Plan {
     std::string refresh_reason; // why they are kept, or why not
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     bool root_motion = false, joint_limit = false;
-    bool contact = false;                                     // free bodies may push the trees: State::loads
-    bool pushes() const { return contact || !pulls.empty(); } // on single points
+    bool contact = false;                                   // free bodies may push the trees
+    bool loads = false;                                     // State::loads may hold some: of contacts, of walkers
+    bool pushes() const { return loads || !pulls.empty(); } // on single points
     bool pose = true; // false: with lanes and not wished for; of the arrays over bodies below only theta_start is there
     std::vector<PlannedStage> stages;
     std::vector<PlannedArray> arrays;
@@ -133,8 +138,10 @@ template <class T> struct Plan {
     std::vector<T> inverse_weight;               // [m/rad] 1 / u_j
     double top = 0;                              // [m] highest point, for the wind's table
     bool field = false;                          // it varies over the ground (wind_field.h), or there is shelter
-    double reach = 0;       // [m] the point farthest from the swirl's axis, over the ground; with a swirl alone
-    std::vector<T> shelter; // [1] wind at the body over the undisturbed one (shelter.h)
+    double reach = 0;              // [m] the point farthest from the swirl's axis, over the ground; with a swirl alone
+    std::vector<T> shelter;        // [1] wind at the body over the undisturbed one (shelter.h)
+    std::vector<double> clocks{0}; // [s] by how much the wind's clocks are ahead (wind_field.h)
+    std::vector<std::uint32_t> clock; // which of them each body's tree goes by; empty: all by the first
 
     std::vector<PlannedPull<T>> pulls;
 
@@ -146,9 +153,19 @@ template <class T> struct Plan {
 // What loads the bodies: the parts of the scene that do, or that none does.
 template <class T> std::string forces_text(const Plan<T>&);
 
-// Of free bodies (lib/free): whether the scene may have some at all, and whether they may push trees.
-bool has_free_bodies(const Scene&);
+// Of what goes by itself (lib/free): what the scene names of it, as a JSON pointer, or null; whether there is any; whether free bodies may
+// push trees.
+const char* free_part(const Scene&);
+inline bool has_free_bodies(const Scene& scene) {
+    return free_part(scene) != nullptr;
+}
 bool may_push(const Scene&);
+// [m] highest point that a body of the tree could ever reach by standing straight up, and the farthest over the ground from (x, z): what the
+// wind's tables cover. O(n).
+struct WindReach {
+    double top, reach;
+};
+WindReach wind_reach(const Tree&, const std::vector<TreeRange>&, const Scene&);
 
 // tree: joined and checked; ranges: of each of the scene's trees in it (one range for a tree on its own). Scales K and
 // beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).

@@ -9,6 +9,7 @@
 // The factor u_b over the undisturbed u multiplies all of the wind at the body, over all of the run.
 #pragma once
 #include "plan.h"
+#include "wind.h"
 
 namespace bough {
 
@@ -16,10 +17,21 @@ namespace bough {
 // Throws std::domain_error for a body whose drag is more than what a column has: the cell is too small.
 template <class T> std::vector<T> shelter_factors(const Plan<T>&);
 
-// The wind at a body.
 template <class T, class Real>
 Vector3<Real> sheltered(const Plan<T>& plan, std::size_t body, const Vector3<Real>& wind) {
     return plan.shelter.empty() ? wind : Vector3<Real>(Real(plan.shelter[body]) * wind);
+}
+
+// Which of the wind's clocks a body's tree goes by.
+template <class T> std::size_t clock_of(const Plan<T>& plan, std::size_t body) {
+    return plan.clock.empty() ? 0 : plan.clock[body];
+}
+
+// The wind at a body whose centre of mass is at `place`.
+template <class T, class Real>
+Vector3<Real> wind_on_body_at(const Plan<T>& plan, std::size_t body, const WindTable<Real>& wind,
+                              const Vector3<Real>& place) {
+    return sheltered(plan, body, wind.at(place, clock_of(plan, body)));
 }
 
 } // namespace bough

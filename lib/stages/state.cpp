@@ -58,10 +58,10 @@ template <class T> State<T> make_state(const Plan<T>& plan) {
     for (ArticulatedPass& pass : state.articulated) {
         pass.body.resize(plan.bodies);
         pass.ground.resize(plan.splines.size());
-        if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach);
+        if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     }
     if (plan.wind && !is_articulated(plan.solver))
-        state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach);
+        state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     if (plan.solver == Solver::coupled) {
         if (plan.field)
             state.wind_start = state.wind_end = state.wind.field;

@@ -104,11 +104,12 @@ Vec3 wind_at(const Wind& wind, const Vec3& place, double t) {
     return factor * field_velocity(wind, wind_weather(wind, t), place.x(), place.z(), t);
 }
 
-template <class T> WindTable<T> make_wind_table(const Wind& wind, double top, double reach) {
+template <class T>
+WindTable<T> make_wind_table(const Wind& wind, double top, double reach, const std::vector<double>& clocks) {
     const std::size_t entries = wind.profile == 0 ? 1 : 65;
     WindTable<T> table;
     table.per_metre = T(double(entries - 1) / std::max(top, 1e-3));
-    table.field = make_wind_field<T>(wind, reach);
+    table.field = make_wind_field<T>(wind, reach, clocks);
     if (!table.field.on()) table.velocity.resize(entries);
     for (std::size_t k = 0; k < entries; ++k)
         table.profile.push_back(
@@ -117,13 +118,13 @@ template <class T> WindTable<T> make_wind_table(const Wind& wind, double top, do
 }
 
 template <class T> void evaluate_wind(const Wind& wind, double t, WindTable<T>& table) {
-    if (table.field.on()) return evaluate_field(wind, wind_weather(wind, t), t, table.field);
+    if (table.field.on()) return evaluate_field(wind, t, table.field);
     const Vector3<T> v = wind_velocity(wind, t).template cast<T>();
     for (std::size_t k = 0; k < table.velocity.size(); ++k) table.velocity[k] = table.profile[k] * v;
 }
 
-template WindTable<float> make_wind_table(const Wind&, double, double);
-template WindTable<double> make_wind_table(const Wind&, double, double);
+template WindTable<float> make_wind_table(const Wind&, double, double, const std::vector<double>&);
+template WindTable<double> make_wind_table(const Wind&, double, double, const std::vector<double>&);
 template void evaluate_wind(const Wind&, double, WindTable<float>&);
 template void evaluate_wind(const Wind&, double, WindTable<double>&);
 

@@ -47,15 +47,17 @@ template <class T> struct WindTable {
         const auto k = std::min(std::size_t(place), profile.size() - 2);
         return profile[k] + (place - T(k)) * (profile[k + 1] - profile[k]);
     }
-    Vector3<T> at(const Vector3<T>& place) const {
+    // clock: which of the field's.
+    Vector3<T> at(const Vector3<T>& place, std::size_t clock = 0) const {
         if (!field.on()) return at(place.y());
-        return factor(place.y()) * field.at(place.x(), place.z());
+        return factor(place.y()) * field.at(place.x(), place.z(), clock);
     }
 };
 
 // Table for a scene whose highest body reaches `top` [m], and whose farthest is `reach` [m] from the swirl's axis (needed with a swirl
 // alone): one entry over height for profile 0, else 65. Throws as make_wind_field.
-template <class T> WindTable<T> make_wind_table(const Wind&, double top, double reach = 0);
+template <class T>
+WindTable<T> make_wind_table(const Wind&, double top, double reach = 0, const std::vector<double>& clocks = {0});
 // Fills in the velocities at time t. O(entries). Allocates nothing.
 template <class T> void evaluate_wind(const Wind&, double t, WindTable<T>&);
 

@@ -11,6 +11,7 @@ namespace {
 constexpr double two_pi = 2 * std::numbers::pi, degree = std::numbers::pi / 180;
 constexpr std::size_t most_octaves = 32;
 constexpr double most_rings = 1 << 22; // what lanes look up (wide_pair.h)
+constexpr std::size_t most_entries = 1 << 22;
 
 template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell) {
     return list.size() == 1 ? list.front() : list[cell];
@@ -121,9 +122,17 @@ Vec3 field_velocity(const Wind& wind, const WindWeather& weather, double x, doub
     return swirled(v, std::cos(a), std::sin(a));
 }
 
-template <class T> WindField<T> make_wind_field(const Wind& wind, double reach) {
+std::vector<double> wind_clocks(const Scene& scene) {
+    std::vector<double> clocks{0};
+    for (const Placement& tree : scene.trees)
+        if (std::find(clocks.begin(), clocks.end(), tree.start) == clocks.end()) clocks.push_back(tree.start);
+    return clocks;
+}
+
+template <class T> WindField<T> make_wind_field(const Wind& wind, double reach, const std::vector<double>& clocks) {
     WindField<T> field;
-    if (!varies_over_ground(wind)) return field;
+    if (!varies_over_ground(wind) && clocks.size() == 1) return field;
+    field.clock = clocks;
     if (wind.grid) {
         field.x = T(wind.grid->x);
         field.z = T(wind.grid->z);
@@ -131,14 +140,22 @@ template <class T> WindField<T> make_wind_field(const Wind& wind, double reach) 
         field.columns = wind.grid->columns;
         field.rows = wind.grid->rows;
     }
-    field.velocity.resize(3 * std::size_t(field.columns) * std::size_t(field.rows));
+    if (field.cells() * clocks.size() > most_entries)
+        throw std::domain_error("wind/grid: its " + std::to_string(field.cells()) + " cells for each of the " +
+                                std::to_string(clocks.size()) + " starts of trees are more than " +
+                                std::to_string(most_entries) + " entries; expected fewer cells or starts");
+    field.velocity.resize(3 * field.cells() * clocks.size());
     if (!wind.swirl) return field;
     const double far = std::max(reach, 1e-3);
     const std::size_t n = rings(*wind.swirl, far);
     field.center_x = T(wind.swirl->x);
     field.center_z = T(wind.swirl->z);
     field.rings_per_metre = T(double(n - 1) / far);
-    field.turn.resize(2 * n);
+    if (n * clocks.size() > most_entries)
+        throw std::domain_error("wind/swirl: its " + std::to_string(n) + " rings for each of the " +
+                                std::to_string(clocks.size()) + " starts of trees are more than " +
+                                std::to_string(most_entries) + " entries; expected longer waves or fewer starts");
+    field.turn.resize(2 * n * clocks.size());
     for (std::size_t k = 0; k < n; ++k) {
         const double r = far * double(k) / double(n - 1), b = outward_angle(*wind.swirl, r);
         field.ahead.push_back(largest_turn(*wind.swirl, r) * std::cos(b));
@@ -147,10 +164,13 @@ template <class T> WindField<T> make_wind_field(const Wind& wind, double reach) 
     return field;
 }
 
-template <class T> void evaluate_field(const Wind& wind, const WindWeather& weather, double t, WindField<T>& field) {
-    const std::size_t n = field.cells();
+namespace {
+
+template <class T> void evaluate_clock(const Wind& wind, std::size_t which, double t, WindField<T>& field) {
+    const WindWeather weather = wind_weather(wind, t);
+    const std::size_t n = field.cells(), all = field.velocity.size() / 3;
     const auto put = [&](std::size_t cell, const Vec3& v) {
-        for (std::size_t k = 0; k < 3; ++k) field.velocity[k * n + cell] = T(v[Eigen::Index(k)]);
+        for (std::size_t k = 0; k < 3; ++k) field.velocity[k * all + which * n + cell] = T(v[Eigen::Index(k)]);
     };
     if (wind.grid) {
         const OctavePhases psi(wind.seed);
@@ -160,16 +180,23 @@ template <class T> void evaluate_field(const Wind& wind, const WindWeather& weat
     }
     if (!wind.swirl) return;
     const double now = two_pi * turns(t, whole_period(wind, wind.swirl->period)), c = std::cos(now), s = std::sin(now);
+    T* const turn = field.turn.data() + which * field.rings();
     for (std::size_t k = 0; k < field.rings(); ++k) {
         const double angle = s * field.ahead[k] - c * field.behind[k]; // A sin(now - b)
-        field.turn[k] = T(std::cos(angle));
-        field.turn[field.rings() + k] = T(std::sin(angle));
+        turn[k] = T(std::cos(angle));
+        turn[field.turn.size() / 2 + k] = T(std::sin(angle));
     }
 }
 
-template WindField<float> make_wind_field(const Wind&, double);
-template WindField<double> make_wind_field(const Wind&, double);
-template void evaluate_field(const Wind&, const WindWeather&, double, WindField<float>&);
-template void evaluate_field(const Wind&, const WindWeather&, double, WindField<double>&);
+} // namespace
+
+template <class T> void evaluate_field(const Wind& wind, double t, WindField<T>& field) {
+    for (std::size_t k = 0; k < field.clock.size(); ++k) evaluate_clock(wind, k, t + field.clock[k], field);
+}
+
+template WindField<float> make_wind_field(const Wind&, double, const std::vector<double>&);
+template WindField<double> make_wind_field(const Wind&, double, const std::vector<double>&);
+template void evaluate_field(const Wind&, double, WindField<float>&);
+template void evaluate_field(const Wind&, double, WindField<double>&);
 
 } // namespace bough

@@ -13,7 +13,8 @@
 // a turning point and at the ends (Fritsch, Butland 1984: it never swings past a key), constant beyond. A wind straight up or down stays.
 //
 // What steps look up (WindField): velocities of cells and, at even radii, the angle's cosine and sine, linear between and brought
-// back to length 1, so that the magnitude stays to rounding. The radii are as near as a 64th of a wavelength, of the distance between two keys
+// back to length 1, so that the magnitude stays to rounding. Trees that are ahead in the wind (Placement::start) look theirs up in tables of
+// their own, one set a clock, which hold the wind of t + start; gusts and turbulence are ahead too. The radii are as near as a 64th of a wavelength, of the distance between two keys
 // and of the way to the farthest body; beyond that one they are constant.
 #pragma once
 #include "../model/scene.h"
@@ -49,6 +50,9 @@ template <class T> Vector3<T> swirled(const Vector3<T>& v, T c, T s) {
     return {c * v.x() - k * v.z(), c * v.y(), c * v.z() + k * v.x()};
 }
 
+// The clocks of a scene's trees: every start that one has, once, 0 first; one alone where none is ahead.
+std::vector<double> wind_clocks(const Scene&);
+
 // Directly: the velocity at (x, z) [m] where the profile is 1.
 Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double t);
 
@@ -56,40 +60,45 @@ template <class T> struct WindField {
     // Grid
     T x = 0, z = 0, per_metre = 0; // [m] least corner; [1/m] cells a metre
     std::int32_t columns = 1, rows = 1;
-    std::vector<T> velocity; // [m/s] of each cell where the profile is 1: all x, all y, all z; empty: no field at all
+    std::vector<T>
+        velocity; // [m/s] of each clock's cells where the profile is 1: all x, all y, all z; empty: no field at all
     // Swirl
     T center_x = 0, center_z = 0, rings_per_metre = 0; // [m]; [1/m] entries a metre
-    std::vector<T> turn;                               // cosines, then sines; empty: none
+    std::vector<T> turn;                               // of each clock's rings: cosines, then sines; empty: none
     std::vector<double> ahead, behind;                 // [rad] A(r) times cosine and sine of 2 pi r / wavelength
 
-    bool on() const { return !velocity.empty(); }
-    std::size_t cells() const { return velocity.size() / 3; }
-    std::size_t rings() const { return turn.size() / 2; }
+    std::vector<double> clock{0}; // [s] by how much each is ahead
 
-    Vector3<T> at(T px, T pz) const {
+    bool on() const { return !velocity.empty(); }
+    std::size_t cells() const { return std::size_t(columns) * std::size_t(rows); } // of one clock
+    std::size_t rings() const { return ahead.size(); }
+
+    Vector3<T> at(T px, T pz, std::size_t which = 0) const {
         // A place that is not a number, in a run that diverges, is the first cell: max keeps its first argument.
         const auto along = [](T place, std::int32_t count) {
             return std::size_t(std::min(std::max(T(0), place), T(count - 1)));
         };
-        const std::size_t n = cells(), k = along((pz - z) * per_metre, rows) * std::size_t(columns) +
-                                           along((px - x) * per_metre, columns);
+        const std::size_t n = velocity.size() / 3, k = which * cells() +
+                                                       along((pz - z) * per_metre, rows) * std::size_t(columns) +
+                                                       along((px - x) * per_metre, columns);
         const Vector3<T> v(velocity[k], velocity[n + k], velocity[2 * n + k]);
         if (turn.empty()) return v;
         const T dx = px - center_x, dz = pz - center_z;
         const T place = std::min(std::max(T(0), std::sqrt(dx * dx + dz * dz) * rings_per_metre), T(rings() - 1));
         const std::size_t ring = std::min(std::size_t(place), rings() - 2);
         const T w = place - T(ring);
-        const T* c = turn.data() + ring;
-        const T* s = c + rings();
+        const T* c = turn.data() + which * rings() + ring;
+        const T* s = c + turn.size() / 2;
         const T cosine = c[0] + w * (c[1] - c[0]), sine = s[0] + w * (s[1] - s[0]);
         const T one = 1 / std::sqrt(cosine * cosine + sine * sine);
         return swirled<T>(v, one * cosine, one * sine);
     }
 };
 
-// reach: [m] how far from the swirl's axis bodies can be. Throws std::domain_error where that takes more entries than there may be.
-template <class T> WindField<T> make_wind_field(const Wind&, double reach);
-// Fills in velocities and turns at time t. O(cells octaves + rings). Allocates nothing.
-template <class T> void evaluate_field(const Wind&, const WindWeather&, double t, WindField<T>&);
+// reach: [m] how far from the swirl's axis bodies can be. Throws std::domain_error where that takes more entries than there may be, and where
+// cells times clocks do.
+template <class T> WindField<T> make_wind_field(const Wind&, double reach, const std::vector<double>& clocks = {0});
+// Fills in velocities and turns at time t. O(clocks (cells octaves + rings)). Allocates nothing.
+template <class T> void evaluate_field(const Wind&, double t, WindField<T>&);
 
 } // namespace bough

@@ -1,0 +1,27 @@
+#include "mapped.h"
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace bough {
+
+MappedInput::MappedInput(const std::string& path) {
+    const int file = path == "-" ? -1 : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat known {};
+    if (file >= 0 && ::fstat(file, &known) == 0 && S_ISREG(known.st_mode) && known.st_size > 0) {
+        void* pages = ::mmap(nullptr, std::size_t(known.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+        if (pages != MAP_FAILED) {
+            pages_ = static_cast<const char*>(pages);
+            size_ = std::size_t(known.st_size);
+        }
+    }
+    if (file >= 0) ::close(file);
+    if (!pages_) content_ = read_input(path); // and what is wrong with it
+}
+
+MappedInput::~MappedInput() {
+    if (pages_) ::munmap(const_cast<char*>(pages_), size_);
+}
+
+} // namespace bough

@@ -1,0 +1,22 @@
+// mapped.h: an input whose content is looked at where it lies, so that files larger than the memory can be read from start to end.
+#pragma once
+#include "open.h"
+
+namespace bough {
+
+// Of a regular file its pages; of anything else ("-", pipes) all of it, as read_input. A file must not become shorter while it is looked at.
+class MappedInput {
+public:
+    explicit MappedInput(const std::string& path); // throws as read_input
+    MappedInput(const MappedInput&) = delete;
+    MappedInput& operator=(const MappedInput&) = delete;
+    ~MappedInput();
+    std::string_view content() const { return pages_ ? std::string_view(pages_, size_) : content_; }
+
+private:
+    std::string content_;
+    const char* pages_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+} // namespace bough

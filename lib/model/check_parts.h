@@ -1,0 +1,17 @@
+// check_parts.h: what the checks of a scene's parts (check_scene.cpp, check_walkers.cpp ...) are made of. `field`: the value's JSON pointer
+// without its first slash.
+#pragma once
+#include "scene.h"
+
+namespace bough {
+
+std::string shortest_text(double); // that reads back as the same number
+std::optional<Defect> finite(const std::string& field, const Vec3&);
+std::optional<Defect> finite(const std::string& field, double);
+std::optional<Defect> at_least(const std::string& field, double value, double low);
+std::optional<Defect> above_zero(const std::string& field, double value);
+// `trees`: how many the scene has; 0: the caller has the one tree that it is for.
+std::optional<Defect> check(const Selector&, const std::string& at, std::size_t trees);
+std::optional<Defect> check(const Walker&, const std::string& at, std::size_t trees);
+
+} // namespace bough

@@ -1,0 +1,184 @@
+#include "scene_trees.h"
+#include "formats/tree.h"
+#include "lib/model/place.h"
+#include "lib/stages/wind_field.h"
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+namespace bough {
+namespace {
+
+// Each file is read when it is first wanted, and let go when it is last.
+class TreeFiles {
+public:
+    TreeFiles(const Scene& scene, const std::string& scene_file, const MaterialChange& material)
+        : scene_file_(scene_file), material_(material) {
+        for (const Placement& place : scene.trees) ++wanted_[place.file];
+    }
+    Tree take(const Placement& place) {
+        const std::string& file = place.file;
+        std::size_t& left = wanted_[file];
+        auto known = read_.find(file);
+        if (known == read_.end()) {
+            const std::string path = tree_file(scene_file_, place);
+            known = read_.emplace(file, with_material(read_tree(Input(path)), material_, path)).first;
+        }
+        if (--left > 0) return known->second;
+        Tree tree = std::move(known->second);
+        read_.erase(known);
+        return tree;
+    }
+
+private:
+    std::string scene_file_;
+    const MaterialChange& material_;
+    std::map<std::string, std::size_t> wanted_;
+    std::map<std::string, Tree> read_;
+};
+
+Scene scene_of_tree(const Scene& scene, std::size_t k) {
+    Scene alone;
+    alone.trees = {scene.trees[k]};
+    alone.wind = scene.wind;
+    for (RootMotion motion : scene.root_motion)
+        if (std::size_t(motion.tree) == k) {
+            motion.tree = 0;
+            alone.root_motion.push_back(std::move(motion));
+        }
+    return alone;
+}
+
+// One after the other, no two of different files in memory at a time but what is wanted again.
+void measure(const Scene& scene, const std::string& scene_file, const MaterialChange& material,
+             std::vector<std::size_t>& bodies, Part& part) {
+    TreeFiles files(scene, scene_file, material);
+    for (std::size_t k = 0; k < scene.trees.size(); ++k) {
+        Setting alone;
+        stand(alone, files.take(scene.trees[k]), scene.trees[k]);
+        bodies.push_back(alone.tree.size_bodies());
+        if (!scene.wind) continue;
+        const WindReach reach = wind_reach(alone.tree, alone.ranges, scene_of_tree(scene, k));
+        part.top = std::max(part.top, reach.top);
+        part.reach = std::max(part.reach, reach.reach);
+    }
+    part.clocks = wind_clocks(scene);
+    part.moved = !scene.root_motion.empty();
+}
+
+} // namespace
+
+std::string tree_file(const std::string& scene_file, const Placement& place) {
+    const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
+    return (folder / place.file).string();
+}
+
+Tree with_material(Tree tree, const MaterialChange& change, const std::string& file) {
+    try {
+        change_material(tree, change);
+    } catch (const std::domain_error& error) {
+        throw InputError(input_name(file) + ": /material", error.what());
+    }
+    return tree;
+}
+
+// The first tree, often the only one and large, is taken as it is; others are copied behind it.
+void stand(Setting& setting, Tree tree, const Placement& at) {
+    const std::vector<std::int32_t>& branch = setting.tree.branch;
+    const std::int32_t first_branch = branch.empty() ? 0 : *std::max_element(branch.begin(), branch.end()) + 1;
+    const std::size_t first = setting.tree.size_bodies(), bodies = tree.size_bodies();
+    if (!tree.source.empty() && setting.source.find(tree.source) == std::string::npos)
+        setting.source += (setting.source.empty() ? "" : "\n") + tree.source;
+    const double yaw = at.yaw * std::numbers::pi / 180;
+    if (first == 0) {
+        setting.tree = std::move(tree);
+        place(setting.tree, at.position, yaw);
+    } else {
+        append(setting.tree, tree, at.position, yaw);
+    }
+    setting.ranges.push_back({first, bodies, first_branch});
+}
+
+Part parse_shard(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const auto number = [&](const std::string& digits) -> std::int32_t {
+        const bool whole =
+            !digits.empty() && digits.size() < 7 && digits.find_first_not_of("0123456789") == std::string::npos;
+        return whole ? std::stoi(digits) : 0;
+    };
+    Part part;
+    part.part = number(text.substr(0, slash));
+    part.parts = slash == std::string::npos ? 0 : number(text.substr(slash + 1));
+    if (part.part < 1 || part.part > part.parts)
+        throw UsageError("--shard is '" + text + "', expected i/n, i from 1 to n");
+    return part;
+}
+
+std::pair<std::size_t, std::size_t> trees_of_part(const std::vector<std::size_t>& bodies, const Part& part) {
+    const double all = double(std::accumulate(bodies.begin(), bodies.end(), std::size_t(0)));
+    const std::size_t trees = bodies.size(), parts = std::size_t(part.parts);
+    std::vector<std::size_t> first(parts + 1, trees); // tree of each part
+    std::size_t k = 0;
+    double before = 0;
+    for (std::size_t p = 0; p < parts; ++p) {
+        const std::size_t least = p == 0 ? 0 : first[p - 1] + 1, most = trees - (parts - p);
+        while (k < trees && before + double(bodies[k]) / 2 < all * double(p) / double(parts))
+            before += double(bodies[k++]);
+        first[p] = std::clamp(k, least, most);
+    }
+    return {first[std::size_t(part.part) - 1], first[std::size_t(part.part)]};
+}
+
+Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
+    if (const char* together = free_part(scene))
+        throw UsageError(std::string("--shard: not with the scene's ") + together + ", which goes from tree to tree");
+    if (scene.wind && scene.wind->shelter)
+        throw UsageError("--shard: not with the scene's /wind/shelter, by which trees act on each other");
+    if (scene.simulate && !scene.simulate->subtrees.empty())
+        throw UsageError("--shard: not with the scene's /simulate/subtrees, which may name trees of other parts");
+    const auto within = [&](std::int32_t tree) { return std::size_t(tree) >= first && std::size_t(tree) < end; };
+    Scene part = scene;
+    part.trees.assign(scene.trees.begin() + std::ptrdiff_t(first), scene.trees.begin() + std::ptrdiff_t(end));
+    part.pulls.clear();
+    for (std::size_t k = 0; k < scene.pulls.size(); ++k) {
+        Pull pull = scene.pulls[k];
+        if (pull.on.by == Selector::By::nearest || pull.on.by == Selector::By::level)
+            throw UsageError("--shard: not with the scene's /pulls/" + std::to_string(k) +
+                             "/on, which looks for its body in all trees; name it by body or branch");
+        if (!within(pull.on.tree)) continue;
+        pull.on.tree -= std::int32_t(first);
+        part.pulls.push_back(std::move(pull));
+    }
+    part.root_motion.clear();
+    for (RootMotion motion : scene.root_motion) {
+        if (!within(motion.tree)) continue;
+        motion.tree -= std::int32_t(first);
+        part.root_motion.push_back(std::move(motion));
+    }
+    return part;
+}
+
+void stand_trees(Setting& setting, const std::string& scene_file, const std::string& shard,
+                 const MaterialChange& material) {
+    if (setting.scene.trees.empty())
+        throw InputError(input_name(scene_file), "/trees: is empty or missing, expected at least one tree");
+    if (!shard.empty()) {
+        setting.part = parse_shard(shard);
+        const std::size_t trees = setting.scene.trees.size();
+        if (std::size_t(setting.part.parts) > trees)
+            throw UsageError("--shard " + shard + ": the scene has " + std::to_string(trees) +
+                             (trees == 1 ? " tree" : " trees") + ", expected at most as many parts");
+        std::vector<std::size_t> bodies;
+        measure(setting.scene, scene_file, material, bodies, setting.part);
+        const auto [first, end] = trees_of_part(bodies, setting.part);
+        setting.part.first_body =
+            std::accumulate(bodies.begin(), bodies.begin() + std::ptrdiff_t(first), std::int64_t(0));
+        setting.scene = scene_of_part(setting.scene, first, end);
+    }
+    TreeFiles files(setting.scene, scene_file, material);
+    for (const Placement& place : setting.scene.trees) stand(setting, files.take(place), place);
+}
+
+} // namespace bough
