@@ -26,4 +26,12 @@ nlohmann::ordered_json value_of(const Fracture&);
 nlohmann::ordered_json value_of(const Ball&);
 nlohmann::ordered_json value_of(const Contact&);
 
+// ---- scene_wood.cpp: what trees are made of and carry, and the analytic solver's lagged terms ----
+Wood read_wood(const nlohmann::json&, const std::string& name);
+StaticLoad read_load(const nlohmann::json&, const std::string& name);
+Fictitious read_fictitious(const nlohmann::json&, const std::string& name);
+nlohmann::ordered_json value_of(const Wood&);
+nlohmann::ordered_json value_of(const StaticLoad&);
+nlohmann::ordered_json value_of(const Fictitious&);
+
 } // namespace bough

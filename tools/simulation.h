@@ -61,10 +61,12 @@ struct Setting {
     Tree tree;
     std::vector<TreeRange> ranges;
     Scene scene;
-    std::string source;            // command lines of the inputs
+    std::string source; // command lines of the inputs
+    std::vector<std::string>
+        changes{}; // what of the scene is in the tree by now, and no longer in the scene: a line each, for --explain
     std::uint64_t fingerprint = 0; // fingerprint(), where a state is saved or resumed: of the whole tree
 };
-// Reads a tree, or a scene and its trees. Throws UsageError, InputError.
+// Reads a tree, or a scene and its trees; /wood and /load are put into the tree. Throws UsageError, InputError.
 Setting read_setting(const RunOptions&);
 
 // What the options make of an empty scene, without trees. Throws UsageError, InputError.

@@ -7,6 +7,7 @@
 #include "lib/fast/sleep.h"
 #include "lib/free/shown_tree.h"
 #include "lib/stages/frozen.h"
+#include "saved_tree.h"
 #include "simulation.h"
 #include <algorithm>
 #include <chrono>
@@ -23,7 +24,7 @@ constexpr double seconds_default = 10;
 struct Options {
     CommonOptions common;
     RunOptions run;
-    std::string fields, save_state, resume;
+    std::string fields, save_state, save_tree, resume;
     GltfChoice gltf;
     std::optional<int> sides;
     bool explain = false, hash = false, report_error = false, report_cost = false, no_output = false;
@@ -63,6 +64,13 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--report-cost", o.report_cost,
                  "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
     app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
+        ->option_text("FILE")
+        ->check(file_name());
+    app.add_option(
+           "--save-tree", o.save_tree,
+           "Write the tree as it stands at the last frame, drawn there: run again with --pose drawn it stays, its "
+           "springs at rest around what forces had bent it to. It stands where the scene put it; /wood and /load "
+           "are in it, the load as its own weight, stiffness_scale and damping_scale are not. For scenes of one tree")
         ->option_text("FILE")
         ->check(file_name());
     app.add_option("--resume", o.resume, "Go on from this state")->option_text("FILE");
@@ -119,15 +127,20 @@ void refuse_contradictions(const Options& o, const std::string& format) {
     }
     if (o.save_state == "-" && !o.no_output && o.common.output == "-")
         throw UsageError("--save-state -: frames and state cannot both go to stdout");
+    if (o.save_tree == "-" && ((!o.no_output && o.common.output == "-") || o.save_state == "-"))
+        throw UsageError("--save-tree -: the tree and " + std::string(o.save_state == "-" ? "the state" : "frames") +
+                         " cannot both go to stdout");
     if (o.resume == "-" && o.run.input == "-") throw UsageError("--resume -: the input is read from stdin already");
 }
 
-template <class T> std::string explanation(const Plan<T>& plan, const RunOptions& run) {
+template <class T>
+std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes, const RunOptions& run) {
     std::ostringstream text;
     text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s, solver "
          << solver_name(plan.solver);
     if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
     text << "\n";
+    for (const std::string& change : changes) text << "tree changed by " << change << "\n";
     for (const PlannedStage& stage : plan.stages)
         text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
     std::size_t used = 0, left = 0;
@@ -152,6 +165,7 @@ void visit_carried(const Plan<T>& plan, StateType& state, Saved& saved, Visit&& 
         visit(state.theta_dot_change, saved.theta_dot_change);
     } else {
         visit(state.scaled_rate, saved.scaled_rate);
+        if (plan.fictitious) visit(state.spin_dot, saved.spin_dot);
     }
 }
 
@@ -177,6 +191,9 @@ template <class T> void restore(const Options& o, const Setting& setting, const 
         throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
                                                    ", but this run's tree and scene have " +
                                                    hash_text(setting.fingerprint));
+    if (const std::size_t held = saved.spin_dot.size(); held != (plan.fictitious ? plan.bodies : 0))
+        throw InputError(input_name(o.resume), "/spin_dot: is " + std::to_string(held) + " bodies, but this run has " +
+                                                   std::to_string(plan.fictitious ? plan.bodies : 0));
     try {
         restore_world(plan, state, run.world, saved.free_bodies);
     } catch (const std::invalid_argument& error) {
@@ -341,6 +358,7 @@ std::int64_t run_frames(const Options& o, const Setting& setting, Run<T>& run, F
     } catch (const Interrupted&) {
         if (queue) queue->finish();
         if (!o.save_state.empty() && done >= 0) save(o, setting, run, done);
+        if (!o.save_tree.empty() && done >= 0) save_tree(o.save_tree, setting, run, o.common);
         throw;
     }
     if (queue) queue->finish();
@@ -394,8 +412,10 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
         throw UsageError(std::string("--report-error: not with a scene's ") +
                          (setting.scene.fracture ? "fracture" : "balls") + ", which the second run would not have");
     const MotionFields fields = chosen_fields(o);
-    const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error};
-    const bool needs_tree = o.report_error || format == "obj" || format == "glb" || has_free_bodies(setting.scene);
+    const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error || !o.save_tree.empty()};
+    if (!o.save_tree.empty()) require_one_tree(setting);
+    const bool needs_tree =
+        o.report_error || !o.save_tree.empty() || format == "obj" || format == "glb" || has_free_bodies(setting.scene);
     if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
     Plan<T> planned = needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
     const std::int64_t frames = frames_of(o.run, seconds_default);
@@ -410,7 +430,7 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
     Run<T> run = start_run(std::move(planned), setting, o.run);
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
-    if (o.explain) std::cerr << explanation(plan, o.run);
+    if (o.explain) std::cerr << explanation(plan, setting.changes, o.run);
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
@@ -436,6 +456,7 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
         if (run.world.on()) std::cerr << "free bodies " << run.world.bytes() << " bytes\n";
     }
     if (!o.save_state.empty()) save(o, setting, run, done);
+    if (!o.save_tree.empty()) save_tree(o.save_tree, setting, run, o.common);
     if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state, run.world)) << "\n";
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(plan, state.flags, state.step - started, o.common.notes);
