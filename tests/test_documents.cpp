@@ -245,7 +245,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.fracture->strength = 4e7;
     scene.fracture->spread = 0.3;
     scene.fracture->seed = 18446744073709551615u;
-    scene.fracture->joints = {{{Selector::By::level, 0, 0, 0, 1, Vec3::Zero(), 2}, 3.5}, {{}, Fracture::never}};
+    scene.fracture->joints = {{{Selector::By::level, 0, 0, {}, 0, 1, Vec3::Zero(), 2}, 3.5}, {{}, Fracture::never}};
     scene.balls.resize(2);
     scene.balls[1].position = random.vector();
     scene.balls[1].velocity = random.vector();
@@ -490,5 +490,5 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 11);
+    CHECK(examples == 14);
 }

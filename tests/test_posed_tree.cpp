@@ -39,7 +39,7 @@ TEST_CASE("the pose reached under forces, made rest, stays to 1e-9 when they are
     const bool snow = GENERATE(false, true), moved = GENERATE(false, true);
     if (snow) lay_load(tree, {5, 0, 0, 0});
     Scene scene;
-    scene.pulls = {pull_on(5, Vec3(0, -6, 4)), pull_on(3, Vec3(20, 0, 0))};
+    scene.pulls = {pull_on(5, Vec3(0, -360, 240)), pull_on(3, Vec3(1200, 0, 0))};
     scene.stiffness_scale = 0.8;
     if (moved) {
         RootMotion m;
