@@ -139,6 +139,7 @@ ordered_json value_of(const Scene& scene) {
                             {"air_resistance", scene.leaves->air_resistance},
                             {"drag_ratio", scene.leaves->drag_ratio},
                             {"offset", scene.leaves->offset}};
+    if (scene.simulate) fields["simulate"] = value_of(*scene.simulate);
     fields["stiffness_scale"] = scene.stiffness_scale;
     fields["damping_scale"] = scene.damping_scale;
     return fields;
@@ -173,6 +174,7 @@ Scene read_scene(std::string_view content, const std::string& name) {
         scene.balls.push_back(read_ball(value, name, "/balls/" + std::to_string(scene.balls.size())));
     if (object.has("contact")) scene.contact = read_contact(object.need("contact"), name);
     if (object.has("leaves")) scene.leaves = read_leaves(object.need("leaves"), name);
+    if (object.has("simulate")) scene.simulate = read_simulate(object.need("simulate"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();

@@ -26,4 +26,8 @@ nlohmann::ordered_json value_of(const Fracture&);
 nlohmann::ordered_json value_of(const Ball&);
 nlohmann::ordered_json value_of(const Contact&);
 
+// ---- scene_simulate.cpp: which joints move ----
+Simulate read_simulate(const nlohmann::json&, const std::string& name);
+nlohmann::ordered_json value_of(const Simulate&);
+
 } // namespace bough

@@ -27,6 +27,7 @@ Selector read_selector(const json& value, const std::string& name, const std::st
         if (object.has(key) && !allowed) object.fail(key, std::string("goes only with ") + with);
     };
     object.read("body", on.body);
+    if (object.has("point")) object.read("point", on.point.emplace());
     object.read("branch", on.branch);
     object.read("nearest", on.nearest);
     object.read("level", on.level);
@@ -36,6 +37,7 @@ Selector read_selector(const json& value, const std::string& name, const std::st
     if (given.empty()) throw InputError(name + ": " + at, "names no body, expected body, branch, nearest or level");
     if (given.size() > 1) object.fail(given[1], "stands beside " + in_quotes(given[0]) + ", expected only one of them");
     only_for("tree", on.by == Selector::By::body || on.by == Selector::By::branch, "body or branch");
+    only_for("point", on.by == Selector::By::body, "body");
     only_for("at", on.by == Selector::By::branch, "branch");
     return on;
 }
@@ -43,6 +45,7 @@ Selector read_selector(const json& value, const std::string& name, const std::st
 ordered_json value_of(const Selector& on) {
     switch (on.by) {
     case Selector::By::body:
+        if (on.point) return {{"tree", on.tree}, {"body", on.body}, {"point", numbers(*on.point)}};
         return {{"tree", on.tree}, {"body", on.body}};
     case Selector::By::branch:
         return {{"tree", on.tree}, {"branch", on.branch}, {"at", on.at}};

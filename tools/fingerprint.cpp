@@ -28,6 +28,7 @@ struct Fingerprint {
             add(std::uint64_t(tree.branch[i]));
             add(std::uint64_t(tree.level[i]));
             add(tree.s[i]);
+            if (!tree.rigid.empty()) add(std::uint64_t(tree.rigid[i])); // how the air meets it (reduce.h)
         }
     }
     void add(const Wind& w) {
@@ -65,6 +66,7 @@ struct Fingerprint {
             add(std::uint64_t(value));
         add(on.at);
         add(on.nearest);
+        if (on.point) add(*on.point);
     }
     void add(const Pull& pull) {
         add(pull.on);

@@ -1,9 +1,9 @@
-#include "scene.h"
+#include "check_scene.h"
 #include <array>
 #include <charconv>
 
 namespace bough {
-namespace {
+namespace scene_check {
 
 std::string text(double value) {
     std::array<char, 32> buffer;
@@ -25,6 +25,12 @@ std::optional<Defect> above_zero(const std::string& field, double value) {
     if (std::isfinite(value) && value > 0) return std::nullopt;
     return Defect{field, -1, "is " + text(value) + ", expected more than 0"};
 }
+
+} // namespace scene_check
+
+namespace {
+
+using namespace scene_check;
 
 std::optional<Defect> check(const Placement& tree, const std::string& at) {
     if (tree.file.empty()) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
@@ -123,8 +129,9 @@ std::optional<Defect> check(const Wind& wind) {
     return std::nullopt;
 }
 
-// `trees` of 0: the caller has the one tree that the scene is for.
-std::optional<Defect> check(const Selector& on, const std::string& at, std::size_t trees) {
+} // namespace
+
+std::optional<Defect> scene_check::check(const Selector& on, const std::string& at, std::size_t trees) {
     const std::size_t count = trees == 0 ? 1 : trees;
     const auto index = [&](const char* field, std::int64_t value) -> std::optional<Defect> {
         if (value >= 0) return std::nullopt;
@@ -136,6 +143,8 @@ std::optional<Defect> check(const Selector& on, const std::string& at, std::size
                           std::to_string(count)};
     switch (on.by) {
     case Selector::By::body:
+        if (on.point)
+            if (auto defect = finite(at + "/point", *on.point)) return defect;
         return index("/body", on.body);
     case Selector::By::level:
         return index("/level", on.level);
@@ -149,8 +158,10 @@ std::optional<Defect> check(const Selector& on, const std::string& at, std::size
     return Defect{at + "/at", -1, "is " + text(on.at) + ", expected 0 to 1"};
 }
 
+namespace {
+
 std::optional<Defect> check(const Pull& pull, const std::string& at, std::size_t trees) {
-    if (auto defect = check(pull.on, at + "/on", trees)) return defect;
+    if (auto defect = scene_check::check(pull.on, at + "/on", trees)) return defect;
     const std::string count = std::to_string(pull.time.size());
     if (pull.time.empty()) return Defect{at + "/time", -1, "is empty, expected at least one time"};
     if (pull.force.size() != pull.time.size())
@@ -243,7 +254,7 @@ std::optional<Defect> check(const Fracture& fracture, std::size_t trees) {
     if (auto defect = at_least("fracture/spread", fracture.spread, 0)) return defect;
     for (std::size_t i = 0; i < fracture.joints.size(); ++i) {
         const std::string at = "joints/" + std::to_string(i);
-        if (auto defect = check(fracture.joints[i].on, "fracture/" + at + "/on", trees)) return defect;
+        if (auto defect = scene_check::check(fracture.joints[i].on, "fracture/" + at + "/on", trees)) return defect;
         if (auto defect = torque(at + "/torque", fracture.joints[i].torque)) return defect;
     }
     return std::nullopt;
@@ -298,6 +309,7 @@ std::optional<Defect> check(const Scene& scene) {
         if (auto defect = check(*scene.contact)) return defect;
     if (scene.leaves)
         if (auto defect = check(*scene.leaves)) return defect;
+    if (auto defect = check_simulate(scene)) return defect;
     if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
     return at_least("damping_scale", scene.damping_scale, 0);
 }

@@ -40,7 +40,7 @@ Selected by_body(const Tree& joined, const TreeRange& range, const Selector& sel
                                 std::to_string(selector.tree) + " has " + std::to_string(range.bodies) +
                                 " bodies (0 is the first)");
     const std::size_t i = range.first_body + std::size_t(selector.body);
-    return {i, joined.com[i]};
+    return {i, selector.point.value_or(joined.com[i])};
 }
 
 // The piece that holds `at` is the last one that begins there or before; it ends where the next one begins.
