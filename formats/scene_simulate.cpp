@@ -47,9 +47,8 @@ ordered_json value_of(const Simulate& simulate) {
     if (simulate.box) fields["box"] = {{"least", numbers(simulate.box->least)}, {"most", numbers(simulate.box->most)}};
     fields["error"] = simulate.error;
     if (simulate.view)
-        fields["view"] = {{"from", numbers(simulate.view->from)},
-                          {"angle", simulate.view->angle},
-                          {"pixels", simulate.view->pixels}};
+        fields["view"] = {
+            {"from", numbers(simulate.view->from)}, {"angle", simulate.view->angle}, {"pixels", simulate.view->pixels}};
     return fields;
 }
 

@@ -4,6 +4,7 @@
 #include "lib/model/place.h"
 #include "lib/stages/frozen_rule.h"
 #include "lib/stages/state_arrays.h"
+#include "rigid_parts.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -306,6 +307,7 @@ Setting read_setting(const RunOptions& o) {
     }
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
+    join_rigid(setting, o.input);
     return setting;
 }
 
@@ -331,7 +333,8 @@ Plan<T> plan_of(TreeType&& tree, const Setting& setting, const Wishes& wishes, c
     } catch (const std::out_of_range& error) {
         throw InputError(input_name(o.input), error.what());
     } catch (const std::domain_error& error) {
-        throw InputError(input_name(o.input), error.what());
+        throw InputError(input_name(o.input),
+                         std::string(error.what()) + (setting.whole ? " (bodies counted without the rigid ones)" : ""));
     }
 }
 

@@ -6,7 +6,9 @@
 #include "lib/model/scene.h"
 #include "lib/reference/advance.h"
 #include "lib/stages/plan.h"
+#include "lib/stages/reduce.h"
 #include "lib/stages/state.h"
+#include <memory>
 
 namespace bough {
 
@@ -56,15 +58,25 @@ std::string rate_text(double rate); // "1e-05"
 double chosen_refresh(const RunOptions&, const Scene&);
 double analytic_refresh(const RunOptions&); // whatever the solver and the wind
 
+// What a run of a part of it is of (rigid_parts.h).
+struct Whole {
+    Tree tree; // all bodies, none held
+    Scene scene;
+    Reduced places; // where each body is on the tree that runs, which is not in here
+};
+
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {
     Tree tree;
     std::vector<TreeRange> ranges;
     Scene scene;
-    std::string source;            // command lines of the inputs
-    std::uint64_t fingerprint = 0; // fingerprint(), where a state is saved or resumed: of the whole tree
+    std::string source; // command lines of the inputs
+    std::vector<std::string>
+        changes{}; // what of the scene is in the tree by now, and no longer in the scene: a line each, for --explain
+    std::uint64_t fingerprint = 0;        // fingerprint(), where a state is saved or resumed: of the whole tree
+    std::shared_ptr<const Whole> whole{}; // where joints are held; tree, ranges and scene are then of what moves
 };
-// Reads a tree, or a scene and its trees. Throws UsageError, InputError.
+// Reads a tree, or a scene and its trees, rigid parts joined (rigid_parts.h). Throws UsageError, InputError.
 Setting read_setting(const RunOptions&);
 
 // What the options make of an empty scene, without trees. Throws UsageError, InputError.

@@ -7,6 +7,7 @@
 #include "lib/fast/sleep.h"
 #include "lib/free/shown_tree.h"
 #include "lib/stages/frozen.h"
+#include "rigid_parts.h"
 #include "simulation.h"
 #include <algorithm>
 #include <chrono>
@@ -26,7 +27,8 @@ struct Options {
     std::string fields, save_state, resume;
     GltfChoice gltf;
     std::optional<int> sides;
-    bool explain = false, hash = false, report_error = false, report_cost = false, no_output = false;
+    bool explain = false, hash = false, report_error = false, report_cost = false, report_rigid = false,
+         no_output = false;
 };
 
 const ToolInfo info = {
@@ -62,6 +64,9 @@ void declare(CLI::App& app, Options& o) {
                  "twice the step beside this one (half the time more); with --solver coupled");
     app.add_flag("--report-cost", o.report_cost,
                  "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
+    app.add_flag("--report-rigid", o.report_rigid,
+                 "Print `rigid ...` on stderr: how many joints move, what the branches' tips are off by for those that "
+                 "/simulate or the tree's /rigid hold, and both costs, from a run of the whole tree beside this one");
     app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
         ->option_text("FILE")
         ->check(file_name());
@@ -107,6 +112,8 @@ void refuse_contradictions(const Options& o, const std::string& format) {
     }
     if (o.report_error && o.run.solver != solver_name(Solver::coupled))
         throw UsageError("--report-error: only with --solver coupled, whose error is its step's alone");
+    if (o.report_rigid && !o.resume.empty())
+        throw UsageError("--report-rigid: not with --resume, which says nothing of the joints that are held");
     const bool mesh = format == "obj" || format == "glb";
     if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
@@ -122,12 +129,14 @@ void refuse_contradictions(const Options& o, const std::string& format) {
     if (o.resume == "-" && o.run.input == "-") throw UsageError("--resume -: the input is read from stdin already");
 }
 
-template <class T> std::string explanation(const Plan<T>& plan, const RunOptions& run) {
+template <class T>
+std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes, const RunOptions& run) {
     std::ostringstream text;
     text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s, solver "
          << solver_name(plan.solver);
     if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
     text << "\n";
+    for (const std::string& change : changes) text << "tree changed by " << change << "\n";
     for (const PlannedStage& stage : plan.stages)
         text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
     std::size_t used = 0, left = 0;
@@ -306,8 +315,8 @@ template <class T> void note_world(const World<T>& world, std::vector<std::strin
 // Frames first..last into the sink; what ended the run early is thrown after the frames before it are safe.
 template <class T>
 std::int64_t run_frames(const Options& o, const Setting& setting, Run<T>& run, FrameSink* sink,
-                        ErrorEstimate<T>* estimate, const MotionFields& fields, std::int64_t first, std::int64_t last,
-                        std::chrono::duration<double, std::milli>& cost) {
+                        ErrorEstimate<T>* estimate, RigidReport<T>* rigid, const MotionFields& fields,
+                        std::int64_t first, std::int64_t last, std::chrono::duration<double, std::milli>& cost) {
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
     std::optional<FrameQueue> queue;
@@ -325,10 +334,15 @@ std::int64_t run_frames(const Options& o, const Setting& setting, Run<T>& run, F
                 present(plan, state);
                 estimate->follow(state);
             }
+            if (f > 0 && rigid) {
+                present(plan, state);
+                rigid->follow(plan, state, f);
+            }
             if (queue) {
                 present(plan, state);
                 MotionFrame& frame = queue->next();
                 fill_frame(state, f, o.run.fps, fields, frame);
+                show_whole(setting, plan, state, frame);
                 place_free_bodies(run.world, frame);
                 queue->push();
             }
@@ -394,7 +408,7 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
         throw UsageError(std::string("--report-error: not with a scene's ") +
                          (setting.scene.fracture ? "fracture" : "balls") + ", which the second run would not have");
     const MotionFields fields = chosen_fields(o);
-    const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error};
+    const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error || o.report_rigid};
     const bool needs_tree = o.report_error || format == "obj" || format == "glb" || has_free_bodies(setting.scene);
     if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
     Plan<T> planned = needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
@@ -410,7 +424,7 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
     Run<T> run = start_run(std::move(planned), setting, o.run);
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
-    if (o.explain) std::cerr << explanation(plan, o.run);
+    if (o.explain) std::cerr << explanation(plan, setting.changes, o.run);
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
@@ -420,14 +434,17 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
+    std::optional<RigidReport<T>> rigid;
+    if (o.report_rigid) rigid.emplace(setting, o.run);
     const bool changed = mesh && (!broken.empty() || !setting.scene.balls.empty());
     const Tree own = changed ? shown_tree(setting.tree, broken, setting.scene.balls) : Tree();
-    const Tree& shown = changed ? own : setting.tree;
+    const Tree& shown = changed ? own : setting.whole ? setting.whole->tree : setting.tree;
     o.gltf.loose = broken.size() + setting.scene.balls.size();
-    const std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, plan.bodies, format, fields);
+    const std::unique_ptr<FrameSink> sink =
+        open_sink(o, setting, shown, setting.whole ? shown.size_bodies() : plan.bodies, format, fields);
     std::chrono::duration<double, std::milli> cost{};
-    const std::int64_t done =
-        run_frames(o, setting, run, sink.get(), estimate ? &*estimate : nullptr, fields, first, last, cost);
+    const std::int64_t done = run_frames(o, setting, run, sink.get(), estimate ? &*estimate : nullptr,
+                                         rigid ? &*rigid : nullptr, fields, first, last, cost);
     if (o.report_cost) std::cerr << cost_line(plan, o.run, cost.count(), done - std::max<std::int64_t>(first, 1) + 1);
     if (o.explain) { // before the state is saved, which takes arrays of its own
         for (std::size_t k = 0; k < stage_count; ++k)
@@ -437,6 +454,7 @@ template <class T> void simulate(Options& o, Setting setting, const std::string&
     }
     if (!o.save_state.empty()) save(o, setting, run, done);
     if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state, run.world)) << "\n";
+    if (rigid) std::cerr << rigid->line(cost.count(), done - std::max<std::int64_t>(first, 1) + 1) << "\n";
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(plan, state.flags, state.step - started, o.common.notes);
     note_world(run.world, o.common.notes);

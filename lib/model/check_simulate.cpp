@@ -47,8 +47,7 @@ std::optional<Defect> check_simulate(const Scene& scene) {
     if (auto defect = at_least("simulate/error", by.error, 0)) return defect;
     if (by.view)
         if (auto defect = check_view(*by.view)) return defect;
-    if (by.view && by.error == 0)
-        return Defect{"simulate/view", -1, "goes only with /simulate/error, in pixels then"};
+    if (by.view && by.error == 0) return Defect{"simulate/view", -1, "goes only with /simulate/error, in pixels then"};
     const bool chooses = by.first_level || by.last_level || by.radius > 0 || !by.subtrees.empty() || by.box;
     if (!chooses && by.error == 0)
         return Defect{"simulate", -1,

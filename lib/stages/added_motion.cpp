@@ -20,8 +20,8 @@ Mean mean_at(const Wind& wind, const Vec3& place) {
     const auto along = [&](double from, double to, std::int32_t count) {
         return std::size_t(std::clamp((to - from) / grid.cell, 0.0, double(count - 1)));
     };
-    const std::size_t cell = along(grid.z, place.z(), grid.rows) * std::size_t(grid.columns) +
-                             along(grid.x, place.x(), grid.columns);
+    const std::size_t cell =
+        along(grid.z, place.z(), grid.rows) * std::size_t(grid.columns) + along(grid.x, place.x(), grid.columns);
     const auto pick = [cell](const auto& list) { return list.size() == 1 ? list[0] : list[cell]; };
     return {grid.velocity.empty() ? wind.velocity : pick(grid.velocity), pick(grid.octaves) > 0};
 }
@@ -31,8 +31,7 @@ Vec3 peak_wind(const Wind& wind, const Vec3& place, int turned) {
     const Mean mean = mean_at(wind, place);
     const double speed = mean.velocity.norm(), own = wind.velocity.norm();
     if (speed == 0) return Vec3::Zero();
-    Vec3 v = mean.velocity *
-             ((mean.swings ? 2 : 1) * wind.gust_factor + 3 * wind.turbulence * own / speed);
+    Vec3 v = mean.velocity * ((mean.swings ? 2 : 1) * wind.gust_factor + 3 * wind.turbulence * own / speed);
     if (wind.swirl && turned != 0) {
         double most = 0;
         for (const double angle : wind.swirl->angle) most = std::max(most, std::abs(angle));
@@ -66,8 +65,7 @@ void add_wind(const Tree& tree, const DrawnPlaces& drawn, const Scene& scene, in
         const double speed = u.norm();
         const Vec3 f = (drag * speed + (leaf.on ? tree.mass[i] * leaf.most : 0)) * u;
         loads.add(i, at, f);
-        loads.own[i] =
-            f.norm() * tree.com[i].norm() + (leaf.on ? leaf_lever(leaf, drag) * speed * speed : 0);
+        loads.own[i] = f.norm() * tree.com[i].norm() + (leaf.on ? leaf_lever(leaf, drag) * speed * speed : 0);
     }
 }
 
@@ -97,8 +95,7 @@ void add_pulls(const Tree& tree, const std::vector<TreeRange>& ranges, const Dra
                 const auto j = std::size_t(i);
                 Vec3 most = Vec3::Zero();
                 for (const Vec3& force : pull.force)
-                    most = most.cwiseMax(
-                        Vec3(drawn.R[j].transpose() * Vec3(at - drawn.x[j]).cross(force)).cwiseAbs());
+                    most = most.cwiseMax(Vec3(drawn.R[j].transpose() * Vec3(at - drawn.x[j]).cross(force)).cwiseAbs());
                 more[j] += most;
             }
         }

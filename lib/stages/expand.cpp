@@ -45,7 +45,9 @@ WholePose whole_pose(const Reduced& r, const Plan<T>& plan, const State<T>& stat
 template <class T>
 void expand_frame(const Reduced& r, const Tree& whole, const Plan<T>& plan, const State<T>& state, MotionFrame& frame) {
     const std::size_t n = r.body.size();
-    const auto leads = [&](std::size_t i) { return r.body[i] >= 0 && r.leader[std::size_t(r.body[i])] == std::int32_t(i); };
+    const auto leads = [&](std::size_t i) {
+        return r.body[i] >= 0 && r.leader[std::size_t(r.body[i])] == std::int32_t(i);
+    };
     const auto of_leader = [&](std::vector<Vec3>& array) {
         expand(array, n, [&](std::size_t i) { return leads(i) ? array[std::size_t(r.body[i])] : Vec3(Vec3::Zero()); });
     };

@@ -21,7 +21,6 @@ template <class T> WholePose whole_pose(const Reduced&, const Plan<T>&, const St
 
 // A frame of the reduced tree, as filled from this state, becomes one of the whole tree: its arrays grow in place. O(bodies of the whole tree).
 // whole: centres of mass are read of it, for velocities. Allocates nothing once the frame's arrays have grown.
-template <class T>
-void expand_frame(const Reduced&, const Tree& whole, const Plan<T>&, const State<T>&, MotionFrame&);
+template <class T> void expand_frame(const Reduced&, const Tree& whole, const Plan<T>&, const State<T>&, MotionFrame&);
 
 } // namespace bough

@@ -76,7 +76,8 @@ HeldJoints hold_rigid(Tree& tree, const std::vector<TreeRange>& ranges, const Sc
         return (!by.first_level || tree.level[i] >= *by.first_level) &&
                (!by.last_level || tree.level[i] <= *by.last_level);
     });
-    if (by.radius > 0) hold(tree, held.radius, [&](std::size_t i) { return tree.size[wood_of(tree, i)][1] >= by.radius; });
+    if (by.radius > 0)
+        hold(tree, held.radius, [&](std::size_t i) { return tree.size[wood_of(tree, i)][1] >= by.radius; });
     if (!by.subtrees.empty()) {
         const std::vector<std::uint8_t> in = in_subtrees(tree, ranges, by.subtrees);
         hold(tree, held.subtrees, [&](std::size_t i) { return in[i] != 0; });

@@ -129,7 +129,8 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
 template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree, const Scene& scene) {
     plan.drag_area.reserve(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i)
-        plan.drag_area.push_back(T(drag_area(kind_in_air(tree, i), tree.size[i], scene.air_density, plate_kappa(scene))));
+        plan.drag_area.push_back(
+            T(drag_area(kind_in_air(tree, i), tree.size[i], scene.air_density, plate_kappa(scene))));
 }
 
 // [m] What turns with a body is within this of its joint (drag.h): its centre of mass, and of a leaf with the torque of /leaves that its

@@ -215,7 +215,8 @@ Scene scene_on(const Reduced& r, const Tree& whole, Scene scene) {
     std::vector<Pull> pulls;
     for (const Pull& pull : scene.pulls)
         for (const Selected& target : select(whole, r.whole, pull.on))
-            if (const std::optional<Selector> on = selector_on(r, target)) pulls.push_back({*on, pull.time, pull.force});
+            if (const std::optional<Selector> on = selector_on(r, target))
+                pulls.push_back({*on, pull.time, pull.force});
     scene.pulls = std::move(pulls);
     for (std::size_t k = 0; k < scene.walkers.size(); ++k)
         for (std::size_t s = 0; s < scene.walkers[k].stops.size(); ++s) {

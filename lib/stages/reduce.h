@@ -34,12 +34,12 @@ inline Kind kind_in_air(const Tree& tree, std::size_t i) {
 }
 
 struct Reduced {
-    Tree tree;                      // no body at all where nothing moves
-    std::vector<TreeRange> ranges;  // of the scene's trees in it
+    Tree tree;                     // no body at all where nothing moves
+    std::vector<TreeRange> ranges; // of the scene's trees in it
     // Of each body of the whole tree.
     std::vector<std::int32_t> body; // that of the reduced one whose group it is in, -1: it stands still
-    std::vector<Vec3> offset;       // [m] its joint in the group's frame (in the world, as drawn, where it stands still)
-    std::vector<Quat> rotation;     // the group's frame (world) from its own
+    std::vector<Vec3> offset;   // [m] its joint in the group's frame (in the world, as drawn, where it stands still)
+    std::vector<Quat> rotation; // the group's frame (world) from its own
 
     std::vector<std::int32_t> leader; // of each body of the reduced tree
     std::vector<TreeRange> whole;     // ranges of the whole tree
