@@ -22,11 +22,14 @@ void join_rigid(Setting& setting, const std::string& input) {
     if (!setting.scene.simulate && setting.tree.rigid.empty()) return;
     try {
         const HeldJoints held = hold_rigid(setting.tree, setting.ranges, setting.scene);
+        setting.changes.push_back((setting.scene.simulate ? "/simulate: " : "/rigid: ") + text_of(held));
         setting.scene.simulate.reset();
-        setting.changes.push_back("/simulate: " + text_of(held));
         if (!has_rigid(setting.tree)) return setting.tree.rigid.clear();
-        if (has_free_bodies(setting.scene))
-            throw InputError(input_name(input), std::string(setting.scene.fracture ? "/fracture" : "/balls") +
+        const Scene& scene = setting.scene;
+        if (has_free_bodies(scene) || !scene.walkers.empty())
+            throw InputError(input_name(input), std::string(scene.fracture         ? "/fracture"
+                                                            : !scene.balls.empty() ? "/balls"
+                                                                                   : "/walkers") +
                                                     ": not with rigid parts (/rigid of a tree), expected a tree whose "
                                                     "joints all move");
         auto whole = std::make_shared<Whole>();

@@ -52,10 +52,11 @@ std::optional<Defect> check_simulate(const Scene& scene) {
     if (!chooses && by.error == 0)
         return Defect{"simulate", -1,
                       "leaves nothing out, expected first_level, last_level, radius, subtrees, box or error"};
-    if (scene.fracture || !scene.balls.empty())
+    const char* other = scene.fracture ? "/fracture" : !scene.balls.empty() ? "/balls" : "/walkers";
+    if (scene.fracture || !scene.balls.empty() || !scene.walkers.empty())
         return Defect{"simulate", -1,
-                      std::string("stands beside ") + (scene.fracture ? "/fracture" : "/balls") +
-                          ", expected one of them: what breaks and what is hit must be able to move"};
+                      std::string("stands beside ") + other +
+                          ", expected one of them: what breaks, is hit or walked on must be able to move"};
     return std::nullopt;
 }
 

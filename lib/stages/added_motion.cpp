@@ -129,7 +129,6 @@ std::vector<double> composite_reach(const Tree& tree) {
 
 std::string no_estimate(const Scene& scene) {
     if (!scene.root_motion.empty()) return "its estimate knows nothing of what /root_motion does";
-    if (!scene.walkers.empty()) return "its estimate knows nothing of what /walkers do";
     const bool sags = scene.pose != Pose::drawn && !scene.gravity.isZero();
     const bool blows = scene.wind && scene.air_density > 0;
     if (!blows && scene.pulls.empty() && !sags)

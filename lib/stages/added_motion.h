@@ -29,7 +29,7 @@ DrawnPlaces drawn_places(const Tree&);
 // [m] of each joint's composite.
 std::vector<double> composite_reach(const Tree&);
 
-// Why there is no estimate for this scene, or empty: it needs something that moves the tree, and knows nothing of root motion and walkers.
+// Why there is no estimate for this scene, or empty: it needs something that moves the tree, and knows nothing of root motion.
 std::string no_estimate(const Scene&);
 
 // [m] Of each joint. Infinite where K is 0 under a load. Throws std::out_of_range as select() does.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 namespace bough {
 namespace {
@@ -218,15 +216,6 @@ Scene scene_on(const Reduced& r, const Tree& whole, Scene scene) {
             if (const std::optional<Selector> on = selector_on(r, target))
                 pulls.push_back({*on, pull.time, pull.force});
     scene.pulls = std::move(pulls);
-    for (std::size_t k = 0; k < scene.walkers.size(); ++k)
-        for (std::size_t s = 0; s < scene.walkers[k].stops.size(); ++s) {
-            Selector& stop = scene.walkers[k].stops[s].on;
-            const std::optional<Selector> on = selector_on(r, select(whole, r.whole, stop).front());
-            if (!on)
-                throw std::domain_error("walkers: stop " + std::to_string(s) + " of walker " + std::to_string(k) +
-                                        " is on a part that stands still: all it hangs on is rigid");
-            stop = *on;
-        }
     return scene;
 }
 
