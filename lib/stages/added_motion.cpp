@@ -9,6 +9,8 @@
 namespace bough {
 namespace {
 
+constexpr double swing = 2; // of an undamped oscillator under a load that comes at once, over its rest there
+
 // Mean velocity of the cell under a place, and whether it swings.
 struct Mean {
     Vec3 velocity;
@@ -145,13 +147,13 @@ std::vector<double> added_motion(const Tree& tree, const std::vector<TreeRange>&
     for (int turned = swirls ? -1 : 0; turned <= (swirls ? 1 : 0); ++turned) {
         Loads loads(tree.size_bodies());
         if (scene.wind) add_wind(tree, drawn, scene, turned, loads);
-        const double weight = scene.pose == Pose::drawn ? 0 : scene.pose == Pose::rest ? 2 : 1;
+        const double weight = scene.pose == Pose::drawn ? 0 : scene.pose == Pose::rest ? 1 : 1 / swing;
         for (std::size_t i = 0; weight > 0 && i < tree.size_bodies(); ++i)
             loads.add(i, drawn.x[i] + drawn.R[i] * tree.com[i], weight * tree.mass[i] * scene.gravity);
         raise_angles(tree, drawn, scene.stiffness_scale, std::move(loads), more, motion);
     }
     const std::vector<double> reach = composite_reach(tree);
-    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] *= reach[i];
+    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] *= swing * reach[i];
     return motion;
 }
 
