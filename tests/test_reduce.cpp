@@ -7,6 +7,7 @@
 #include "tests/make_tree.h"
 #include "tests/random_documents.h"
 #include "tests/simulate.h"
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -43,19 +44,19 @@ Reduced reduced_of(const Tree& tree, const Scene& scene = {}) {
     return reduce(tree, all_of(tree), scene);
 }
 
-// Mass, first moment and inertia about the world's origin, of drawn bodies that `counts` picks.
+// First moment and inertia about body j's joint of it and all it carries, drawn, world axes.
 struct Moments {
-    double mass = 0;
     Vec3 first = Vec3::Zero();
     Mat3 second = Mat3::Zero();
 };
-template <class Counts> Moments moments(const Tree& tree, Counts&& counts) {
+Moments composite(const Tree& tree, std::size_t j) {
     const DrawnPlaces drawn = drawn_places(tree);
     Moments sum;
-    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        if (!counts(i)) continue;
-        const Vec3 c = drawn.x[i] + drawn.R[i] * tree.com[i];
-        sum.mass += tree.mass[i];
+    for (std::size_t i = j; i < tree.size_bodies(); ++i) {
+        std::int64_t on = std::int64_t(i);
+        while (on > std::int64_t(j)) on = tree.parent[std::size_t(on)];
+        if (on != std::int64_t(j)) continue;
+        const Vec3 c = drawn.x[i] + drawn.R[i] * tree.com[i] - drawn.x[j];
         sum.first += tree.mass[i] * c;
         sum.second += drawn.R[i] * tree.inertia[i] * drawn.R[i].transpose() +
                       tree.mass[i] * (c.squaredNorm() * Mat3::Identity() - c * c.transpose());
@@ -89,21 +90,21 @@ double apart(const Quat& a, const Quat& b) {
 
 } // namespace
 
-TEST_CASE("groups have their bodies' mass, centre of mass and inertia") {
+TEST_CASE("each joint carries the first moment and inertia that it did") {
     for (const double share : {0.2, 0.6, 0.95}) {
-        const Tree tree = some_held(make_tree::random_tree(200, 3), 5, share);
+        const Tree tree = some_held(make_tree::random_tree(120, 3), 5, share);
         const Reduced r = reduced_of(tree);
         REQUIRE(r.tree.size_bodies() == r.leader.size());
         REQUIRE(r.tree.size_bodies() + std::size_t(std::count(tree.rigid.begin(), tree.rigid.end(), 1)) ==
                 tree.size_bodies());
         for (std::size_t g = 0; g < r.leader.size(); ++g) {
-            const Moments is = moments(r.tree, [&](std::size_t i) { return i == g; });
-            const Moments sum = moments(tree, [&](std::size_t i) { return r.body[i] == std::int32_t(g); });
-            CHECK(is.mass == Approx(sum.mass).epsilon(1e-13));
-            CHECK((is.first - sum.first).norm() <= 1e-12 * (sum.first.norm() + sum.mass));
-            CHECK((is.second - sum.second).norm() <= 1e-12 * (sum.second.norm() + sum.mass));
-            CHECK(r.tree.parent[g] < std::int32_t(g));
             const auto lead = std::size_t(r.leader[g]);
+            const Moments is = composite(r.tree, g), was = composite(tree, lead);
+            CHECK((is.first - was.first).norm() <= 1e-12 * was.first.norm());
+            CHECK((is.second - was.second).norm() <= 1e-12 * was.second.norm());
+            CHECK(r.tree.mass[g] > 0);
+            CHECK(Eigen::SelfAdjointEigenSolver<Mat3>(r.tree.inertia[g]).eigenvalues()[0] >= 0);
+            CHECK(r.tree.parent[g] < std::int32_t(g));
             CHECK(tree.rigid[lead] == 0);
             CHECK(r.tree.stiffness[g] == tree.stiffness[lead]);
         }
@@ -117,18 +118,24 @@ TEST_CASE("without rigid bodies the reduced tree is the tree, bit by bit") {
     tree.rigid.clear();
     CHECK(bough::test::same(r.tree, tree));
     CHECK(r.tree.rigid.empty());
-    // ... and so is each body that is alone in its group.
+    // ... and so is each body that is alone in its group and bears no group of several.
     const Tree some = some_held(tree, 2, 0.3);
     const Reduced part = reduced_of(some);
     std::vector<int> members(part.leader.size(), 0);
     for (const std::int32_t g : part.body)
         if (g >= 0) ++members[std::size_t(g)];
+    std::vector<bool> bears(members.size(), false);
+    for (std::size_t g = 0; g < members.size(); ++g)
+        if (members[g] > 1 && part.tree.parent[g] >= 0) bears[std::size_t(part.tree.parent[g])] = true;
+    int alone = 0;
     for (std::size_t g = 0; g < members.size(); ++g) {
-        if (members[g] > 1) continue;
+        if (members[g] > 1 || bears[g]) continue;
+        ++alone;
         const auto i = std::size_t(part.leader[g]);
         CHECK((part.tree.mass[g] == tree.mass[i] && part.tree.com[g] == tree.com[i] &&
                part.tree.inertia[g] == tree.inertia[i] && part.tree.size[g] == tree.size[i]));
     }
+    CHECK(alone > 10);
 }
 
 TEST_CASE("a rigid chain on one joint rings as a physical pendulum does") {
@@ -253,12 +260,17 @@ TEST_CASE("parallel bodies have the drag of their sum, and a body for every dire
         return plan_of(t, all_of(t), scene).drag_area[i];
     };
     double sum = 0;
-    for (std::size_t i = 1; i < 5; ++i) sum += area(tree, i);
+    std::vector<double> areas;
+    for (std::size_t i = 0; i < 5; ++i) areas.push_back(area(tree, i));
+    for (std::size_t i = 1; i < 5; ++i) sum += areas[i];
     tree.rigid = {0, 0, 1, 1, 1};
     const Reduced r = reduced_of(tree);
     REQUIRE(r.tree.size_bodies() == 2);
     CHECK(kind_in_air(r.tree, 1) == Kind::branch);
     CHECK(area(r.tree, 1) == Approx(sum).epsilon(1e-12));
+    double moment = 0; // about the group's joint, of the pieces' forces at their own centres
+    for (std::size_t i = 1; i < 5; ++i) moment += areas[i] * (0.4 * double(i - 1) + tree.com[i].z());
+    CHECK(area(r.tree, 1) * r.tree.com[1].z() == Approx(moment).epsilon(1e-9));
     CHECK(r.tree.size[1][0] == Approx(1.6).epsilon(1e-12)); // reaches to the end of the last
 
     // Plates at right angles: the force |u| (u.n) n of each, summed over n = x, y, z, is |u| u: a sphere's.

@@ -5,18 +5,23 @@
 // rigid root and what is rigid on it stand still: they are not simulated, and what moves on them is a root of the reduced tree, with its
 // joint at its place in the world. Groups stand in the order of their leaders, a parent's before its children's.
 //
-// Exact: mass, centre of mass and inertia of a group, the sums over its bodies; joint, stiffness, damping, branch, level, s, its leader's. So
-// statics under gravity and pulls are the whole tree's with those joints held, and so are its dynamics in vacuo. A group of one body is
-// that body, bit by bit. (Tree::load is summed too, and lies at the group's centre of mass.)
+// Exact: what turns about each joint, its composite's first moment and inertia about it, from sums over the bodies; joint, stiffness, damping,
+// branch, level, s, its leader's. So statics under gravity and pulls are the whole tree's with those joints held, and so are its dynamics
+// in vacuo. (Tree::load is summed too, and lies at the group's centre of mass.)
 //
-// In the air a group is one body, whose force stands for the sum of its bodies' (air.h) and acts at the centre of mass. Fitted are a
-// cylinder along the leader and a sphere: the drag area of each is that which comes nearest to the sum over all directions of the wind (least
-// squares over 64 that are even over the sphere); the one that is left with the smaller difference is taken. Bodies parallel to the leader give
-// the cylinder of their summed areas, exactly; branches every way and leaves a sphere. Kind and size are what says so: size is (reach of the
-// leader's branch, radius, radius), as a branch's, and where Tree::rigid is round_to_air the air meets a sphere of that radius (kind_in_air).
-// Left out: force across the wind of bodies that are not parallel; that the sum acts at the centre of area and not of mass (its moment about the
-// group's own joint is off by their distance, that about joints further in hardly); what turning adds to the damping of bodies away from the centre of
-// mass; of leaves in groups that they would give way to the wind, and (23)'s second term and (24) of /leaves.
+// In the air a group is one body, whose force stands for the sum of its bodies' (air.h). Fitted are a cylinder along the leader and a sphere: the
+// drag area of each is that which comes nearest to the sum over the directions of the wind (least squares over 64 that are even over the sphere;
+// where the wind has one mean direction those near it count, by the eighth power of the cosine); the one that is left with the smaller
+// difference is taken. Bodies parallel to the leader give the cylinder of their summed areas, exactly. Kind and size are what says so: size is
+// (reach of the leader's branch, radius, radius), as a branch's, and where Tree::rigid is round_to_air the air meets a sphere of that radius (kind_in_air).
+// The air's force acts at the centre of mass. A mass at the joint turns nothing about it and moves with what the group hangs on, so it may belong to
+// either; a group gives as much of it to what it hangs on (a root: to the ground) as brings its centre of mass out to the centre of its
+// drag areas, as far along as that is and its inertia allows. So masses and centres of mass are not the wood's own, bodies that bear
+// groups are heavier at their ends, and a body that neither is a group nor bears one is the whole tree's, bit by bit.
+// Left out: force across the wind of bodies that are not parallel; what turning adds to the damping of bodies away from the centre; of
+// leaves in groups that they would give way to the wind, and (23)'s second term and (24) of /leaves.
+// A cherry of 20 000 bodies, levels 0 to 1 or 0 to 2 moving, 10 s, RMS error of the tips over that without the two (a sphere's mean over all
+// directions alone, at the centre of mass): bare 0.85 to 0.92 in calm, breeze and gusty; in leaf 0.64 to 0.97, in breeze 1.1.
 #pragma once
 #include "../model/scene.h"
 #include "../model/tree.h"
@@ -51,8 +56,9 @@ inline bool has_rigid(const Tree& tree) {
     return false;
 }
 
-// plate_kappa: of leaves and petals, where the scene has its own (air.h). Reads a checked tree. O(n). Errors none.
-Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, double plate_kappa);
+// plate_kappa: of leaves and petals, where the scene has its own (air.h); toward: the wind's mean direction, zero: none. Reads a checked tree. O(n). Errors none.
+Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, double plate_kappa,
+               const Vec3& toward = Vec3::Zero());
 Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, const Scene&);
 
 // The same place on the reduced tree; none where it stands still.
