@@ -132,6 +132,7 @@ ordered_json value_of(const Scene& scene, const MaterialChange& material) {
     if (scene.wood) fields["wood"] = value_of(*scene.wood);
     if (scene.load) fields["load"] = value_of(*scene.load);
     if (scene.fictitious) fields["fictitious"] = value_of(*scene.fictitious);
+    if (scene.simulate) fields["simulate"] = value_of(*scene.simulate);
     fields["stiffness_scale"] = scene.stiffness_scale;
     fields["damping_scale"] = scene.damping_scale;
     return fields;
@@ -167,6 +168,7 @@ SceneDocument read_fields(const json& fields, const std::string& name) {
     if (object.has("wood")) scene.wood = read_wood(object.need("wood"), name);
     if (object.has("load")) scene.load = read_load(object.need("load"), name);
     if (object.has("fictitious")) scene.fictitious = read_fictitious(object.need("fictitious"), name);
+    if (object.has("simulate")) scene.simulate = read_simulate(object.need("simulate"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();

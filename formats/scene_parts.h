@@ -48,5 +48,8 @@ Fictitious read_fictitious(const nlohmann::json&, const std::string& name);
 nlohmann::ordered_json value_of(const Wood&);
 nlohmann::ordered_json value_of(const StaticLoad&);
 nlohmann::ordered_json value_of(const Fictitious&);
+// ---- scene_simulate.cpp: which joints move ----
+Simulate read_simulate(const nlohmann::json&, const std::string& name);
+nlohmann::ordered_json value_of(const Simulate&);
 
 } // namespace bough

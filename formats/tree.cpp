@@ -6,6 +6,24 @@ namespace {
 
 constexpr DocumentType type{"bough-tree", 1};
 
+// 0 or 1 for each body; where all are 0 it is left out.
+Field flags(const std::string& name, std::vector<std::uint8_t>& values, const Per& per) {
+    Array array{Dtype::u8, 1, {}, {}, {}, {}, {}, per};
+    array.entries = [&values] { return values.size(); };
+    array.get = [&values](std::size_t first, std::size_t count, Numbers& numbers) {
+        numbers.integers.assign(values.begin() + std::ptrdiff_t(first), values.begin() + std::ptrdiff_t(first + count));
+    };
+    array.start = [&values](std::size_t count) {
+        values.clear();
+        values.reserve(count);
+    };
+    array.add = [&values](const Numbers& numbers) {
+        for (const std::int64_t value : numbers.integers) values.push_back(std::uint8_t(value));
+    };
+    array.fill = [](std::size_t) {}; // absent: empty
+    return optional(Field{name, std::move(array)});
+}
+
 std::vector<Field> fields_of(Tree& t) {
     const Per body{"body in /parent", [&t] { return t.size_bodies(); }};
     return {optional({"name", &t.name}),
@@ -24,7 +42,8 @@ std::vector<Field> fields_of(Tree& t) {
             array("size", t.size, body),
             array("branch", t.branch, body),
             array("level", t.level, body),
-            array("s", t.s, body)};
+            array("s", t.s, body),
+            flags("rigid", t.rigid, body)};
 }
 
 } // namespace

@@ -233,7 +233,8 @@ inline bool same(const Tree& a, const Tree& b) {
            same(a.inertia, b.inertia) && same(a.joint_position, b.joint_position) &&
            same(a.joint_rotation, b.joint_rotation) && same(a.stiffness, b.stiffness) && same(a.damping, b.damping) &&
            same(a.size, b.size) && same(a.branch, b.branch) && same(a.level, b.level) && same(a.s, b.s) &&
-           a.name == b.name && a.material == b.material && a.source == b.source && same(a.color, b.color);
+           same(a.rigid, b.rigid) && same(a.load, b.load) && a.name == b.name && a.material == b.material &&
+           a.source == b.source && same(a.color, b.color);
 }
 
 inline bool same(const Splines& a, const Splines& b) {

@@ -285,6 +285,52 @@ TEST_CASE("scenes name the nested place") {
     CHECK(pull("{\"body\": 3}", "\"time\": [0]") == "s: /pulls/0/force: is missing");
 }
 
+TEST_CASE("what a scene simulates names the nested place") {
+    const auto simulate = [](const std::string& fields) { return scene_error("\"simulate\": {" + fields + "}"); };
+    CHECK(simulate("\"last_level\": 1") == "");
+    CHECK(simulate("\"subtrees\": [{\"body\": 3}], \"radius\": 0.01") == "");
+    CHECK(simulate("") ==
+          "s: /simulate: leaves nothing out, expected first_level, last_level, radius, subtrees, box or error");
+    CHECK(simulate("\"first_level\": -1") == "s: /simulate/first_level: is -1, expected 0 or more");
+    CHECK(simulate("\"first_level\": 2, \"last_level\": 1") ==
+          "s: /simulate/last_level: is 1, expected at least /simulate/first_level, 2");
+    CHECK(simulate("\"last_level\": \"all\"") == "s: /simulate/last_level: is \"all\", expected an integer");
+    CHECK(simulate("\"radius\": -0.1") == "s: /simulate/radius: is -0.1, expected 0 or more");
+    CHECK(simulate("\"subtrees\": [{\"body\": 3}, {}]") ==
+          "s: /simulate/subtrees/1: names no body, expected body, branch, nearest or level");
+    CHECK(simulate("\"subtrees\": [{\"body\": -3}]") == "s: /simulate/subtrees/0/body: is -3, expected 0 or more");
+    CHECK(simulate("\"subtrees\": [{\"level\": 3, \"point\": [0, 0, 0]}]") ==
+          "s: /simulate/subtrees/0/point: goes only with body");
+    CHECK(simulate("\"box\": {\"least\": [0, 0, 0]}") == "s: /simulate/box/most: is missing");
+    CHECK(simulate("\"box\": {\"least\": [0, 0, 2], \"most\": [1, 1, 1]}") ==
+          "s: /simulate/box/most/2: is 1, expected at least that of /simulate/box/least, 2");
+    CHECK(simulate("\"error\": -1") == "s: /simulate/error: is -1, expected 0 or more");
+    const std::string view = "\"view\": {\"from\": [0, 2, 20]";
+    CHECK(simulate("\"error\": 2, " + view + "}") == "");
+    CHECK(simulate(view + "}") == "s: /simulate/view: goes only with /simulate/error, in pixels then");
+    CHECK(simulate("\"error\": 2, " + view + ", \"angle\": 180}") ==
+          "s: /simulate/view/angle: is 180, expected more than 0 and less than 180");
+    CHECK(simulate("\"error\": 2, " + view + ", \"pixels\": 0}") ==
+          "s: /simulate/view/pixels: is 0, expected more than 0");
+    CHECK(simulate("\"error\": 2, \"view\": {}") == "s: /simulate/view/from: is missing");
+    CHECK_THAT(simulate("\"levels\": 2"), StartsWith("s: /simulate/levels: is an unknown field"));
+    CHECK_THAT(scene_error("\"simulate\": {\"last_level\": 1}, \"fracture\": {\"leaf\": 1}"),
+               StartsWith("s: /simulate: stands beside /fracture, expected one of them"));
+    CHECK_THAT(scene_error("\"simulate\": {\"last_level\": 1}, \"balls\": [{\"position\": [0, 1, 0], \"radius\": 1, "
+                           "\"mass\": 1}]"),
+               StartsWith("s: /simulate: stands beside /balls, expected one of them"));
+}
+
+TEST_CASE("rigid names body and what is expected") {
+    const std::string s = "\"s\": [0, 0.5]";
+    CHECK(changed(s, s + ", \"rigid\": [0, 1]") == "");
+    CHECK(changed(s, s + ", \"rigid\": [0, 2]") ==
+          "t.json: /rigid/1: is 2, expected 0 (its joint moves) or 1 (it is rigid)");
+    CHECK(changed(s, s + ", \"rigid\": [1]") ==
+          "t.json: /rigid: has 1 numbers, expected 2 (one for each body in /parent)");
+    CHECK(changed(s, s + ", \"rigid\": [0, 0.5]") == "t.json: /rigid/1: is 0.5, expected an integer");
+}
+
 TEST_CASE("root motion names the nested place") {
     const auto moved = [](const std::string& fields) { return scene_error("\"root_motion\": [{" + fields + "}]"); };
     const std::string time = "\"time\": [0, 1], ";

@@ -199,6 +199,60 @@ TEST_CASE("saved states come back from both forms") {
     }
 }
 
+TEST_CASE("rigid bodies come back from both forms, and are left out where there are none") {
+    Random random;
+    Tree tree = random_tree(5000, random);
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) tree.rigid.push_back(std::uint8_t(random.below(2)));
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_tree(o, tree, form); });
+        const Tree read = read_tree(text, "t");
+        CHECK(read.rigid == tree.rigid);
+        CHECK(same(read, tree));
+    }
+    tree.rigid.clear();
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_tree(o, tree, form); });
+        CHECK(text.find("rigid") == std::string::npos);
+        CHECK(read_tree(text, "t").rigid.empty());
+    }
+}
+
+TEST_CASE("what a scene simulates comes back from both forms") {
+    Random random;
+    Scene scene;
+    Simulate simulate;
+    simulate.first_level = 1;
+    simulate.last_level = 3;
+    simulate.radius = random.fraction();
+    Selector at;
+    at.body = 4;
+    at.point = random.vector();
+    simulate.subtrees = {at, {}};
+    simulate.box = Simulate::Box{Vec3(-1, 0.1, -3), Vec3(2, 5, 1e-3)};
+    simulate.error = random.fraction();
+    simulate.view = Simulate::View{random.vector(), 35.5, 2160};
+    scene.simulate = simulate;
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const Scene read = read_scene(scene_text(scene, form), "s");
+        REQUIRE(read.simulate);
+        const Simulate& s = *read.simulate;
+        CHECK((s.first_level == 1 && s.last_level == 3));
+        CHECK(same(s.radius, simulate.radius));
+        REQUIRE(s.subtrees.size() == 2);
+        REQUIRE(s.subtrees[0].point);
+        CHECK(same(*s.subtrees[0].point, *at.point));
+        CHECK((s.subtrees[0].body == 4 && !s.subtrees[1].point));
+        REQUIRE((s.box && s.view));
+        CHECK((same(s.box->least, simulate.box->least) && same(s.box->most, simulate.box->most)));
+        CHECK(same(s.error, simulate.error));
+        CHECK((same(s.view->from, simulate.view->from) && s.view->angle == 35.5 && s.view->pixels == 2160));
+    }
+    const Scene few = read_scene(R"({"format": "bough-scene", "version": 1, "simulate": {"last_level": 1}})", "s");
+    REQUIRE(few.simulate);
+    CHECK((!few.simulate->first_level && few.simulate->last_level == 1 && !few.simulate->box && !few.simulate->view));
+    CHECK_FALSE(read_scene(R"({"format": "bough-scene", "version": 1})", "s").simulate);
+}
+
 TEST_CASE("scenes come back from both forms") {
     Random random;
     Scene scene;
@@ -252,7 +306,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.balls[1].angular_velocity = random.vector();
     scene.balls[1].radius = 0.1 / 3;
     scene.balls[1].mass = 7;
-    scene.contact = Contact{ContactModel::penalty, 0.7, 0.1, 20, false, true, false, -1.5};
+    scene.contact = Contact{ContactModel::penalty, 0.7, 0.1, 0.05, 20, false, true, false, -1.5};
     scene.leaves = LeafAir{random.fraction(), random.fraction(), 1 + random.fraction(), random.fraction()};
     scene.wood.emplace();
     scene.wood->branch = {1.0 / 3, 0, 1e-300};
@@ -490,5 +544,5 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 14);
+    CHECK(examples == 16);
 }

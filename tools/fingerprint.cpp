@@ -28,6 +28,7 @@ struct Fingerprint {
             add(std::uint64_t(tree.branch[i]));
             add(std::uint64_t(tree.level[i]));
             add(tree.s[i]);
+            if (!tree.rigid.empty()) add(std::uint64_t(tree.rigid[i])); // how the air meets it (reduce.h)
         }
         for (const double load : tree.load) add(load);
     }

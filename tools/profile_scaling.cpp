@@ -3,6 +3,7 @@
 #include "machine_limits.h"
 #include "profile.h"
 #include "report_file.h"
+#include "rigid_parts.h"
 #include "scaling.h"
 #include <algorithm>
 #include <cmath>
@@ -137,6 +138,7 @@ std::vector<ScalingTree> chosen_trees(ScalingCommand& o, const Scene& scene, std
         Tree tree = read_tree(Input(file));
         if (!tree.source.empty()) source += (source.empty() ? "" : "\n") + tree.source;
         trees.push_back({file, standing(std::move(tree))});
+        join_rigid(trees.back().setting, file);
     }
     if (!trees.empty()) return trees;
     for (const std::string& shape : words("--shape", o.shape, shapes))

@@ -5,6 +5,7 @@
 #include "lib/model/wood_overrides.h"
 #include "lib/stages/frozen_rule.h"
 #include "lib/stages/state_arrays.h"
+#include "rigid_parts.h"
 #include "scene_trees.h"
 #include "set_option.h"
 #include <algorithm>
@@ -335,6 +336,7 @@ Setting read_setting(const RunOptions& o) {
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
     change_trees(setting, o.input);
+    join_rigid(setting, o.input);
     return setting;
 }
 
@@ -379,7 +381,8 @@ Plan<T> plan_of(TreeType&& tree, const Setting& setting, Wishes wishes, const Ru
     } catch (const std::out_of_range& error) {
         throw InputError(input_name(o.input), error.what());
     } catch (const std::domain_error& error) {
-        throw InputError(input_name(o.input), error.what());
+        throw InputError(input_name(o.input),
+                         std::string(error.what()) + (setting.whole ? " (bodies counted without the rigid ones)" : ""));
     }
 }
 

@@ -6,7 +6,9 @@
 #include "lib/model/scene.h"
 #include "lib/reference/advance.h"
 #include "lib/stages/plan.h"
+#include "lib/stages/reduce.h"
 #include "lib/stages/state.h"
+#include <memory>
 
 namespace bough {
 
@@ -68,6 +70,13 @@ struct Part {
         false; // the ground of some tree moves, of this part or another: then what a still ground allows is left out
 };
 
+// What a run of a part of it is of (rigid_parts.h).
+struct Whole {
+    Tree tree; // all bodies, none held
+    Scene scene;
+    Reduced places; // where each body is on the tree that runs, which is not in here
+};
+
 // The trees of a run joined into one, and the scene with the options applied.
 struct Setting {
     Tree tree;
@@ -77,9 +86,11 @@ struct Setting {
     Part part = {};
     std::vector<std::string>
         changes{}; // what of the scene is in the tree by now, and no longer in the scene: a line each, for --explain
-    std::uint64_t fingerprint = 0; // fingerprint(), where a state is saved or resumed: of the whole tree
+    std::uint64_t fingerprint = 0;        // fingerprint(), where a state is saved or resumed: of the whole tree
+    std::shared_ptr<const Whole> whole{}; // where joints are held; tree, ranges and scene are then of what moves
 };
-// Reads a tree, or a scene and its trees; /wood and /load are put into the tree. Throws UsageError, InputError.
+// Reads a tree, or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (rigid_parts.h). Throws UsageError,
+// InputError.
 Setting read_setting(const RunOptions&);
 
 // The files that read_setting reads: INPUT, the trees of a scene, the wind's. Throws as it does where the scene cannot be read.

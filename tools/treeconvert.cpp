@@ -10,6 +10,7 @@
 #include "lib/growth/skin.h"
 #include "lib/model/split.h"
 #include "lib/model/sway.h"
+#include "merge_trial.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -25,6 +26,7 @@ struct Options {
     ImportChoice choice;
     std::string input, mesh, material;
     GltfChoice gltf;
+    MergeChoice merge;
     std::optional<double> segment_length, max_bend;
     std::optional<std::int64_t> max_bodies;
     std::optional<int> sides;
@@ -68,11 +70,13 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
     app.add_flag("--stats", o.stats, "Print what was made, merged and dropped on stderr");
     app.add_flag("--split", o.split, "One file for each root");
+    add_merge_options(app, o.merge);
     add_import_options(app, o.choice);
 }
 
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
+    refuse_merge_contradictions(o.merge);
     if (o.sides && o.mesh.empty()) throw UsageError("--sides: only with --mesh");
     if (o.mesh == "-") throw UsageError("--mesh is '-', expected a file name");
     if (!o.mesh.empty() && ending(o.mesh) != ".obj" && ending(o.mesh) != ".glb")
@@ -233,11 +237,13 @@ void work(Options& o) {
     note_repairs(report, notes);
     if (o.strict && !notes.empty()) throw InputError(name, notes.front() + " (--strict)");
     if (tree.size_bodies() == 0) throw InputError(name, "holds no branch with a length, expected a tree");
+    std::string merged;
+    if (o.merge.below) merged = merge_by_trial(tree, o.merge, o.common, o.input);
     if (o.split)
         write_each(split_roots(tree), o);
     else
         write_one(tree, o, o.common.output, o.mesh);
-    if (o.stats) std::cerr << statistics(splines, tree, report);
+    if (o.stats) std::cerr << statistics(splines, tree, report) << merged;
     for (const std::string& note : notes) o.common.notes.push_back(name + ": " + note);
 }
 

@@ -4,6 +4,7 @@
 #include "frame_queue.h"
 #include "lib/free/shown_tree.h"
 #include "notes.h"
+#include "rigid_parts.h"
 #include "saved_run.h"
 #include "saved_tree.h"
 #include "watch.h"
@@ -40,8 +41,8 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
 // Frames first..last into the sink; what ended the run early is thrown after the frames before it are safe.
 template <class T>
 std::int64_t run_frames(const TreesimOptions& o, const Setting& setting, Run<T>& run, FrameSink* sink,
-                        ErrorEstimate<T>* estimate, const MotionFields& fields, std::int64_t first, std::int64_t last,
-                        std::chrono::duration<double, std::milli>& cost) {
+                        ErrorEstimate<T>* estimate, RigidReport<T>* rigid, const MotionFields& fields,
+                        std::int64_t first, std::int64_t last, std::chrono::duration<double, std::milli>& cost) {
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
     std::optional<FrameQueue> queue;
@@ -59,10 +60,15 @@ std::int64_t run_frames(const TreesimOptions& o, const Setting& setting, Run<T>&
                 present(plan, state);
                 estimate->follow(state);
             }
+            if (f > 0 && rigid) {
+                present(plan, state);
+                rigid->follow(plan, state, f);
+            }
             if (queue) {
                 present(plan, state);
                 MotionFrame& frame = queue->next();
                 fill_frame(state, f, o.run.fps, fields, frame);
+                show_whole(setting, plan, state, frame);
                 place_free_bodies(run.world, frame);
                 queue->push();
             }
@@ -120,8 +126,11 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
     const bool loops = o.loop.seconds.has_value();
     const std::int64_t frames = loops ? loop_frames(o.loop, o.run) : frames_of(o.run, seconds_default);
     if (loops) make_periodic(frames, o.run.fps, setting.scene);
+    if (setting.whole && o.loop.blend) throw UsageError("--loop-blend: not where joints are held (/simulate, /rigid)");
+    if (setting.whole && !o.save_tree.empty())
+        throw UsageError("--save-tree: not where joints are held (/simulate, /rigid)");
     const Wishes wishes{fields.velocity, fields.torque,
-                        !o.no_output || o.report_error || loops || !o.save_tree.empty()};
+                        !o.no_output || o.report_error || o.report_rigid || loops || !o.save_tree.empty()};
     if (!o.save_tree.empty()) require_one_tree(setting);
     const bool needs_tree = loops || o.report_error || !o.save_tree.empty() || format == "obj" || format == "glb" ||
                             has_free_bodies(setting.scene);
@@ -148,13 +157,16 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;
     if (o.report_error) estimate.emplace(setting.tree, plan, state);
+    std::optional<RigidReport<T>> rigid;
+    if (o.report_rigid) rigid.emplace(setting, o.run);
     const std::vector<Ball> balls =
         mesh ? shown_balls(setting.tree, setting.scene, run.world.walkers) : std::vector<Ball>();
     const bool changed = mesh && (!broken.empty() || !balls.empty());
     const Tree own = changed ? shown_tree(setting.tree, broken, balls) : Tree();
-    const Tree& shown = changed ? own : setting.tree;
+    const Tree& shown = changed ? own : setting.whole ? setting.whole->tree : setting.tree;
     o.gltf.loose = broken.size() + balls.size();
-    std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, plan.bodies, format, fields);
+    std::unique_ptr<FrameSink> sink =
+        open_sink(o, setting, shown, setting.whole ? shown.size_bodies() : plan.bodies, format, fields);
     LoopStart loop;
     if (loops) {
         std::optional<Run<T>> before;
@@ -162,8 +174,8 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
         if (sink) sink = loop_sink(std::move(sink), format == "glb", std::move(before), setting.tree, o.loop, o.run);
     }
     std::chrono::duration<double, std::milli> cost{};
-    const std::int64_t done =
-        run_frames(o, setting, run, sink.get(), estimate ? &*estimate : nullptr, fields, first, last, cost);
+    const std::int64_t done = run_frames(o, setting, run, sink.get(), estimate ? &*estimate : nullptr,
+                                         rigid ? &*rigid : nullptr, fields, first, last, cost);
     if (loops) measure_seam(run, setting.tree, loop, o.loop, o.run, o.common.notes);
     if (o.report_cost) std::cerr << cost_line(plan, o.run, cost.count(), done - std::max<std::int64_t>(first, 1) + 1);
     if (o.explain) { // before the state is saved, which takes arrays of its own
@@ -175,6 +187,7 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
     if (!o.save_state.empty()) save(o, setting, run, done);
     if (!o.save_tree.empty()) save_tree(o.save_tree, setting, run, o.common);
     if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state, run.world)) << "\n";
+    if (rigid) std::cerr << rigid->line(cost.count(), done - std::max<std::int64_t>(first, 1) + 1) << "\n";
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(plan, state.flags, state.step - started, o.common.notes);
     note_world(run.world, o.common.notes);

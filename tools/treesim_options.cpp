@@ -43,6 +43,9 @@ void declare(CLI::App& app, TreesimOptions& o) {
                  "twice the step beside this one (half the time more); with --solver coupled");
     app.add_flag("--report-cost", o.report_cost,
                  "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
+    app.add_flag("--report-rigid", o.report_rigid,
+                 "Print `rigid ...` on stderr: how many joints move, what the branches' tips are off by for those that "
+                 "/simulate or the tree's /rigid hold, and both costs, from a run of the whole tree beside this one");
     app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
         ->option_text("FILE")
         ->check(file_name());
@@ -107,6 +110,8 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     }
     if (o.report_error && o.run.solver != solver_name(Solver::coupled))
         throw UsageError("--report-error: only with --solver coupled, whose error is its step's alone");
+    if (o.report_rigid && !o.resume.empty())
+        throw UsageError("--report-rigid: not with --resume, which says nothing of the joints that are held");
     const bool mesh = format == "obj" || format == "glb";
     if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
@@ -128,6 +133,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
             {!o.save_state.empty(), "--save-state"},
             {!o.resume.empty(), "--resume"},
             {o.report_error, "--report-error"},
+            {o.report_rigid, "--report-rigid"},
             {!o.run.shard.empty(), "--shard"}}; // each part would end in its own time
         for (const auto& [given, name] : others)
             if (given) throw UsageError(std::string("--loop: not with ") + name);

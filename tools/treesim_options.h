@@ -18,7 +18,8 @@ struct TreesimOptions {
     GltfChoice gltf;
     std::optional<int> sides;
     LoopChoice loop;
-    bool explain = false, hash = false, report_error = false, report_cost = false, no_output = false, watch = false;
+    bool explain = false, hash = false, report_error = false, report_cost = false, report_rigid = false,
+         no_output = false, watch = false;
 };
 
 extern const ToolInfo treesim_info;

@@ -230,7 +230,8 @@ std::optional<Defect> check(const Tree& tree) {
         .length("size", tree.size, n, each)
         .length("branch", tree.branch, n, each)
         .length("level", tree.level, n, each)
-        .length("s", tree.s, n, each);
+        .length("s", tree.s, n, each)
+        .length("rigid", tree.rigid, tree.rigid.empty() ? 0 : n, "none, or one for each body");
     if (rules.defect) return rules.defect;
 
     rules.parents(tree.parent)
@@ -255,6 +256,11 @@ std::optional<Defect> check(const Tree& tree) {
     rules.between("damping", tree.damping, 0, unbounded);
     check_sizes(rules, "size", tree.size, 1);
     rules.not_negative("branch", tree.branch).not_negative("level", tree.level).between("s", tree.s, 0, 1);
+    rules.each(
+        "rigid", tree.rigid, [](std::size_t, std::uint8_t r) { return r <= 1; },
+        [](std::size_t, std::uint8_t r) {
+            return "is " + std::to_string(int(r)) + ", expected 0 (its joint moves) or 1 (it is rigid)";
+        });
     check_colors(rules, tree.color);
     return rules.defect;
 }

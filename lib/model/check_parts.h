@@ -16,5 +16,6 @@ std::optional<Defect> check(const Walker&, const std::string& at, std::size_t tr
 std::optional<Defect> check(const Wood&, std::size_t trees);
 std::optional<Defect> check(const StaticLoad&);
 std::optional<Defect> check(const Fictitious&);
+std::optional<Defect> check_simulate(const Scene&); // with what it cannot stand beside
 
 } // namespace bough

@@ -319,6 +319,7 @@ std::optional<Defect> check(const Scene& scene) {
         if (auto defect = check(*scene.load)) return defect;
     if (scene.fictitious)
         if (auto defect = check(*scene.fictitious)) return defect;
+    if (auto defect = check_simulate(scene)) return defect;
     if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
     return at_least("damping_scale", scene.damping_scale, 0);
 }

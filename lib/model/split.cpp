@@ -17,6 +17,8 @@ void copy_body(Tree& to, const Tree& from, std::size_t i, std::int32_t parent) {
     to.branch.push_back(from.branch[i]);
     to.level.push_back(from.level[i]);
     to.s.push_back(from.s[i]);
+    if (!from.rigid.empty()) to.rigid.push_back(from.rigid[i]);
+    if (!from.load.empty()) to.load.push_back(from.load[i]);
 }
 
 } // namespace

@@ -9,6 +9,14 @@ template <class T> void add(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
+// Arrays that may be empty: zeros, then.
+template <class T> void add(std::vector<T>& to, const std::vector<T>& from, std::size_t before, std::size_t more) {
+    if (to.empty() && from.empty()) return;
+    to.resize(before, T(0));
+    add(to, from);
+    to.resize(before + more, T(0));
+}
+
 } // namespace
 
 void Tree::resize(std::size_t bodies) {
@@ -25,6 +33,8 @@ void Tree::resize(std::size_t bodies) {
     branch.resize(bodies);
     level.resize(bodies);
     s.resize(bodies);
+    if (!rigid.empty()) rigid.resize(bodies);
+    if (!load.empty()) load.resize(bodies);
 }
 
 std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw) {
@@ -49,6 +59,8 @@ std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double ya
     add(tree.branch, more.branch);
     add(tree.level, more.level);
     add(tree.s, more.s);
+    add(tree.rigid, more.rigid, first, more.size_bodies());
+    add(tree.load, more.load, first, more.size_bodies());
 
     place(tree, position, yaw, first);
     for (std::size_t i = first; i < tree.size_bodies(); ++i) {

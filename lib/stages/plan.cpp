@@ -6,6 +6,7 @@
 #include "fictitious.h"
 #include "leaf_air.h"
 #include "pose.h"
+#include "reduce.h"
 #include "shelter.h"
 #include "state_arrays.h"
 #include <algorithm>
@@ -86,8 +87,9 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, Tree* own) 
     take(plan.beta, tree.damping);
     give_back(own, &Tree::mass, &Tree::damping);
     if (plan.wind) plan.kind = tree.kind;
+    for (std::size_t i = 0; i < plan.kind.size() && !tree.rigid.empty(); ++i) plan.kind[i] = kind_in_air(tree, i);
     plan.parent = tree.parent;
-    give_back(own, &Tree::kind, &Tree::parent);
+    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid);
 }
 
 // With lanes that hold them all, and nobody who reads poses.
@@ -130,7 +132,8 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
 template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree, const Scene& scene) {
     plan.drag_area.reserve(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i)
-        plan.drag_area.push_back(T(drag_area(tree.kind[i], tree.size[i], scene.air_density, plate_kappa(scene))));
+        plan.drag_area.push_back(
+            T(drag_area(kind_in_air(tree, i), tree.size[i], scene.air_density, plate_kappa(scene))));
 }
 
 // [m] What turns with a body is within this of its joint (drag.h): its centre of mass, and of a leaf with the torque of /leaves that its
@@ -276,7 +279,8 @@ template <class T> void plan_root_motion(Plan<T>& plan, const std::vector<TreeRa
             throw std::out_of_range("root_motion: tree " + std::to_string(motion.tree) +
                                     " is not there, the scene has " + std::to_string(ranges.size()));
         const auto k = std::size_t(motion.tree);
-        plan.moved.push_back({ranges[k].first_body, ranges[k].bodies, plan.splines.size()});
+        if (ranges[k].bodies > 0) // else all of it stands still on its ground (reduce.h)
+            plan.moved.push_back({ranges[k].first_body, ranges[k].bodies, plan.splines.size()});
         plan.splines.push_back(
             make_root_spline(motion, k < scene.trees.size() ? scene.trees[k].position : Vec3::Zero()));
     }
@@ -439,6 +443,15 @@ void scale(Tree& tree, const Scene& scene) {
     for (double& beta : tree.damping) beta *= scene.damping_scale;
 }
 
+// What is to be done before, and would else be ignored.
+void require_reduced(const Tree& tree, const Scene& scene) {
+    if (scene.simulate) throw std::domain_error("simulate: is still to be applied to the tree (hold_rigid)");
+    for (std::size_t i = 0; i < tree.rigid.size(); ++i)
+        if (tree.rigid[i] == 1)
+            throw std::domain_error("rigid: body " + std::to_string(i) +
+                                    " is still to be joined to what it hangs on (reduce)");
+}
+
 bool scales(const Scene& scene) {
     return scene.stiffness_scale != 1 || scene.damping_scale != 1;
 }
@@ -464,6 +477,7 @@ template <class T>
 Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ranges, const Scene& scene,
                   const Wishes& wishes, double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd,
                   double sleep, double refresh) {
+    require_reduced(tree, scene);
     Plan<T> plan;
     plan.bodies = tree.size_bodies();
     plan.dt = dt;

@@ -1,0 +1,160 @@
+#include "added_motion.h"
+#include "air.h"
+#include "leaf_air.h"
+#include "wind.h"
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace bough {
+namespace {
+
+constexpr double swing = 2; // of an undamped oscillator under a load that comes at once, over its rest there
+
+// Mean velocity of the cell under a place, and whether it swings.
+struct Mean {
+    Vec3 velocity;
+    bool swings;
+};
+Mean mean_at(const Wind& wind, const Vec3& place) {
+    if (!wind.grid) return {wind.velocity, false};
+    const WindGrid& grid = *wind.grid;
+    const auto along = [&](double from, double to, std::int32_t count) {
+        return std::size_t(std::clamp((to - from) / grid.cell, 0.0, double(count - 1)));
+    };
+    const std::size_t cell =
+        along(grid.z, place.z(), grid.rows) * std::size_t(grid.columns) + along(grid.x, place.x(), grid.columns);
+    const auto pick = [cell](const auto& list) { return list.size() == 1 ? list[0] : list[cell]; };
+    return {grid.velocity.empty() ? wind.velocity : pick(grid.velocity), pick(grid.octaves) > 0};
+}
+
+// turned: -1, 0, 1 of the swirl's largest angle.
+Vec3 peak_wind(const Wind& wind, const Vec3& place, int turned) {
+    const Mean mean = mean_at(wind, place);
+    const double speed = mean.velocity.norm(), own = wind.velocity.norm();
+    if (speed == 0) return Vec3::Zero();
+    Vec3 v = mean.velocity * ((mean.swings ? 2 : 1) * wind.gust_factor + 3 * wind.turbulence * own / speed);
+    if (wind.swirl && turned != 0) {
+        double most = 0;
+        for (const double angle : wind.swirl->angle) most = std::max(most, std::abs(angle));
+        const double a = turned * most * std::numbers::pi / 180;
+        v = swirled<double>(v, std::cos(a), std::sin(a));
+    }
+    return wind_profile(wind, place.y()) * v;
+}
+
+// Of the loads on bodies: force, and moment about the world's origin; of plates also what they may feel about their own joint.
+struct Loads {
+    std::vector<Vec3> force, moment;
+    std::vector<double> own;
+    explicit Loads(std::size_t n) : force(n, Vec3::Zero()), moment(n, Vec3::Zero()), own(n, 0) {}
+    void add(std::size_t i, const Vec3& at, const Vec3& f) {
+        force[i] += f;
+        moment[i] += at.cross(f);
+    }
+};
+
+void add_wind(const Tree& tree, const DrawnPlaces& drawn, const Scene& scene, int turned, Loads& loads) {
+    const LeafTerms<double> leaf = leaf_terms<double>(scene);
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        const Vec3 at = drawn.x[i] + drawn.R[i] * tree.com[i];
+        const Vec3 u = peak_wind(*scene.wind, at, turned);
+        const double drag = drag_area(tree.kind[i], tree.size[i], scene.air_density, plate_kappa(scene));
+        if (!is_flat(tree.kind[i])) {
+            loads.add(i, at, drag * air_force(tree.kind[i], drawn.R[i], u).force);
+            continue;
+        }
+        const double speed = u.norm();
+        const Vec3 f = (drag * speed + (leaf.on ? tree.mass[i] * leaf.most : 0)) * u;
+        loads.add(i, at, f);
+        loads.own[i] = f.norm() * tree.com[i].norm() + (leaf.on ? leaf_lever(leaf, drag) * speed * speed : 0);
+    }
+}
+
+// Angle of each joint under the loads on all it carries; `more`: further moments about the joint's axes, of either sign.
+void raise_angles(const Tree& tree, const DrawnPlaces& drawn, double scale, Loads loads, const std::vector<Vec3>& more,
+                  std::vector<double>& angle) {
+    for (std::size_t i = tree.size_bodies(); i-- > 0;) {
+        const Vec3 moment = drawn.R[i].transpose() * (loads.moment[i] - drawn.x[i].cross(loads.force[i]));
+        for (int k = 0; k < 3; ++k) {
+            const double load = std::max(std::abs(moment[k]), k < 2 ? loads.own[i] : 0) + more[i][k];
+            const double K = scale * tree.stiffness[i][k];
+            if (load > 0) angle[i] = std::max(angle[i], K > 0 ? load / K : std::numeric_limits<double>::infinity());
+        }
+        if (tree.parent[i] < 0) continue;
+        const auto p = std::size_t(tree.parent[i]);
+        loads.force[p] += loads.force[i];
+        loads.moment[p] += loads.moment[i];
+    }
+}
+
+void add_pulls(const Tree& tree, const std::vector<TreeRange>& ranges, const DrawnPlaces& drawn, const Scene& scene,
+               std::vector<Vec3>& more) {
+    for (const Pull& pull : scene.pulls)
+        for (const Selected& on : select(tree, ranges, pull.on)) {
+            const Vec3 at = drawn.x[on.body] + drawn.R[on.body] * on.point_b;
+            for (auto i = std::int64_t(on.body); i >= 0; i = tree.parent[std::size_t(i)]) {
+                const auto j = std::size_t(i);
+                Vec3 most = Vec3::Zero();
+                for (const Vec3& force : pull.force)
+                    most = most.cwiseMax(Vec3(drawn.R[j].transpose() * Vec3(at - drawn.x[j]).cross(force)).cwiseAbs());
+                more[j] += most;
+            }
+        }
+}
+
+} // namespace
+
+DrawnPlaces drawn_places(const Tree& tree) {
+    const std::size_t n = tree.size_bodies();
+    DrawnPlaces d{std::vector<Mat3>(n), std::vector<Vec3>(n)};
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool root = tree.parent[i] < 0;
+        const auto p = std::size_t(root ? 0 : tree.parent[i]);
+        const Mat3 R = tree.joint_rotation[i].toRotationMatrix();
+        d.R[i] = root ? R : Mat3(d.R[p] * R);
+        d.x[i] = root ? tree.joint_position[i] : Vec3(d.x[p] + d.R[p] * tree.joint_position[i]);
+    }
+    return d;
+}
+
+std::vector<double> composite_reach(const Tree& tree) {
+    std::vector<double> reach(tree.size_bodies());
+    for (std::size_t i = reach.size(); i-- > 0;) {
+        reach[i] = std::max(reach[i], tree.size[i][0] + (tree.kind[i] == Kind::fruit ? tree.size[i][1] : 0));
+        if (tree.parent[i] < 0) continue;
+        double& below = reach[std::size_t(tree.parent[i])];
+        below = std::max(below, tree.joint_position[i].norm() + reach[i]);
+    }
+    return reach;
+}
+
+std::string no_estimate(const Scene& scene) {
+    if (!scene.root_motion.empty()) return "its estimate knows nothing of what /root_motion does";
+    const bool sags = scene.pose != Pose::drawn && !scene.gravity.isZero();
+    const bool blows = scene.wind && scene.air_density > 0;
+    if (!blows && scene.pulls.empty() && !sags)
+        return "nothing moves the tree, so there is nothing to estimate: name a wind or pulls";
+    return {};
+}
+
+std::vector<double> added_motion(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene) {
+    const DrawnPlaces drawn = drawn_places(tree);
+    std::vector<Vec3> more(tree.size_bodies(), Vec3::Zero());
+    add_pulls(tree, ranges, drawn, scene, more);
+    std::vector<double> motion(tree.size_bodies(), 0);
+    const bool swirls = scene.wind && scene.wind->swirl;
+    for (int turned = swirls ? -1 : 0; turned <= (swirls ? 1 : 0); ++turned) {
+        Loads loads(tree.size_bodies());
+        if (scene.wind) add_wind(tree, drawn, scene, turned, loads);
+        const double weight = scene.pose == Pose::drawn ? 0 : scene.pose == Pose::rest ? 1 : 1 / swing;
+        for (std::size_t i = 0; weight > 0 && i < tree.size_bodies(); ++i)
+            loads.add(i, drawn.x[i] + drawn.R[i] * tree.com[i], weight * tree.mass[i] * scene.gravity);
+        raise_angles(tree, drawn, scene.stiffness_scale, std::move(loads), more, motion);
+    }
+    const std::vector<double> reach = composite_reach(tree);
+    for (std::size_t i = 0; i < motion.size(); ++i) motion[i] *= swing * reach[i];
+    return motion;
+}
+
+} // namespace bough

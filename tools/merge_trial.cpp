@@ -1,0 +1,71 @@
+#include "merge_trial.h"
+#include "formatted.h"
+#include "lib/reference/merge_below.h"
+#include "simulation.h"
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+constexpr double seconds_default = 10;
+constexpr const char* wind_default = "gusty";
+
+} // namespace
+
+void add_merge_options(CLI::App& app, MergeChoice& choice) {
+    app.add_option(
+           "--merge-below", choice.below,
+           "Make rigid the joints that hardly move in a trial run: as many as leave the tips of branches within "
+           "ERROR [m] of where the whole tree has them, in every frame of that run (treesim then runs the rest)")
+        ->option_text("ERROR")
+        ->check(positive_number());
+    app.add_option("--wind", choice.wind, "With --merge-below: its wind, as of treesim (gusty)")
+        ->option_text("NAME|FILE");
+    app.add_option("--seconds", choice.seconds, "With --merge-below: its length [s] (10)")
+        ->option_text("S")
+        ->check(positive_number());
+}
+
+void refuse_merge_contradictions(const MergeChoice& choice) {
+    if (!choice.below && !choice.wind.empty()) throw UsageError("--wind: only with --merge-below");
+    if (!choice.below && choice.seconds) throw UsageError("--seconds: only with --merge-below");
+    const MergeBelow how;
+    if (choice.seconds && !(std::round(*choice.seconds * how.fps) >= 1 && *choice.seconds < 1e6))
+        throw UsageError("--seconds: a trial of at least one frame is needed, of at most a million seconds");
+}
+
+std::string merge_by_trial(Tree& tree, const MergeChoice& choice, const CommonOptions& common,
+                           const std::string& input) {
+    RunOptions run;
+    run.wind = choice.wind.empty() ? wind_default : choice.wind;
+    MergeBelow how;
+    how.error = *choice.below;
+    how.scene = chosen_scene(run);
+    how.seconds = choice.seconds.value_or(seconds_default);
+    how.simd = chosen_simd(run);
+    MergedBelow merged;
+    {
+        const auto frames = std::int64_t(std::round(how.seconds * how.fps));
+        Progress progress(common, "frame (trial runs)", frames * (how.runs + 1));
+        how.tick = [&](std::int64_t frame, std::int64_t) {
+            if (interrupted()) throw Interrupted("interrupted: nothing is written");
+            progress.at(frame);
+        };
+        interrupt_at_boundary();
+        try {
+            merged = merge_below(tree, {{0, tree.size_bodies(), 0}}, how);
+        } catch (const std::domain_error& error) {
+            throw InputError(input_name(input), std::string("--merge-below: ") + error.what());
+        }
+    }
+    const RigidError& e = merged.found;
+    std::string line = "rigid       " + std::to_string(merged.joints - merged.moving) + " of " +
+                       std::to_string(merged.joints) + " joints, " + std::to_string(merged.moving) +
+                       " left to move (--merge-below " + formatted("%g", how.error) + " m, " + run.wind +
+                       formatted(", %g s, ", how.seconds) + std::to_string(merged.runs) + " runs of merged trees)";
+    if (e.frames == 0) return line + ": no joint moves the tips by so little\n";
+    return line + formatted(": tips off by %.3g m at most, %.3g m RMS (%.2g and %.2g %% of the height)\n", e.worst,
+                            e.rms, 100 * e.worst / e.height, 100 * e.rms / e.height);
+}
+
+} // namespace bough

@@ -1,0 +1,22 @@
+// merge_trial.h: treeconvert --merge-below: joints that a trial run finds to hardly move are made rigid (lib/reference/merge_below.h).
+#pragma once
+#include "common.h"
+#include "lib/model/tree.h"
+
+namespace bough {
+
+struct MergeChoice {
+    std::optional<double> below; // [m]
+    std::string wind;            // as --wind; empty: gusty
+    std::optional<double> seconds;
+};
+
+void add_merge_options(CLI::App&, MergeChoice&);
+
+// Throws UsageError for options that go only with --merge-below, and for a trial of no frame.
+void refuse_merge_contradictions(const MergeChoice&);
+
+// Sets Tree::rigid; returns a line for --stats. Throws InputError where the tree cannot run.
+std::string merge_by_trial(Tree&, const MergeChoice&, const CommonOptions&, const std::string& input);
+
+} // namespace bough
