@@ -1,4 +1,5 @@
 // What lies on the trees: areas from above, and the sag it makes against closed forms; the start balances.
+#include "formats/tree.h"
 #include "lib/growth/segment.h"
 #include "lib/model/static_load.h"
 #include "lib/reference/advance.h"
@@ -146,6 +147,42 @@ TEST_CASE("the start under snow is in balance: nothing moves, with either solver
                 CHECK(inverse_dynamics(plan, plan.theta_start, none, none, 0).relative() < 1e-12);
             }
     }
+}
+
+TEST_CASE("soft twigs with large wet leaves find the balance from the drawn pose") {
+    Tree tree = read_tree(Input(BOUGH_DATA_DIR "/scenes/trees/maple_leaves.safetensors"));
+    lay_load(tree, {10, 0.1, 0, 0});
+    const Plan<double> plan =
+        make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, Scene(), {}, 1.0 / 30, Solver::coupled);
+    const std::vector<Vec3> none(plan.bodies, Vec3::Zero());
+    CHECK(inverse_dynamics(plan, plan.theta_start, none, none, 0).relative() < 1e-11);
+}
+
+TEST_CASE("a stem that buckles under its load goes over to where it stands in balance") {
+    const double length = 1, r = 0.004;
+    make_tree::Wood wood;
+    wood.shear = 9e9; // stiff in torsion, so that what has gone over does not roll over sideways
+    wood.damping = 0.1;
+    Tree tree = make_tree::chain(6, length, r, r, 0.01, wood);
+    make_tree::add_fruit(tree, 5, {0, 0, length / 6}, Quat::Identity(), 0.01, 0.04, 0, 0, 1);
+    tree.stiffness[6].setConstant(10);
+    for (int k = 0; k < 6; ++k)
+        tree.stiffness[std::size_t(k)].y() *= 2; // flat: where it goes over to is no matter of chance
+    const double critical =
+        pi * pi * 9e9 * (pi * std::pow(r, 4) / 4) / (4 * length * length) / g; // [kg] Euler's, clamped below
+    const LoadLaid laid = lay_load(tree, {0, 0, 0, 110});
+    REQUIRE(tree.mass[6] - laid.mass < 0.6 * critical);
+    REQUIRE(tree.mass[6] > 1.5 * critical);
+    const Plan<double> plan = make_plan<double>(tree, {{0, 7, 0}}, Scene(), {}, 1.0 / 30, Solver::coupled);
+    const std::vector<Vec3> none(plan.bodies, Vec3::Zero());
+    CHECK(inverse_dynamics(plan, plan.theta_start, none, none, 0).relative() < 1e-11);
+    State<double> state = make_state(plan);
+    const auto x = state.x_w;
+    CHECK(x[6].y() < 0.8 * length);        // far over
+    state.theta[0] += Vec3(0.02, 0.02, 0); // stable: back after a push
+    restart(plan, state);
+    for (int k = 0; k < 3000; ++k) advance(plan, state);
+    CHECK((state.x_w[6] - x[6]).norm() < 1e-6);
 }
 
 TEST_CASE("the springs of a drawn tree under snow are those of the tree without, and no snow changes nothing") {

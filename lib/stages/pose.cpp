@@ -1,5 +1,6 @@
 #include "pose.h"
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <stdexcept>
@@ -101,8 +102,10 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
     return pose;
 }
 
-// One Newton step for the sag; returns the first body whose elimination block is not positive definite, or -1.
-std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const StartPose& pose, std::vector<Vec3>& change) {
+// One Newton step for the sag; returns the first body whose elimination block is not positive definite, or -1. lift: such blocks are made so, by a
+// multiple of 1 on them: the step then goes downhill in energy.
+std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const StartPose& pose, std::vector<Vec3>& change,
+                         bool lift = false) {
     const std::vector<Vec3>& theta = pose.theta;
     const std::size_t n = tree.size_bodies();
     std::vector<Mat3> R(n);
@@ -120,8 +123,15 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const StartPose&
     for (std::size_t i = n; i-- > 0;) {
         const Mat3 rates = body_rate_jacobian_inverse(theta[i]) * R[i].transpose(); // of theta, from world
         const Mat3 Z = rates.transpose() * tree.stiffness[i].asDiagonal() * rates;
-        const Mat3 sum = Z + A[i];
-        if (sum.llt().info() != Eigen::Success) soft = std::int64_t(i);
+        Mat3 sum = Z + A[i];
+        if (sum.llt().info() != Eigen::Success) {
+            soft = std::int64_t(i);
+            if (lift) {
+                const double least = Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[0];
+                A[i].diagonal().array() += 1e-3 * Z.trace() - 1.5 * std::min(least, 0.0);
+                sum = Z + A[i];
+            }
+        }
         E[i] = sum.inverse();
         // What this joint's own spring leaves unbalanced; what hangs further out has been added by its own joints.
         const Vec3 spring_b =
@@ -144,14 +154,13 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const StartPose&
     return soft;
 }
 
-// The sag of springs at this rest, found from these angles on.
-StartPose settled(const Tree& tree, const Vec3& gravity, StartPose pose) {
+// The sag of springs at this rest found from the pose's angles on. Returns what is wrong, "" if nothing; the pose is then the sag.
+std::string settle(const Tree& tree, const Vec3& gravity, StartPose& pose, int iterations = 500) {
     const std::size_t n = tree.size_bodies();
-    if (gravity.isZero()) return pose;
     std::vector<Vec3> change(n);
     std::size_t worst = 0;
     double previous = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < 500; ++iteration) {
+    for (int iteration = 0; iteration < iterations; ++iteration) {
         const std::int64_t soft = newton_step(tree, gravity, pose, change);
         double largest = 0, angle = 0;
         for (std::size_t i = 0; i < n; ++i) {
@@ -162,18 +171,76 @@ StartPose settled(const Tree& tree, const Vec3& gravity, StartPose pose) {
         if (!std::isfinite(largest)) break;
         // Rounding stops the change from shrinking: converged as far as doubles go.
         const bool converged = largest <= 1e-14 || (largest <= 1e-11 * (1 + angle) && largest >= previous / 2);
-        if (converged) {
-            if (soft >= 0)
-                throw std::domain_error(name_of(tree, std::size_t(soft)) +
-                                        " buckles under its own weight: there is no stable settled pose");
-            return pose;
-        }
+        if (converged)
+            return soft < 0 ? ""
+                            : name_of(tree, std::size_t(soft)) +
+                                  " buckles under its own weight: there is no stable settled pose";
         previous = largest;
         const double scale = std::min(1.0, 0.5 / largest); // no joint turns by more than half a radian an iteration
         for (std::size_t i = 0; i < n; ++i) pose.theta[i] += scale * change[i];
     }
-    throw std::domain_error(name_of(tree, worst) +
-                            " does not come to rest under its own weight: no settled pose found");
+    return name_of(tree, worst) + " does not come to rest under its own weight: no settled pose found";
+}
+
+StartPose settled(const Tree& tree, const Vec3& gravity) {
+    StartPose pose = unturned(tree);
+    if (gravity.isZero()) return pose;
+    const std::string wrong = settle(tree, gravity, pose);
+    if (!wrong.empty()) throw std::domain_error(wrong);
+    return pose;
+}
+
+// [J] elastic, and of gravity.
+double energy_of(const Tree& tree, const Vec3& gravity, const StartPose& pose) {
+    const std::size_t n = tree.size_bodies();
+    std::vector<Mat3> R(n);
+    std::vector<Vec3> x(n);
+    double energy = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        R[i] = frame_of(tree, pose.joint_rotation, i, R, pose.theta[i]);
+        const auto p = std::size_t(tree.parent[i]);
+        x[i] = tree.parent[i] < 0 ? tree.joint_position[i] : Vec3(x[p] + R[p] * tree.joint_position[i]);
+        energy += pose.theta[i].dot(tree.stiffness[i].cwiseProduct(pose.theta[i])) / 2;
+        energy -= tree.mass[i] * gravity.dot(x[i] + R[i] * tree.com[i]);
+    }
+    return energy;
+}
+
+// Near a sag that lies below the pose in energy: by Newton steps with lifted blocks, halved until the energy falls.
+void descend(const Tree& tree, const Vec3& gravity, StartPose& pose) {
+    std::vector<Vec3> change(tree.size_bodies());
+    double energy = energy_of(tree, gravity, pose);
+    for (int iteration = 0; iteration < 2000; ++iteration) {
+        const std::int64_t soft = newton_step(tree, gravity, pose, change, true);
+        double largest = 0;
+        for (const Vec3& turn : change) largest = std::max(largest, turn.norm());
+        if (!std::isfinite(largest) || (largest < 1e-5 && soft < 0)) return;
+        double scale = std::min(1.0, 0.5 / largest);
+        for (; scale > 1e-9; scale /= 2) {
+            StartPose next = pose;
+            for (std::size_t i = 0; i < change.size(); ++i) next.theta[i] += scale * change[i];
+            const double lower = energy_of(tree, gravity, next);
+            if (!(lower < energy)) continue;
+            pose = std::move(next);
+            energy = lower;
+            break;
+        }
+        if (!(scale > 1e-9)) return; // as low as rounding lets it come
+    }
+}
+
+// From the drawn pose. What buckles under its load goes over: then downhill, and with time, as next to buckling the Newton steps, whose matrix
+// leaves out how T turns with theta, shrink by a few percent each.
+StartPose loaded(const Tree& tree, const Vec3& gravity) {
+    const StartPose start = drawn(tree, gravity);
+    if (gravity.isZero() || tree.load.empty()) return start;
+    StartPose pose = start;
+    if (settle(tree, gravity, pose).empty()) return pose;
+    pose = start;
+    descend(tree, gravity, pose);
+    const std::string wrong = settle(tree, gravity, pose, 5000);
+    if (!wrong.empty()) throw std::domain_error("load: " + wrong);
+    return pose;
 }
 
 } // namespace
@@ -181,9 +248,9 @@ StartPose settled(const Tree& tree, const Vec3& gravity, StartPose pose) {
 StartPose start_pose(const Tree& tree, const Vec3& gravity, Pose pose) {
     switch (pose) {
     case Pose::drawn:
-        return tree.load.empty() ? drawn(tree, gravity) : settled(tree, gravity, drawn(tree, gravity));
+        return loaded(tree, gravity);
     case Pose::settled:
-        return settled(tree, gravity, unturned(tree));
+        return settled(tree, gravity);
     case Pose::rest:
         break;
     }
