@@ -26,12 +26,10 @@ void join_rigid(Setting& setting, const std::string& input) {
         setting.scene.simulate.reset();
         if (!has_rigid(setting.tree)) return setting.tree.rigid.clear();
         const Scene& scene = setting.scene;
-        if (has_free_bodies(scene) || !scene.walkers.empty())
-            throw InputError(input_name(input), std::string(scene.fracture         ? "/fracture"
-                                                            : !scene.balls.empty() ? "/balls"
-                                                                                   : "/walkers") +
-                                                    ": not with rigid parts (/rigid of a tree), expected a tree whose "
-                                                    "joints all move");
+        if (const char* part = free_part(scene) ? free_part(scene) : setting.tree.load.empty() ? nullptr : "/load")
+            throw InputError(input_name(input),
+                             std::string(part) + ": not with rigid parts (/simulate, or /rigid of a tree), expected a "
+                                                 "tree whose joints all move");
         auto whole = std::make_shared<Whole>();
         whole->places = reduce(setting.tree, setting.ranges, setting.scene);
         whole->scene = setting.scene;
