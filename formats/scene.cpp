@@ -129,6 +129,9 @@ ordered_json value_of(const Scene& scene, const MaterialChange& material) {
                             {"air_resistance", scene.leaves->air_resistance},
                             {"drag_ratio", scene.leaves->drag_ratio},
                             {"offset", scene.leaves->offset}};
+    if (scene.wood) fields["wood"] = value_of(*scene.wood);
+    if (scene.load) fields["load"] = value_of(*scene.load);
+    if (scene.fictitious) fields["fictitious"] = value_of(*scene.fictitious);
     fields["stiffness_scale"] = scene.stiffness_scale;
     fields["damping_scale"] = scene.damping_scale;
     return fields;
@@ -161,6 +164,9 @@ SceneDocument read_fields(const json& fields, const std::string& name) {
         scene.walkers.push_back(read_walker(value, name, "/walkers/" + std::to_string(scene.walkers.size())));
     if (object.has("contact")) scene.contact = read_contact(object.need("contact"), name);
     if (object.has("leaves")) scene.leaves = read_leaves(object.need("leaves"), name);
+    if (object.has("wood")) scene.wood = read_wood(object.need("wood"), name);
+    if (object.has("load")) scene.load = read_load(object.need("load"), name);
+    if (object.has("fictitious")) scene.fictitious = read_fictitious(object.need("fictitious"), name);
     object.read("stiffness_scale", scene.stiffness_scale);
     object.read("damping_scale", scene.damping_scale);
     object.finish();

@@ -41,5 +41,12 @@ nlohmann::ordered_json value_of(const MaterialChange&);
 void override_field(nlohmann::json& document, const SceneOverride&);
 // Which of them a place in the document comes of: the one whose path goes along with its JSON pointer farthest.
 const SceneOverride& nearest_override(const std::vector<SceneOverride>&, const std::string& at);
+// ---- scene_wood.cpp: what trees are made of and carry, and the analytic solver's lagged terms ----
+Wood read_wood(const nlohmann::json&, const std::string& name);
+StaticLoad read_load(const nlohmann::json&, const std::string& name);
+Fictitious read_fictitious(const nlohmann::json&, const std::string& name);
+nlohmann::ordered_json value_of(const Wood&);
+nlohmann::ordered_json value_of(const StaticLoad&);
+nlohmann::ordered_json value_of(const Fictitious&);
 
 } // namespace bough

@@ -37,6 +37,7 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             carried("theta_change", state.theta_change, body),
             carried("theta_dot_change", state.theta_dot_change, body),
             carried("scaled_rate", state.scaled_rate, body),
+            carried("spin_dot", state.spin_dot, body),
             optional({"articulated_step", &state.articulated_step}),
             optional({"refresh", &state.refresh}),
             without_filling(optional(array("frozen", state.frozen, {}))),
@@ -76,6 +77,8 @@ void check_carried(const SavedState& state, const std::string& name) {
     else
         throw InputError(name + ": /frozen", "is there, but /refresh is not");
     check("scaled_rate", !state.scaled_rate.empty(), !coupled && bodies);
+    check("spin_dot", !state.spin_dot.empty(),
+          !state.spin_dot.empty() && state.solver == solver_name(Solver::analytic));
 }
 
 void check_state(const SavedState& state, const std::string& name) {

@@ -167,6 +167,9 @@ TEST_CASE("what analytic lanes do not hold is refused with its reason and steps 
     c.scene.joint_limit.reset();
     c.scene.root_motion = {carried_about()};
     refused("/root_motion");
+    c.scene.root_motion.clear();
+    c.scene.fictitious = Fictitious{0.1, 0, 0};
+    refused("/fictitious");
 }
 
 // Bodies on joints of no stiffness, each spinning about an axis of its own: theta = w t, taken the shorter way round.

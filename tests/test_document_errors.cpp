@@ -222,6 +222,44 @@ TEST_CASE("scenes name the nested place") {
     CHECK(scene_error("\"leaves\": {\"offset\": \"x\"}") == "s: /leaves/offset: is \"x\", expected a number");
     CHECK(scene_error("\"leaves\": {\"nu\": 1}").rfind("s: /leaves/nu: is an unknown field", 0) == 0);
     CHECK(scene_error("\"leaves\": 1").rfind("s: /leaves: is 1, expected ", 0) == 0);
+    const auto wood = [](const std::string& fields) { return scene_error("\"wood\": {" + fields + "}"); };
+    CHECK(wood("") == "");
+    CHECK(wood("\"branch\": {\"stiffness\": -1}") == "s: /wood/branch/stiffness: is -1, expected 0 or more");
+    CHECK(wood("\"leaf\": {\"density\": 0}") == "s: /wood/leaf/density: is 0, expected more than 0");
+    CHECK(wood("\"petal\": {\"damping\": \"x\"}") == "s: /wood/petal/damping: is \"x\", expected a number");
+    CHECK(wood("\"fruit\": 2").rfind("s: /wood/fruit: is 2, expected ", 0) == 0);
+    CHECK(wood("\"twig\": {}").rfind("s: /wood/twig: is an unknown field", 0) == 0);
+    const auto curve = [&](const std::string& fields) { return wood("\"curves\": [{" + fields + "}]"); };
+    CHECK(curve("\"radius\": [0, 0.1], \"stiffness\": [1, 2]") == "");
+    CHECK(curve("\"stiffness\": [1, 2]") == "s: /wood/curves/0/radius: is missing");
+    CHECK(curve("\"radius\": [], \"stiffness\": []") ==
+          "s: /wood/curves/0/radius: is empty, expected at least one radius");
+    CHECK(curve("\"radius\": [0.1]") == "s: /wood/curves/0: changes nothing, expected stiffness or damping");
+    CHECK(curve("\"radius\": [0, 0.1], \"stiffness\": []") ==
+          "s: /wood/curves/0/stiffness: has 0 keys, expected 2 (one for each radius)");
+    CHECK(curve("\"radius\": [0, 0.1], \"damping\": [1]") ==
+          "s: /wood/curves/0/damping: has 1 keys, expected 2 (one for each radius)");
+    CHECK(curve("\"radius\": [0.1, 0.1], \"damping\": [1, 1]") ==
+          "s: /wood/curves/0/radius/1: is 0.1, expected more than the one before it");
+    CHECK(curve("\"radius\": [0.1], \"stiffness\": [-3]") ==
+          "s: /wood/curves/0/stiffness/0: is -3, expected 0 or more");
+    CHECK(curve("\"radius\": [0.1], \"stiffness\": [3], \"on\": {}") ==
+          "s: /wood/curves/0/on: names no body, expected body, branch, nearest or level");
+    CHECK(curve("\"radius\": [0.1], \"stiffness\": [3], \"on\": {\"tree\": 1, \"body\": 0}") ==
+          "s: /wood/curves/0/on/tree: is 1, expected a tree of the scene, 0 to less than 1");
+    CHECK(curve("\"radius\": [0.1], \"stiffness\": [3], \"relative\": 1") ==
+          "s: /wood/curves/0/relative: is 1, expected true or false");
+    CHECK(wood("\"fork\": {\"factor\": 2}") == "s: /wood/fork/length: is missing");
+    CHECK(wood("\"fork\": {\"factor\": 0, \"length\": 1}") == "s: /wood/fork/factor: is 0, expected more than 0");
+    CHECK(wood("\"fork\": {\"factor\": 2, \"length\": 0}") == "s: /wood/fork/length: is 0, expected more than 0");
+    CHECK(scene_error("\"load\": {\"leaf\": 1}") == "");
+    CHECK(scene_error("\"load\": {\"leaf\": -1}") == "s: /load/leaf: is -1, expected 0 or more");
+    CHECK(scene_error("\"load\": 1").rfind("s: /load: is 1, expected ", 0) == 0);
+    CHECK(scene_error("\"load\": {\"snow\": 1}").rfind("s: /load/snow: is an unknown field", 0) == 0);
+    CHECK(scene_error("\"fictitious\": {\"turning\": 0.1}") == "");
+    CHECK(scene_error("\"fictitious\": {\"turning\": -1}") == "s: /fictitious/turning: is -1, expected 0 or more");
+    CHECK(scene_error("\"fictitious\": {\"coriolis\": 1}").rfind("s: /fictitious/coriolis: is an unknown field", 0) ==
+          0);
     CHECK(scene_error("\"air_density\": 1, \"air_density\": 1") == "s: /air_density: appears twice");
     CHECK_THAT(scene_error("\"gravity\": [0, NaN, 0]"), StartsWith("s:1:") && Contains("/gravity/1 is NaN"));
 

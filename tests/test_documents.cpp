@@ -245,7 +245,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.fracture->strength = 4e7;
     scene.fracture->spread = 0.3;
     scene.fracture->seed = 18446744073709551615u;
-    scene.fracture->joints = {{{Selector::By::level, 0, 0, 0, 1, Vec3::Zero(), 2}, 3.5}, {{}, Fracture::never}};
+    scene.fracture->joints = {{{Selector::By::level, 0, 0, {}, 0, 1, Vec3::Zero(), 2}, 3.5}, {{}, Fracture::never}};
     scene.balls.resize(2);
     scene.balls[1].position = random.vector();
     scene.balls[1].velocity = random.vector();
@@ -254,6 +254,16 @@ TEST_CASE("scenes come back from both forms") {
     scene.balls[1].mass = 7;
     scene.contact = Contact{ContactModel::penalty, 0.7, 0.1, 20, false, true, false, -1.5};
     scene.leaves = LeafAir{random.fraction(), random.fraction(), 1 + random.fraction(), random.fraction()};
+    scene.wood.emplace();
+    scene.wood->branch = {1.0 / 3, 0, 1e-300};
+    scene.wood->petal = {random.fraction(), random.fraction(), 1 + random.fraction()};
+    scene.wood->curves.resize(2);
+    scene.wood->curves[0] = {
+        Selector{Selector::By::level, 0, 0, {}, 0, 1, Vec3::Zero(), 2}, {0, 0.1}, {0, 1.0 / 3}, {}, true};
+    scene.wood->curves[1] = {std::nullopt, {0.7}, {}, {random.fraction()}, false};
+    scene.wood->fork = WoodFork{1 / 0.7, 0.1 / 3};
+    scene.load = StaticLoad{random.fraction(), 1e-300, 0, 7};
+    scene.fictitious = Fictitious{random.fraction(), 0, 0.1 / 3};
     Pull pull;
     pull.time = {0, 1.5};
     pull.force = {{0, 0, 1}, {0.1, 0.2, 0.3}};
@@ -285,6 +295,22 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(same(read.trees[1].position, scene.trees[1].position));
         CHECK(read.trees[0].yaw == 30);
         CHECK(same(read.gravity, scene.gravity));
+        REQUIRE((read.wood && read.load && read.fictitious));
+        const auto factors = [](const WoodFactors& f) { return Vec3(f.stiffness, f.damping, f.density); };
+        CHECK(same(factors(read.wood->branch), factors(scene.wood->branch)));
+        CHECK(same(factors(read.wood->leaf), Vec3(1, 1, 1)));
+        CHECK(same(factors(read.wood->petal), factors(scene.wood->petal)));
+        REQUIRE(read.wood->curves.size() == 2);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const WoodCurve &a = read.wood->curves[k], &b = scene.wood->curves[k];
+            CHECK((same(a.radius, b.radius) && same(a.stiffness, b.stiffness) && same(a.damping, b.damping)));
+            CHECK((a.relative == b.relative && a.on.has_value() == b.on.has_value()));
+        }
+        CHECK(read.wood->curves[0].on->level == 2);
+        CHECK((same(read.wood->fork->factor, 1 / 0.7) && same(read.wood->fork->length, 0.1 / 3)));
+        CHECK((same(read.load->branch, scene.load->branch) && same(read.load->leaf, 1e-300) && read.load->fruit == 7));
+        CHECK(same(read.fictitious->acceleration, scene.fictitious->acceleration));
+        CHECK((read.fictitious->turning == 0 && same(read.fictitious->gyroscopic, 0.1 / 3)));
         REQUIRE(read.wind);
         CHECK(same(read.wind->velocity, scene.wind->velocity));
         CHECK(read.wind->reference_height == 8);
@@ -464,5 +490,5 @@ TEST_CASE("the examples of formats/README.md are documents") {
         else
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
-    CHECK(examples == 11);
+    CHECK(examples == 14);
 }

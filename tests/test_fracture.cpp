@@ -136,7 +136,7 @@ TEST_CASE("What is left moves as a tree does that never had what fell") {
     if (windy && way.solver == Solver::coupled) scene.wind = simulate::steady(6); // analytic: weights of the whole tree
     Run<> bare(pruned, scene, way);
     scene.fracture = Fracture();
-    scene.fracture->joints = {{{Selector::By::body, 0, 9}, 0}, {{Selector::By::body, 0, 13}, 0}};
+    scene.fracture->joints = {{{Selector::By::body, 0, 9, {}}, 0}, {{Selector::By::body, 0, 13, {}}, 0}};
     Run<> broken(tree, scene, way);
     const std::vector<std::uint32_t> joints{9, 13};
     detach(broken.plan, broken.state, broken.world.subtrees, joints, broken.world.remaining);
@@ -161,7 +161,7 @@ TEST_CASE("A free piece keeps its angular momentum, and its centre of mass flies
     const Tree tree = make_tree::branched();
     Scene scene = still(Pose::rest);
     scene.fracture = Fracture();
-    scene.fracture->joints = {{{Selector::By::body, 0, 4}, 0.0}};
+    scene.fracture->joints = {{{Selector::By::body, 0, 4, {}}, 0.0}};
     Run<> run(tree, scene, ways[0]);
     run.steps(1);
     REQUIRE(run.world.free.size() == 1);
@@ -212,7 +212,7 @@ TEST_CASE("Thresholds: infinite never, by kind, by strength of the section, by s
     f.leaf = 0.1;
     CHECK(breakable_joints(tree, ranges, f).size() == 3);
     f.strength = 4e7;
-    f.joints = {{{Selector::By::body, 0, 13}, 0.7}, {{Selector::By::body, 0, 10}, 0.2}};
+    f.joints = {{{Selector::By::body, 0, 13, {}}, 0.7}, {{Selector::By::body, 0, 10, {}}, 0.2}};
     const std::vector<Breakable> joints = breakable_joints(tree, ranges, f);
     CHECK(joints.size() == tree.size_bodies());
     for (const Breakable& joint : joints) {
@@ -252,7 +252,7 @@ Scene lively() {
     scene.fracture->leaf = 2e-5;
     scene.fracture->fruit = 0.05;
     scene.fracture->spread = 0.5;
-    scene.fracture->joints = {{{Selector::By::body, 0, 9}, 1e-3}};
+    scene.fracture->joints = {{{Selector::By::body, 0, 9, {}}, 1e-3}};
     scene.balls = {ball(Vec3(0.1, 2.4, 0), Vec3(0, -4, 0), 0.1, 0.5), ball(Vec3(-0.3, 3, 0), Vec3(0, 0, 0), 0.05, 0.3)};
     return scene;
 }
@@ -340,7 +340,7 @@ TEST_CASE("What a ball gave a branch that breaks in the same step goes with the 
     INFO(name(way));
     Scene scene = empty_scene();
     scene.fracture = Fracture();
-    scene.fracture->joints = {{{Selector::By::body, 0, 0}, 0}};
+    scene.fracture->joints = {{{Selector::By::body, 0, 0, {}}, 0}};
     scene.balls = {ball(Vec3(0, 0.14, 1.5), Vec3(0, -3, 0), 0.1, 0.7)};
     // A spring that is bent a little, so that the joint breaks in the step in which the ball comes.
     make_tree::Wood soft;

@@ -122,6 +122,13 @@ std::vector<Case> cases() {
                    {},
                    {"root_motion", "wind_field", "external_forces", "drag"},
                    blown});
+    Scene lagged;
+    lagged.fictitious = Fictitious{0.5, 0, 0};
+    all.push_back({"lagged fictitious terms",
+                   lagged,
+                   {},
+                   {"fictitious"},
+                   joined(velocities, {"spin_dot", "alpha_w", "a_w", "fictitious_w"})});
     all.push_back({"velocity wished", Scene{}, {true, false}, {}, velocities});
     all.push_back({"torque wished", Scene{}, {false, true}, {}, {"torque_j"}});
     windy.pulls = pulled.pulls;
@@ -153,6 +160,7 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
     CAPTURE(solver_name(method.solver), scheme_of(method.scheme).name);
     const bool coupled = method.solver == Solver::coupled;
     for (const Case& c : cases()) {
+        if (c.scene.fictitious && method.solver != Solver::analytic) continue; // refused (test_fictitious)
         CAPTURE(c.name);
         const Plan<T> plan = plan_by<T>(method, tree, c.scene, c.wishes);
         State<T> state = make_state(plan);
@@ -262,6 +270,7 @@ TEST_CASE("a step allocates nothing, on one thread or several") {
     for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(3000, 1)})
         for (const Method& method : methods)
             for (const Case& c : cases()) {
+                if (c.scene.fictitious && method.solver != Solver::analytic) continue; // refused
                 Scene scene = c.scene;
                 scene.pose = Pose::rest;
                 const auto plan = plan_by<double>(method, tree, scene, c.wishes);

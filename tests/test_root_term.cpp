@@ -1,4 +1,5 @@
 // What a moving ground does to a tree, against closed forms, tilted gravity, and an integration of one rod's equation.
+#include "lib/stages/pose.h"
 #include "lib/stages/root_term.h"
 #include "lib/stages/state_arrays.h"
 #include "make_tree.h"
@@ -90,6 +91,10 @@ TEST_CASE("A root that accelerates steadily is gravity tilted the other way, in 
         still.steps(15000);
         REQUIRE(still.largest_angle() > 0.01);
         CHECK(difference(moved.state, still.state) < 1e-9);
+        // And that rest is the settled pose in the tilted gravity, which no step has found.
+        const StartPose settled = start_pose(tree, g - a, Pose::settled);
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+            CHECK((moved.state.theta[i] - settled.theta[i]).norm() < 1e-9);
         CHECK((moved.state.x_w[0] - still.state.x_w[0] - a * (0.5 * 500 * 500)).norm() < 1e-6);
     }
 }

@@ -29,6 +29,7 @@ struct Fingerprint {
             add(std::uint64_t(tree.level[i]));
             add(tree.s[i]);
         }
+        for (const double load : tree.load) add(load);
     }
     void add(const Wind& w) {
         add(w.velocity);
@@ -106,6 +107,8 @@ struct Fingerprint {
             for (const double value :
                  {s.leaves->kappa, s.leaves->air_resistance, s.leaves->drag_ratio, s.leaves->offset})
                 add(value);
+        if (s.fictitious) // /wood and /load are in the tree
+            add_named(5, {s.fictitious->acceleration, s.fictitious->turning, s.fictitious->gyroscopic});
     }
     void add(const Walker& walker) {
         add_named(5, {walker.mass, walker.push}); // its radius is only seen

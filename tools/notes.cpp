@@ -5,12 +5,14 @@
 
 namespace bough {
 
-template <class T> std::string explanation(const Plan<T>& plan, const RunOptions& run) {
+template <class T>
+std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes, const RunOptions& run) {
     std::ostringstream text;
     text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s, solver "
          << solver_name(plan.solver);
     if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
     text << "\n";
+    for (const std::string& change : changes) text << "tree changed by " << change << "\n";
     for (const PlannedStage& stage : plan.stages)
         text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
     std::size_t used = 0, left = 0;
@@ -94,8 +96,8 @@ template <class T> std::string cost_line(const Plan<T>& plan, const RunOptions& 
     return text.str();
 }
 
-template std::string explanation(const Plan<float>&, const RunOptions&);
-template std::string explanation(const Plan<double>&, const RunOptions&);
+template std::string explanation(const Plan<float>&, const std::vector<std::string>&, const RunOptions&);
+template std::string explanation(const Plan<double>&, const std::vector<std::string>&, const RunOptions&);
 template void note_flags(const Plan<float>&, const StepFlags&, std::int64_t, std::vector<std::string>&);
 template void note_flags(const Plan<double>&, const StepFlags&, std::int64_t, std::vector<std::string>&);
 template void note_world(const World<float>&, std::vector<std::string>&);

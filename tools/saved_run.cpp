@@ -16,6 +16,7 @@ void visit_carried(const Plan<T>& plan, StateType& state, Saved& saved, Visit&& 
         visit(state.theta_dot_change, saved.theta_dot_change);
     } else {
         visit(state.scaled_rate, saved.scaled_rate);
+        if (plan.fictitious) visit(state.spin_dot, saved.spin_dot);
     }
 }
 
@@ -43,6 +44,9 @@ template <class T> void restore(const TreesimOptions& o, const Setting& setting,
         throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
                                                    ", but this run's tree and scene have " +
                                                    hash_text(setting.fingerprint));
+    if (const std::size_t held = saved.spin_dot.size(); held != (plan.fictitious ? plan.bodies : 0))
+        throw InputError(input_name(o.resume), "/spin_dot: is " + std::to_string(held) + " bodies, but this run has " +
+                                                   std::to_string(plan.fictitious ? plan.bodies : 0));
     try {
         restore_world(plan, state, run.world, saved.free_bodies);
     } catch (const std::invalid_argument& error) {

@@ -151,6 +151,19 @@ Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
         pull.on.tree -= std::int32_t(first);
         part.pulls.push_back(std::move(pull));
     }
+    if (part.wood) {
+        std::size_t k = 0;
+        std::erase_if(part.wood->curves, [&](WoodCurve& curve) {
+            const std::string at = "/wood/curves/" + std::to_string(k++) + "/on";
+            if (!curve.on) return false;
+            if (curve.on->by == Selector::By::nearest || curve.on->by == Selector::By::level)
+                throw UsageError("--shard: not with the scene's " + at +
+                                 ", which looks for its body in all trees; name it by body or branch");
+            if (!within(curve.on->tree)) return true;
+            curve.on->tree -= std::int32_t(first);
+            return false;
+        });
+    }
     part.root_motion.clear();
     for (RootMotion motion : scene.root_motion) {
         if (!within(motion.tree)) continue;

@@ -1,6 +1,8 @@
 #include "simulation.h"
 #include "formats/scene.h"
 #include "formats/tree.h"
+#include "lib/model/static_load.h"
+#include "lib/model/wood_overrides.h"
 #include "lib/stages/frozen_rule.h"
 #include "lib/stages/state_arrays.h"
 #include "scene_trees.h"
@@ -61,6 +63,32 @@ SceneDocument chosen_document(const RunOptions& o, std::string_view content, con
     SceneDocument document = read_scene_document(content, name, first);
     apply(o, wind, document.scene);
     return last.empty() ? document : changed(document, last);
+}
+
+// What a scene makes of its trees themselves: into the tree, before anything is planned or weighed.
+void change_trees(Setting& setting, const std::string& scene_file) {
+    const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + what; };
+    if (setting.scene.wood) {
+        WoodChanges changes;
+        try {
+            changes = override_wood(setting.tree, setting.ranges, *setting.scene.wood);
+        } catch (const std::out_of_range& error) {
+            throw InputError(input_name(scene_file), std::string("/") + error.what());
+        }
+        std::string line = "/wood: stiffness of " + count(changes.stiffness, " joints, damping of ") +
+                           count(changes.damping, ", mass of ") + count(changes.mass, " bodies");
+        if (setting.scene.wood->fork)
+            line += "; " + count(changes.near_forks, " joints near ") + count(changes.forks, " forks");
+        setting.changes.push_back(line);
+        setting.scene.wood.reset();
+    }
+    if (setting.scene.load) {
+        const LoadLaid laid = lay_load(setting.tree, *setting.scene.load);
+        std::ostringstream kilograms;
+        kilograms << laid.mass;
+        setting.changes.push_back("/load: " + kilograms.str() + " kg on " + count(laid.bodies, " bodies"));
+        setting.scene.load.reset();
+    }
 }
 
 // A line of help: what each solver is for, the default marked.
@@ -306,6 +334,7 @@ Setting read_setting(const RunOptions& o) {
     }
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
+    change_trees(setting, o.input);
     return setting;
 }
 

@@ -28,7 +28,7 @@ struct RunOptions {
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
     std::vector<std::string> set; // as given: PATH=VALUE, set_option.h
-    std::string shard; // "i/n", of treesim; empty: all
+    std::string shard;            // "i/n", of treesim; empty: all
 };
 
 // seconds_default: what runs without --seconds and --frames.
@@ -75,9 +75,11 @@ struct Setting {
     Scene scene;
     std::string source; // command lines of the inputs
     Part part = {};
+    std::vector<std::string>
+        changes{}; // what of the scene is in the tree by now, and no longer in the scene: a line each, for --explain
     std::uint64_t fingerprint = 0; // fingerprint(), where a state is saved or resumed: of the whole tree
 };
-// Reads a tree, or a scene and its trees. Throws UsageError, InputError.
+// Reads a tree, or a scene and its trees; /wood and /load are put into the tree. Throws UsageError, InputError.
 Setting read_setting(const RunOptions&);
 
 // The files that read_setting reads: INPUT, the trees of a scene, the wind's. Throws as it does where the scene cannot be read.

@@ -5,6 +5,7 @@
 #include "lib/free/shown_tree.h"
 #include "notes.h"
 #include "saved_run.h"
+#include "saved_tree.h"
 #include "watch.h"
 #include <algorithm>
 #include <chrono>
@@ -74,6 +75,7 @@ std::int64_t run_frames(const TreesimOptions& o, const Setting& setting, Run<T>&
     } catch (const Interrupted&) {
         if (queue && !o.watch) queue->finish();
         if (!o.save_state.empty() && done >= 0) save(o, setting, run, done);
+        if (!o.save_tree.empty() && done >= 0) save_tree(o.save_tree, setting, run, o.common);
         throw;
     }
     if (queue) queue->finish();
@@ -118,9 +120,11 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
     const bool loops = o.loop.seconds.has_value();
     const std::int64_t frames = loops ? loop_frames(o.loop, o.run) : frames_of(o.run, seconds_default);
     if (loops) make_periodic(frames, o.run.fps, setting.scene);
-    const Wishes wishes{fields.velocity, fields.torque, !o.no_output || o.report_error || loops};
-    const bool needs_tree =
-        loops || o.report_error || format == "obj" || format == "glb" || has_free_bodies(setting.scene);
+    const Wishes wishes{fields.velocity, fields.torque,
+                        !o.no_output || o.report_error || loops || !o.save_tree.empty()};
+    if (!o.save_tree.empty()) require_one_tree(setting);
+    const bool needs_tree = loops || o.report_error || !o.save_tree.empty() || format == "obj" || format == "glb" ||
+                            has_free_bodies(setting.scene);
     if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
     Plan<T> planned = needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
     interrupt_at_boundary();
@@ -134,7 +138,7 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
     Run<T> run = start_run(std::move(planned), setting, o.run);
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
-    if (o.explain) std::cerr << explanation(plan, o.run);
+    if (o.explain) std::cerr << explanation(plan, setting.changes, o.run);
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
@@ -169,6 +173,7 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
         if (run.world.on()) std::cerr << "free bodies " << run.world.bytes() << " bytes\n";
     }
     if (!o.save_state.empty()) save(o, setting, run, done);
+    if (!o.save_tree.empty()) save_tree(o.save_tree, setting, run, o.common);
     if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state, run.world)) << "\n";
     if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
     note_flags(plan, state.flags, state.step - started, o.common.notes);

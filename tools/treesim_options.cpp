@@ -46,6 +46,13 @@ void declare(CLI::App& app, TreesimOptions& o) {
     app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
         ->option_text("FILE")
         ->check(file_name());
+    app.add_option(
+           "--save-tree", o.save_tree,
+           "Write the tree as it stands at the last frame, drawn there: run again with --pose drawn it stays, its "
+           "springs at rest around what forces had bent it to. It stands where the scene put it; /wood and /load "
+           "are in it, the load as its own weight, stiffness_scale and damping_scale are not. For scenes of one tree")
+        ->option_text("FILE")
+        ->check(file_name());
     app.add_option("--resume", o.resume, "Go on from this state")->option_text("FILE");
     app.add_option("--shard", o.run.shard,
                    "Only the i-th of n parts of a scene's trees; bodies move as they do in the whole (--join)")
@@ -112,6 +119,9 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     }
     if (o.save_state == "-" && !o.no_output && o.common.output == "-")
         throw UsageError("--save-state -: frames and state cannot both go to stdout");
+    if (o.save_tree == "-" && ((!o.no_output && o.common.output == "-") || o.save_state == "-"))
+        throw UsageError("--save-tree -: the tree and " + std::string(o.save_state == "-" ? "the state" : "frames") +
+                         " cannot both go to stdout");
     refuse_contradictions(o.loop, o.run);
     if (o.loop.seconds) {
         const std::pair<bool, const char*> others[] = {

@@ -12,7 +12,7 @@ constexpr double seconds_default = 10;
 struct TreesimOptions {
     CommonOptions common;
     RunOptions run;
-    std::string fields, save_state, resume;
+    std::string fields, save_state, save_tree, resume;
     JoinOptions join;
     const CLI::App* app = nullptr; // for what was given
     GltfChoice gltf;

@@ -51,7 +51,8 @@ void fill_of_bodies(const Layout& layout, const std::vector<Number>& of_body, Ro
 template <class T> std::string reason_against(const Plan<T>& plan) {
     if (is_articulated(plan.solver)) return std::string("solver ") + solver_name(plan.solver);
     if (plan.joint_limit) return "/joint_limit";
-    if (plan.solver == Solver::analytic) return plan.root_motion ? "/root_motion" : "";
+    if (plan.solver == Solver::analytic)
+        return plan.root_motion ? "/root_motion" : plan.fictitious ? "/fictitious" : "";
     const RationalScheme& scheme = scheme_of(plan.scheme);
     if (scheme.real) return std::string("scheme ") + scheme.name;
     return {};

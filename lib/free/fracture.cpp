@@ -173,8 +173,8 @@ template <class T> void clear_body(Plan<T>& plan, State<T>& state, std::size_t i
     if (!plan.carried_moment.empty()) plan.carried_moment[i].setZero();
     if (!plan.gravity_row.empty()) plan.gravity_row[i] = 0;
     if (!plan.drag_area.empty()) plan.drag_area[i] = 0;
-    for (auto* array :
-         {&state.theta, &state.theta_dot, &state.scaled_rate, &state.theta_change, &state.theta_dot_change})
+    for (auto* array : {&state.theta, &state.theta_dot, &state.scaled_rate, &state.spin_dot, &state.theta_change,
+                        &state.theta_dot_change})
         if (!array->empty()) (*array)[i].setZero();
 }
 

@@ -13,5 +13,8 @@ std::optional<Defect> above_zero(const std::string& field, double value);
 // `trees`: how many the scene has; 0: the caller has the one tree that it is for.
 std::optional<Defect> check(const Selector&, const std::string& at, std::size_t trees);
 std::optional<Defect> check(const Walker&, const std::string& at, std::size_t trees);
+std::optional<Defect> check(const Wood&, std::size_t trees);
+std::optional<Defect> check(const StaticLoad&);
+std::optional<Defect> check(const Fictitious&);
 
 } // namespace bough

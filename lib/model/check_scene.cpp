@@ -313,6 +313,12 @@ std::optional<Defect> check(const Scene& scene) {
         if (auto defect = check(*scene.leaves)) return defect;
     for (std::size_t i = 0; i < scene.walkers.size(); ++i)
         if (auto defect = check(scene.walkers[i], "walkers/" + std::to_string(i), scene.trees.size())) return defect;
+    if (scene.wood)
+        if (auto defect = check(*scene.wood, scene.trees.size())) return defect;
+    if (scene.load)
+        if (auto defect = check(*scene.load)) return defect;
+    if (scene.fictitious)
+        if (auto defect = check(*scene.fictitious)) return defect;
     if (auto defect = at_least("stiffness_scale", scene.stiffness_scale, 0)) return defect;
     return at_least("damping_scale", scene.damping_scale, 0);
 }

@@ -1,4 +1,5 @@
 #include "ring_down.h"
+#include "../stages/fictitious.h"
 #include "../stages/state_update.h"
 #include "advance.h"
 #include <Eigen/Cholesky>
@@ -121,7 +122,7 @@ RingDown fit_damped_sinusoid(const std::vector<double>& y, double dt, double abo
 }
 
 RingDown ring_down(const Problem& problem, const Variant& how, double dt, const std::function<void()>& tick) {
-    Scene scene = problem.scene;
+    Scene scene = for_solver(problem.scene, how.solver);
     scene.wind.reset();
     scene.pulls.clear();
     scene.root_motion.clear();

@@ -1,6 +1,7 @@
 #include "stability.h"
 #include "../stages/air.h"
 #include "../stages/energy.h"
+#include "../stages/fictitious.h"
 #include "../stages/leaf_air.h"
 #include "../stages/root_term.h"
 #include "../stages/shelter.h"
@@ -145,8 +146,8 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
         run_free_cell(setup, solver, sizeof(T) == 4, frames, tick, cell);
         return cell;
     }
-    const Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver, Scheme::p12,
-                                      setup.simd, 0, setup.refresh);
+    const Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, for_solver(setup.scene, solver), {}, setup.dt, solver,
+                                      Scheme::p12, setup.simd, 0, setup.refresh);
     State<T> state = make_state(plan);
     Audit<T> audit(plan, state, setup.tree, frames);
     cell.finite = true;

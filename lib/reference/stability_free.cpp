@@ -1,6 +1,7 @@
 #include "stability_free.h"
 #include "../free/world.h"
 #include "../stages/energy.h"
+#include "../stages/fictitious.h"
 #include <algorithm>
 
 namespace bough {
@@ -49,7 +50,8 @@ template <class T> struct WalkersWork {
 template <class T>
 void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const std::function<void()>& tick,
          StabilityCell& cell) {
-    Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, setup.scene, {}, setup.dt, solver, Scheme::p12, setup.simd);
+    Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, for_solver(setup.scene, solver), {}, setup.dt, solver,
+                                Scheme::p12, setup.simd);
     State<T> state = make_state(plan);
     World<T> world = make_world(plan, setup.tree, setup.ranges);
     const Sum<T> start(plan, state, world);

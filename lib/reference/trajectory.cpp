@@ -1,4 +1,5 @@
 #include "trajectory.h"
+#include "../stages/fictitious.h"
 #include "../stages/root_term.h"
 #include "advance.h"
 #include <chrono>
@@ -29,7 +30,7 @@ template <class T>
 Trajectory run(const Problem& problem, const Variant& how, bool keep_theta, int repeat,
                const std::function<void()>& tick) {
     using Time = std::chrono::steady_clock;
-    Scene scene = problem.scene;
+    Scene scene = for_solver(problem.scene, how.solver);
     scene.joint_inertia = how.inertia;
     const double dt = 1 / (problem.fps * how.steps_per_frame);
     Plan<T> plan =

@@ -3,6 +3,7 @@
 #include "../fast/sleep.h"
 #include "../model/branch_mode.h"
 #include "air.h"
+#include "fictitious.h"
 #include "leaf_air.h"
 #include "pose.h"
 #include "shelter.h"
@@ -11,14 +12,15 @@
 #include <charconv>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 namespace bough {
 
 const char* stage_name(Stage stage) {
     static constexpr const char* names[stage_count] = {
-        "wind_field",   "external_forces", "composite", "drag",       "root_motion", "refresh",
-        "spring",       "articulated",     "midpoint",  "body_loads", "resolvent",   "lanes",
-        "state_update", "free_flight",     "contacts",  "fracture",   "walkers"};
+        "wind_field", "external_forces", "composite",   "drag",     "root_motion", "fictitious",
+        "refresh",    "spring",          "articulated", "midpoint", "body_loads",  "resolvent",
+        "lanes",      "state_update",    "free_flight", "contacts", "fracture",    "walkers"};
     return names[std::size_t(stage)];
 }
 
@@ -41,7 +43,7 @@ template <class... Arrays> void give_back(Tree* own, Arrays Tree::*... arrays) {
 // Where the springs start, and from where they turn.
 template <class T> void plan_pose(Plan<T>& plan, const Tree& tree, Tree* own) {
     StartPose pose = start_pose(tree, plan.scene.gravity, plan.scene.pose);
-    give_back(own, &Tree::joint_rotation);
+    give_back(own, &Tree::joint_rotation, &Tree::load);
     plan.theta_start.reserve(plan.bodies);
     for (const Vec3& theta : pose.theta) plan.theta_start.push_back(theta.template cast<T>());
     give_back(pose.theta);
@@ -363,6 +365,7 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
         : joints && frozen ? "with the spring, in frozen modes"
                            : why("/wind", own));
     add(Stage::root_motion, joints && plan.root_motion, plan.root_motion ? why("/root_motion", own) : "no root motion");
+    add(Stage::fictitious, plan.fictitious, plan.fictitious ? "/fictitious" : "no lagged fictitious terms");
     add(Stage::refresh, joints && frozen, analytic && frozen && !joints ? fused : plan.refresh_reason);
     add(Stage::spring, joints,
         why(std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") + limited,
@@ -389,8 +392,9 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                               ? (plan.wind ? "every scene (poses; no output field velocity: no velocities)"
                                            : "every scene (poses; no wind, no output field velocity: no velocities)")
                           : wishes.velocity ? "every scene (poses; velocities for output field velocity)"
-                                            : "every scene (poses; velocities for /wind)") +
-                  moved);
+                          : plan.wind       ? "every scene (poses; velocities for /wind)"
+                                            : "every scene (poses; velocities for /fictitious)") +
+                  (plan.fictitious ? "; accelerations for /fictitious" : "") + moved);
     const Scene& scene = plan.scene;
     const bool free = scene.fracture || !scene.balls.empty();
     const std::string what = !scene.balls.empty() && scene.fracture ? "/balls, /fracture"
@@ -439,6 +443,22 @@ bool scales(const Scene& scene) {
     return scene.stiffness_scale != 1 || scene.damping_scale != 1;
 }
 
+// What a plan cannot have.
+void refuse_parts(const Scene& scene, Solver solver) {
+    if (has_free_bodies(scene) && is_articulated(solver))
+        throw std::domain_error(std::string(free_part(scene) + 1) +
+                                ": only the coupled and the analytic solver meet free bodies and walkers, not " +
+                                solver_name(solver));
+    if (scene.fictitious && solver != Solver::analytic)
+        throw std::domain_error("fictitious: only for solver analytic; solver " + std::string(solver_name(solver)) +
+                                " has these terms by nature, whole and in time");
+    for (const auto& [field, there, function] :
+         {std::tuple{"wood", scene.wood.has_value(), "override_wood"}, {"load", scene.load.has_value(), "lay_load"}})
+        if (there)
+            throw std::domain_error(std::string(field) + ": is still in the scene, expected in the tree (" + function +
+                                    "), and no longer in the scene");
+}
+
 // tree: scaled. own: the same, where it may be given back array by array; else null. What reads much of the tree stands first.
 template <class T>
 Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ranges, const Scene& scene,
@@ -457,14 +477,12 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
         for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
             plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
     give_back(own, &Tree::level, &Tree::s);
-    if (has_free_bodies(scene) && is_articulated(solver))
-        throw std::domain_error(std::string(free_part(scene) + 1) +
-                                ": only the coupled and the analytic solver meet free bodies and walkers, not " +
-                                solver_name(solver));
+    refuse_parts(scene, solver);
     plan.contact = may_push(scene);
     plan.loads = plan.contact || !scene.walkers.empty();
+    plan.fictitious = scene.fictitious && lags(*scene.fictitious);
     plan.forces = plan.wind || plan.pushes();
-    plan.velocity = (plan.wind && solver == Solver::analytic) || wishes.velocity;
+    plan.velocity = (plan.wind && solver == Solver::analytic) || plan.fictitious || wishes.velocity;
     plan.torque = wishes.torque;
     plan_root_motion(plan, ranges);
     if (plan.wind) {
@@ -479,6 +497,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
                           : plan.root_motion         ? "/root_motion"
                           : has_free_bodies(scene)   ? free_part(scene)
                           : scene.joint_limit        ? "/joint_limit"
+                          : plan.fictitious          ? "/fictitious"
                                                      : "";
     if (plan.refresh_reason.empty()) {
         plan.refresh = refresh;

@@ -23,6 +23,7 @@ enum class Stage : std::uint8_t {
     composite,
     drag,
     root_motion,
+    fictitious,
     refresh,
     spring,
     articulated,
@@ -36,7 +37,7 @@ enum class Stage : std::uint8_t {
     fracture,
     walkers
 };
-constexpr std::size_t stage_count = 17;
+constexpr std::size_t stage_count = 18;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
@@ -97,8 +98,9 @@ template <class T> struct Plan {
     std::string refresh_reason; // why they are kept, or why not
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     bool root_motion = false, joint_limit = false;
-    bool contact = false;                                   // free bodies may push the trees
-    bool loads = false;                                     // State::loads may hold some: of contacts, of walkers
+    bool fictitious = false; // of the analytic solver: lagged terms of the joints' own motion (fictitious.h)
+    bool contact = false;    // free bodies may push the trees
+    bool loads = false;      // State::loads may hold some: of contacts, of walkers
     bool pushes() const { return loads || !pulls.empty(); } // on single points
     bool pose = true; // false: with lanes and not wished for; of the arrays over bodies below only theta_start is there
     std::vector<PlannedStage> stages;
@@ -171,7 +173,8 @@ WindReach wind_reach(const Tree&, const std::vector<TreeRange>&, const Scene&);
 // beta by the scene's factors, finds the rest pose (pose.h), composite masses and weights (branch_mode.h). O(n).
 // Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow,
 // for one that starts beyond a joint limit (its body and angle), for joint limits, fracture or balls with an articulated solver, for a swirl finer
-// than a table can hold (wind_field.h) and for columns of shelter that a body fills (shelter.h).
+// than a table can hold (wind_field.h) and for columns of shelter that a body fills (shelter.h); for /fictitious with another solver than
+// the analytic; for a scene that still has /wood or /load, which must be in the tree before (wood_overrides.h, static_load.h).
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 // sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
 // refresh: of the analytic solver, the tolerance of frozen coefficients (frozen.h); 0: none are kept, every step is worked out in full.

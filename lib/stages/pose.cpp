@@ -12,19 +12,19 @@ std::string name_of(const Tree& tree, std::size_t i) {
     return "body " + std::to_string(i) + " of branch " + std::to_string(tree.branch[i]);
 }
 
-// World from body, turned by theta in its joint frame.
-Mat3 frame_of(const Tree& tree, std::size_t i, const std::vector<Mat3>& R, const Vec3& theta) {
+// World from body, turned by theta from the springs' rest.
+Mat3 frame_of(const Tree& tree, const std::vector<Quat>& rest, std::size_t i, const std::vector<Mat3>& R,
+              const Vec3& theta) {
     const std::int32_t p = tree.parent[i];
-    const Mat3 R_pj = tree.joint_rotation[i].toRotationMatrix();
+    const Mat3 R_pj = rest[i].toRotationMatrix();
     return (p < 0 ? R_pj : Mat3(R[std::size_t(p)] * R_pj)) * rotation_from_vector(theta);
 }
 
 // First moment that body i's own turning moves, P of coupled gravity: its mass and its children's composites at their joints. World.
-std::vector<Vec3> turned_moments(const Tree& tree, const std::vector<Mat3>& R) {
+std::vector<Vec3> turned_moments(const Tree& tree, std::vector<double> mass, const std::vector<Mat3>& R) {
     const std::size_t n = tree.size_bodies();
-    std::vector<double> mass(tree.mass);
     std::vector<Vec3> P(n);
-    for (std::size_t i = 0; i < n; ++i) P[i] = tree.mass[i] * (R[i] * tree.com[i]);
+    for (std::size_t i = 0; i < n; ++i) P[i] = mass[i] * (R[i] * tree.com[i]);
     for (std::size_t i = n; i-- > 0;) {
         if (tree.parent[i] < 0) continue;
         const auto p = std::size_t(tree.parent[i]);
@@ -74,12 +74,20 @@ StartPose unturned(const Tree& tree) {
     return {tree.joint_rotation, std::vector<Vec3>(tree.size_bodies(), Vec3::Zero())};
 }
 
+// What the drawn tree carries in its equilibrium.
+std::vector<double> unloaded_mass(const Tree& tree) {
+    std::vector<double> mass(tree.mass);
+    for (std::size_t i = 0; i < tree.load.size(); ++i) mass[i] -= tree.load[i];
+    return mass;
+}
+
 StartPose drawn(const Tree& tree, const Vec3& gravity) {
     if (gravity.isZero()) return unturned(tree);
     const std::size_t n = tree.size_bodies();
     std::vector<Mat3> R(n);
-    for (std::size_t i = 0; i < n; ++i) R[i] = frame_of(tree, i, R, Vec3::Zero());
-    StartPose pose{{}, gravity_moments(tree, turned_moments(tree, R), gravity)}; // moments, until each is carried
+    for (std::size_t i = 0; i < n; ++i) R[i] = frame_of(tree, tree.joint_rotation, i, R, Vec3::Zero());
+    // Moments, until each is carried.
+    StartPose pose{{}, gravity_moments(tree, turned_moments(tree, unloaded_mass(tree), R), gravity)};
     pose.joint_rotation.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 tau_b = R[i].transpose() * pose.theta[i];
@@ -94,12 +102,12 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
 }
 
 // One Newton step for the sag; returns the first body whose elimination block is not positive definite, or -1.
-std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vector<Vec3>& theta,
-                         std::vector<Vec3>& change) {
+std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const StartPose& pose, std::vector<Vec3>& change) {
+    const std::vector<Vec3>& theta = pose.theta;
     const std::size_t n = tree.size_bodies();
     std::vector<Mat3> R(n);
-    for (std::size_t i = 0; i < n; ++i) R[i] = frame_of(tree, i, R, theta[i]);
-    const std::vector<Vec3> P = turned_moments(tree, R);
+    for (std::size_t i = 0; i < n; ++i) R[i] = frame_of(tree, pose.joint_rotation, i, R, theta[i]);
+    const std::vector<Vec3> P = turned_moments(tree, tree.mass, R);
     const std::vector<Vec3> tau = gravity_moments(tree, P, gravity);
     std::vector<Mat3> A(n), E(n);
     std::vector<Vec3> u(n);
@@ -136,15 +144,15 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const std::vecto
     return soft;
 }
 
-StartPose settled(const Tree& tree, const Vec3& gravity) {
+// The sag of springs at this rest, found from these angles on.
+StartPose settled(const Tree& tree, const Vec3& gravity, StartPose pose) {
     const std::size_t n = tree.size_bodies();
-    StartPose pose = unturned(tree);
     if (gravity.isZero()) return pose;
     std::vector<Vec3> change(n);
     std::size_t worst = 0;
     double previous = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < 500; ++iteration) {
-        const std::int64_t soft = newton_step(tree, gravity, pose.theta, change);
+        const std::int64_t soft = newton_step(tree, gravity, pose, change);
         double largest = 0, angle = 0;
         for (std::size_t i = 0; i < n; ++i) {
             const double size = change[i].norm();
@@ -173,9 +181,9 @@ StartPose settled(const Tree& tree, const Vec3& gravity) {
 StartPose start_pose(const Tree& tree, const Vec3& gravity, Pose pose) {
     switch (pose) {
     case Pose::drawn:
-        return drawn(tree, gravity);
+        return tree.load.empty() ? drawn(tree, gravity) : settled(tree, gravity, drawn(tree, gravity));
     case Pose::settled:
-        return settled(tree, gravity);
+        return settled(tree, gravity, unturned(tree));
     case Pose::rest:
         break;
     }

@@ -10,6 +10,9 @@
 //          reduce the residual is halved. An elimination block that is not positive definite where the iteration ends is
 //          a branch that buckles under its own weight: refused, with its name.
 // rest     The drawn tree is unloaded and the run starts from it: theta = 0.
+// Load. With Tree::load (static_load.h) `drawn` means the tree without it: the springs' rest is the one that carries the drawn tree less its
+// load, and the start is the sag of these springs under all of it, as for `settled`, found from the drawn pose on. `settled` and `rest`
+// have the load in the weight as any other.
 // Reads a checked tree (K as scaled by the scene). Cost O(n) (settled: O(n) an iteration, about 5 to 50).
 // Throws std::domain_error that names body and branch: drawn with K = 0 under load or no solution within half a turn; settled without
 // convergence.

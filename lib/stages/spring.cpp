@@ -61,6 +61,12 @@ template <class T> StepFlags spring_update(const Plan<T>& plan, State<T>& s, std
     }
     if (shorten_rotation(s.theta[i])) ++flags.half_turns;
     s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * omega_b;
+    if (plan.fictitious) { // the oscillators' own equation at the step's end
+        Vector3<T> change;
+        for (int k = 0; k < 3; ++k)
+            change[k] = o.ratio[k] * (r[k] + o.d[k] * v[k]) - o.b[k] * v_new[k] - o.lambda[k] * dq[k];
+        s.spin_dot[i] = o.U * change;
+    }
     return flags;
 }
 

@@ -22,7 +22,7 @@
 // joint, and small beside K in wood; where it is not, it damps (as what stands is damped by lag in any case).
 //
 // A moving ground. Where the tree's root is moved, g is the apparent gravity at the joint, and the ground's turning adds
-// to tau and G: root_term.h.
+// to tau and G: root_term.h. What the joints' own motion adds to tau by (20), one step late, where the scene asks for it: fictitious.h.
 //
 // Air. With wind, the bounds d' and gamma of drag.h join the damping and G; drag.h says why.
 //
@@ -45,8 +45,8 @@
 // Half turns. theta is the rotation vector "in the standard fashion" (§3), |theta| <= pi: a joint that turns past half a turn is as
 // far from rest the other way round, at the same elastic energy, and its spring pulls it on. Counted; the small angles
 // that the method assumes were left long before.
-// Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb, root_load. Writes theta, theta_dot, scaled_rate.
-// After   composite, drag, root_loads. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
+// Reads   theta, scaled_rate, c_h_w, c_J_w, c_tau_w, R_wb, root_load, fictitious_w. Writes theta, theta_dot, scaled_rate, spin_dot.
+// After   composite, drag, root_loads, fictitious_torques. O(n), joints in parallel. Errors none; non-finite in, non-finite out.
 #pragma once
 #include "plan.h"
 #include "state.h"

@@ -15,6 +15,7 @@ template <class T> SpringJoint<T> spring_joint(const Plan<T>& plan, const State<
     joint.KG_b = joint.K_b;
     Vector3<T> tau_w = Vector3<T>::Zero();
     if (plan.forces) tau_w += s.c_tau_w[i];
+    if (plan.fictitious) tau_w += s.fictitious_w[i];
     const RootLoad<T>* root = plan.root_motion ? root_load_of(plan, s, i) : nullptr;
     joint.g_b = joint.h_b = Vector3<T>::Zero();
     if (plan.gravity || root) {

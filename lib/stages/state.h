@@ -81,6 +81,12 @@ template <class T> struct State {
     std::vector<Ground> ground;         // present
     std::vector<RootLoad<T>> root_load; // of the last step
 
+    // fictitious: with Plan::fictitious
+    std::vector<Vector3<T>>
+        spin_dot; // [rad/s^2] how the joint's own rate J theta_dot changed at the last step's end, body axes; carried, saved
+    std::vector<Vector3<T>> alpha_w, a_w; // [rad/s^2], [m/s^2] of the body, of its own joint, by (9) and (12)
+    std::vector<Vector3<T>> fictitious_w; // [N m] about own joint, for the spring
+
     // refresh
     std::vector<FrozenJoint<T>> frozen; // frozen.h; where coefficients are kept, scaled_rate is the modes' rates
 

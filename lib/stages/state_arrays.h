@@ -18,9 +18,11 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     const bool air = joints && plan.wind, loads = joints && plan.forces;
     const std::string wind = !plan.wind ? "no wind" : air ? "/wind" : analytic ? fast : solver;
     const std::string forces = plan.forces && !analytic ? solver : plan.forces && !joints ? fast : forces_text(plan);
-    const std::string velocity = air             ? "/wind (drag)"
-                                 : plan.velocity ? "output field velocity"
-                                                 : "no wind, no output field velocity";
+    const std::string lagged = plan.fictitious ? "/fictitious" : "no lagged fictitious terms";
+    const std::string velocity = air               ? "/wind (drag)"
+                                 : plan.fictitious ? "/fictitious"
+                                 : plan.velocity   ? "output field velocity"
+                                                   : "no wind, no output field velocity";
     const std::string torque = plan.torque ? "output field torque" : "no output field torque";
     const std::string unread = "in lanes; no poses, velocities, torques asked for";
     const std::string read = plan.pose ? always : unread;
@@ -52,6 +54,10 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
     visit("c_wind_row", s.c_wind_row, air, wind);
     visit("c_turn", s.c_turn, air, wind);
     visit("c_turn_row", s.c_turn_row, air, wind);
+    visit("spin_dot", s.spin_dot, plan.fictitious, lagged);
+    visit("alpha_w", s.alpha_w, plan.fictitious, lagged);
+    visit("a_w", s.a_w, plan.fictitious, lagged);
+    visit("fictitious_w", s.fictitious_w, plan.fictitious, lagged);
     visit("coupled", s.coupled, plain, work);
     visit("resolvent", s.resolvent, plain && !real, coupled && real ? "a scheme of a real pole" : work);
     visit("resolvent_real", s.resolvent_real, coupled && (real || plan.joint_limit),

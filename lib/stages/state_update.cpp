@@ -1,4 +1,5 @@
 #include "state_update.h"
+#include "fictitious.h"
 #include "root_term.h"
 
 namespace bough {
@@ -48,6 +49,7 @@ template <class T> void state_update(const Plan<T>& plan, State<T>& s) {
         s.v_w[i] = s.omega_w[i].cross(Vector3<T>(s.R_wb[i] * plan.com[i]));
         s.v_w[i] += s.v_w[p] + s.omega_w[p].cross(to_joint);
     }
+    if (plan.fictitious) accelerations(plan, s);
 }
 
 template void state_update(const Plan<float>&, State<float>&);

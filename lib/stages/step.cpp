@@ -2,6 +2,7 @@
 #include "composite.h"
 #include "drag.h"
 #include "external_forces.h"
+#include "fictitious.h"
 #include "frozen.h"
 #include "root_term.h"
 #include "spring.h"
@@ -21,6 +22,7 @@ template <class T> void step(const Plan<T>& plan, State<T>& state, StageClock* c
     else if (plan.wind)
         run_stage(Stage::drag, state, clock, [&] { joint_drag(plan, state); });
     if (plan.root_motion) run_stage(Stage::root_motion, state, clock, [&] { root_loads(plan, state, middle); });
+    if (plan.fictitious) run_stage(Stage::fictitious, state, clock, [&] { fictitious_torques(plan, state); });
     run_stage(Stage::spring, state, clock,
               [&] { plan.refresh > 0 ? frozen_update(plan, state) : spring_update(plan, state); });
     run_stage(Stage::state_update, state, clock, [&] {

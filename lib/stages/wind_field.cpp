@@ -1,4 +1,5 @@
 #include "wind_field.h"
+#include "../model/monotone.h"
 #include "wind.h"
 #include <array>
 #include <numbers>
@@ -59,19 +60,7 @@ Vec3 cell_velocity(const Wind& wind, const WindWeather& weather, std::size_t cel
 
 // A(r) [rad]
 double largest_turn(const WindSwirl& swirl, double r) {
-    const std::vector<double>&x = swirl.radius, &y = swirl.angle;
-    if (x.size() < 2 || r <= x.front()) return degree * y.front();
-    if (r >= x.back()) return degree * y.back();
-    const auto i = std::size_t(std::upper_bound(x.begin(), x.end(), r) - x.begin()) - 1;
-    const auto rise = [&](std::size_t k) { return (y[k + 1] - y[k]) / (x[k + 1] - x[k]); };
-    const auto slope = [&](std::size_t k) {
-        if (k == 0 || k + 1 == x.size()) return 0.0;
-        const double a = rise(k - 1), b = rise(k);
-        return a * b > 0 ? 2 * a * b / (a + b) : 0.0;
-    };
-    const double h = x[i + 1] - x[i], w = (r - x[i]) / h, v = 1 - w;
-    return degree * (v * v * (1 + 2 * w) * y[i] + w * w * (1 + 2 * v) * y[i + 1] +
-                     h * w * v * (v * slope(i) - w * slope(i + 1)));
+    return degree * monotone_cubic(swirl.radius, swirl.angle, r);
 }
 
 double outward_angle(const WindSwirl& swirl, double r) {

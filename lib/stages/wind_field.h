@@ -9,8 +9,8 @@
 //
 // Swirl. The paper turns v by adding h s, s = v x j normalised, and rescaling to |v|. As v and s are at right angles, that is
 //   v' = v cos a + |v| s sin a,   h = |v| tan a,   a(r, t) = A(r) sin(2 pi (t / period - r / wavelength))
-// with any |a|, r the distance from the axis, A(r) the cubic through the keys whose slope at a key is the harmonic mean of those beside it, 0 at
-// a turning point and at the ends (Fritsch, Butland 1984: it never swings past a key), constant beyond. A wind straight up or down stays.
+// with any |a|, r the distance from the axis, A(r) the monotone cubic through the keys (model/monotone.h), constant beyond
+// them. A wind straight up or down stays.
 //
 // What steps look up (WindField): velocities of cells and, at even radii, the angle's cosine and sine, linear between and brought
 // back to length 1, so that the magnitude stays to rounding. Trees that are ahead in the wind (Placement::start) look theirs up in tables of

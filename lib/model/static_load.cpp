@@ -1,0 +1,57 @@
+#include "static_load.h"
+#include "body_shape.h"
+#include <cmath>
+
+namespace bough {
+namespace {
+
+double density_of(const StaticLoad& load, Kind kind) {
+    switch (kind) {
+    case Kind::leaf:
+        return load.leaf;
+    case Kind::petal:
+        return load.petal;
+    case Kind::fruit:
+        return load.fruit;
+    case Kind::branch:
+        break;
+    }
+    return load.branch;
+}
+
+} // namespace
+
+double area_from_above(const Tree& tree, std::size_t i, const Mat3& R_wb) {
+    const Vec3& size = tree.size[i];
+    switch (tree.kind[i]) {
+    case Kind::leaf:
+    case Kind::petal:
+        return leaf_area(size[0], size[1]) * std::abs(R_wb(1, 1));
+    case Kind::fruit:
+        return sphere_section(size[1]);
+    case Kind::branch:
+        break;
+    }
+    return frustum_section(size[0], size[1], size[2]) * std::hypot(R_wb(0, 2), R_wb(2, 2));
+}
+
+LoadLaid lay_load(Tree& tree, const StaticLoad& load) {
+    const std::size_t n = tree.size_bodies();
+    std::vector<Quat> q(n);
+    tree.load.resize(n, 0.0);
+    LoadLaid laid;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::int32_t p = tree.parent[i];
+        q[i] = p < 0 ? tree.joint_rotation[i] : Quat((q[std::size_t(p)] * tree.joint_rotation[i]).normalized());
+        const double added = density_of(load, tree.kind[i]) * area_from_above(tree, i, q[i].toRotationMatrix());
+        if (!(added > 0)) continue;
+        tree.inertia[i] *= 1 + added / tree.mass[i];
+        tree.mass[i] += added;
+        tree.load[i] += added;
+        laid.mass += added;
+        ++laid.bodies;
+    }
+    return laid;
+}
+
+} // namespace bough
