@@ -72,6 +72,15 @@ TEST_CASE("nothing to change changes no bit, of any tree") {
     }
 }
 
+TEST_CASE("a changed tree is no longer one of the preset's wood") {
+    Tree tree = cut(*find_wood("apple"));
+    MaterialChange change;
+    change.youngs_modulus = 2e10;
+    change_material(tree, change);
+    CHECK(tree.material == "apple (changed)");
+    CHECK_THROWS_WITH(change_material(tree, change), Catch::StartsWith("is \"apple (changed)\", so that its numbers"));
+}
+
 TEST_CASE("what was edited in a tree keeps its proportion") {
     Tree tree = cut(*find_wood("apple")), edited = tree;
     edited.stiffness[3] *= 7;

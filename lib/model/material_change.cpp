@@ -64,6 +64,7 @@ void change_material(Tree& tree, const MaterialChange& change) {
         tree.damping[i] *= damped;
         if (frequencies && after[i] > 0) tree.damping[i] *= before[i] / after[i];
     }
+    tree.material += " (changed)";
 }
 
 } // namespace bough

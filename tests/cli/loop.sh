@@ -142,7 +142,7 @@ scene() { echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"fil
 refused 1 "--loop is 1.01 s, which at 30 frames a second is 30.3 frames; the nearest whole number is 30, --loop 1" \
     treesim tree.json --wind gusty --loop 1.01
 refused 1 "--loop: the scene has no /wind" treesim tree.json --loop 2
-for option in "--seconds 2" "--frames 3" "--save-state s.json" "--resume s.json" "--report-error"; do
+for option in "--seconds 2" "--frames 3" "--save-state s.json" "--resume s.json" "--report-error" "--shard 1/2"; do
     # shellcheck disable=SC2086
     refused 1 "--loop: not with ${option%% *}" treesim tree.json --wind gusty --loop 2 $option
 done

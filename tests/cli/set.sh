@@ -17,6 +17,12 @@ one=$(hash turned.json)
 [[ $(hash gusty.json --gravity 0,0,0 --set 'gravity=[0,-9.81,0]') == $(hash gusty.json) ]] || fail "--set comes before --gravity"
 [[ $(hash gusty.json --seed 7 --set wind.seed=1) == $(hash gusty.json) ]] || fail "--set comes before --seed"
 [[ $(hash gusty.json --seed 7 --set wind.gust_period=6) == $(hash gusty.json --seed 7) ]] || fail "--set takes --seed back"
+# An entry of /trees that stands in many places stays one entry.
+park() { echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"file\": \"tree.json\", \"places\": [{}, {\"position\": [5, 0, 0]}]}, {\"file\": \"tree.json\", \"position\": [9, 0, 0]$1}], \"wind\": \"gusty\"}" >park.json; }
+park ', "yaw": 30'
+one=$(hash park.json --seed 5)
+park ''
+[[ -n $one && $(hash park.json --seed 5 --set trees.1.yaw=30 --set wind.gust_period=6) == "$one" ]] || fail "--set of an entry of many places"
 treeprofile gusty.json --frames 4 --repeat 1 --set wind=calm --report a.json -q >/dev/null
 treeprofile tree.json --frames 4 --repeat 1 --wind calm --report b.json -q >/dev/null
 [[ $(grep -o '"hash": *"[^"]*"' a.json) == $(grep -o '"hash": *"[^"]*"' b.json) ]] || fail "treeprofile --set is another run"
