@@ -156,7 +156,7 @@ struct Fictitious {
     double gyroscopic = 0;   // [1] of -omega x (I omega)
 };
 
-// Which joints move; all others are rigid (reduce.h). A joint moves where all of these that are given let it.
+// Which joints move; all others are rigid (hold.h, reduce.h). A joint moves where all of these that are given let it.
 struct Simulate {
     std::optional<std::int32_t> first_level, last_level; // of branches; what grows on one goes with it
     double radius = 0;                                   // [m] least, of a branch's body at its base
@@ -165,7 +165,7 @@ struct Simulate {
         Vec3 least = Vec3::Zero(), most = Vec3::Zero(); // [m] world, drawn pose: holds the joint
     };
     std::optional<Box> box;
-    double error = 0; // [m], or pixels with a view: what a joint moves by less than is rigid, by an estimate
+    double error = 0; // [m], or pixels with a view: what rigid joints may move any end by, by an estimate (hold.h)
     struct View {
         Vec3 from = Vec3::Zero(); // [m]
         double angle = 40;        // [deg] of view, upright

@@ -2,8 +2,8 @@
 #include "../stages/added_motion.h"
 #include "../stages/hold.h"
 #include "advance.h"
+#include "trajectory.h"
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 namespace bough {
@@ -35,20 +35,20 @@ public:
         return motion;
     }
 
-    // What holding these joints moves the tips by, if that stays within the error.
-    std::optional<RigidError> run_held(const Tree& held) {
+    // Holds these joints, for a whole run; false where nothing is left to move, or the run became non-finite.
+    bool run_held(const Tree& held, RigidComparison& comparison) {
         const Reduced reduced = reduce(held, ranges_, how_.scene);
-        if (reduced.tree.size_bodies() == 0) return std::nullopt;
+        if (reduced.tree.size_bodies() == 0) return false;
         const Plan<double> plan = plan_of(reduced.tree, reduced.ranges, scene_on(reduced, tree_, how_.scene));
         State<double> state = make_state(plan);
-        RigidComparison comparison(tree_);
         Tips now;
         for (const Tips& whole : tips_) {
             step(plan, state);
+            if (first_non_finite(state)) return false;
             comparison.tips_of(reduced, plan, state, now);
-            if (!(comparison.compare(whole, now) <= how_.error) || first_non_finite(state)) return std::nullopt;
+            comparison.compare(whole, now);
         }
-        return comparison.result();
+        return true;
     }
 
 private:
@@ -69,39 +69,66 @@ private:
     std::vector<Tips> tips_; // of the whole tree, a frame after another
 };
 
+// What the joints on the ways of tips that are off by too much, or nearly, move by counts for more; where a tip is so again, it is for joints
+// beside its way, of twice as many bodies further in each time.
+void weigh(const Tree& tree, const RigidComparison& comparison, double error, std::vector<std::uint8_t>& again,
+           std::vector<double>& motion) {
+    std::vector<double> inward(tree.size_bodies(), 1), outward(tree.size_bodies(), 1);
+    for (std::size_t k = 0; k < comparison.tips().size(); ++k) {
+        const double off = std::sqrt(comparison.worst_of_tips()[k]) / error;
+        if (!(off > 0.9)) continue;
+        std::size_t base = comparison.tips()[k];
+        inward[base] = 2 * off;
+        for (int climb = again[k] > 0 ? 1 << again[k] : 0; climb > 0 && tree.parent[base] >= 0; --climb)
+            base = std::size_t(tree.parent[base]);
+        outward[base] = std::max(outward[base], again[k] > 0 ? 2 * off : 1);
+        again[k] = std::uint8_t(std::min(again[k] + 1, 12));
+    }
+    for (std::size_t i = inward.size(); i-- > 0;)
+        if (tree.parent[i] >= 0) {
+            double& below = inward[std::size_t(tree.parent[i])];
+            below = std::max(below, inward[i]);
+        }
+    for (std::size_t i = 0; i < outward.size(); ++i) {
+        if (tree.parent[i] >= 0) outward[i] = std::max(outward[i], outward[std::size_t(tree.parent[i])]);
+        motion[i] *= std::max(inward[i], outward[i]);
+    }
+}
+
 } // namespace
 
 MergedBelow merge_below(Tree& tree, const std::vector<TreeRange>& ranges, const MergeBelow& how) {
     tree.rigid.clear();
     Trial trial(tree, ranges, how);
-    const std::vector<double> motion = trial.run_whole();
+    std::vector<double> motion = trial.run_whole();
     MergedBelow merged;
     merged.joints = tree.size_bodies();
     std::vector<std::uint8_t> best;
-    // [m] Sums on the way to the ground, and how many joints each holds: one that is known to be good, one that is known not to be.
-    double good = 0, bad = std::numeric_limits<double>::infinity(), sum = how.error;
-    std::size_t most = 0, least_bad = tree.size_bodies() + 1;
-    for (int tries = 0; merged.runs < how.runs && tries < 60; ++tries) {
+    std::size_t most = 0;
+    std::vector<std::uint8_t> again(tip_bodies(tree).size(), 0); // how often each tip was off by too much
+    double sum = 2 * how.error;                                  // [m] on the way to the ground
+    for (int tries = 0; merged.runs < how.runs && tries < 10 * how.runs; ++tries) {
         Tree held = tree;
         const std::size_t count = hold_small(held, motion, sum);
-        if (count > most && count < least_bad) {
-            ++merged.runs;
-            if (const std::optional<RigidError> found = trial.run_held(held)) {
-                merged.found = *found;
-                best = std::move(held.rigid);
-                most = count;
-                good = sum;
-            } else {
-                least_bad = count;
-                bad = sum;
-            }
-        } else {
-            (count <= most ? good : bad) = sum;
+        if (count <= most) { // nothing to win by a run
+            sum *= 1.5;
+            continue;
         }
-        if (most + 1 >= least_bad) break; // not a joint between them
-        const bool top = !(bad < std::numeric_limits<double>::infinity());
-        sum = top ? 2 * sum : good > 0 ? std::sqrt(good * bad) : bad / 2;
-        if (good > 0 && bad < 1.02 * good) break;
+        RigidComparison comparison(tree);
+        ++merged.runs;
+        if (!trial.run_held(held, comparison)) {
+            sum /= 2;
+            continue;
+        }
+        const RigidError found = comparison.result();
+        if (found.worst <= how.error) {
+            merged.found = found;
+            best = std::move(held.rigid);
+            most = count;
+            sum *= 1.5;
+        } else {
+            weigh(tree, comparison, how.error, again, motion);
+        }
     }
     tree.rigid = std::move(best);
     merged.moving = merged.joints - most;

@@ -3,9 +3,10 @@
 // The whole tree runs through the scene (coupled, P12, double). By each joint's largest angle from where it starts, which is where it would be
 // held, times its composite's reach (added_motion.h), joints are held from the ends inward up to a sum on each way to the ground (hold.h). What
 // that makes of the motion is not estimated but run: the reduced tree through the same scene, its branches' tips compared with the whole
-// tree's in each frame (rigid_error.h). The sum starts at the error asked for, is doubled while the tips stay within it and halved while they do not, and then
-// bisected (in its logarithm); a run ends at the first tip that is off by more. The best that stayed within it is kept: its error is one that a
-// whole run has had. Another wind, or a longer one, may have another.
+// tree's in each frame (rigid_error.h). Where tips are off by more than the error, what the joints on their ways to the ground move by counts for more from then
+// on (twice as many times as the tip is off by errors), so that some of them go free; where none is, the sum grows. The most joints held in a
+// run that stayed within the error are kept: that error is one that a whole run has had. Another wind, or a longer one, may have another; and a
+// motion that is chaotic, as that of a tree in leaf in strong wind, is another one whatever is held: then nothing can be.
 // Cost: the whole run, and up to `runs` of reduced trees; 12 bytes a tip and frame.
 #pragma once
 #include "../fast/targets.h"
@@ -19,7 +20,7 @@ struct MergeBelow {
     double error = 0.01; // [m] that no tip may be off by, > 0
     Scene scene;         // without simulate
     double seconds = 10, fps = 30;
-    int runs = 10; // at most, of reduced trees
+    int runs = 16; // at most, of reduced trees
     std::optional<fast::Target> simd = std::nullopt;
     std::function<void(std::int64_t frame, std::int64_t frames)> tick = {}; // of all runs, at most; may throw to end
 };

@@ -17,6 +17,7 @@ RigidComparison::RigidComparison(const Tree& whole) : tree_(whole), tips_(tip_bo
     }
     found_.height = high - low;
     found_.tips = tips_.size();
+    worst_.resize(tips_.size(), 0);
 }
 
 template <class T> void RigidComparison::tips_of(const State<T>& whole, std::vector<Vector3<float>>& to) const {
@@ -44,6 +45,7 @@ double RigidComparison::compare(const std::vector<Vector3<float>>& whole, const 
         const double off = (is - reduced[k].cast<double>()).squaredNorm();
         squares_ += off;
         worst = std::max(worst, off);
+        worst_[k] = std::max(worst_[k], off);
         deflection_squares_ += (is - drawn_[k]).squaredNorm();
     }
     ++found_.frames;

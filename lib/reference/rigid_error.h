@@ -28,11 +28,14 @@ public:
     // One frame. Returns its largest distance [m].
     double compare(const std::vector<Vector3<float>>& whole, const std::vector<Vector3<float>>& reduced);
     RigidError result() const;
+    // [m^2] Largest squared distance of each tip.
+    const std::vector<double>& worst_of_tips() const { return worst_; }
 
 private:
     const Tree& tree_;
     std::vector<std::size_t> tips_;
-    std::vector<Vec3> drawn_; // [m] the tips
+    std::vector<Vec3> drawn_;   // [m] the tips
+    std::vector<double> worst_; // [m^2]
     double squares_ = 0, deflection_squares_ = 0;
     RigidError found_;
 };

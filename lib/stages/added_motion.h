@@ -10,6 +10,8 @@
 // direction and its two extreme ones; on plates, which will turn into it, broadside. Pulls at the largest of their keys, in any phase
 // with the wind. With Pose::rest gravity too, with Pose::settled its moment once: the sag that the drawn pose has not. Shelter is left out, and that
 // a joint which rings in the gusts' own rhythm can turn by more.
+// How it keeps what it says (hold.h): a bare cherry of 19 642 bodies held to 1 cm, 10 s of calm, breeze and gusty: tips off by 1.5, 2.0 and 4.1 mm RMS,
+// by 16, 32 and 149 mm at most, at ends that whip. What a trial run found (reference/merge_below.h) it keeps in that run.
 // Reads a checked tree (joined, stiffness not yet scaled by the scene). O(n) and O(depth) a pull. Errors none.
 #pragma once
 #include "../model/scene.h"

@@ -174,7 +174,8 @@ WindReach wind_reach(const Tree&, const std::vector<TreeRange>&, const Scene&);
 // Throws std::out_of_range for a selector that names no body, std::domain_error for a pose that gravity does not allow,
 // for one that starts beyond a joint limit (its body and angle), for joint limits, fracture or balls with an articulated solver, for a swirl finer
 // than a table can hold (wind_field.h) and for columns of shelter that a body fills (shelter.h); for /fictitious with another solver than
-// the analytic; for a scene that still has /wood or /load, which must be in the tree before (wood_overrides.h, static_load.h).
+// the analytic; for a scene that still has /wood, /load or /simulate, which must be in the tree before (wood_overrides.h, static_load.h, hold.h), and
+// for rigid bodies not yet joined (reduce.h).
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 // sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
 // refresh: of the analytic solver, the tolerance of frozen coefficients (frozen.h); 0: none are kept, every step is worked out in full.
