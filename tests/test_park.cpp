@@ -11,11 +11,12 @@ TEST_CASE("trees of a park move as alone, to the last bit, on both paths") {
     park.solver = solver;
     park.scene.wind = *wind_preset("storm");
     park.scene.wind->profile = 0; // the table over height is made for the tallest
-    std::vector<Tree> alone{park.tree, lanes::grown(90), lanes::grown(2500)};
+    // Of many bodies blocks are larger, which must not show in any tree.
+    std::vector<Tree> alone{park.tree, lanes::grown(300), lanes::grown(2500), lanes::grown(30000), lanes::grown(9000)};
     park.ranges = {{0, alone[0].size_bodies(), 0}};
     for (std::size_t k = 1; k < alone.size(); ++k) {
         const std::size_t first = append(park.tree, alone[k], Vec3(0, 0, 0), 0);
-        park.ranges.push_back({first, alone[k].size_bodies(), 10000 * std::int32_t(k)});
+        park.ranges.push_back({first, alone[k].size_bodies(), 100000 * std::int32_t(k)});
     }
     lanes::Run<float> joined(park, simd);
     joined.steps(15);
@@ -41,7 +42,7 @@ TEST_CASE("parts hold every tree once, about as many bodies each, none empty") {
                 Part p;
                 p.part = part;
                 p.parts = parts;
-                const auto [first, end] = trees_of_part(bodies, p);
+                const auto [first, end] = units_of_part(bodies, p);
                 CHECK(first == next);
                 CHECK(end > first);
                 next = end;
@@ -53,6 +54,12 @@ TEST_CASE("parts hold every tree once, about as many bodies each, none empty") {
             for (const std::size_t n : bodies) all += n, largest = std::max(largest, n);
             CHECK(most <= all / std::size_t(parts) + 2 * largest);
         }
+}
+
+TEST_CASE("a scene is cut before a tree where those since the last cut have 256 bodies") {
+    CHECK(cuts({{300, {0}}, {10, {0}}, {246, {0}}, {5, {0}}, {1000, {0}}}) == std::vector<std::size_t>{0, 1, 3});
+    // Trees of several roots: the stand that begins at the second trunk goes on into the next tree.
+    CHECK(cuts({{400, {0, 300}}, {10, {0}}, {200, {0}}, {3, {0}}}) == std::vector<std::size_t>{0, 3});
 }
 
 TEST_CASE("a part of a scene has what concerns its trees, under their new numbers") {

@@ -1,5 +1,6 @@
 #include "scene_trees.h"
 #include "formats/tree.h"
+#include "lib/fast/stands.h"
 #include "lib/model/place.h"
 #include "lib/stages/wind_field.h"
 #include <algorithm>
@@ -53,12 +54,17 @@ Scene scene_of_tree(const Scene& scene, std::size_t k) {
 
 // One after the other, no two of different files in memory at a time but what is wanted again.
 void measure(const Scene& scene, const std::string& scene_file, const MaterialChange& material,
-             std::vector<std::size_t>& bodies, Part& part) {
+             std::vector<TreeSize>& sizes, Part& part) {
     TreeFiles files(scene, scene_file, material);
     for (std::size_t k = 0; k < scene.trees.size(); ++k) {
         Setting alone;
         stand(alone, files.take(scene.trees[k]), scene.trees[k]);
-        bodies.push_back(alone.tree.size_bodies());
+        TreeSize size{alone.tree.size_bodies(), {}};
+        for (std::size_t i = 0; i < size.bodies; ++i)
+            if (alone.tree.parent[i] < 0) size.roots.push_back(i);
+        sizes.push_back(std::move(size));
+        if (!alone.tree.rigid.empty())
+            throw UsageError("--shard: not where joints are held (/rigid of " + scene.trees[k].file + ")");
         if (!scene.wind) continue;
         const WindReach reach = wind_reach(alone.tree, alone.ranges, scene_of_tree(scene, k));
         part.top = std::max(part.top, reach.top);
@@ -116,7 +122,7 @@ Part parse_shard(const std::string& text) {
     return part;
 }
 
-std::pair<std::size_t, std::size_t> trees_of_part(const std::vector<std::size_t>& bodies, const Part& part) {
+std::pair<std::size_t, std::size_t> units_of_part(const std::vector<std::size_t>& bodies, const Part& part) {
     const double all = double(std::accumulate(bodies.begin(), bodies.end(), std::size_t(0)));
     const std::size_t trees = bodies.size(), parts = std::size_t(part.parts);
     std::vector<std::size_t> first(parts + 1, trees); // tree of each part
@@ -131,13 +137,27 @@ std::pair<std::size_t, std::size_t> trees_of_part(const std::vector<std::size_t>
     return {first[std::size_t(part.part) - 1], first[std::size_t(part.part)]};
 }
 
+std::vector<std::size_t> cuts(const std::vector<TreeSize>& sizes) {
+    std::vector<std::size_t> before;
+    std::size_t offset = 0, stand = 0; // where the present one begins
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+        for (const std::size_t root : sizes[k].roots) {
+            const std::size_t i = offset + root;
+            if (i > 0 && i - stand < fast::smallest_stand) continue;
+            stand = i;
+            if (root == sizes[k].roots.front()) before.push_back(k);
+        }
+        offset += sizes[k].bodies;
+    }
+    return before;
+}
+
 Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
     if (const char* together = free_part(scene))
         throw UsageError(std::string("--shard: not with the scene's ") + together + ", which goes from tree to tree");
     if (scene.wind && scene.wind->shelter)
         throw UsageError("--shard: not with the scene's /wind/shelter, by which trees act on each other");
-    if (scene.simulate && !scene.simulate->subtrees.empty())
-        throw UsageError("--shard: not with the scene's /simulate/subtrees, which may name trees of other parts");
+    if (scene.simulate) throw UsageError("--shard: not with the scene's /simulate, which joins bodies anew");
     const auto within = [&](std::int32_t tree) { return std::size_t(tree) >= first && std::size_t(tree) < end; };
     Scene part = scene;
     part.trees.assign(scene.trees.begin() + std::ptrdiff_t(first), scene.trees.begin() + std::ptrdiff_t(end));
@@ -179,15 +199,20 @@ void stand_trees(Setting& setting, const std::string& scene_file, const std::str
         throw InputError(input_name(scene_file), "/trees: is empty or missing, expected at least one tree");
     if (!shard.empty()) {
         setting.part = parse_shard(shard);
-        const std::size_t trees = setting.scene.trees.size();
-        if (std::size_t(setting.part.parts) > trees)
-            throw UsageError("--shard " + shard + ": the scene has " + std::to_string(trees) +
-                             (trees == 1 ? " tree" : " trees") + ", expected at most as many parts");
-        std::vector<std::size_t> bodies;
-        measure(setting.scene, scene_file, material, bodies, setting.part);
-        const auto [first, end] = trees_of_part(bodies, setting.part);
-        setting.part.first_body =
-            std::accumulate(bodies.begin(), bodies.begin() + std::ptrdiff_t(first), std::int64_t(0));
+        std::vector<TreeSize> sizes;
+        measure(setting.scene, scene_file, material, sizes, setting.part);
+        const std::vector<std::size_t> units = cuts(sizes);
+        if (std::size_t(setting.part.parts) > units.size())
+            throw UsageError("--shard " + shard + ": the scene has " + std::to_string(sizes.size()) +
+                             " trees, which can be cut into " + std::to_string(units.size()) +
+                             (units.size() == 1 ? " part" : " parts") + " (of 256 bodies at least)");
+        std::vector<std::size_t> bodies(units.size(), 0);
+        for (std::size_t u = 0, k = 0; u < units.size(); ++u)
+            for (const std::size_t next = u + 1 < units.size() ? units[u + 1] : sizes.size(); k < next; ++k)
+                bodies[u] += sizes[k].bodies;
+        const auto [first_unit, end_unit] = units_of_part(bodies, setting.part);
+        const std::size_t first = units[first_unit], end = end_unit < units.size() ? units[end_unit] : sizes.size();
+        for (std::size_t k = 0; k < first; ++k) setting.part.first_body += std::int64_t(sizes[k].bodies);
         setting.scene = scene_of_part(setting.scene, first, end);
     }
     TreeFiles files(setting.scene, scene_file, material);

@@ -22,9 +22,16 @@ Tree with_material(Tree, const MaterialChange&, const std::string& file);
 
 // "i/n", 1 <= i <= n. Throws UsageError.
 Part parse_shard(const std::string&);
-// First and last + 1 of a part's trees: those whose middle body is in the part's share of all bodies, moved on so that each part has at least one. As
-// many trees as parts, or more.
-std::pair<std::size_t, std::size_t> trees_of_part(const std::vector<std::size_t>& bodies, const Part&);
+// What is cut apart: bodies of each unit. First and last + 1 of a part's units: those whose middle body is in the part's share of all bodies, moved on so that each part
+// has at least one. As many units as parts, or more.
+std::pair<std::size_t, std::size_t> units_of_part(const std::vector<std::size_t>& bodies, const Part&);
+// A tree of a scene: its bodies, and which of them stand on the ground, rising.
+struct TreeSize {
+    std::size_t bodies;
+    std::vector<std::size_t> roots;
+};
+// Trees before which a scene may be cut (lib/fast/stands.h), the first among them.
+std::vector<std::size_t> cuts(const std::vector<TreeSize>&);
 // What of a scene concerns those trees. Throws UsageError for what goes from tree to tree, and for what names bodies by place.
 Scene scene_of_part(const Scene&, std::size_t first, std::size_t end);
 

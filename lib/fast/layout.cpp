@@ -1,4 +1,5 @@
 #include "layout.h"
+#include "stands.h"
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -10,7 +11,7 @@ constexpr std::size_t largest_block = 4096, smallest_block = 1024;
 
 struct Chain {
     std::int32_t first;
-    std::uint32_t block, level, length;
+    std::uint32_t block, stand, level, length; // stand: of the top's chains alone
     Kind kind;
 };
 
@@ -28,6 +29,7 @@ public:
     }
 
     Layout build() {
+        find_stands();
         cut_blocks();
         find_chains();
         place_groups();
@@ -42,6 +44,7 @@ private:
     const std::vector<std::uint32_t>& ground;
     std::size_t n;
     Layout out;
+    std::vector<std::uint32_t> stand; // first body of each, and n
     std::vector<std::uint32_t> block_of;
     std::uint32_t blocks = 1;
     std::vector<std::int32_t> next; // body on which the chain goes on, -1: tip
@@ -50,15 +53,27 @@ private:
 
     bool starts_block(std::size_t i) const { return parent[i] < 0 || block_of[std::size_t(parent[i])] != block_of[i]; }
 
-    // Whole subtrees, in document order, until a block is full.
+    // Trees in document order, until they have enough bodies: what stands together. A tree is a root's.
+    void find_stands() {
+        for (std::size_t i = 0; i < n; ++i)
+            if (parent[i] < 0 && (stand.empty() || i - stand.back() >= smallest_stand))
+                stand.push_back(std::uint32_t(i));
+        stand.push_back(std::uint32_t(n));
+    }
+
     void cut_blocks() {
-        const std::size_t full = std::clamp(n / 6, smallest_block, largest_block);
         std::vector<std::uint32_t> size(n, 1);
         for (std::size_t i = n; i-- > 0;)
             if (parent[i] >= 0) size[std::size_t(parent[i])] += size[i];
         block_of.assign(n, 0);
+        for (std::size_t s = 0; s + 1 < stand.size(); ++s) cut_stand(stand[s], stand[s + 1], size);
+    }
+
+    // Whole subtrees, in document order, until a block is full.
+    void cut_stand(std::size_t first, std::size_t end, const std::vector<std::uint32_t>& size) {
+        const std::size_t full = std::clamp((end - first) / 6, smallest_block, largest_block);
         std::size_t filled = full; // of the present block
-        for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t i = first; i < end; ++i) {
             const bool root = parent[i] < 0;
             if (!root && block_of[std::size_t(parent[i])] != 0) {
                 block_of[i] = block_of[std::size_t(parent[i])];
@@ -96,11 +111,15 @@ private:
                 aside[p] = std::max(aside[p], level[i] + 1);
             }
         }
-        for (std::size_t i = 0; i < n; ++i)
+        std::uint32_t present = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            while (i >= stand[present + 1]) ++present;
             if (starts_block(i) || next[std::size_t(parent[i])] != std::int32_t(i))
-                chains.push_back({std::int32_t(i), block_of[i], level[i], length[i], family(kind[i])});
+                chains.push_back({std::int32_t(i), block_of[i], block_of[i] == 0 ? present : 0, level[i], length[i],
+                                  family(kind[i])});
+        }
         const auto key = [](const Chain& c) {
-            return std::tuple(c.block, -std::int64_t(c.level), c.kind, -std::int64_t(c.length));
+            return std::tuple(c.block, c.stand, -std::int64_t(c.level), c.kind, -std::int64_t(c.length));
         };
         std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) { return key(a) < key(b); });
     }
@@ -118,15 +137,26 @@ private:
     // One block: level by level from the highest, each level's longest chains first; lanes that a level leaves empty take chains of
     // lower levels that fit and whose base is already placed.
     void place_block(Block& block, const Chain* first, const Chain* end) {
+        block.first_row = out.rows;
+        block.first_group = std::uint32_t(out.groups.size());
+        block.terminal_group = nothing;
+        while (first < end) { // of the top stand by stand, of others at once
+            const Chain* last = first;
+            while (last < end && last->stand == first->stand) ++last;
+            place_stand(block, first, last);
+            first = last;
+        }
+        block.end_group = std::uint32_t(out.groups.size());
+        block.end_row = out.rows;
+    }
+
+    void place_stand(Block& block, const Chain* first, const Chain* end) {
         const auto lanes = std::size_t(out.lanes);
         std::vector<bool> done(std::size_t(end - first), false);
         const auto ready = [&](const Chain& c) {
             return starts_block(std::size_t(c.first)) ||
                    out.slot[std::size_t(parent[std::size_t(c.first)])] < block_slots;
         };
-        block.first_row = out.rows;
-        block.first_group = std::uint32_t(out.groups.size());
-        block.terminal_group = nothing;
         for (const Chain* c = first; c < end; ++c) {
             if (done[std::size_t(c - first)]) continue;
             if (c->level == 0 && block.terminal_group == nothing)
@@ -144,8 +174,6 @@ private:
             out.groups.push_back(group);
             out.rows += c->length;
         }
-        block.end_group = std::uint32_t(out.groups.size());
-        block.end_row = out.rows;
     }
 
     void place_groups() {

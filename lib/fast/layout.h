@@ -5,12 +5,12 @@
 //           the highest level, of these the longest: levels are few (Strahler's order)
 //   group   as many chains side by side as a row has lanes, of one kind of body: of one level, longest first, and where these leave
 //           lanes empty, of lower levels. Its row k holds their k-th bodies; where a chain has ended, or is missing, stand bodies of no mass that nothing moves (pads)
-//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; blocks are what threads
-//           share out. What remains above, the bodies that carry more than a block, is the first block, the top
+//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; threads share blocks out. What
+//           is above, bodies that carry more than a block, is the first one, the top. Trees share blocks, and the top's groups, only within a stand
 //   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for
 //           each chain that begins on another block's body (port), and one for each ground
-// Within a block groups stand in the order of a sweep outward: a chain after the one that it begins on; those of level 0, on which
-// nothing begins, last. None of it depends on threads or registers, so no sum's order does.
+// Within a block groups are in the order of a sweep outward; those of level 0, on which nothing begins, last. None of it depends on threads or
+// registers, nor a tree's on those beyond its stand (trees one after another until they have 256 bodies), so no sum's order does.
 // Cost O(n log n). Reads parent and kind; parent[i] < i.
 #pragma once
 #include "block.h"
