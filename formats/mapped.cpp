@@ -7,8 +7,9 @@
 namespace bough {
 
 MappedInput::MappedInput(const std::string& path) {
-    const int file = path == "-" ? -1 : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    struct stat known {};
+    struct stat known {}; // asked before it is opened: a pipe is read once
+    const bool regular = path != "-" && ::stat(path.c_str(), &known) == 0 && S_ISREG(known.st_mode);
+    const int file = regular ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : -1;
     if (file >= 0 && ::fstat(file, &known) == 0 && S_ISREG(known.st_mode) && known.st_size > 0) {
         void* pages = ::mmap(nullptr, std::size_t(known.st_size), PROT_READ, MAP_PRIVATE, file, 0);
         if (pages != MAP_FAILED) {

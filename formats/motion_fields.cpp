@@ -29,7 +29,8 @@ std::vector<Field> header_fields(MotionHeader& header, std::vector<std::string>&
             optional({"source", &header.source}),
             optional({"part", &header.part}),
             optional({"parts", &header.parts}),
-            optional({"first_body", &header.first_body})};
+            optional({"first_body", &header.first_body}),
+            optional({"whole", &header.whole})};
 }
 
 std::vector<Field> frame_fields(MotionFrame& frame) {

@@ -95,7 +95,7 @@ struct MotionWriter::Implementation {
     std::vector<Field> written_header(std::vector<std::string>& words) {
         std::vector<Field> fields = header_fields(header, words);
         std::erase_if(fields, [&](const Field& field) { return field.name == "balls" && header.balls == 0; });
-        const std::array<std::string, 3> of_part{"part", "parts", "first_body"};
+        const std::array<std::string, 4> of_part{"part", "parts", "first_body", "whole"};
         if (header.parts == 1)
             std::erase_if(fields, [&](const Field& field) {
                 return std::find(of_part.begin(), of_part.end(), field.name) != of_part.end();

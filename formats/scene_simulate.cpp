@@ -17,22 +17,24 @@ Simulate read_simulate(const json& value, const std::string& name) {
             read_selector(entry, name, object.at("subtrees") + "/" + std::to_string(simulate.subtrees.size())));
     if (object.has("box")) {
         ObjectReader box(object.need("box"), name, object.at("box"));
-        Simulate::Box& to = simulate.box.emplace();
+        Simulate::Box to;
         box.need("least");
         box.read("least", to.least);
         box.need("most");
         box.read("most", to.most);
         box.finish();
+        simulate.box = to;
     }
     object.read("error", simulate.error);
     if (object.has("view")) {
         ObjectReader view(object.need("view"), name, object.at("view"));
-        Simulate::View& to = simulate.view.emplace();
+        Simulate::View to;
         view.need("from");
         view.read("from", to.from);
         view.read("angle", to.angle);
         view.read("pixels", to.pixels);
         view.finish();
+        simulate.view = to;
     }
     object.finish();
     return simulate;

@@ -31,6 +31,7 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             {"fingerprint", &fingerprint},
             optional({"part", &state.part}),
             optional({"parts", &state.parts}),
+            optional({"whole", &state.whole}),
             optional({"source", &state.source}),
             array("theta", state.theta, {}),
             array("theta_dot", state.theta_dot, body),

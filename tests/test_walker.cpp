@@ -62,6 +62,12 @@ TEST_CASE("over a walk with corners and a leap the trees give what gravity takes
         CHECK((impulse(walk, 0.1, 4.1, h) - (0.4 * 4.0 * gravity + begun)).norm() < 1e-9);
     }
     CHECK_FALSE(walker_load(walk, -1, 0.5));
+    // A leap at once takes all of its recoil, though the weight is still being set down.
+    Walker light = squirrel({on(2, 0.9, 0), on(5, 0.7, 1)});
+    light.push = 0.5 - 1e-3;
+    const Walk leaps = make_walk(tree, {{0, tree.size_bodies(), 0}}, light, Vec3::Zero(), "");
+    CHECK((impulse(leaps, 0, 0.499, 0.499 / 64) + 0.4 * leaps.legs[0].leave).norm() <
+          1e-9 * leaps.legs[0].leave.norm());
 }
 
 TEST_CASE("a walk goes through the body that carries both ends, at rest at both") {

@@ -112,7 +112,7 @@ struct Fingerprint {
             add_named(5, {s.fictitious->acceleration, s.fictitious->turning, s.fictitious->gyroscopic});
     }
     void add(const Walker& walker) {
-        add_named(5, {walker.mass, walker.push}); // its radius is only seen
+        add_named(7, {walker.mass, walker.push}); // its radius is only seen
         add(std::uint64_t(walker.stops.size()));
         for (const Walker::Stop& stop : walker.stops) {
             add(stop.on);

@@ -25,6 +25,13 @@ void same(const std::string& name, const char* field, const std::string& found, 
 // Each part once, in the scene's order. part, parts: of one of them.
 template <class Item, class PartOf> void put_in_order(std::vector<Item*>& items, PartOf part_of) {
     const auto [first_part, parts] = part_of(*items.front());
+    if (parts == 1) throw InputError(items.front()->name, "/parts: is 1, expected a part of a scene (--shard)");
+    if (items.size() > std::size_t(parts))
+        throw UsageError("--join: has " + std::to_string(items.size()) + " files, but " + items.front()->name +
+                         " is of " + std::to_string(parts) + " parts");
+    if (items.size() < std::size_t(parts) && items.size() + 1000000 < std::size_t(parts))
+        throw InputError(items.front()->name, "/parts: is " + std::to_string(parts) + ", but there are " +
+                                                  std::to_string(items.size()) + " files");
     std::vector<Item*> ordered(std::size_t(parts), nullptr);
     for (Item* item : items) {
         const auto [part, of] = part_of(*item);
@@ -64,6 +71,7 @@ MotionHeader joined_header(const std::vector<MotionPart*>& parts, const CommonOp
         const std::string& first = parts.front()->name;
         same(part->name, "fps", number_text(h.fps), number_text(whole.fps), first);
         same(part->name, "fields", fields_text(h.fields), fields_text(whole.fields), first);
+        same(part->name, "whole", h.whole, whole.whole, first);
         if (h.balls != 0)
             throw InputError(part->name, "/balls: is " + std::to_string(h.balls) + ", expected none in a part");
         if (h.first_body != whole.bodies)
@@ -73,6 +81,7 @@ MotionHeader joined_header(const std::vector<MotionPart*>& parts, const CommonOp
         whole.bodies += h.bodies;
         if (part != parts.front() && whole.source.find(h.source) == std::string::npos) whole.source += "\n" + h.source;
     }
+    whole.whole.clear();
     whole.source = with_command_line(whole.source, common);
     return whole;
 }
@@ -113,7 +122,11 @@ void join_motions(std::deque<MotionPart>& read, const CommonOptions& common, con
                                                  std::to_string(count) + " frames, " + first +
                                                  (more ? " has more" : " has no more"));
             if (!more) continue;
+            if (!part->frame.events.what.empty())
+                throw InputError(part->name, "/event: has events in frame " + std::to_string(part->frame.frame) +
+                                                 ", expected none in a part");
             same(part->name, "frame", std::to_string(part->frame.frame), std::to_string(whole.frame), first);
+            same(part->name, "time", number_text(part->frame.time), number_text(whole.time), first);
             add_part(whole, part->frame);
         }
         if (!more) break;
@@ -143,6 +156,7 @@ std::string join_states(std::deque<StatePart>& read) {
     const StatePart& first = *parts.front();
     for (const StatePart* part : parts) {
         const SavedState &s = part->state, &f = first.state;
+        same(part->name, "whole", s.whole, f.whole, first.name);
         same(part->name, "frame", std::to_string(s.frame), std::to_string(f.frame), first.name);
         same(part->name, "fps", number_text(s.fps), number_text(f.fps), first.name);
         same(part->name, "substeps", std::to_string(s.substeps), std::to_string(f.substeps), first.name);

@@ -44,6 +44,7 @@ template <class T> void restore(const TreesimOptions& o, const Setting& setting,
         throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
                                                    ", but this run's tree and scene have " +
                                                    hash_text(setting.fingerprint));
+    refuse("whole", saved.whole, setting.part.parts > 1 ? hash_text(setting.part.whole) : "");
     if (const std::size_t held = saved.spin_dot.size(); held != (plan.fictitious ? plan.bodies : 0))
         throw InputError(input_name(o.resume), "/spin_dot: is " + std::to_string(held) + " bodies, but this run has " +
                                                    std::to_string(plan.fictitious ? plan.bodies : 0));
@@ -85,6 +86,7 @@ template <class T> void save(const TreesimOptions& o, const Setting& setting, Ru
     saved.fingerprint = setting.fingerprint;
     saved.part = setting.part.part;
     saved.parts = setting.part.parts;
+    if (setting.part.parts > 1) saved.whole = hash_text(setting.part.whole);
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);

@@ -65,11 +65,15 @@ void measure(const Scene& scene, const std::string& scene_file, const MaterialCh
         sizes.push_back(std::move(size));
         if (!alone.tree.rigid.empty())
             throw UsageError("--shard: not where joints are held (/rigid of " + scene.trees[k].file + ")");
+        part.whole = part.whole * 1099511628211u ^ fingerprint(alone); // FNV's prime
         if (!scene.wind) continue;
         const WindReach reach = wind_reach(alone.tree, alone.ranges, scene_of_tree(scene, k));
         part.top = std::max(part.top, reach.top);
         part.reach = std::max(part.reach, reach.reach);
     }
+    Setting all; // what acts on them
+    all.scene = scene;
+    part.whole = part.whole * 1099511628211u ^ fingerprint(all);
     part.clocks = wind_clocks(scene);
     part.moved = !scene.root_motion.empty();
 }
@@ -157,6 +161,9 @@ Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
         throw UsageError(std::string("--shard: not with the scene's ") + together + ", which goes from tree to tree");
     if (scene.wind && scene.wind->shelter)
         throw UsageError("--shard: not with the scene's /wind/shelter, by which trees act on each other");
+    if (scene.pose == Pose::settled || scene.load)
+        throw UsageError(std::string("--shard: not with the scene's ") + (scene.load ? "/load" : "/pose settled") +
+                         ", whose sag is found for all trees together");
     if (scene.simulate) throw UsageError("--shard: not with the scene's /simulate, which joins bodies anew");
     const auto within = [&](std::int32_t tree) { return std::size_t(tree) >= first && std::size_t(tree) < end; };
     Scene part = scene;

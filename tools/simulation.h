@@ -66,6 +66,7 @@ struct Part {
     std::int64_t first_body = 0;  // in the whole scene's order
     double top = 0, reach = 0;    // Wishes
     std::vector<double> clocks{}; // likewise
+    std::uint64_t whole = 0;      // of all trees and the whole scene, as fingerprint()
     bool moved =
         false; // the ground of some tree moves, of this part or another: then what a still ground allows is left out
 };
@@ -86,7 +87,8 @@ struct Setting {
     Part part = {};
     std::vector<std::string>
         changes{}; // what of the scene is in the tree by now, and no longer in the scene: a line each, for --explain
-    std::uint64_t fingerprint = 0;        // fingerprint(), where a state is saved or resumed: of the whole tree
+    std::uint64_t fingerprint =
+        0; // fingerprint(), where a state is saved or resumed: of the tree before it is handed over
     std::shared_ptr<const Whole> whole{}; // where joints are held; tree, ranges and scene are then of what moves
 };
 // Reads a tree, or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (rigid_parts.h). Throws UsageError,

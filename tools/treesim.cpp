@@ -33,6 +33,7 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     header.part = setting.part.part;
     header.parts = setting.part.parts;
     header.first_body = setting.part.first_body;
+    if (setting.part.parts > 1) header.whole = hash_text(setting.part.whole);
     header.name = setting.tree.name;
     header.source = source;
     return motion_sink(o.common.output, format, header);
@@ -202,7 +203,8 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
 
 // What has nothing to do with putting parts together would be ignored.
 void put_together(const TreesimOptions& o) {
-    const std::vector<std::string> known{"--join", "-o", "--format", "--hash", "--no-output", "-q", "--threads"};
+    const std::vector<std::string> known{"--join",      "-o",          "--format", "--hash",
+                                         "--no-output", "--no-source", "-q",       "--threads"};
     for (const CLI::Option* option : o.app->get_options())
         if (option->count() > 0 &&
             std::none_of(known.begin(), known.end(), [&](const std::string& name) { return option->check_name(name); }))

@@ -127,6 +127,11 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.save_tree == "-" && ((!o.no_output && o.common.output == "-") || o.save_state == "-"))
         throw UsageError("--save-tree -: the tree and " + std::string(o.save_state == "-" ? "the state" : "frames") +
                          " cannot both go to stdout");
+    for (const auto& [option, file, other, same] : {std::tuple{"--save-state", o.save_state, "-o", o.common.output},
+                                                    {"--save-tree", o.save_tree, "-o", o.common.output},
+                                                    {"--save-tree", o.save_tree, "--save-state", o.save_state}})
+        if (!file.empty() && file != "-" && file == same)
+            throw UsageError(std::string(option) + ": is '" + file + "', which " + other + " writes already");
     refuse_contradictions(o.loop, o.run);
     if (o.loop.seconds) {
         const std::pair<bool, const char*> others[] = {

@@ -60,8 +60,11 @@ void watch(const TreesimOptions& o, const std::function<std::int64_t()>& run) {
             // the run will say why; what was read before is what may be mended
         }
         for (const std::string& file : files)
-            if (same_file(file, o.common.output))
-                throw UsageError("--watch: -o is '" + o.common.output + "', which is one of the files that are read");
+            for (const auto& [option, written] :
+                 {std::pair{"-o", o.common.output}, {"--save-state", o.save_state}, {"--save-tree", o.save_tree}})
+                if (!written.empty() && same_file(file, written))
+                    throw UsageError("--watch: " + std::string(option) + " is '" + written +
+                                     "', which is one of the files that are read");
         const std::vector<Stamp> seen = stamps(files);
         const auto start = std::chrono::steady_clock::now();
         std::string line;

@@ -162,8 +162,9 @@ std::optional<WalkerLoad> walker_load(const Walk& walk, double t, double h) {
     const WalkerPlace place = walker_place(walk, t + h / 2);
     const WalkLeg& leg = leg_at(walk, t + h / 2);
     if (leg.leap && t >= leg.start + walk.push && t + h <= leg.end - walk.push) return std::nullopt;
-    Vec3 force = walk.mass * (walk.gravity - (walker_velocity(walk, t + h) - walker_velocity(walk, t)) / h);
-    if (walk.push > 0 && t < first + walk.push) force *= pushed((t + h - first) / walk.push);
+    const double weight = walk.push > 0 && t < first + walk.push ? pushed((t + h - first) / walk.push) : 1;
+    const Vec3 turned = (walker_velocity(walk, t + h) - walker_velocity(walk, t)) / h;
+    const Vec3 force = walk.mass * (weight * walk.gravity - turned);
     const bool left = place.part < 0.5;
     return WalkerLoad{left ? place.body : place.next, left ? place.point_b : place.next_b, force};
 }

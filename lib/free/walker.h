@@ -3,13 +3,13 @@
 // Way. From stop to stop of the same wood along the bodies' axes, through the body that carries both; the part of it that lies behind after the part x of
 // the time is x^3 (10 - 15 x + 6 x^2), so that it starts and ends at rest. To another tree, another trunk, or where the stop says so, it leaps: for `push` seconds it is
 // pushed off, flies on a parabola, and is caught for `push` seconds, its velocity rising and falling by x - sin(2 pi x) / 2 pi. Two stops at
-// one place: it waits. At its first stop it sets its weight down over `push` seconds; after its last it stays.
+// one place: it waits. At its first stop it sets its weight (g below) down over `push` seconds; after its last it stays.
 // Force. The branch gives it all of its momentum but what gravity does. In a step of length h from t, with its velocity V on the drawn trees,
 //   F = m (g - (V(t + h) - V(t)) / h)
 // on the body it is on at the middle of the step, or, where that is in the air, on the nearer end of the leap; in the air F is 0 of
 // itself. Over a walk from rest to rest the sum of F h is m g times its time exactly, leaps and corners included.
 // What is left out: the branch's own motion is not V's, so the weight does not swing with the branch as a mass would, and a moved root carries nothing into V.
-// Reads   the joined tree as drawn, gravity. Cost O(bodies on the way) once, O(log of that) a step. Errors: std::out_of_range with the stop's
+// Reads   the joined tree as drawn, gravity. Cost O(bodies on the way) once, O(stops) a step. Errors: std::out_of_range with the stop's
 // pointer for a selector that names no body or many, and for a leap that has no time to fly.
 #pragma once
 #include "../model/scene.h"

@@ -39,7 +39,8 @@ std::optional<Defect> check(const Placement& tree, const std::string& at) {
     if (tree.file.empty()) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
     if (auto defect = finite(at + "/position", tree.position)) return defect;
     if (!std::isfinite(tree.yaw)) return Defect{at + "/yaw", -1, "is not finite, expected degrees"};
-    if (!std::isfinite(tree.start)) return Defect{at + "/start", -1, "is not finite, expected seconds"};
+    if (!(std::abs(tree.start) <= 1e9))
+        return Defect{at + "/start", -1, "is " + text(tree.start) + ", expected seconds, -1e9 to 1e9"};
     return std::nullopt;
 }
 

@@ -41,6 +41,7 @@ struct MotionHeader {
     // Of a motion that is a part of another: which, of how many, and where its first body stands in the whole.
     std::int32_t part = 1, parts = 1;
     std::int64_t first_body = 0;
+    std::string whole; // 16 hexadecimal digits, the same in all parts of one run
     MotionFields fields;
     std::string name;   // the tree's
     std::string source; // command lines that made it
@@ -74,8 +75,9 @@ struct SavedState {
     std::string scheme;               // "P12" ..., of the coupled solver; empty with all others
     std::uint64_t fingerprint = 0;    // of the tree and the scene it belongs to
     std::int32_t part = 1, parts = 1; // of a scene's trees (MotionHeader)
-    std::vector<Vec3> theta;          // [rad]; floats are exact in doubles
-    std::vector<Vec3> theta_dot;      // [rad/s]
+    std::string whole;
+    std::vector<Vec3> theta;     // [rad]; floats are exact in doubles
+    std::vector<Vec3> theta_dot; // [rad/s]
     // What else a solver carries from step to step; each has its own, the others' stay empty.
     std::vector<Vec3> theta_change, theta_dot_change; // coupled: [rad], [rad/s] of the last step
     std::vector<Vec3> scaled_rate;                    // all others: State::scaled_rate; analytic [sqrt(J)]

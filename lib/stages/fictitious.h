@@ -17,7 +17,6 @@
 // swing. So at small steps and 1 the motion is not that of the articulated bodies but nearer to it; the coupled solver has all of it. The spring's
 // inertia is the composite's only with JointInertia::paper: with the default factors (branch_mode.h) the terms are out of proportion to it.
 //
-// Stability.
 // Stability. The joints' accelerations that go round with a step's lag are no small ones: stiff joints answer any change with the acceleration of a free
 // body, and every joint further out multiplies it. A root moved +-0.2 m at 0.5 Hz, 10 s at 1/30 s, trees of data/scenes/trees (bodies), all
 // three multipliers alike; RMS of the joints' rates in the second quarter over those without the terms:

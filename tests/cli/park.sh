@@ -106,6 +106,16 @@ head -n 3 part2.jsonl >short.jsonl
 refused 2 "has only 2 frames" treesim --join part1.jsonl short.jsonl -o x.jsonl
 expect 0 treesim park.json --frames 5 --fps 60 -q --shard 2/2 -o other.jsonl
 refused 2 "/fps" treesim --join part1.jsonl other.jsonl -o x.jsonl
+expect 0 treesim park.json --frames 5 -q --shard 2/2 --wind storm -o other.jsonl --save-state other.json
+refused 2 "/whole" treesim --join part1.jsonl other.jsonl -o x.jsonl
+refused 2 "/whole" treesim --join end1.json other.json --hash
+refused 2 "/parts" treesim --join whole.jsonl -o x.jsonl
+refused 1 "files" treesim --join part1.jsonl part2.jsonl part1.jsonl -o x.jsonl
+refused 1 "/pose settled" treesim park.json --pose settled --shard 1/2
+sed 's/"file": "t3.json"/"file": "t3.json", "yaw": 5/' park.json >turned.json
+refused 2 "/whole" treesim turned.json --frames 2 --shard 1/2 --no-output --resume half1.json
+refused 1 "--save-tree" treesim t1.json --frames 2 -o same.json --save-tree same.json
+expect 0 treesim --join part1.jsonl part2.jsonl -o bare.jsonl --no-source
 absent x.jsonl x.json
 python3 - <<'END'
 import json
