@@ -1,0 +1,184 @@
+#include "run_options.h"
+#include "lib/stages/frozen_rule.h"
+#include "set_option.h"
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace bough {
+namespace {
+
+// A line of help: what each solver is for, the default marked.
+std::string solver_help() {
+    constexpr std::array<std::pair<Solver, const char*>, all_solvers.size()> uses{{
+        {Solver::coupled, "the full dynamics by one linear solve (--scheme), true at one step a frame"},
+        {Solver::analytic, "the paper's, each joint by itself: lively at any stiffness, not true at any step"},
+        {Solver::articulated_explicit, "Euler, for comparison: unstable but at tiny steps"},
+        {Solver::articulated_implicit, "linearly implicit Euler, for comparison: damps what a step does not resolve"},
+        {Solver::articulated_reference, "high order, adaptive, slow: the truth to hold others against"},
+    }};
+    std::string text = "How a step is made:";
+    for (const auto& [solver, use] : uses)
+        text += std::string(solver == uses.front().first ? " " : "; ") + solver_name(solver) +
+                (solver == default_solver ? " (default): " : ": ") + use;
+    return text;
+}
+
+} // namespace
+
+Solver chosen_solver(const RunOptions& o) {
+    for (const Solver solver : all_solvers)
+        if (o.solver == solver_name(solver)) return solver;
+    throw UsageError("--solver is '" + o.solver + "', which is unknown");
+}
+
+std::string rate_text(double rate) {
+    std::ostringstream text;
+    text << rate;
+    return text.str();
+}
+
+void add_simd_option(CLI::App& app, RunOptions& o) {
+    app.add_option("--simd", o.simd,
+                   "Which SIMD code coupled and analytic step with: auto (default): the widest of avx512, avx2 and "
+                   "baseline that "
+                   "this machine has; off: the plain step, body by body")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
+}
+
+void add_refresh_option(CLI::App& app, RunOptions& o) {
+    app.add_option("--refresh", o.refresh,
+                   "With --solver analytic: when a joint's modes are worked out anew: once its composite has turned or "
+                   "changed by about TOL radians since, or always (" +
+                       rate_text(default_refresh) + "; in wind always)")
+        ->option_text("TOL|always");
+}
+
+void add_sleep_option(CLI::App& app, RunOptions& o) {
+    app.add_option("--sleep", o.sleep,
+                   "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
+                   "[rad/s] for a second, until they are moved again; or off (" +
+                       (o.sleep_default > 0 ? rate_text(o.sleep_default) : "off") + ")")
+        ->option_text("RATE|off");
+}
+
+void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
+    const std::string seconds_text = std::to_string(int(seconds_default));
+    app.add_option("INPUT", o.input, "A tree or a scene; - for stdin");
+    CLI::Option* seconds = app.add_option("--seconds", o.seconds, "Length of the run [s] (" + seconds_text + ")")
+                               ->option_text("S")
+                               ->check(not_negative_number());
+    app.add_option("--frames", o.frames, "Length of the run in frames, the start included")
+        ->option_text("N")
+        ->check(whole_number(1))
+        ->excludes(seconds);
+    app.add_option("--fps", o.fps, "Frames a second (30)")->option_text("F")->check(positive_number());
+    app.add_option("--substeps", o.substeps, "Steps a frame (1)")->option_text("N")->check(whole_number(1, 1000000));
+    app.add_option("--wind", o.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file")
+        ->option_text("NAME|FILE");
+    app.add_option("--seed", o.seed, "Seed of the wind's turbulence")->option_text("N")->check(whole_number(0));
+    app.add_option("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)")->option_text("X,Y,Z");
+    add_set_option(app, o.set);
+    std::vector<std::string> solvers;
+    for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
+    app.add_option("--solver", o.solver, solver_help())->option_text("NAME")->check(CLI::IsMember(solvers));
+    std::vector<std::string> schemes;
+    for (const Scheme scheme : all_schemes) schemes.push_back(scheme_of(scheme).name);
+    app.add_option("--scheme", o.scheme,
+                   "Which rational function coupled steps with: " + std::string(scheme_of(Scheme()).name) +
+                       " (default): robust; P.25, P.5: damp less, stiff joints lag more; P34: true to higher "
+                       "frequencies, two solves a step; LIE, midpoint, for comparison: first order; no damping at all")
+        ->option_text("NAME")
+        ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
+    add_simd_option(app, o);
+    add_refresh_option(app, o);
+    app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
+        ->option_text("RAD")
+        ->check(positive_number());
+    app.add_option("--precision", o.precision, "float or double (double)")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"float", "double"}));
+    app.add_option(
+           "--pose", o.pose,
+           "What the drawn tree is: drawn (in equilibrium under gravity), settled (unloaded; starts at its sag), "
+           "rest (unloaded; starts from it)")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"drawn", "settled", "rest"}));
+    app.add_option("--joint-inertia", o.joint_inertia,
+                   "branch (a branch keeps its frequency under any segmentation) or paper")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"branch", "paper"}));
+    app.add_option("--stiffness-scale", o.stiffness_scale, "Multiplies every joint's stiffness (1)")
+        ->option_text("X")
+        ->check(not_negative_number());
+    app.add_option("--damping-scale", o.damping_scale, "Multiplies every joint's damping (1)")
+        ->option_text("X")
+        ->check(not_negative_number());
+    app.add_option("--joint-limit", o.joint_limit,
+                   "Largest angle of every joint about each of its axes, from its spring's rest [deg] (none)")
+        ->option_text("DEG")
+        ->check(positive_number());
+}
+
+std::int64_t frames_of(const RunOptions& o, double seconds_default) {
+    if (o.frames) return *o.frames;
+    const double frames = std::round(o.seconds.value_or(seconds_default) * o.fps) + 1;
+    if (!(frames < 9e15)) throw UsageError("--seconds: more frames than can be counted");
+    return std::int64_t(frames);
+}
+
+Scheme chosen_scheme(const RunOptions& o) {
+    if (o.scheme.empty()) return Scheme();
+    for (const Scheme scheme : all_schemes)
+        if (o.scheme == scheme_of(scheme).name) return scheme;
+    throw UsageError("--scheme is '" + o.scheme + "', which is unknown");
+}
+
+std::optional<fast::Target> chosen_simd(const RunOptions& o) {
+    if (o.simd == "off") return std::nullopt;
+    if (o.simd == "auto") return fast::best_target();
+    const std::optional<fast::Target> target = fast::target_named(o.simd);
+    if (!target || !fast::available(*target))
+        throw UsageError("--simd " + o.simd + ": this machine or build does not have it; the best here is " +
+                         fast::target_name(fast::best_target()));
+    return target;
+}
+
+double analytic_refresh(const RunOptions& o) {
+    if (o.refresh.empty()) return default_refresh;
+    if (o.refresh == "always") return 0;
+    const std::optional<double> tolerance = parse_number(o.refresh);
+    if (!tolerance || !(*tolerance > 0 && *tolerance <= 3))
+        throw UsageError("--refresh is '" + o.refresh + "', expected a tolerance above 0, at most 3, or always");
+    return *tolerance;
+}
+
+double chosen_refresh(const RunOptions& o, const Scene& scene) {
+    const double tolerance = analytic_refresh(o);
+    if (chosen_solver(o) == Solver::analytic) return o.refresh.empty() && scene.wind ? 0 : tolerance;
+    if (tolerance > 0 && !o.refresh.empty())
+        throw UsageError("--refresh " + o.refresh +
+                         ": only with --solver analytic; all others work everything out anew");
+    return 0;
+}
+
+double chosen_sleep(const RunOptions& o) {
+    if (o.sleep.empty()) return o.simd == "off" ? 0 : o.sleep_default;
+    if (o.sleep == "off") return 0;
+    if (!o.shard.empty())
+        throw UsageError("--sleep " + o.sleep +
+                         ": not with --shard; trees sleep by blocks, which those of the whole share");
+    const std::optional<double> rate = parse_number(o.sleep);
+    if (!rate || !(*rate > 0))
+        throw UsageError("--sleep is '" + o.sleep + "', expected a rate above 0 [rad/s], or off");
+    if (o.simd == "off") throw UsageError("--sleep: not with --simd off, the plain step, in which nothing sleeps");
+    if (chosen_solver(o) != Solver::coupled) throw UsageError("--sleep: only with --solver coupled");
+    return *rate;
+}
+
+std::string scheme_name(const RunOptions& o) {
+    return chosen_solver(o) == Solver::coupled ? scheme_of(chosen_scheme(o)).name : "";
+}
+
+} // namespace bough

@@ -1,0 +1,60 @@
+// run_options.h: the options that decide how trees move, the same for treesim and treeprofile, and what they choose.
+#pragma once
+#include "common.h"
+#include "lib/model/scene.h"
+#include "lib/stages/plan.h"
+
+namespace bough {
+
+// What runs without --solver. Help, messages and tests follow it.
+constexpr Solver default_solver = Solver::coupled;
+
+struct RunOptions {
+    std::string input;
+    std::optional<double> seconds;
+    std::optional<std::int64_t> frames;
+    double fps = 30;
+    int substeps = 1;
+    std::string wind, gravity, solver = solver_name(default_solver), precision = "double", pose, joint_inertia;
+    std::string scheme; // of the coupled solver; empty: its default
+    std::string simd = "auto";
+    std::string sleep;        // as given: a rate or off; empty: sleep_default
+    double sleep_default = 0; // [rad/s] the tool's own
+    std::string refresh;      // as given: a tolerance or always; empty: chosen_refresh
+    std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
+    std::optional<std::uint64_t> seed;
+    std::vector<std::string> set; // as given: PATH=VALUE, set_option.h
+    std::string shard;            // "i/n", of treesim; empty: all
+};
+
+// seconds_default: what runs without --seconds and --frames.
+void add_run_options(CLI::App&, RunOptions&, double seconds_default);
+
+void add_simd_option(CLI::App&, RunOptions&);
+void add_refresh_option(CLI::App&, RunOptions&);
+void add_sleep_option(CLI::App&, RunOptions&); // with sleep_default as it stands
+
+// Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
+std::int64_t frames_of(const RunOptions&, double seconds_default);
+
+// Throws UsageError for a name that is unknown.
+Solver chosen_solver(const RunOptions&);
+
+// The one that --scheme names, or the coupled solver's default; its name, empty for all other solvers.
+Scheme chosen_scheme(const RunOptions&);
+std::string scheme_name(const RunOptions&);
+
+// The SIMD target that --simd names; none for the plain path. Throws UsageError for one that this machine lacks.
+std::optional<fast::Target> chosen_simd(const RunOptions&);
+
+// [rad/s] below which what has settled sleeps (lib/fast/sleep.h); 0: nothing does. Throws UsageError for what is no rate, and for
+// one given with --simd off.
+double chosen_sleep(const RunOptions&);
+std::string rate_text(double rate); // "1e-05"
+
+// Tolerance of frozen coefficients (lib/stages/frozen.h); 0: none are kept. Without --refresh: default_refresh with the analytic solver, but in wind, whose
+// changes make too many anew, none. Throws UsageError for what is no tolerance, and for one given with another solver.
+double chosen_refresh(const RunOptions&, const Scene&);
+double analytic_refresh(const RunOptions&); // whatever the solver and the wind
+
+} // namespace bough

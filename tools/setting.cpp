@@ -1,0 +1,142 @@
+#include "setting.h"
+#include "formats/scene.h"
+#include "formats/tree.h"
+#include "lib/model/static_load.h"
+#include "lib/model/wood_overrides.h"
+#include "rigid_parts.h"
+#include "scene_trees.h"
+#include "set_option.h"
+#include <filesystem>
+#include <sstream>
+
+namespace bough {
+namespace {
+
+std::optional<Wind> chosen_wind(const std::string& wind) {
+    if (wind.empty()) return std::nullopt;
+    if (const std::optional<Wind> preset = wind_preset(wind)) return preset;
+    std::error_code none;
+    if (wind.find_first_of("./") == std::string::npos && !std::filesystem::exists(wind, none))
+        throw UsageError("--wind is '" + wind + "', neither calm, breeze, gusty, storm nor a file");
+    return read_wind(read_input(wind), input_name(wind));
+}
+
+void apply(const RunOptions& o, const std::optional<Wind>& wind, Scene& scene) {
+    if (wind) scene.wind = wind;
+    if (o.seed) {
+        if (!scene.wind) throw UsageError("--seed: only with a wind, whose turbulence is what it seeds");
+        scene.wind->seed = *o.seed;
+    }
+    if (!o.gravity.empty()) {
+        const std::vector<double> g = number_list("--gravity", o.gravity, 3);
+        scene.gravity = Vec3(g[0], g[1], g[2]);
+    }
+    if (!o.pose.empty())
+        scene.pose = o.pose == "drawn" ? Pose::drawn : o.pose == "settled" ? Pose::settled : Pose::rest;
+    if (!o.joint_inertia.empty())
+        scene.joint_inertia = o.joint_inertia == "paper" ? JointInertia::paper : JointInertia::branch;
+    if (o.stiffness_scale) scene.stiffness_scale = *o.stiffness_scale;
+    if (o.damping_scale) scene.damping_scale = *o.damping_scale;
+    if (o.joint_limit) {
+        if (*o.joint_limit > 180) throw UsageError("--joint-limit is above 180 degrees, which is no limit");
+        const Vec3 all = Vec3::Constant(*o.joint_limit);
+        scene.joint_limit = JointLimit{all, all, all};
+    }
+}
+
+constexpr const char* empty_scene = R"({"format": "bough-scene", "version": 1})";
+
+// The document with the options applied, and what --set asks for last of all: once in the document itself, which may wait for it to be
+// complete, and of fields that other options set too, once more behind these.
+SceneDocument chosen_document(const RunOptions& o, std::string_view content, const std::string& name) {
+    const std::optional<Wind> wind = chosen_wind(o.wind);
+    std::vector<SceneOverride> first = overrides_of(o.set), last;
+    for (const SceneOverride& change : first)
+        for (const char* field :
+             {"wind", "gravity", "pose", "joint_inertia", "stiffness_scale", "damping_scale", "joint_limit"})
+            if (change.path.front() == field) last.push_back(change);
+    if (wind && !first.empty()) first.insert(first.begin(), {"--wind " + o.wind, {"wind"}, wind_text(*wind)});
+    SceneDocument document = read_scene_document(content, name, first);
+    apply(o, wind, document.scene);
+    return last.empty() ? document : changed(document, last);
+}
+
+// What a scene makes of its trees themselves: into the tree, before anything is planned or weighed.
+void change_trees(Setting& setting, const std::string& scene_file) {
+    const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + what; };
+    if (setting.scene.wood) {
+        WoodChanges changes;
+        try {
+            changes = override_wood(setting.tree, setting.ranges, *setting.scene.wood);
+        } catch (const std::out_of_range& error) {
+            throw InputError(input_name(scene_file), std::string("/") + error.what());
+        }
+        std::string line = "/wood: stiffness of " + count(changes.stiffness, " joints, damping of ") +
+                           count(changes.damping, ", mass of ") + count(changes.mass, " bodies");
+        if (setting.scene.wood->fork)
+            line += "; " + count(changes.near_forks, " joints near ") + count(changes.forks, " forks");
+        setting.changes.push_back(line);
+        setting.scene.wood.reset();
+    }
+    if (setting.scene.load) {
+        const LoadLaid laid = lay_load(setting.tree, *setting.scene.load);
+        std::ostringstream kilograms;
+        kilograms << laid.mass;
+        setting.changes.push_back("/load: " + kilograms.str() + " kg on " + count(laid.bodies, " bodies"));
+        setting.scene.load.reset();
+    }
+}
+
+} // namespace
+
+Setting read_setting(const RunOptions& o) {
+    if (o.input.empty()) throw UsageError("INPUT: missing");
+    const Solver solver = chosen_solver(o);
+    if (is_articulated(solver) && o.precision == "float")
+        throw UsageError("--precision float: not with --solver " + o.solver + ", which runs in double");
+    if (solver != Solver::analytic && !o.joint_inertia.empty())
+        throw UsageError("--joint-inertia: only with --solver analytic");
+    if (is_articulated(solver) && o.joint_limit)
+        throw UsageError("--joint-limit: only with --solver coupled or analytic, which keep limits");
+    if (solver != Solver::coupled && !o.scheme.empty()) throw UsageError("--scheme: only with --solver coupled");
+    if (o.tolerance && solver != Solver::articulated_reference)
+        throw UsageError("--tolerance: only with --solver articulated-reference");
+    Setting setting;
+    const Input input(o.input);
+    const bool scene = is_scene(input.content());
+    SceneDocument document =
+        scene ? chosen_document(o, input.all(), input.name()) : chosen_document(o, empty_scene, "the scene");
+    setting.scene = std::move(document.scene);
+    if (scene) {
+        stand_trees(setting, o.input, o.shard, document.material);
+    } else {
+        if (!o.shard.empty()) throw UsageError("--shard: only with a scene, whose trees it parts");
+        if (!setting.scene.trees.empty())
+            throw UsageError("--set trees: INPUT is a tree, which stands where it was drawn; a scene places trees");
+        stand(setting, with_material(read_tree(input), document.material, o.input), Placement());
+    }
+    if (const std::optional<Defect> defect = check(setting.scene))
+        throw UsageError("the scene's " + defect->field + " " + defect->message);
+    change_trees(setting, o.input);
+    join_rigid(setting, o.input);
+    return setting;
+}
+
+std::vector<std::string> files_read(const RunOptions& o) {
+    std::vector<std::string> files{o.input};
+    if (!o.wind.empty() && !wind_preset(o.wind)) files.push_back(o.wind);
+    const Input input(o.input);
+    if (is_scene(input.content()))
+        for (const Placement& place : chosen_document(o, input.all(), input.name()).scene.trees)
+            files.push_back(tree_file(o.input, place));
+    return files;
+}
+
+Scene chosen_scene(const RunOptions& o) {
+    Scene scene = chosen_document(o, empty_scene, "the scene").scene;
+    if (const std::optional<Defect> defect = check(scene))
+        throw UsageError("the scene's " + defect->field + " " + defect->message);
+    return scene;
+}
+
+} // namespace bough
