@@ -95,10 +95,10 @@ TEST_CASE("levels, radius, subtrees and a box hold what is outside them, and wha
     Simulate inside;
     inside.box = Simulate::Box{Vec3(-0.2, 0, -10), Vec3(10, 1.5, 10)};
     const Held boxed = hold(tree, inside);
-    const DrawnPlaces drawn = drawn_places(tree);
+    const DrawnPose drawn = drawn_pose(tree);
     std::size_t in = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        const Vec3& x = drawn.x[i];
+        const Vec3& x = drawn.x_w[i];
         const bool within = x.x() >= -0.2 && x.x() <= 10 && x.y() >= 0 && x.y() <= 1.5 && std::abs(x.z()) <= 10;
         CHECK(boxed.moves(i) == within);
         in += within;
@@ -231,7 +231,7 @@ TEST_CASE("pixels are taken at the distance of each joint") {
     Scene scene;
     scene.wind = wind_preset("gusty");
     const std::vector<double> motion = added_motion(tree, all_of(tree), scene);
-    const DrawnPlaces drawn = drawn_places(tree);
+    const DrawnPose drawn = drawn_pose(tree);
     Simulate by;
     by.error = 3;
     by.view = Simulate::View{Vec3(0, 1, 60), 50, 1000};
@@ -244,7 +244,7 @@ TEST_CASE("pixels are taken at the distance of each joint") {
         double sum = 0;
         for (std::int64_t j = std::int64_t(i); j >= 0; j = tree.parent[std::size_t(j)]) {
             const auto k = std::size_t(j);
-            const double height = 2 * std::tan(25 * std::numbers::pi / 180) * (drawn.x[k] - by.view->from).norm();
+            const double height = 2 * std::tan(25 * std::numbers::pi / 180) * (drawn.x_w[k] - by.view->from).norm();
             if (!near.moves(k)) sum += motion[k] / height * 1000;
         }
         CHECK(sum <= 3 + 1e-9);

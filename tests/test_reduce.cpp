@@ -50,15 +50,15 @@ struct Moments {
     Mat3 second = Mat3::Zero();
 };
 Moments composite(const Tree& tree, std::size_t j) {
-    const DrawnPlaces drawn = drawn_places(tree);
+    const DrawnPose drawn = drawn_pose(tree);
     Moments sum;
     for (std::size_t i = j; i < tree.size_bodies(); ++i) {
         std::int64_t on = std::int64_t(i);
         while (on > std::int64_t(j)) on = tree.parent[std::size_t(on)];
         if (on != std::int64_t(j)) continue;
-        const Vec3 c = drawn.x[i] + drawn.R[i] * tree.com[i] - drawn.x[j];
+        const Vec3 c = drawn.x_w[i] + drawn.R_wb[i] * tree.com[i] - drawn.x_w[j];
         sum.first += tree.mass[i] * c;
-        sum.second += drawn.R[i] * tree.inertia[i] * drawn.R[i].transpose() +
+        sum.second += drawn.R_wb[i] * tree.inertia[i] * drawn.R_wb[i].transpose() +
                       tree.mass[i] * (c.squaredNorm() * Mat3::Identity() - c * c.transpose());
     }
     return sum;
@@ -191,7 +191,7 @@ TEST_CASE("rigid runs as a billion times stiffer does, all bodies and velocities
         REQUIRE(frame.position.size() == stiff.size_bodies());
         for (std::size_t i = 0; i < stiff.size_bodies(); ++i) {
             worst = std::max(worst, (frame.position[i] - whole.x_w[i]).norm());
-            moved = std::max(moved, (whole.x_w[i] - drawn_places(drawn).x[i]).norm());
+            moved = std::max(moved, (whole.x_w[i] - drawn_pose(drawn).x_w[i]).norm());
             worst_speed = std::max(worst_speed, (frame.velocity[i] - whole.v_w[i]).norm());
             speed = std::max(speed, whole.v_w[i].norm());
         }
@@ -209,18 +209,18 @@ TEST_CASE("bodies of a group keep their places to each other, and their joints h
     const Reduced r = reduced_of(tree, scene);
     const Plan<double> plan = plan_of(r.tree, r.ranges, scene);
     State<double> state = make_state(plan);
-    const DrawnPlaces drawn = drawn_places(tree);
+    const DrawnPose drawn = drawn_pose(tree);
     double moved = 0;
     for (int k = 0; k < 60; ++k) advance(plan, state);
     MotionFrame frame = frame_of(plan, state);
     expand_frame(r, tree, plan, state, frame);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        moved = std::max(moved, (frame.position[i] - drawn.x[i]).norm());
+        moved = std::max(moved, (frame.position[i] - drawn.x_w[i]).norm());
         if (!tree.rigid[i]) continue;
         CHECK(frame.theta[i].isZero(0));
         const std::int32_t p = tree.parent[i];
         if (p < 0) {
-            CHECK((frame.position[i] - drawn.x[i]).norm() == 0);
+            CHECK((frame.position[i] - drawn.x_w[i]).norm() == 0);
             continue;
         }
         const auto q = std::size_t(p);
@@ -241,11 +241,11 @@ TEST_CASE("the drawn tree is in equilibrium under gravity with parts of it rigid
     const Reduced r = reduced_of(tree);
     const Plan<double> plan = plan_of(r.tree, r.ranges, Scene());
     State<double> state = make_state(plan);
-    const DrawnPlaces drawn = drawn_places(tree);
+    const DrawnPose drawn = drawn_pose(tree);
     for (int k = 0; k < 120; ++k) advance(plan, state);
     double moved = 0, torque = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        moved = std::max(moved, (whole_pose(r, plan, state, i).x - drawn.x[i]).norm());
+        moved = std::max(moved, (whole_pose(r, plan, state, i).x - drawn.x_w[i]).norm());
         if (r.body[i] >= 0) torque = std::max(torque, state.theta[std::size_t(r.body[i])].norm());
     }
     CHECK(moved < 1e-10);
@@ -334,16 +334,16 @@ TEST_CASE("what hangs on a part that stands still is a root at its place, and mo
     CHECK(std::count(r.tree.parent.begin(), r.tree.parent.end(), -1) == 4); // branches 1 to 3 and what the trunk bears
     const Plan<double> plan = plan_of(r.tree, r.ranges, scene);
     State<double> state = make_state(plan);
-    const DrawnPlaces drawn = drawn_places(tree);
+    const DrawnPose drawn = drawn_pose(tree);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        CHECK((whole_pose(r, plan, state, i).x - drawn.x[i]).norm() < 1e-13);
-        CHECK((whole_pose(r, plan, state, i).R - drawn.R[i]).norm() < 1e-13);
+        CHECK((whole_pose(r, plan, state, i).x - drawn.x_w[i]).norm() < 1e-13);
+        CHECK((whole_pose(r, plan, state, i).R - drawn.R_wb[i]).norm() < 1e-13);
     }
     for (int k = 0; k < 90; ++k) advance(plan, state); // to rest in the last key's place
     const Mat3 R = motion.rotation[1].toRotationMatrix();
     for (std::size_t i = 0; i < 4; ++i) {
-        CHECK((whole_pose(r, plan, state, i).x - R * drawn.x[i] - motion.position[1]).norm() < 1e-12);
-        CHECK((whole_pose(r, plan, state, i).R - R * drawn.R[i]).norm() < 1e-12);
+        CHECK((whole_pose(r, plan, state, i).x - R * drawn.x_w[i] - motion.position[1]).norm() < 1e-12);
+        CHECK((whole_pose(r, plan, state, i).R - R * drawn.R_wb[i]).norm() < 1e-12);
     }
     // Joints on the trunk are where the trunk has them.
     MotionFrame frame = frame_of(plan, state);
@@ -377,9 +377,9 @@ TEST_CASE("a tree that stands still beside one that moves") {
     const Plan<double> plan = plan_of(r.tree, r.ranges, scene);
     State<double> state = make_state(plan);
     for (int k = 0; k < 120; ++k) advance(plan, state);
-    const DrawnPlaces drawn = drawn_places(joined);
-    CHECK((whole_pose(r, plan, state, 0).x - drawn.x[0] - Vec3(1, 0, 0)).norm() < 1e-12);
-    CHECK((whole_pose(r, plan, state, first).x - drawn.x[first] - Vec3(2, 0, 0)).norm() < 1e-12);
+    const DrawnPose drawn = drawn_pose(joined);
+    CHECK((whole_pose(r, plan, state, 0).x - drawn.x_w[0] - Vec3(1, 0, 0)).norm() < 1e-12);
+    CHECK((whole_pose(r, plan, state, first).x - drawn.x_w[first] - Vec3(2, 0, 0)).norm() < 1e-12);
 }
 
 TEST_CASE("what a scene selects stays where it was") {
@@ -389,7 +389,7 @@ TEST_CASE("what a scene selects stays where it was") {
     joined.rigid[0] = 1;
     const std::vector<TreeRange> ranges{{0, first, 0}, {first, joined.size_bodies() - first, 5}};
     const Reduced r = reduce(joined, ranges, Scene());
-    const DrawnPlaces whole = drawn_places(joined), part = drawn_places(r.tree);
+    const DrawnPose whole = drawn_pose(joined), part = drawn_pose(r.tree);
     int still = 0;
     for (std::size_t i = 0; i < joined.size_bodies(); ++i) {
         const Vec3 point(0.01, 0.02, 0.03 * double(i));
@@ -400,8 +400,8 @@ TEST_CASE("what a scene selects stays where it was") {
         }
         const std::vector<Selected> found = select(r.tree, r.ranges, *on);
         REQUIRE(found.size() == 1);
-        const Vec3 there = part.x[found[0].body] + part.R[found[0].body] * found[0].point_b;
-        CHECK((there - whole.x[i] - whole.R[i] * point).norm() < 1e-13);
+        const Vec3 there = part.x_w[found[0].body] + part.R_wb[found[0].body] * found[0].point_b;
+        CHECK((there - whole.x_w[i] - whole.R_wb[i] * point).norm() < 1e-13);
         CHECK(on->tree == (i < first ? 0 : 1));
     }
     CHECK(still > 0);

@@ -1,3 +1,4 @@
+#include "lib/model/drawn_pose.h"
 #include "tests/skin_checks.h"
 
 using namespace bough;
@@ -8,8 +9,7 @@ using make_tree::random_tree;
 
 TEST_CASE("drawn_pose agrees with the sweep written out") {
     const Tree tree = random_tree(400, 3);
-    Pose got;
-    drawn_pose(tree, got.R_wb, got.x_w);
+    const DrawnPose got = drawn_pose(tree);
     const Pose want = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         CHECK((got.R_wb[i] - want.R_wb[i]).norm() < 1e-12);

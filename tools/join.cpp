@@ -2,9 +2,11 @@
 #include "formats/mapped.h"
 #include "formats/motion.h"
 #include "frame_sink.h"
+#include "lib/model/shortest_text.h"
 #include "lib/stages/state.h"
 #include "simulation.h"
 #include <deque>
+#include <map>
 
 namespace bough {
 namespace {
@@ -24,28 +26,26 @@ void same(const std::string& name, const char* field, const std::string& found, 
 
 // Each part once, in the scene's order. part, parts: of one of them.
 template <class Item, class PartOf> void put_in_order(std::vector<Item*>& items, PartOf part_of) {
-    const auto [first_part, parts] = part_of(*items.front());
+    const std::int64_t parts = part_of(*items.front()).second;
     if (parts == 1) throw InputError(items.front()->name, "/parts: is 1, expected a part of a scene (--shard)");
     if (items.size() > std::size_t(parts))
         throw UsageError("--join: has " + std::to_string(items.size()) + " files, but " + items.front()->name +
                          " is of " + std::to_string(parts) + " parts");
-    if (items.size() < std::size_t(parts) && items.size() + 1000000 < std::size_t(parts))
-        throw InputError(items.front()->name, "/parts: is " + std::to_string(parts) + ", but there are " +
-                                                  std::to_string(items.size()) + " files");
-    std::vector<Item*> ordered(std::size_t(parts), nullptr);
+    std::map<std::int64_t, Item*> place; // by part
     for (Item* item : items) {
         const auto [part, of] = part_of(*item);
         same(item->name, "parts", std::to_string(of), std::to_string(parts), items.front()->name);
-        Item*& place = ordered[std::size_t(part) - 1];
-        if (place)
+        const auto [at, first] = place.emplace(part, item);
+        if (!first)
             throw InputError(item->name,
-                             "/part: is " + std::to_string(part) + ", which " + place->name + " is already");
-        place = item;
+                             "/part: is " + std::to_string(part) + ", which " + at->second->name + " is already");
     }
-    for (std::size_t k = 0; k < ordered.size(); ++k)
-        if (!ordered[k])
-            throw UsageError("--join: part " + std::to_string(k + 1) + " of " + std::to_string(parts) + " is missing");
-    items = ordered;
+    std::int64_t missing = 1;
+    while (place.count(missing) > 0) ++missing;
+    if (missing <= parts)
+        throw UsageError("--join: part " + std::to_string(missing) + " of " + std::to_string(parts) + " is missing");
+    items.clear();
+    for (const auto& [part, item] : place) items.push_back(item);
 }
 
 std::string fields_text(const MotionFields& f) {
@@ -56,11 +56,6 @@ std::string fields_text(const MotionFields& f) {
     return text.empty() ? "none" : text;
 }
 
-std::string number_text(double value) {
-    std::string text = std::to_string(value);
-    return text;
-}
-
 MotionHeader joined_header(const std::vector<MotionPart*>& parts, const CommonOptions& common) {
     MotionHeader whole = parts.front()->frames.header();
     whole.bodies = 0;
@@ -69,7 +64,7 @@ MotionHeader joined_header(const std::vector<MotionPart*>& parts, const CommonOp
     for (const MotionPart* part : parts) {
         const MotionHeader& h = part->frames.header();
         const std::string& first = parts.front()->name;
-        same(part->name, "fps", number_text(h.fps), number_text(whole.fps), first);
+        same(part->name, "fps", shortest_text(h.fps), shortest_text(whole.fps), first);
         same(part->name, "fields", fields_text(h.fields), fields_text(whole.fields), first);
         same(part->name, "whole", h.whole, whole.whole, first);
         if (h.balls != 0)
@@ -126,7 +121,7 @@ void join_motions(std::deque<MotionPart>& read, const CommonOptions& common, con
                 throw InputError(part->name, "/event: has events in frame " + std::to_string(part->frame.frame) +
                                                  ", expected none in a part");
             same(part->name, "frame", std::to_string(part->frame.frame), std::to_string(whole.frame), first);
-            same(part->name, "time", number_text(part->frame.time), number_text(whole.time), first);
+            same(part->name, "time", shortest_text(part->frame.time), shortest_text(whole.time), first);
             add_part(whole, part->frame);
         }
         if (!more) break;
@@ -158,7 +153,7 @@ std::string join_states(std::deque<StatePart>& read) {
         const SavedState &s = part->state, &f = first.state;
         same(part->name, "whole", s.whole, f.whole, first.name);
         same(part->name, "frame", std::to_string(s.frame), std::to_string(f.frame), first.name);
-        same(part->name, "fps", number_text(s.fps), number_text(f.fps), first.name);
+        same(part->name, "fps", shortest_text(s.fps), shortest_text(f.fps), first.name);
         same(part->name, "substeps", std::to_string(s.substeps), std::to_string(f.substeps), first.name);
         same(part->name, "precision", s.precision, f.precision, first.name);
         same(part->name, "solver", s.solver, f.solver, first.name);

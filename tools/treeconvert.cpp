@@ -8,6 +8,7 @@
 #include "frame_sink.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
+#include "lib/model/drawn_pose.h"
 #include "lib/model/split.h"
 #include "lib/model/sway.h"
 #include "merge_trial.h"
@@ -146,9 +147,7 @@ void note_repairs(const SegmentReport& report, std::vector<std::string>& notes) 
 }
 
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {
-    std::vector<Mat3> R_wb;
-    std::vector<Vec3> x_w;
-    drawn_pose(tree, R_wb, x_w);
+    const auto [R_wb, x_w] = drawn_pose(tree);
     std::size_t kinds[4] = {0, 0, 0, 0}, roots = 0;
     double mass = 0, top = 0, softest = INFINITY, stiffest = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {

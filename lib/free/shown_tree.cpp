@@ -1,13 +1,11 @@
 #include "shown_tree.h"
-#include "../growth/skin.h"
+#include "../model/drawn_pose.h"
 #include <algorithm>
 
 namespace bough {
 
 Tree shown_tree(const Tree& tree, const std::vector<std::uint32_t>& broken, const std::vector<Ball>& balls) {
-    std::vector<Mat3> R_wb;
-    std::vector<Vec3> x_w;
-    if (!broken.empty()) drawn_pose(tree, R_wb, x_w);
+    const auto [R_wb, x_w] = broken.empty() ? DrawnPose() : drawn_pose(tree);
     Tree out = tree;
     std::int32_t next_branch = 1 + *std::max_element(tree.branch.begin(), tree.branch.end());
     std::vector<std::uint8_t> cut(tree.size_bodies(), 0);

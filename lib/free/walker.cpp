@@ -1,5 +1,5 @@
 #include "walker.h"
-#include "../growth/skin.h"
+#include "../model/drawn_pose.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -9,11 +9,9 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-struct Drawn {
+struct Drawn : DrawnPose {
     const Tree& tree;
-    std::vector<Mat3> R_wb;
-    std::vector<Vec3> x_w;
-    explicit Drawn(const Tree& drawn) : tree(drawn) { drawn_pose(tree, R_wb, x_w); }
+    explicit Drawn(const Tree& drawn) : DrawnPose(drawn_pose(drawn)), tree(drawn) {}
     Vec3 at(const Selected& place) const { return x_w[place.body] + R_wb[place.body] * place.point_b; }
 };
 

@@ -1,5 +1,5 @@
 #include "world.h"
-#include "../growth/skin.h"
+#include "../model/drawn_pose.h"
 #include "../stages/external_forces.h"
 #include "flight.h"
 #include "landing.h"
@@ -413,9 +413,7 @@ template <class T> void place_free_bodies(const World<T>& world, MotionFrame& fr
 std::vector<Ball> shown_balls(const Tree& tree, const Scene& scene, const std::vector<Walk>& walkers) {
     std::vector<Ball> balls = scene.balls;
     if (walkers.empty()) return balls;
-    std::vector<Mat3> R_wb;
-    std::vector<Vec3> x_w;
-    drawn_pose(tree, R_wb, x_w);
+    const auto [R_wb, x_w] = drawn_pose(tree);
     for (const Walk& walk : walkers) {
         const WalkerPlace place = walker_place(walk, 0);
         balls.push_back({Vec3(x_w[place.body] + R_wb[place.body] * place.point_b), Vec3::Zero(), Vec3::Zero(),

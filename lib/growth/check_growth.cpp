@@ -1,35 +1,31 @@
+#include "../model/shortest_text.h"
 #include "sapling_family.h"
-#include <charconv>
 #include <stdexcept>
 
 namespace bough {
 
 namespace {
 
-std::string text(double value) {
-    char buffer[32];
-    return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-}
-
 [[noreturn]] void refuse(const std::string& name, double value, const std::string& expected) {
-    throw std::invalid_argument(name + ": is " + text(value) + ", expected " + expected);
+    throw std::invalid_argument(name + ": is " + shortest_text(value) + ", expected " + expected);
 }
 
 // Written so that NaN fails every test.
 void within(const std::string& name, double value, double least, double most) {
-    if (!(value >= least && value <= most)) refuse(name, value, text(least) + " to " + text(most));
+    if (!(value >= least && value <= most)) refuse(name, value, shortest_text(least) + " to " + shortest_text(most));
 }
 
 void below(const std::string& name, double value, double least, double limit) {
     if (!(value >= least && value < limit))
-        refuse(name, value, "at least " + text(least) + " and less than " + text(limit));
+        refuse(name, value, "at least " + shortest_text(least) + " and less than " + shortest_text(limit));
 }
 
 // Nothing that has a size is smaller than this, in metres or over another size: a body of it would have no mass in double.
 constexpr double kSmallest = 1e-6;
 
 void positive(const std::string& name, double value, double most) {
-    if (!(value >= kSmallest && value <= most)) refuse(name, value, text(kSmallest) + " to " + text(most));
+    if (!(value >= kSmallest && value <= most))
+        refuse(name, value, shortest_text(kSmallest) + " to " + shortest_text(most));
 }
 
 void check_angles(const std::string& at, const LevelParameters& l) {
@@ -85,7 +81,7 @@ void check_sapling(const SaplingRules& s) {
 
 // A parameter that the rules do not look at keeps the value that means nothing.
 void untouched(const std::string& name, double value, double none) {
-    if (value != none) refuse(name, value, text(none) + ": rules without it");
+    if (value != none) refuse(name, value, shortest_text(none) + ": rules without it");
 }
 
 void check_rules(const GrowthParameters& p) {

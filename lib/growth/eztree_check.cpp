@@ -1,5 +1,5 @@
 #include "eztree_check.h"
-#include <charconv>
+#include "../model/shortest_text.h"
 #include <stdexcept>
 
 namespace bough {
@@ -7,20 +7,16 @@ namespace {
 
 constexpr double kMostItems = 5e7; // branches and leaves
 
-std::string text(double value) {
-    char buffer[32];
-    return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-}
-
 // Written so that NaN fails.
 void within(const std::string& name, double value, double least, double most) {
     if (!(value >= least && value <= most))
-        throw std::invalid_argument(name + ": is " + text(value) + ", expected " + text(least) + " to " + text(most));
+        throw std::invalid_argument(name + ": is " + shortest_text(value) + ", expected " + shortest_text(least) +
+                                    " to " + shortest_text(most));
 }
 
 void positive(const std::string& name, double value) {
     if (!(value > 0 && value <= 1e6))
-        throw std::invalid_argument(name + ": is " + text(value) + ", expected more than 0 and at most 1e6");
+        throw std::invalid_argument(name + ": is " + shortest_text(value) + ", expected more than 0 and at most 1e6");
 }
 
 } // namespace
@@ -50,7 +46,7 @@ void check_eztree(const EzTreeParameters& p) {
     within("leaves.start", p.leaf_start, 0, 1);
     positive("leaves.size", p.leaf_size);
     if (!(p.leaf_size_variance >= 0 && p.leaf_size_variance < 1))
-        throw std::invalid_argument("leaves.sizeVariance: is " + text(p.leaf_size_variance) +
+        throw std::invalid_argument("leaves.sizeVariance: is " + shortest_text(p.leaf_size_variance) +
                                     ", expected at least 0 and less than 1");
     double branches = 1, all = 1;
     for (std::size_t n = 0; n < static_cast<std::size_t>(p.levels); ++n) {
@@ -59,7 +55,7 @@ void check_eztree(const EzTreeParameters& p) {
     }
     all += branches * (p.leaf_count + (p.evergreen ? 0 : 1));
     if (!(all <= kMostItems))
-        throw std::invalid_argument("branch.children: make " + text(all) +
+        throw std::invalid_argument("branch.children: make " + shortest_text(all) +
                                     " branches and leaves, expected at most 5e7");
     if (!p.trellis.enabled) return;
     for (int k = 0; k < 3; ++k) within("trellis.position", p.trellis.position[k], -1e6, 1e6);

@@ -1,14 +1,12 @@
+#include "../model/drawn_pose.h"
 #include "merge_joints.h"
-#include "skin.h"
 #include <algorithm>
 #include <cassert>
 
 namespace bough {
 
 GroupFrames drawn_frames(const Tree& tree, const JointGroups& groups) {
-    std::vector<Mat3> R_wb;
-    std::vector<Vec3> x_w;
-    drawn_pose(tree, R_wb, x_w);
+    const auto [R_wb, x_w] = drawn_pose(tree);
     GroupFrames frames;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         frames.R_wg.push_back(R_wb[std::size_t(groups.lead[g])]);
@@ -34,9 +32,7 @@ constexpr std::size_t most_ends = 10000;
 
 MergeError::MergeError(const Tree& tree, const JointGroups& groups)
     : groups_(groups), drawn_(drawn_frames(tree, groups)), R_wg_(groups.size()), x_w_(groups.size()) {
-    std::vector<Mat3> R_wb;
-    std::vector<Vec3> x_w;
-    drawn_pose(tree, R_wb, x_w);
+    const auto [R_wb, x_w] = drawn_pose(tree);
     const std::size_t n = tree.size_bodies(), picked = std::min(n, most_ends);
     for (std::size_t k = 0; k < picked; ++k) {
         const std::size_t i = k * n / picked, g = std::size_t(groups.group[i]);

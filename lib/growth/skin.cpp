@@ -111,8 +111,7 @@ void close_part(Skin& skin, const char* name, const Vec3& color) {
 
 Skin build_skin(const Tree& tree, const SkinOptions& options) {
     assert(options.sides >= 3);
-    DrawnPose pose;
-    drawn_pose(tree, pose.R_wb, pose.x_w);
+    const DrawnPose pose = drawn_pose(tree);
     const Chains chains = find_chains(tree);
     const std::vector<int> sides = find_sides(tree, chains, options.sides);
     Skin skin;

@@ -47,9 +47,6 @@ struct Skin {
 
 Skin build_skin(const Tree&, const SkinOptions&);
 
-// Where each body stands when drawn (theta = 0): R_wb and joint position x_w, one forward sweep of (7) and (10).
-void drawn_pose(const Tree&, std::vector<Mat3>& R_wb, std::vector<Vec3>& x_w);
-
 // Linear blend skinning: positions and normals for the bodies' current frames. R_wb, x_w are arrays over bodies (world
 // from body, own joint in world). Keeps the drawn inverse frames, so that a frame costs O(bodies + vertices). Keeps a
 // reference to the skin, which must outlive it. Each vertex is worked out alone: thread count cannot change the result.

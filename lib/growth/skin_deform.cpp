@@ -1,27 +1,13 @@
+#include "../model/drawn_pose.h"
 #include "skin.h"
 #include <cassert>
 
 namespace bough {
 
-void drawn_pose(const Tree& tree, std::vector<Mat3>& R_wb, std::vector<Vec3>& x_w) {
-    const std::size_t n = tree.size_bodies();
-    R_wb.resize(n);
-    x_w.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const Mat3 R_pj = tree.joint_rotation[i].toRotationMatrix();
-        if (tree.parent[i] < 0) {
-            R_wb[i] = R_pj;
-            x_w[i] = tree.joint_position[i];
-        } else {
-            const std::size_t p = std::size_t(tree.parent[i]);
-            R_wb[i] = R_wb[p] * R_pj;
-            x_w[i] = x_w[p] + R_wb[p] * tree.joint_position[i];
-        }
-    }
-}
-
 SkinDeformer::SkinDeformer(const Skin& skin, const Tree& tree) : skin_(skin) {
-    drawn_pose(tree, drawn_R_bw_, drawn_x_w_);
+    DrawnPose drawn = drawn_pose(tree);
+    drawn_R_bw_ = std::move(drawn.R_wb);
+    drawn_x_w_ = std::move(drawn.x_w);
     for (Mat3& R : drawn_R_bw_) R.transposeInPlace();
 }
 

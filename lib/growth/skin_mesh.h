@@ -1,15 +1,10 @@
 // skin_mesh.h: what the builders of a skin share (private to skin*.cpp): appending vertices, and the shapes that
 // build_skin puts together. All take the drawn pose R_wb, x_w (arrays over bodies) and append to a Skin.
 #pragma once
+#include "../model/drawn_pose.h"
 #include "skin.h"
 
 namespace bough {
-
-struct DrawnPose {
-    std::vector<Mat3> R_wb;
-    std::vector<Vec3> x_w;
-    Vec3 at(std::size_t body, const Vec3& p_b) const { return x_w[body] + R_wb[body] * p_b; }
-};
 
 // Which bodies move a vertex: the first with weight 1 - second's.
 struct Binding {

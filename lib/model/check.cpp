@@ -1,20 +1,16 @@
+#include "shortest_text.h"
 #include "splines.h"
 #include "tree.h"
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <array>
-#include <charconv>
 #include <limits>
 
 namespace bough {
 namespace {
 
 std::string text(double value) {
-    std::array<char, 32> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return std::string(buffer.data(), end);
+    return shortest_text(value);
 }
-
 std::string text(std::size_t value) {
     return std::to_string(value);
 }

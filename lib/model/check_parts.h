@@ -2,16 +2,20 @@
 // without its first slash.
 #pragma once
 #include "scene.h"
+#include "shortest_text.h"
 
 namespace bough {
 
-std::string shortest_text(double); // that reads back as the same number
 std::optional<Defect> finite(const std::string& field, const Vec3&);
 std::optional<Defect> finite(const std::string& field, double);
 std::optional<Defect> at_least(const std::string& field, double value, double low);
 std::optional<Defect> above_zero(const std::string& field, double value);
 // `trees`: how many the scene has; 0: the caller has the one tree that it is for.
 std::optional<Defect> check(const Selector&, const std::string& at, std::size_t trees);
+std::optional<Defect> check(const Wind&);
+std::optional<Defect> check(const Fracture&, std::size_t trees);
+std::optional<Defect> check(const Ball&, const std::string& at);
+std::optional<Defect> check(const Contact&);
 std::optional<Defect> check(const Walker&, const std::string& at, std::size_t trees);
 std::optional<Defect> check(const Wood&, std::size_t trees);
 std::optional<Defect> check(const StaticLoad&);

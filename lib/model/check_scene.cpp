@@ -1,13 +1,6 @@
 #include "check_parts.h"
-#include <array>
-#include <charconv>
 
 namespace bough {
-std::string shortest_text(double value) {
-    std::array<char, 32> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return std::string(buffer.data(), end);
-}
 
 std::optional<Defect> finite(const std::string& field, const Vec3& value) {
     if (value.allFinite()) return std::nullopt;
@@ -31,106 +24,12 @@ std::optional<Defect> finite(const std::string& field, double value) {
 
 namespace {
 
-std::string text(double value) {
-    return shortest_text(value);
-}
-
 std::optional<Defect> check(const Placement& tree, const std::string& at) {
     if (tree.file.empty()) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
     if (auto defect = finite(at + "/position", tree.position)) return defect;
     if (!std::isfinite(tree.yaw)) return Defect{at + "/yaw", -1, "is not finite, expected degrees"};
     if (!(std::abs(tree.start) <= 1e9))
-        return Defect{at + "/start", -1, "is " + text(tree.start) + ", expected seconds, -1e9 to 1e9"};
-    return std::nullopt;
-}
-
-std::optional<Defect> number(const std::string& field, double value) {
-    if (std::isfinite(value)) return std::nullopt;
-    return Defect{field, -1, "is not finite, expected a number"};
-}
-
-constexpr std::int64_t most_cells = std::int64_t(1) << 22; // what lanes look up (wide_pair.h)
-constexpr std::int32_t most_octaves = 32;
-
-// A list of one value or of one a cell, each of which passes.
-template <class A, class Check>
-std::optional<Defect> check_cells(const std::string& at, const A& list, std::int64_t cells, Check&& passes) {
-    if (list.size() != 1 && std::int64_t(list.size()) != cells)
-        return Defect{at, -1,
-                      "has " + std::to_string(list.size()) + " values, expected 1 or " + std::to_string(cells) +
-                          " (one for each cell)"};
-    for (std::size_t k = 0; k < list.size(); ++k)
-        if (auto defect = passes(list.size() == 1 ? at : at + "/" + std::to_string(k), list[k])) return defect;
-    return std::nullopt;
-}
-
-std::optional<Defect> check(const WindGrid& grid) {
-    const std::string at = "wind/grid/";
-    if (!std::isfinite(grid.x) || !std::isfinite(grid.z))
-        return Defect{at + "origin", -1, "is not finite, expected finite numbers"};
-    if (auto defect = above_zero(at + "cell", grid.cell)) return defect;
-    for (const auto& [key, count] : {std::pair{"columns", grid.columns}, {"rows", grid.rows}})
-        if (count < 1) return Defect{at + key, -1, "is " + std::to_string(count) + ", expected 1 or more"};
-    const std::int64_t cells = std::int64_t(grid.columns) * grid.rows;
-    if (cells > most_cells)
-        return Defect{"wind/grid", -1,
-                      "has " + std::to_string(cells) + " cells, expected at most " + std::to_string(most_cells)};
-    if (!grid.velocity.empty())
-        if (auto defect = check_cells(at + "velocity", grid.velocity, cells,
-                                      [](const std::string& field, const Vec3& v) { return finite(field, v); }))
-            return defect;
-    const auto octaves = [](const std::string& field, std::int32_t value) -> std::optional<Defect> {
-        if (value >= 0 && value <= most_octaves) return std::nullopt;
-        return Defect{field, -1,
-                      "is " + std::to_string(value) + ", expected 0 to " + std::to_string(most_octaves) + " octaves"};
-    };
-    if (auto defect = check_cells(at + "octaves", grid.octaves, cells, octaves)) return defect;
-    if (auto defect = check_cells(at + "persistence", grid.persistence, cells,
-                                  [](const std::string& field, double value) { return at_least(field, value, 0); }))
-        return defect;
-    if (auto defect = check_cells(at + "phase", grid.phase, cells, number)) return defect;
-    return above_zero(at + "frequency", grid.frequency);
-}
-
-std::optional<Defect> check(const WindSwirl& swirl) {
-    const std::string at = "wind/swirl/";
-    if (!std::isfinite(swirl.x) || !std::isfinite(swirl.z))
-        return Defect{at + "center", -1, "is not finite, expected finite numbers"};
-    const std::size_t keys = swirl.radius.empty() ? 1 : swirl.radius.size();
-    if (swirl.angle.size() != keys)
-        return Defect{at + "angle", -1,
-                      "has " + std::to_string(swirl.angle.size()) + " keys, expected " + std::to_string(keys) +
-                          (swirl.radius.empty() ? " (radius names no more)" : " (one for each radius)")};
-    for (std::size_t k = 0; k < swirl.radius.size(); ++k) {
-        const std::string field = at + "radius/" + std::to_string(k);
-        if (auto defect = at_least(field, swirl.radius[k], 0)) return defect;
-        if (k > 0 && !(swirl.radius[k] > swirl.radius[k - 1]))
-            return Defect{field, -1, "is " + text(swirl.radius[k]) + ", expected more than the one before it"};
-    }
-    for (std::size_t k = 0; k < keys; ++k)
-        if (!(std::abs(swirl.angle[k]) <= 180))
-            return Defect{at + "angle" + (keys > 1 ? "/" + std::to_string(k) : ""), -1,
-                          "is " + text(swirl.angle[k]) + ", expected -180 to 180 degrees"};
-    if (auto defect = above_zero(at + "period", swirl.period)) return defect;
-    return swirl.wavelength ? above_zero(at + "wavelength", *swirl.wavelength) : std::nullopt;
-}
-
-std::optional<Defect> check(const Wind& wind) {
-    if (auto defect = finite("wind/velocity", wind.velocity)) return defect;
-    if (auto defect = above_zero("wind/reference_height", wind.reference_height)) return defect;
-    if (auto defect = at_least("wind/profile", wind.profile, 0)) return defect;
-    if (auto defect = at_least("wind/turbulence", wind.turbulence, 0)) return defect;
-    if (auto defect = at_least("wind/gust_factor", wind.gust_factor, 1)) return defect;
-    if (auto defect = above_zero("wind/gust_period", wind.gust_period)) return defect;
-    if (wind.period)
-        if (auto defect = above_zero("wind/period", *wind.period)) return defect;
-    if (wind.grid)
-        if (auto defect = check(*wind.grid)) return defect;
-    if (wind.swirl)
-        if (auto defect = check(*wind.swirl)) return defect;
-    if (!wind.shelter) return std::nullopt;
-    if (auto defect = above_zero("wind/shelter/cell", wind.shelter->cell)) return defect;
-    if (wind.velocity.isZero(0)) return Defect{"wind/shelter", -1, "needs a direction, but /wind/velocity is zero"};
+        return Defect{at + "/start", -1, "is " + shortest_text(tree.start) + ", expected seconds, -1e9 to 1e9"};
     return std::nullopt;
 }
 
@@ -147,8 +46,8 @@ std::optional<Defect> check(const Pull& pull, const std::string& at, std::size_t
         if (!std::isfinite(pull.time[i])) return Defect{at + "/time", entry, "is not finite, expected seconds"};
         if (i > 0 && !(pull.time[i] > pull.time[i - 1]))
             return Defect{at + "/time", entry,
-                          "is " + text(pull.time[i]) + ", expected more than " + text(pull.time[i - 1]) +
-                              " (times rise)"};
+                          "is " + shortest_text(pull.time[i]) + ", expected more than " +
+                              shortest_text(pull.time[i - 1]) + " (times rise)"};
         if (!pull.force[i].allFinite()) return Defect{at + "/force", entry, "is not finite, expected newtons"};
     }
     return std::nullopt;
@@ -160,7 +59,8 @@ std::optional<Defect> check_keys(const std::vector<double>& time, const std::str
         if (!std::isfinite(time[i])) return Defect{at, std::int64_t(i), "is not finite, expected seconds"};
         if (i > 0 && !(time[i] > time[i - 1]))
             return Defect{at, std::int64_t(i),
-                          "is " + text(time[i]) + ", expected more than " + text(time[i - 1]) + " (times rise)"};
+                          "is " + shortest_text(time[i]) + ", expected more than " + shortest_text(time[i - 1]) +
+                              " (times rise)"};
     }
     return std::nullopt;
 }
@@ -196,7 +96,7 @@ std::optional<Defect> check(const std::vector<RootMotion>& motions, std::size_t 
     for (std::size_t i = 0; i < motion.rotation.size(); ++i)
         if (!(std::abs(motion.rotation[i].norm() - 1) <= 1e-6))
             return Defect{at + "/rotation", std::int64_t(i),
-                          "has length " + text(motion.rotation[i].norm()) + ", expected a unit quaternion"};
+                          "has length " + shortest_text(motion.rotation[i].norm()) + ", expected a unit quaternion"};
     return std::nullopt;
 }
 
@@ -209,47 +109,8 @@ std::optional<Defect> check(const JointLimit& limit) {
             if (most[k] > 0 && most[k] <= 180) continue;
             const bool whole = most == Vec3::Constant(most[k]);
             return Defect{one ? "joint_limit" : std::string("joint_limit/") + kind, whole ? -1 : k,
-                          "is " + text(most[k]) + ", expected degrees, more than 0 and at most 180"};
+                          "is " + shortest_text(most[k]) + ", expected degrees, more than 0 and at most 180"};
         }
-    return std::nullopt;
-}
-
-std::optional<Defect> check(const Fracture& fracture, std::size_t trees) {
-    const auto torque = [](const std::string& field, double value) -> std::optional<Defect> {
-        if (value >= 0) return std::nullopt; // NaN is not
-        return Defect{"fracture/" + field, -1, "is " + text(value) + ", expected 0 or more"};
-    };
-    for (const auto& [field, value] : {std::pair{"branch", fracture.branch},
-                                       {"leaf", fracture.leaf},
-                                       {"petal", fracture.petal},
-                                       {"fruit", fracture.fruit},
-                                       {"strength", fracture.strength}})
-        if (auto defect = torque(field, value)) return defect;
-    if (auto defect = at_least("fracture/spread", fracture.spread, 0)) return defect;
-    for (std::size_t i = 0; i < fracture.joints.size(); ++i) {
-        const std::string at = "joints/" + std::to_string(i);
-        if (auto defect = check(fracture.joints[i].on, "fracture/" + at + "/on", trees)) return defect;
-        if (auto defect = torque(at + "/torque", fracture.joints[i].torque)) return defect;
-    }
-    return std::nullopt;
-}
-
-std::optional<Defect> check(const Ball& ball, const std::string& at) {
-    if (auto defect = finite(at + "/position", ball.position)) return defect;
-    if (auto defect = finite(at + "/velocity", ball.velocity)) return defect;
-    if (auto defect = finite(at + "/angular_velocity", ball.angular_velocity)) return defect;
-    if (auto defect = above_zero(at + "/radius", ball.radius)) return defect;
-    return above_zero(at + "/mass", ball.mass);
-}
-
-std::optional<Defect> check(const Contact& contact) {
-    if (!(contact.restitution >= 0 && contact.restitution <= 1))
-        return Defect{"contact/restitution", -1, "is " + text(contact.restitution) + ", expected 0 to 1"};
-    if (auto defect = at_least("contact/friction", contact.friction, 0)) return defect;
-    if (auto defect = at_least("contact/rolling", contact.rolling, 0)) return defect;
-    if (auto defect = at_least("contact/penalty", contact.penalty, 0)) return defect;
-    if (!std::isfinite(contact.ground_height))
-        return Defect{"contact/ground_height", -1, "is not finite, expected metres"};
     return std::nullopt;
 }
 
@@ -288,7 +149,7 @@ std::optional<Defect> check(const Selector& on, const std::string& at, std::size
     }
     if (auto defect = index("/branch", on.branch)) return defect;
     if (on.at >= 0 && on.at <= 1) return std::nullopt;
-    return Defect{at + "/at", -1, "is " + text(on.at) + ", expected 0 to 1"};
+    return Defect{at + "/at", -1, "is " + shortest_text(on.at) + ", expected 0 to 1"};
 }
 
 std::optional<Defect> check(const Scene& scene) {

@@ -1,19 +1,12 @@
 #include "material_change.h"
 #include "branch_mode.h"
+#include "check_parts.h"
 #include "wood.h"
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
 namespace bough {
 namespace {
-
-std::string text(double value) {
-    std::array<char, 32> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return std::string(buffer.data(), end);
-}
 
 const Material& own_material(const Tree& tree) {
     if (const Material* own = find_wood(tree.material)) return *own;
@@ -26,18 +19,12 @@ const Material& own_material(const Tree& tree) {
 } // namespace
 
 std::optional<Defect> check(const MaterialChange& change) {
-    const std::array<std::pair<const char*, const std::optional<double>*>, 4> fields{
-        {{"E", &change.youngs_modulus},
-         {"G", &change.shear_modulus},
-         {"density", &change.density},
-         {"damping_ratio", &change.damping_ratio}}};
-    for (const auto& [name, value] : fields) {
-        if (!*value) continue;
-        const bool zero_allowed = value == &change.damping_ratio;
-        if (!std::isfinite(**value) || **value < 0 || (**value == 0 && !zero_allowed))
-            return Defect{std::string("material/") + name, -1,
-                          "is " + text(**value) + ", expected " + (zero_allowed ? "0 or more" : "more than 0")};
-    }
+    for (const auto& [field, value] : {std::pair{"material/E", change.youngs_modulus},
+                                       {"material/G", change.shear_modulus},
+                                       {"material/density", change.density}})
+        if (value)
+            if (auto defect = above_zero(field, *value)) return defect;
+    if (change.damping_ratio) return at_least("material/damping_ratio", *change.damping_ratio, 0);
     return std::nullopt;
 }
 

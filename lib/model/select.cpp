@@ -1,3 +1,4 @@
+#include "drawn_pose.h"
 #include "scene.h"
 #include <algorithm>
 #include <limits>
@@ -7,25 +8,6 @@
 namespace bough {
 
 namespace {
-
-// World frame and joint of every body in the drawn pose.
-struct Drawn {
-    std::vector<Quat> q;
-    std::vector<Vec3> x;
-};
-
-Drawn drawn(const Tree& tree) {
-    Drawn d;
-    d.q.resize(tree.size_bodies());
-    d.x.resize(tree.size_bodies());
-    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        const std::int32_t p = tree.parent[i];
-        const Quat q = p < 0 ? Quat(Quat::Identity()) : d.q[std::size_t(p)];
-        d.x[i] = q * tree.joint_position[i] + (p < 0 ? Vec3::Zero() : d.x[std::size_t(p)]);
-        d.q[i] = (q * tree.joint_rotation[i]).normalized();
-    }
-    return d;
-}
 
 const TreeRange& range_of(const std::vector<TreeRange>& trees, std::int32_t tree) {
     if (tree < 0 || std::size_t(tree) >= trees.size())
@@ -71,11 +53,11 @@ Selected by_branch(const Tree& joined, const TreeRange& range, const Selector& s
 
 Selected by_nearest(const Tree& joined, const Selector& selector) {
     if (joined.size_bodies() == 0) throw std::out_of_range("nearest body, but there are no bodies");
-    const Drawn pose = drawn(joined);
+    const DrawnPose pose = drawn_pose(joined);
     Selected best{0, Vec3::Zero()};
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < joined.size_bodies(); ++i) {
-        const Vec3 p = pose.q[i].conjugate() * Vec3(selector.nearest - pose.x[i]);
+        const Vec3 p = pose.R_wb[i].transpose() * Vec3(selector.nearest - pose.x_w[i]);
         const Vec3 on_axis(0, 0, std::clamp(p.z(), 0.0, joined.size[i][0]));
         const double distance = (p - on_axis).squaredNorm();
         if (distance < least) {

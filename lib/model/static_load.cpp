@@ -1,5 +1,6 @@
 #include "static_load.h"
 #include "body_shape.h"
+#include "drawn_pose.h"
 #include <cmath>
 
 namespace bough {
@@ -37,13 +38,11 @@ double area_from_above(const Tree& tree, std::size_t i, const Mat3& R_wb) {
 
 LoadLaid lay_load(Tree& tree, const StaticLoad& load) {
     const std::size_t n = tree.size_bodies();
-    std::vector<Quat> q(n);
+    const std::vector<Mat3> R_wb = drawn_pose(tree).R_wb;
     tree.load.resize(n, 0.0);
     LoadLaid laid;
     for (std::size_t i = 0; i < n; ++i) {
-        const std::int32_t p = tree.parent[i];
-        q[i] = p < 0 ? tree.joint_rotation[i] : Quat((q[std::size_t(p)] * tree.joint_rotation[i]).normalized());
-        const double added = density_of(load, tree.kind[i]) * area_from_above(tree, i, q[i].toRotationMatrix());
+        const double added = density_of(load, tree.kind[i]) * area_from_above(tree, i, R_wb[i]);
         if (!(added > 0)) continue;
         tree.inertia[i] *= 1 + added / tree.mass[i];
         tree.mass[i] += added;

@@ -7,13 +7,13 @@
 namespace bough {
 
 RigidComparison::RigidComparison(const Tree& whole) : tree_(whole), tips_(tip_bodies(whole)) {
-    const DrawnPlaces drawn = drawn_places(whole);
-    const auto end = [&](std::size_t i) { return Vec3(drawn.x[i] + drawn.R[i].col(2) * whole.size[i][0]); };
+    const DrawnPose drawn = drawn_pose(whole);
+    const auto end = [&](std::size_t i) { return Vec3(drawn.x_w[i] + drawn.R_wb[i].col(2) * whole.size[i][0]); };
     for (const std::size_t i : tips_) drawn_.push_back(end(i));
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < whole.size_bodies(); ++i) {
-        if (whole.parent[i] < 0) low = std::min(low, drawn.x[i].y());
-        high = std::max({high, drawn.x[i].y(), end(i).y()});
+        if (whole.parent[i] < 0) low = std::min(low, drawn.x_w[i].y());
+        high = std::max({high, drawn.x_w[i].y(), end(i).y()});
     }
     found_.height = high - low;
     found_.tips = tips_.size();

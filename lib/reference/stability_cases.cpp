@@ -1,5 +1,6 @@
 #include "stability_cases.h"
 #include "../growth/segment.h"
+#include "../model/drawn_pose.h"
 #include "../model/wood.h"
 #include <algorithm>
 #include <cmath>
@@ -234,16 +235,10 @@ void own_trees(List& list) {
 
 // Highest drawn joint, and how far from the trunk's foot any is.
 std::pair<double, double> extent(const Tree& tree) {
-    std::vector<Quat> q(tree.size_bodies());
-    std::vector<Vec3> x(tree.size_bodies());
     double top = 0, wide = 0;
-    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        const std::int32_t p = tree.parent[i];
-        const Quat above = p < 0 ? Quat(Quat::Identity()) : q[std::size_t(p)];
-        x[i] = above * tree.joint_position[i] + (p < 0 ? Vec3::Zero() : x[std::size_t(p)]);
-        q[i] = (above * tree.joint_rotation[i]).normalized();
-        top = std::max(top, x[i].y());
-        wide = std::max(wide, std::hypot(x[i].x(), x[i].z()));
+    for (const Vec3& x : drawn_pose(tree).x_w) {
+        top = std::max(top, x.y());
+        wide = std::max(wide, std::hypot(x.x(), x.z()));
     }
     return {top, wide};
 }

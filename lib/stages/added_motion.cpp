@@ -2,6 +2,7 @@
 #include "air.h"
 #include "leaf_air.h"
 #include "wind.h"
+#include "wind_field.h"
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -19,13 +20,8 @@ struct Mean {
 Mean mean_at(const Wind& wind, const Vec3& place) {
     if (!wind.grid) return {wind.velocity, false};
     const WindGrid& grid = *wind.grid;
-    const auto along = [&](double from, double to, std::int32_t count) {
-        return std::size_t(std::clamp((to - from) / grid.cell, 0.0, double(count - 1)));
-    };
-    const std::size_t cell =
-        along(grid.z, place.z(), grid.rows) * std::size_t(grid.columns) + along(grid.x, place.x(), grid.columns);
-    const auto pick = [cell](const auto& list) { return list.size() == 1 ? list[0] : list[cell]; };
-    return {grid.velocity.empty() ? wind.velocity : pick(grid.velocity), pick(grid.octaves) > 0};
+    const std::size_t cell = cell_at(grid, place.x(), place.z());
+    return {grid.velocity.empty() ? wind.velocity : of_cell(grid.velocity, cell), of_cell(grid.octaves, cell) > 0};
 }
 
 // turned: -1, 0, 1 of the swirl's largest angle.
@@ -54,14 +50,14 @@ struct Loads {
     }
 };
 
-void add_wind(const Tree& tree, const DrawnPlaces& drawn, const Scene& scene, int turned, Loads& loads) {
+void add_wind(const Tree& tree, const DrawnPose& drawn, const Scene& scene, int turned, Loads& loads) {
     const LeafTerms<double> leaf = leaf_terms<double>(scene);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        const Vec3 at = drawn.x[i] + drawn.R[i] * tree.com[i];
+        const Vec3 at = drawn.x_w[i] + drawn.R_wb[i] * tree.com[i];
         const Vec3 u = peak_wind(*scene.wind, at, turned);
         const double drag = drag_area(tree.kind[i], tree.size[i], scene.air_density, plate_kappa(scene));
         if (!is_flat(tree.kind[i])) {
-            loads.add(i, at, drag * air_force(tree.kind[i], drawn.R[i], u).force);
+            loads.add(i, at, drag * air_force(tree.kind[i], drawn.R_wb[i], u).force);
             continue;
         }
         const double speed = u.norm();
@@ -72,10 +68,10 @@ void add_wind(const Tree& tree, const DrawnPlaces& drawn, const Scene& scene, in
 }
 
 // Angle of each joint under the loads on all it carries; `more`: further moments about the joint's axes, of either sign.
-void raise_angles(const Tree& tree, const DrawnPlaces& drawn, double scale, Loads loads, const std::vector<Vec3>& more,
+void raise_angles(const Tree& tree, const DrawnPose& drawn, double scale, Loads loads, const std::vector<Vec3>& more,
                   std::vector<double>& angle) {
     for (std::size_t i = tree.size_bodies(); i-- > 0;) {
-        const Vec3 moment = drawn.R[i].transpose() * (loads.moment[i] - drawn.x[i].cross(loads.force[i]));
+        const Vec3 moment = drawn.R_wb[i].transpose() * (loads.moment[i] - drawn.x_w[i].cross(loads.force[i]));
         for (int k = 0; k < 3; ++k) {
             const double load = std::max(std::abs(moment[k]), k < 2 ? loads.own[i] : 0) + more[i][k];
             const double K = scale * tree.stiffness[i][k];
@@ -88,35 +84,23 @@ void raise_angles(const Tree& tree, const DrawnPlaces& drawn, double scale, Load
     }
 }
 
-void add_pulls(const Tree& tree, const std::vector<TreeRange>& ranges, const DrawnPlaces& drawn, const Scene& scene,
+void add_pulls(const Tree& tree, const std::vector<TreeRange>& ranges, const DrawnPose& drawn, const Scene& scene,
                std::vector<Vec3>& more) {
     for (const Pull& pull : scene.pulls)
         for (const Selected& on : select(tree, ranges, pull.on)) {
-            const Vec3 at = drawn.x[on.body] + drawn.R[on.body] * on.point_b;
+            const Vec3 at = drawn.x_w[on.body] + drawn.R_wb[on.body] * on.point_b;
             for (auto i = std::int64_t(on.body); i >= 0; i = tree.parent[std::size_t(i)]) {
                 const auto j = std::size_t(i);
                 Vec3 most = Vec3::Zero();
                 for (const Vec3& force : pull.force)
-                    most = most.cwiseMax(Vec3(drawn.R[j].transpose() * Vec3(at - drawn.x[j]).cross(force)).cwiseAbs());
+                    most = most.cwiseMax(
+                        Vec3(drawn.R_wb[j].transpose() * Vec3(at - drawn.x_w[j]).cross(force)).cwiseAbs());
                 more[j] += most;
             }
         }
 }
 
 } // namespace
-
-DrawnPlaces drawn_places(const Tree& tree) {
-    const std::size_t n = tree.size_bodies();
-    DrawnPlaces d{std::vector<Mat3>(n), std::vector<Vec3>(n)};
-    for (std::size_t i = 0; i < n; ++i) {
-        const bool root = tree.parent[i] < 0;
-        const auto p = std::size_t(root ? 0 : tree.parent[i]);
-        const Mat3 R = tree.joint_rotation[i].toRotationMatrix();
-        d.R[i] = root ? R : Mat3(d.R[p] * R);
-        d.x[i] = root ? tree.joint_position[i] : Vec3(d.x[p] + d.R[p] * tree.joint_position[i]);
-    }
-    return d;
-}
 
 std::vector<double> composite_reach(const Tree& tree) {
     std::vector<double> reach(tree.size_bodies());
@@ -139,7 +123,7 @@ std::string no_estimate(const Scene& scene) {
 }
 
 std::vector<double> added_motion(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene) {
-    const DrawnPlaces drawn = drawn_places(tree);
+    const DrawnPose drawn = drawn_pose(tree);
     std::vector<Vec3> more(tree.size_bodies(), Vec3::Zero());
     add_pulls(tree, ranges, drawn, scene, more);
     std::vector<double> motion(tree.size_bodies(), 0);
@@ -149,7 +133,7 @@ std::vector<double> added_motion(const Tree& tree, const std::vector<TreeRange>&
         if (scene.wind) add_wind(tree, drawn, scene, turned, loads);
         const double weight = scene.pose == Pose::drawn ? 0 : scene.pose == Pose::rest ? 1 : 1 / swing;
         for (std::size_t i = 0; weight > 0 && i < tree.size_bodies(); ++i)
-            loads.add(i, drawn.x[i] + drawn.R[i] * tree.com[i], weight * tree.mass[i] * scene.gravity);
+            loads.add(i, drawn.x_w[i] + drawn.R_wb[i] * tree.com[i], weight * tree.mass[i] * scene.gravity);
         raise_angles(tree, drawn, scene.stiffness_scale, std::move(loads), more, motion);
     }
     const std::vector<double> reach = composite_reach(tree);

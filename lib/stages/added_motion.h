@@ -14,19 +14,13 @@
 // by 16, 32 and 149 mm at most, at ends that whip. What a trial run found (reference/merge_below.h) it keeps in that run.
 // Reads a checked tree (joined, stiffness not yet scaled by the scene). O(n) and O(depth) a pull. Errors none.
 #pragma once
+#include "../model/drawn_pose.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
 #include <string>
 #include <vector>
 
 namespace bough {
-
-// World place and rotation of each body in the drawn pose.
-struct DrawnPlaces {
-    std::vector<Mat3> R;
-    std::vector<Vec3> x; // [m] own joint
-};
-DrawnPlaces drawn_places(const Tree&);
 
 // [m] of each joint's composite.
 std::vector<double> composite_reach(const Tree&);

@@ -83,17 +83,17 @@ HeldJoints hold_rigid(Tree& tree, const std::vector<TreeRange>& ranges, const Sc
         hold(tree, held.subtrees, [&](std::size_t i) { return in[i] != 0; });
     }
     if (by.box || by.error > 0) {
-        const DrawnPlaces drawn = drawn_places(tree);
+        const DrawnPose drawn = drawn_pose(tree);
         if (by.box)
             hold(tree, held.box, [&](std::size_t i) {
-                return (drawn.x[i].array() >= by.box->least.array()).all() &&
-                       (drawn.x[i].array() <= by.box->most.array()).all();
+                return (drawn.x_w[i].array() >= by.box->least.array()).all() &&
+                       (drawn.x_w[i].array() <= by.box->most.array()).all();
             });
         if (by.error > 0) {
             if (const std::string why = no_estimate(scene); !why.empty())
                 throw std::domain_error("/simulate/error: " + why);
             std::vector<double> motion = added_motion(tree, ranges, scene);
-            for (std::size_t i = 0; by.view && i < motion.size(); ++i) motion[i] *= pixels_at(*by.view, drawn.x[i]);
+            for (std::size_t i = 0; by.view && i < motion.size(); ++i) motion[i] *= pixels_at(*by.view, drawn.x_w[i]);
             held.error = hold_small(tree, motion, by.error);
         }
     }

@@ -94,7 +94,7 @@ void fit_air(const Tree& whole, Reduced& r, const std::vector<std::uint8_t>& joi
         if (own) reach[g] = std::max(reach[g], (r.offset[i] + r.rotation[i] * Vec3(0, 0, whole.size[i][0])).norm());
     });
     const Mat3 one = Mat3::Identity();
-    const DrawnPlaces drawn = toward.isZero() ? DrawnPlaces{} : drawn_places(t);
+    const DrawnPose drawn = toward.isZero() ? DrawnPose{} : drawn_pose(t);
     for (std::size_t g = 0; g < joined.size(); ++g) {
         if (!joined[g]) continue;
         std::array<Vec3, 64> force;
@@ -108,7 +108,7 @@ void fit_air(const Tree& whole, Reduced& r, const std::vector<std::uint8_t>& joi
         }
         Fits fits;
         for (std::size_t k = 0; k < directions.size(); ++k) {
-            const double w = toward.isZero() ? 1 : weight_of((drawn.R[g] * directions[k]).dot(toward));
+            const double w = toward.isZero() ? 1 : weight_of((drawn.R_wb[g] * directions[k]).dot(toward));
             const Vec3 cylinder = air_force(Kind::branch, one, directions[k]).force;
             fits.ff += w * force[k].squaredNorm();
             fits.fc += w * force[k].dot(cylinder);

@@ -14,10 +14,6 @@ constexpr std::size_t most_octaves = 32;
 constexpr double most_rings = 1 << 22; // what lanes look up (wide_pair.h)
 constexpr std::size_t most_entries = 1 << 22;
 
-template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell) {
-    return list.size() == 1 ? list.front() : list[cell];
-}
-
 // Cosine and sine of psi_k.
 struct OctavePhases {
     std::array<double, most_octaves> c, s;
@@ -95,12 +91,7 @@ bool steady(const Wind& wind) {
 Vec3 field_velocity(const Wind& wind, const WindWeather& weather, double x, double z, double t) {
     Vec3 v = wind.velocity * weather.gust + weather.turbulence;
     if (wind.grid) {
-        const WindGrid& grid = *wind.grid;
-        const auto along = [&](double place, std::int32_t count) {
-            return std::size_t(std::clamp(std::floor(place * (1 / grid.cell)), 0.0, double(count - 1)));
-        };
-        const std::size_t cell =
-            along(z - grid.z, grid.rows) * std::size_t(grid.columns) + along(x - grid.x, grid.columns);
+        const std::size_t cell = cell_at(*wind.grid, x, z);
         v = cell_velocity(wind, weather, cell, t, OctavePhases(wind.seed));
     }
     if (!wind.swirl) return v;

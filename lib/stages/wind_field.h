@@ -53,6 +53,19 @@ template <class T> Vector3<T> swirled(const Vector3<T>& v, T c, T s) {
 // The clocks of a scene's trees: every start that one has, once, 0 first; one alone where none is ahead.
 std::vector<double> wind_clocks(const Scene&);
 
+// The cell of a grid that holds for the place (x, z) [m]: cells at the border hold for all beyond.
+inline std::size_t cell_at(const WindGrid& grid, double x, double z) {
+    const auto along = [&](double place, std::int32_t count) {
+        return std::size_t(std::clamp(std::floor(place * (1 / grid.cell)), 0.0, double(count - 1)));
+    };
+    return along(z - grid.z, grid.rows) * std::size_t(grid.columns) + along(x - grid.x, grid.columns);
+}
+
+// Of a list of one value, or of one a cell.
+template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell) {
+    return list.size() == 1 ? list.front() : list[cell];
+}
+
 // Directly: the velocity at (x, z) [m] where the profile is 1.
 Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double t);
 
