@@ -9,7 +9,8 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 bool is_number(const std::string& part) {
-    return part.size() <= 9 && std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (part.empty() || part.size() > 9 || (part[0] == '0' && part.size() > 1)) return false;
+    return std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 std::string pointer_of(const SceneOverride& change) {

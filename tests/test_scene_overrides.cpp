@@ -104,6 +104,7 @@ TEST_CASE("what an override does wrong is told with it and its place") {
           "--set trees.3.file=c: /trees/3: is no element of a list of 2, expected 0 to 2 (the last of them adds one)");
     CHECK_THAT(error(two_trees, {"trees.first.file=c"}),
                Catch::StartsWith("--set trees.first.file=c: /trees/first: is no element of a list of 2"));
+    CHECK(error(two_trees, {"trees.00.yaw=3"}).find("/trees/00: is no element of a list of") != std::string::npos);
     CHECK(error(two_trees, {"trees.0.yaw.x=c"}) ==
           "--set trees.0.yaw.x=c: /trees/0/yaw: is an object, expected a number");
     CHECK(error(two_trees, {"trees.1.yaw.x=c"}) ==

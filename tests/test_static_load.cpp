@@ -158,6 +158,35 @@ TEST_CASE("soft twigs with large wet leaves find the balance from the drawn pose
     CHECK(inverse_dynamics(plan, plan.theta_start, none, none, 0).relative() < 1e-11);
 }
 
+TEST_CASE("a tree finds its sag by itself, whatever stands beside it, and one that finds none is named") {
+    Tree soft = make_tree::branched(), stiff = make_tree::branched();
+    for (std::size_t i = 0; i < stiff.size_bodies(); ++i) stiff.stiffness[i] *= 200, soft.stiffness[i] *= 100;
+    for (Tree* tree : {&soft, &stiff}) lay_load(*tree, {20, 1, 1, 5});
+    Tree both = soft;
+    append(both, stiff, Vec3(3, 0, 0), 0);
+    const Vec3 down(0, -g, 0);
+    for (const Pose pose : {Pose::drawn, Pose::settled}) {
+        const StartPose whole = start_pose(both, down, pose);
+        const std::size_t first = soft.size_bodies();
+        const StartPose a = start_pose(soft, down, pose), b = start_pose(stiff, down, pose);
+        for (std::size_t i = 0; i < both.size_bodies(); ++i) {
+            CHECK(whole.theta[i] == (i < first ? a.theta[i] : b.theta[i - first]));
+            const Quat& rest = i < first ? a.joint_rotation[i] : b.joint_rotation[i - first];
+            CHECK(whole.joint_rotation[i].coeffs() == rest.coeffs());
+        }
+    }
+    Tree falls = both;
+    for (std::size_t i = soft.size_bodies(); i < falls.size_bodies(); ++i) falls.stiffness[i] *= 1e-6;
+    try {
+        start_pose(falls, down, Pose::settled);
+        FAIL("the second tree cannot stand");
+    } catch (const std::domain_error& error) {
+        const std::string text = error.what();
+        REQUIRE(text.substr(0, 5) == "body ");
+        CHECK(std::stoul(text.substr(5)) >= soft.size_bodies());
+    }
+}
+
 TEST_CASE("a stem that buckles under its load goes over to where it stands in balance") {
     const double length = 1, r = 0.004;
     make_tree::Wood wood;

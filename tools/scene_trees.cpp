@@ -161,9 +161,6 @@ Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
         throw UsageError(std::string("--shard: not with the scene's ") + together + ", which goes from tree to tree");
     if (scene.wind && scene.wind->shelter)
         throw UsageError("--shard: not with the scene's /wind/shelter, by which trees act on each other");
-    if (scene.pose == Pose::settled || scene.load)
-        throw UsageError(std::string("--shard: not with the scene's ") + (scene.load ? "/load" : "/pose settled") +
-                         ", whose sag is found for all trees together");
     if (scene.simulate) throw UsageError("--shard: not with the scene's /simulate, which joins bodies anew");
     const auto within = [&](std::int32_t tree) { return std::size_t(tree) >= first && std::size_t(tree) < end; };
     Scene part = scene;

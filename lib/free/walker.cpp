@@ -1,5 +1,6 @@
 #include "walker.h"
 #include "../model/drawn_pose.h"
+#include "../model/shortest_text.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -53,7 +54,7 @@ void leap(const Drawn& drawn, const Selected& from, const Selected& to, const Wa
     const double flight = leg.end - leg.start - 2 * walker.push;
     if (!(flight > 0))
         throw std::out_of_range(at + "/time: leaves " + std::to_string(leg.end - leg.start) +
-                                " s for a leap, expected more than the " + std::to_string(2 * walker.push) +
+                                " s for a leap, expected more than the " + shortest_text(2 * walker.push) +
                                 " s of its push and its landing");
     leg.leave = (drawn.at(to) - drawn.at(from)) / flight - gravity * (flight / 2);
     leg.land = leg.leave + gravity * flight;

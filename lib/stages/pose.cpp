@@ -1,6 +1,5 @@
 #include "pose.h"
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "sag.h"
 #include <Eigen/LU>
 #include <algorithm>
 #include <stdexcept>
@@ -9,51 +8,14 @@
 namespace bough {
 namespace {
 
-std::string name_of(const Tree& tree, std::size_t i) {
-    return "body " + std::to_string(i) + " of branch " + std::to_string(tree.branch[i]);
-}
-
-// World from body, turned by theta from the springs' rest.
-Mat3 frame_of(const Tree& tree, const std::vector<Quat>& rest, std::size_t i, const std::vector<Mat3>& R,
-              const Vec3& theta) {
-    const std::int32_t p = tree.parent[i];
-    const Mat3 R_pj = rest[i].toRotationMatrix();
-    return (p < 0 ? R_pj : Mat3(R[std::size_t(p)] * R_pj)) * rotation_from_vector(theta);
-}
-
-// First moment that body i's own turning moves, P of coupled gravity: its mass and its children's composites at their joints. World.
-std::vector<Vec3> turned_moments(const Tree& tree, std::vector<double> mass, const std::vector<Mat3>& R) {
-    const std::size_t n = tree.size_bodies();
-    std::vector<Vec3> P(n);
-    for (std::size_t i = 0; i < n; ++i) P[i] = mass[i] * (R[i] * tree.com[i]);
-    for (std::size_t i = n; i-- > 0;) {
-        if (tree.parent[i] < 0) continue;
-        const auto p = std::size_t(tree.parent[i]);
-        const Vec3 arm = R[p] * tree.joint_position[i];
-        P[p] += mass[i] * arm;
-        mass[p] += mass[i];
-    }
-    return P;
-}
-
-// Moments of gravity about each joint on its composite, world; in P's place.
-std::vector<Vec3> gravity_moments(const Tree& tree, std::vector<Vec3> P, const Vec3& gravity) {
-    std::vector<Vec3>& tau = P;
-    for (Vec3& moment : tau) moment = moment.cross(gravity).eval();
-    for (std::size_t i = tau.size(); i-- > 0;)
-        if (tree.parent[i] >= 0) tau[std::size_t(tree.parent[i])] += tau[i];
-    return P;
-}
-
 // theta with K theta = J^T tau, the moment given in the body's frame, J the body rates' Jacobian at theta. The slope of
 // J^T tau is left out of Newton's matrix but for its first term: what remains is small and converges in a few rounds.
 Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     const Vec3& K = tree.stiffness[i];
     for (int a = 0; a < 3; ++a)
         if (K[a] == 0 && tau.norm() > 0)
-            throw std::domain_error(name_of(tree, i) +
-                                    " has a free axis (K = 0) and cannot carry its weight in the drawn "
-                                    "pose: start it with pose rest or settled");
+            throw NoPose{i, " has a free axis (K = 0) and cannot carry its weight in the drawn pose: start it with "
+                            "pose rest or settled"};
     if (tau.norm() == 0) return Vec3::Zero();
     Vec3 theta = tau.cwiseQuotient(K);
     for (int iteration = 0; iteration < 100; ++iteration) {
@@ -66,8 +28,7 @@ Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     }
     // Rounding can keep the last digit moving; what is left must be rounding.
     const Vec3 left = body_rate_jacobian(theta).transpose() * tau - K.cwiseProduct(theta);
-    if (left.norm() > 1e-12 * tau.norm())
-        throw std::domain_error(name_of(tree, i) + " is too soft to carry its weight in the drawn pose");
+    if (left.norm() > 1e-12 * tau.norm()) throw NoPose{i, " is too soft to carry its weight in the drawn pose"};
     return theta;
 }
 
@@ -94,167 +55,106 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
         const Vec3 tau_b = R[i].transpose() * pose.theta[i];
         pose.theta[i] = carry(tree, i, tau_b);
         if (!(pose.theta[i].norm() <= 3.14159265358979323846)) // the step would take it the other way round (spring.h)
-            throw std::domain_error(name_of(tree, i) + " is too soft to carry its weight in the drawn pose: its spring "
-                                                       "would be wound by more than half a turn");
+            throw NoPose{i,
+                         " is too soft to carry its weight in the drawn pose: its spring would be wound by more than "
+                         "half a turn"};
         pose.joint_rotation[i] =
             (tree.joint_rotation[i] * quaternion_from_vector<double>(pose.theta[i]).conjugate()).normalized();
     }
     return pose;
 }
 
-// One Newton step for the sag; returns the first body whose elimination block is not positive definite, or -1. lift: such blocks are made so, by a
-// multiple of 1 on them: the step then goes downhill in energy.
-std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const StartPose& pose, std::vector<Vec3>& change,
-                         bool lift = false) {
-    const std::vector<Vec3>& theta = pose.theta;
-    const std::size_t n = tree.size_bodies();
-    std::vector<Mat3> R(n);
-    for (std::size_t i = 0; i < n; ++i) R[i] = frame_of(tree, pose.joint_rotation, i, R, theta[i]);
-    const std::vector<Vec3> P = turned_moments(tree, tree.mass, R);
-    const std::vector<Vec3> tau = gravity_moments(tree, P, gravity);
-    std::vector<Mat3> A(n), E(n);
-    std::vector<Vec3> u(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const Mat3 pg = P[i] * gravity.transpose();
-        A[i] = P[i].dot(gravity) * Mat3::Identity() - (pg + pg.transpose()) / 2;
-        u[i] = Vec3::Zero();
-    }
-    std::int64_t soft = -1;
-    for (std::size_t i = n; i-- > 0;) {
-        const Mat3 rates = body_rate_jacobian_inverse(theta[i]) * R[i].transpose(); // of theta, from world
-        const Mat3 Z = rates.transpose() * tree.stiffness[i].asDiagonal() * rates;
-        Mat3 sum = Z + A[i];
-        if (sum.llt().info() != Eigen::Success) {
-            soft = std::int64_t(i);
-            if (lift) {
-                const double least = Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[0];
-                A[i].diagonal().array() += 1e-3 * Z.trace() - 1.5 * std::min(least, 0.0);
-                sum = Z + A[i];
-            }
-        }
-        E[i] = sum.inverse();
-        // What this joint's own spring leaves unbalanced; what hangs further out has been added by its own joints.
-        const Vec3 spring_b =
-            body_rate_jacobian_inverse(theta[i]).transpose() * tree.stiffness[i].cwiseProduct(theta[i]);
-        const Vec3 residual = tau[i] - R[i] * spring_b;
-        u[i] += residual;
-        if (tree.parent[i] < 0) continue;
-        const auto p = std::size_t(tree.parent[i]);
-        const Mat3 passed = Z * E[i] * A[i];
-        A[p] += (passed + passed.transpose()) / 2;
-        u[p] += Z * E[i] * u[i] - residual;
-    }
-    std::vector<Vec3> psi(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const Vec3 base = tree.parent[i] < 0 ? Vec3(Vec3::Zero()) : psi[std::size_t(tree.parent[i])];
-        const Vec3 turn = E[i] * (u[i] - A[i] * base);
-        psi[i] = base + turn;
-        change[i] = body_rate_jacobian_inverse(theta[i]) * (R[i].transpose() * turn);
-    }
-    return soft;
-}
-
-// The sag of springs at this rest found from the pose's angles on. Returns what is wrong, "" if nothing; the pose is then the sag.
-std::string settle(const Tree& tree, const Vec3& gravity, StartPose& pose, int iterations = 500) {
-    const std::size_t n = tree.size_bodies();
-    std::vector<Vec3> change(n);
-    std::size_t worst = 0;
-    double previous = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < iterations; ++iteration) {
-        const std::int64_t soft = newton_step(tree, gravity, pose, change);
-        double largest = 0, angle = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double size = change[i].norm();
-            if (!(size <= largest)) largest = size, worst = i;
-            angle = std::max(angle, pose.theta[i].norm());
-        }
-        if (!std::isfinite(largest)) break;
-        // Rounding stops the change from shrinking: converged as far as doubles go.
-        const bool converged = largest <= 1e-14 || (largest <= 1e-11 * (1 + angle) && largest >= previous / 2);
-        if (converged)
-            return soft < 0 ? ""
-                            : name_of(tree, std::size_t(soft)) +
-                                  " buckles under its own weight: there is no stable settled pose";
-        previous = largest;
-        const double scale = std::min(1.0, 0.5 / largest); // no joint turns by more than half a radian an iteration
-        for (std::size_t i = 0; i < n; ++i) pose.theta[i] += scale * change[i];
-    }
-    return name_of(tree, worst) + " does not come to rest under its own weight: no settled pose found";
-}
-
 StartPose settled(const Tree& tree, const Vec3& gravity) {
     StartPose pose = unturned(tree);
-    if (gravity.isZero()) return pose;
-    const std::string wrong = settle(tree, gravity, pose);
-    if (!wrong.empty()) throw std::domain_error(wrong);
+    if (const auto wrong = settle(tree, gravity, pose)) throw *wrong;
     return pose;
-}
-
-// [J] elastic, and of gravity.
-double energy_of(const Tree& tree, const Vec3& gravity, const StartPose& pose) {
-    const std::size_t n = tree.size_bodies();
-    std::vector<Mat3> R(n);
-    std::vector<Vec3> x(n);
-    double energy = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        R[i] = frame_of(tree, pose.joint_rotation, i, R, pose.theta[i]);
-        const auto p = std::size_t(tree.parent[i]);
-        x[i] = tree.parent[i] < 0 ? tree.joint_position[i] : Vec3(x[p] + R[p] * tree.joint_position[i]);
-        energy += pose.theta[i].dot(tree.stiffness[i].cwiseProduct(pose.theta[i])) / 2;
-        energy -= tree.mass[i] * gravity.dot(x[i] + R[i] * tree.com[i]);
-    }
-    return energy;
-}
-
-// Near a sag that lies below the pose in energy: by Newton steps with lifted blocks, halved until the energy falls.
-void descend(const Tree& tree, const Vec3& gravity, StartPose& pose) {
-    std::vector<Vec3> change(tree.size_bodies());
-    double energy = energy_of(tree, gravity, pose);
-    for (int iteration = 0; iteration < 2000; ++iteration) {
-        const std::int64_t soft = newton_step(tree, gravity, pose, change, true);
-        double largest = 0;
-        for (const Vec3& turn : change) largest = std::max(largest, turn.norm());
-        if (!std::isfinite(largest) || (largest < 1e-5 && soft < 0)) return;
-        double scale = std::min(1.0, 0.5 / largest);
-        for (; scale > 1e-9; scale /= 2) {
-            StartPose next = pose;
-            for (std::size_t i = 0; i < change.size(); ++i) next.theta[i] += scale * change[i];
-            const double lower = energy_of(tree, gravity, next);
-            if (!(lower < energy)) continue;
-            pose = std::move(next);
-            energy = lower;
-            break;
-        }
-        if (!(scale > 1e-9)) return; // as low as rounding lets it come
-    }
 }
 
 // From the drawn pose. What buckles under its load goes over: then downhill, and with time, as next to buckling the Newton steps, whose matrix
 // leaves out how T turns with theta, shrink by a few percent each.
 StartPose loaded(const Tree& tree, const Vec3& gravity) {
     const StartPose start = drawn(tree, gravity);
-    if (gravity.isZero() || tree.load.empty()) return start;
     StartPose pose = start;
-    if (settle(tree, gravity, pose).empty()) return pose;
+    if (!settle(tree, gravity, pose)) return pose;
     pose = start;
     descend(tree, gravity, pose);
-    const std::string wrong = settle(tree, gravity, pose, 5000);
-    if (!wrong.empty()) throw std::domain_error("load: " + wrong);
+    if (const auto wrong = settle(tree, gravity, pose, 5000)) throw *wrong;
     return pose;
+}
+
+// The trees of several roots, each by itself with what settle() reads, and which bodies they are of.
+struct RootTree {
+    Tree tree;
+    std::vector<std::size_t> body;
+};
+
+std::vector<RootTree> each_root_of(const Tree& tree) {
+    std::vector<RootTree> trees;
+    std::vector<std::size_t> root(tree.size_bodies());   // which of them a body is of
+    std::vector<std::int32_t> place(tree.size_bodies()); // its index there
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        const bool is_root = tree.parent[i] < 0;
+        const auto p = std::size_t(is_root ? 0 : tree.parent[i]);
+        if (is_root) trees.emplace_back();
+        root[i] = is_root ? trees.size() - 1 : root[p];
+        RootTree& own = trees[root[i]];
+        place[i] = std::int32_t(own.body.size());
+        own.body.push_back(i);
+        own.tree.parent.push_back(is_root ? -1 : place[p]);
+        own.tree.mass.push_back(tree.mass[i]);
+        own.tree.com.push_back(tree.com[i]);
+        own.tree.joint_position.push_back(tree.joint_position[i]);
+        own.tree.joint_rotation.push_back(tree.joint_rotation[i]);
+        own.tree.stiffness.push_back(tree.stiffness[i]);
+        if (!tree.load.empty()) own.tree.load.push_back(tree.load[i]);
+    }
+    return trees;
+}
+
+// What is found by iteration, each root's tree by itself: how many steps one takes is no other's matter, so that a tree of a park starts as
+// it does alone.
+StartPose each_root(const Tree& tree, const Vec3& gravity, StartPose (*find)(const Tree&, const Vec3&)) {
+    if (std::count_if(tree.parent.begin(), tree.parent.end(), [](std::int32_t p) { return p < 0; }) == 1)
+        return find(tree, gravity);
+    StartPose whole = unturned(tree);
+    for (const RootTree& part : each_root_of(tree)) {
+        StartPose own;
+        try {
+            own = find(part.tree, gravity);
+        } catch (NoPose& wrong) {
+            wrong.body = part.body[wrong.body];
+            throw;
+        }
+        for (std::size_t i = 0; i < part.body.size(); ++i) {
+            whole.joint_rotation[part.body[i]] = own.joint_rotation[i];
+            whole.theta[part.body[i]] = own.theta[i];
+        }
+    }
+    return whole;
+}
+
+StartPose found(const Tree& tree, const Vec3& gravity, Pose pose) {
+    switch (pose) {
+    case Pose::drawn:
+        return gravity.isZero() || tree.load.empty() ? drawn(tree, gravity) : each_root(tree, gravity, loaded);
+    case Pose::settled:
+        return gravity.isZero() ? unturned(tree) : each_root(tree, gravity, settled);
+    case Pose::rest:
+        break;
+    }
+    return unturned(tree);
 }
 
 } // namespace
 
 StartPose start_pose(const Tree& tree, const Vec3& gravity, Pose pose) {
-    switch (pose) {
-    case Pose::drawn:
-        return loaded(tree, gravity);
-    case Pose::settled:
-        return settled(tree, gravity);
-    case Pose::rest:
-        break;
+    try {
+        return found(tree, gravity, pose);
+    } catch (const NoPose& wrong) {
+        const bool under_load = pose == Pose::drawn && !tree.load.empty();
+        throw std::domain_error((under_load ? "load: body " : "body ") + std::to_string(wrong.body) + " of branch " +
+                                std::to_string(tree.branch[wrong.body]) + wrong.why);
     }
-    return unturned(tree);
 }
 
 } // namespace bough

@@ -88,6 +88,14 @@ expect 0 treesim park.json --frames 5 -q --no-output --hash
 cp err hash
 expect 0 treesim --join end2.json end1.json --hash
 same err hash
+# Each tree finds its own sag, with its neighbours or without.
+snowy=(park.json --frames 5 -q --pose settled --set 'load={"branch":2,"leaf":0.1}')
+for i in 1 2; do expect 0 treesim "${snowy[@]}" --shard $i/2 --no-output --save-state end$i.json; done
+expect 0 treesim "${snowy[@]}" --no-output --hash
+cp err hash
+expect 0 treesim --join end1.json end2.json --hash
+same err hash
+for i in 1 2; do expect 0 treesim park.json --frames 5 -q --shard $i/2 --no-output --save-state end$i.json; done
 refused 2 "/theta: is" treesim park.json --frames 2 --shard 2/2 --no-output --resume half1.json
 
 # What is wrong is said.
@@ -111,7 +119,6 @@ refused 2 "/whole" treesim --join part1.jsonl other.jsonl -o x.jsonl
 refused 2 "/whole" treesim --join end1.json other.json --hash
 refused 2 "/parts" treesim --join whole.jsonl -o x.jsonl
 refused 1 "files" treesim --join part1.jsonl part2.jsonl part1.jsonl -o x.jsonl
-refused 1 "/pose settled" treesim park.json --pose settled --shard 1/2
 sed 's/"file": "t3.json"/"file": "t3.json", "yaw": 5/' park.json >turned.json
 refused 2 "/whole" treesim turned.json --frames 2 --shard 1/2 --no-output --resume half1.json
 refused 1 "--save-tree" treesim t1.json --frames 2 -o same.json --save-tree same.json
