@@ -146,3 +146,26 @@ TEST_CASE("walkers and what may break are refused together, and so is a walker o
     scene.walkers[0].stops[1].on.body = 6;
     CHECK_THROWS_WITH(Run<>(tree, scene, ways[0]), Catch::Contains("/walkers/0/stops/1/on"));
 }
+
+TEST_CASE("a leap's two events are noted in the steps they fall into, also one that begins with the run") {
+    const Tree tree = two_trees();
+    Scene scene = empty_scene();
+    scene.contact.reset();
+    for (const double push : {0.0, 0.1}) {
+        CAPTURE(push);
+        scene.walkers = {squirrel({on(2, 0.9, 0), on(5, 0.9, 1, true)})};
+        scene.walkers[0].push = push;
+        Run<> run(tree, scene, ways[0]);
+        std::vector<double> leapt, landed;
+        for (int k = 0; k < 60; ++k) {
+            const std::size_t before = run.world.events.what.size();
+            run.steps(1);
+            for (std::size_t e = before; e < run.world.events.what.size(); ++e)
+                (run.world.events.what[e] == "leapt" ? leapt : landed).push_back((k + 1) / 30.0);
+        }
+        REQUIRE(leapt.size() == 1);
+        REQUIRE(landed.size() == 1);
+        CHECK(leapt[0] == Approx(std::max(1.0, std::ceil(push * 30)) / 30));
+        CHECK(landed[0] == Approx(std::ceil((1 - push) * 30 - 1e-9) / 30));
+    }
+}
