@@ -9,11 +9,14 @@ namespace bough {
 namespace {
 
 // Tried in this order.
-constexpr std::array<const SplineFormat*, 3> formats{&speedtree_format, &treetools_format, &swc_format};
+constexpr std::array<const SplineFormat*, 7> formats{
+    &speedtree_format, &ply_format,  &sapling_curves_format, &sapling_table_format,
+    &treetools_format, &swc_format, &obj_format};
 
 constexpr const char* raw_xml = "; export it from SpeedTree as Raw XML with spines or bones";
 constexpr const char* readable =
-    "expected bough-splines (JSON or safetensors), SpeedTree raw XML, a treetools tree file or an SWC skeleton";
+    "expected bough-splines (JSON or safetensors), SpeedTree raw XML, a treetools tree file, an SWC or PLY skeleton, OBJ "
+    "lines or curves, or curves of Blender (CSV or JSON)";
 
 // Files that people have and that hold no skeleton we can read: how they begin, what they are, what to do.
 struct Refused {
@@ -21,7 +24,7 @@ struct Refused {
     const char* is;
     const char* advice;
 };
-constexpr std::array<Refused, 17> refused{{
+constexpr std::array<Refused, 16> refused{{
     {"SRT ", "a compiled SpeedTree tree (.srt), which holds no skeleton", raw_xml},
     {"SpeedTree", "a compiled SpeedTree tree, which holds no skeleton", raw_xml},
     {"Ogawa", "an Alembic cache", "; export the tree as SpeedTree raw XML, SWC or a treetools tree file"},
@@ -36,7 +39,6 @@ constexpr std::array<Refused, 17> refused{{
     {"; FBX", "an FBX model", "; export the tree as SpeedTree raw XML, SWC or a treetools tree file"},
     {"BLENDER", "a Blender scene", "; export the tree as SWC or a treetools tree file"},
     {"MATLAB", "a MATLAB file", "; write the cylinders as an SWC skeleton or a treetools tree file"},
-    {"ply", "a PLY model", "; write the skeleton as SWC or a treetools tree file"},
     {"xof ", "a DirectX model", "; export the tree as SpeedTree raw XML, SWC or a treetools tree file"},
     {"\xFF\xFE", "UTF-16 text", "; save it as UTF-8"},
     {"\xFE\xFF", "UTF-16 text", "; save it as UTF-8"},
@@ -93,6 +95,8 @@ Splines import_splines(std::string_view content, const ImportOptions& options, I
     // A damaged file of a known ending is better described by its own reader than by "unknown format".
     if (ends_with(lower(options.name), ".swc") && content.find('\0') == std::string_view::npos)
         return swc_format.read(content, options, notes);
+    if (ends_with(lower(options.name), ".obj") && content.find('\0') == std::string_view::npos)
+        return obj_format.read(content, options, notes);
     refuse(content, options.name);
 }
 

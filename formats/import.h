@@ -26,9 +26,13 @@ struct SplineFormat {
     Splines (*read)(std::string_view content, const ImportOptions&, ImportNotes&); // throws InputError
 };
 
-extern const SplineFormat speedtree_format; // speedtree.cpp
-extern const SplineFormat treetools_format; // treetools.cpp
-extern const SplineFormat swc_format;       // swc.cpp
+extern const SplineFormat speedtree_format;      // speedtree.cpp
+extern const SplineFormat treetools_format;      // treetools.cpp
+extern const SplineFormat swc_format;            // swc.cpp
+extern const SplineFormat obj_format;            // obj_skeleton.cpp
+extern const SplineFormat ply_format;            // ply_graph.cpp
+extern const SplineFormat sapling_table_format;  // sapling_table.cpp
+extern const SplineFormat sapling_curves_format; // sapling_curves.cpp
 
 // Our own splines document, or the first format that recognizes the content. Throws InputError that lists what could
 // be read, with advice for well-known files that cannot (SpeedTree .srt/.spm, Alembic, USD ...).

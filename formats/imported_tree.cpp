@@ -1,4 +1,5 @@
 #include "imported_tree.h"
+#include "placed_import.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <limits>
@@ -72,7 +73,8 @@ std::string stem_of(const std::string& path) {
 
 namespace {
 
-void leave_out_repeated_points(ImportedBranch& branch) {
+std::size_t leave_out_repeated_points(ImportedBranch& branch) {
+    const std::size_t before = branch.point.size();
     std::size_t kept = 0;
     for (std::size_t k = 0; k < branch.point.size(); ++k) {
         if (kept > 0 && branch.point[k] == branch.point[kept - 1]) continue;
@@ -81,6 +83,7 @@ void leave_out_repeated_points(ImportedBranch& branch) {
     }
     branch.point.resize(kept);
     branch.radius.resize(kept);
+    return before - kept;
 }
 
 // Branches with at least two points, parents first, and the new index of each old one (-1: none that carries it).
@@ -96,10 +99,11 @@ Ordered order_branches(std::vector<ImportedBranch>&& branches, ImportNotes& note
     Ordered result;
     result.index_of.assign(branches.size(), -1);
     std::vector<double> moved_to(branches.size(), -1); // where a branch without length sat on the one that carries it
-    std::size_t empty = 0;
+    result.branches.reserve(branches.size());
+    std::size_t empty = 0, repeated = 0;
     for (const std::int32_t i : parents_first(parent).order) {
         ImportedBranch& b = branches[i];
-        leave_out_repeated_points(b);
+        repeated += leave_out_repeated_points(b);
         if (b.parent >= 0) {
             if (moved_to[b.parent] >= 0) b.parent_at = moved_to[b.parent];
             b.parent = result.index_of[b.parent];
@@ -114,6 +118,7 @@ Ordered order_branches(std::vector<ImportedBranch>&& branches, ImportNotes& note
         result.index_of[i] = std::int32_t(result.branches.size());
         result.branches.push_back(std::move(b));
     }
+    if (repeated > 0) notes.lines.push_back(std::to_string(repeated) + " points that repeat the one before left out");
     if (empty > 0) notes.lines.push_back(std::to_string(empty) + " branches without length left out");
     return result;
 }
@@ -191,6 +196,15 @@ void add_branch(Splines& s, const ImportedBranch& b, const Frame& frame) {
     s.first_point.push_back(std::int32_t(s.point.size()));
 }
 
+void reserve(Splines& s, const std::vector<ImportedBranch>& branches) {
+    std::size_t points = 0;
+    for (const ImportedBranch& b : branches) points += b.point.size();
+    for (auto* of_branch : {&s.parent, &s.level, &s.first_point}) of_branch->reserve(branches.size() + 1);
+    s.parent_at.reserve(branches.size());
+    s.point.reserve(points);
+    s.radius.reserve(points);
+}
+
 void add_leaf(Splines& s, const ImportedLeaf& leaf, double at, const Frame& frame) {
     s.leaf_branch.push_back(leaf.branch);
     s.leaf_at.push_back(at);
@@ -211,15 +225,21 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
     frame.unit = unit_of(tree, frame.up, options, notes);
 
     Splines s;
+    reserve(s, tree.branches);
     s.name = valid_utf8(tree.name.empty() ? stem_of(options.name) : tree.name);
     s.source = valid_utf8(tree.source);
     s.first_point.push_back(0);
-    for (const ImportedBranch& b : tree.branches) add_branch(s, b, frame);
+    for (ImportedBranch& b : tree.branches) {
+        add_branch(s, b, frame);
+        if (tree.leaves.empty()) b = {}; // nobody asks again, and all of a large file twice is much
+    }
     for (ImportedLeaf& leaf : tree.leaves) {
         if (leaf.branch >= 0) leaf.branch = ordered.index_of[leaf.branch];
         const OnPolyline place = host_leaf(tree.branches, leaf);
         add_leaf(s, leaf, place.fraction, frame);
     }
+    bring_to_origin(s, notes);
+    if (!options.unit) name_absurd_scale(s, notes);
     if (const auto defect = check(s)) {
         std::string entry;
         if (defect->index >= 0) entry.append("[").append(std::to_string(defect->index)).append("]");

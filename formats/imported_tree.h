@@ -30,7 +30,8 @@ struct ImportedTree {
 // Splines in metres and Y up. The unit is the option's, else the file's, else a guess from the height; the up axis the
 // option's, else the file's, else the one that the trunks follow; guesses go into the notes with their reason.
 // Branches are put parents first, otherwise in file order; level is the depth. Points that repeat their predecessor
-// are left out; a branch without any length is left out with a note, what it carried goes to its parent.
+// are left out with a note, and so is a branch without any length; what it carried goes to its parent. A tree far from
+// the origin is moved there, and an absurd size named (placed_import.h).
 // O(points + leaves), for leaves without a branch O(points) each. Throws InputError (place options.name) for a tree
 // without branches and for one that breaks a rule of Splines.
 Splines finish_import(ImportedTree&&, const ImportOptions&, ImportNotes&);

@@ -4,6 +4,10 @@
 namespace bough {
 namespace {
 
+bool is_loose(const Skeleton& s, std::int32_t node) {
+    return !s.loose.empty() && s.loose[node];
+}
+
 // Puts nodes that stand where their parent stands out of the tree: their children get the parent. Returns how many.
 std::size_t join_coincident(Skeleton& s, const std::vector<std::int32_t>& order, std::vector<char>& joined) {
     joined.assign(s.parent.size(), false);
@@ -12,7 +16,7 @@ std::size_t join_coincident(Skeleton& s, const std::vector<std::int32_t>& order,
         const std::int32_t p = s.parent[i];
         if (p < 0) continue;
         if (joined[p]) s.parent[i] = s.parent[p];
-        if (s.point[i] != s.point[s.parent[i]]) continue;
+        if (is_loose(s, i) || s.point[i] != s.point[s.parent[i]]) continue;
         joined[i] = true;
         ++count;
     }
@@ -26,7 +30,7 @@ std::vector<double> longest_way(const Skeleton& s, const std::vector<std::int32_
     for (std::size_t k = order.size(); k-- > 0;) {
         const std::int32_t i = order[k];
         const std::int32_t p = s.parent[i];
-        if (p < 0 || joined[i]) continue;
+        if (p < 0 || joined[i] || is_loose(s, i)) continue;
         way[p] = std::max(way[p], way[i] + (s.point[i] - s.point[p]).norm());
     }
     return way;
@@ -34,6 +38,7 @@ std::vector<double> longest_way(const Skeleton& s, const std::vector<std::int32_
 
 double straightness(const Skeleton& s, std::int32_t child) {
     const std::int32_t p = s.parent[child];
+    if (is_loose(s, p)) return 0; // nothing comes before it
     const Vec3 before = s.point[p] - s.point[s.parent[p]];
     return before.normalized().dot((s.point[child] - s.point[p]).normalized());
 }
@@ -60,20 +65,54 @@ std::vector<std::int32_t> continuations(const Skeleton& s, const std::vector<std
     std::vector<std::int32_t> next(s.parent.size(), -1);
     for (const std::int32_t i : order) {
         const std::int32_t p = s.parent[i];
-        if (p < 0 || joined[i] || s.parent[p] < 0) continue;
+        if (p < 0 || joined[i] || s.parent[p] < 0 || is_loose(s, i)) continue;
         if (next[p] < 0 || goes_before(s, way, i, next[p])) next[p] = i;
     }
     return next;
 }
 
-ImportedBranch begun_at(const Skeleton& s, std::int32_t node, std::int32_t parent_branch) {
+// The first one or two points of the branch that begins with this node's segment, or at a loose node.
+void begin_at(const Skeleton& s, std::int32_t node, ImportedBranch& b) {
     const std::int32_t p = s.parent[node];
-    const bool root_radius = s.parent[p] < 0 && s.radius[p] >= 0;
-    ImportedBranch b;
-    b.parent = parent_branch;
-    b.point = {s.point[p], s.point[node]};
-    b.radius = {root_radius ? s.radius[p] : s.radius[node], s.radius[node]};
-    return b;
+    if (!is_loose(s, node)) {
+        const bool root_radius = s.parent[p] < 0 && s.radius[p] >= 0;
+        b.point.push_back(s.point[p]);
+        b.radius.push_back(root_radius ? s.radius[p] : s.radius[node]);
+    }
+    b.point.push_back(s.point[node]);
+    b.radius.push_back(s.radius[node]);
+}
+
+// Fills branches whose sizes are known, so that no vector is larger than it must be.
+void fill(const Skeleton& s, const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& branch_of,
+          const std::vector<std::int32_t>& count, std::vector<ImportedBranch>& branches) {
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+        branches[b].point.reserve(std::size_t(count[b]));
+        branches[b].radius.reserve(std::size_t(count[b]));
+    }
+    for (const std::int32_t i : order) {
+        if (branch_of[i] < 0) continue;
+        ImportedBranch& b = branches[branch_of[i]];
+        if (b.point.empty()) {
+            begin_at(s, i, b);
+            continue;
+        }
+        b.point.push_back(s.point[i]);
+        b.radius.push_back(s.radius[i]);
+    }
+}
+
+// A loose node at a root begins a branch of the first trunk there; a root itself is on no branch.
+void stand_loose_on_trunks(const Skeleton& s, std::vector<ImportedBranch>& branches,
+                           const std::vector<std::int32_t>& start) {
+    if (s.loose.empty()) return;
+    std::vector<std::int32_t> trunk(s.parent.size(), -1);
+    const auto on_root = [&](std::size_t b) { return branches[b].parent < 0; };
+    const auto begins_there = [&](std::size_t b) { return branches[b].point.front() == s.point[start[b]]; };
+    for (std::size_t b = branches.size(); b-- > 0;)
+        if (on_root(b) && begins_there(b)) trunk[start[b]] = std::int32_t(b);
+    for (std::size_t b = 0; b < branches.size(); ++b)
+        if (on_root(b) && !begins_there(b)) branches[b].parent = trunk[start[b]];
 }
 
 } // namespace
@@ -90,24 +129,26 @@ std::vector<ImportedBranch> branches_of(Skeleton&& s, const std::string& name, I
     std::vector<ImportedBranch> branches;
     std::vector<std::int32_t> branch_of(s.parent.size(), -1);
     std::vector<double> arc(s.parent.size(), 0), length; // [file unit] within the branch; of the branch
-    std::vector<std::int32_t> root_children(s.parent.size(), 0), start;
+    std::vector<std::int32_t> root_children(s.parent.size(), 0), start, count;
     for (const std::int32_t i : order) {
         const std::int32_t p = s.parent[i];
         if (p < 0 || joined[i]) continue;
-        const double segment = (s.point[i] - s.point[p]).norm();
+        const double segment = is_loose(s, i) ? 0.0 : (s.point[i] - s.point[p]).norm();
         if (next[p] == i) {
             branch_of[i] = branch_of[p];
-            branches[branch_of[i]].point.push_back(s.point[i]);
-            branches[branch_of[i]].radius.push_back(s.radius[i]);
+            ++count[branch_of[i]];
             length[branch_of[i]] = arc[i] = arc[p] + segment;
             continue;
         }
         if (s.parent[p] < 0) ++root_children[p];
         branch_of[i] = std::int32_t(branches.size());
-        branches.push_back(begun_at(s, i, branch_of[p]));
+        branches.emplace_back().parent = branch_of[p];
+        count.push_back(is_loose(s, i) ? 1 : 2);
         start.push_back(p);
         length.push_back(arc[i] = segment);
     }
+    fill(s, order, branch_of, count, branches);
+    stand_loose_on_trunks(s, branches, start);
     for (std::size_t b = 0; b < branches.size(); ++b) {
         const std::int32_t parent = branches[b].parent;
         if (parent >= 0) branches[b].parent_at = std::min(1.0, arc[start[b]] / length[parent]);

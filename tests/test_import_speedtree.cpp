@@ -325,9 +325,21 @@ TEST_CASE("every foreign file is read or refused in one line") {
         WARN("BOUGH_CASES_DIR is not set: foreign files not tested");
         return;
     }
-    const std::vector<std::string> readable{"SimpleTree_",      "leafrefs_on_trunk", "treetools_",  "Neuron.swc",
-                                            "Neuron-flat",      "Neuron_3",          "Neuron_zero", "sample_mixed",
-                                            "sequential_trunk", "simple.swc"};
+    const std::vector<std::string> readable{"SimpleTree_",
+                                            "leafrefs_on_trunk",
+                                            "treetools_",
+                                            "Neuron.swc",
+                                            "Neuron-flat",
+                                            "Neuron_3",
+                                            "Neuron_zero",
+                                            "sample_mixed",
+                                            "sequential_trunk",
+                                            "simple.swc",
+                                            "sapling_douglas_fir_s0.csv",
+                                            "sapling_small_pine_s0.",
+                                            "sapling_willow_s0.",
+                                            "adtree_tree1",
+                                            "testline.obj"};
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file()) continue;
         const std::string name = entry.path().filename().string();

@@ -1,0 +1,59 @@
+// nearest_segment.h: the nearest of many segments to a point, over pieces of wood (curves, parts of a graph) that have
+// radii where those are known. Segments are sorted by size and along a Morton curve, and boxed in a tree of bounds.
+// Making it O(segments log segments); a search O(log segments) in the usual case.
+#pragma once
+#include "lib/model/math.h"
+#include <limits>
+#include <vector>
+
+namespace bough {
+
+struct Segment {
+    std::int32_t a = -1, b = -1; // points
+    std::int32_t piece = -1;     // what it is part of
+};
+
+// A place on a segment and what it costs to join there: the distance d, and inside the wood (d < radius r) d^3 / r^2,
+// so that of several stems around a joint the one counts that holds it deepest. Ten times what the place is thinner than
+// the end that is to begin there comes on top, as wood does not begin on thinner wood.
+struct SegmentPlace {
+    Segment segment; // a: -1 for none
+    double t = 0;    // fraction of the way from a to b
+    double distance = 0, cost = std::numeric_limits<double>::infinity();
+};
+
+class SegmentSearch {
+public:
+    // `point`, `radius` (one a point; <= 0: unknown) and `base` must outlive the search. `base`: of each piece the point
+    // that it begins with, -1 where that is unknown. No place is given at a base, nor within the asking end's radius (or,
+    // if smaller, the base's own) of it: what begins at one place has the same parent. (Where more
+    // than 256 begin, one of them is the parent: looking further would take a time that grows with their square.)
+    SegmentSearch(const std::vector<Vec3>& point, const std::vector<double>& radius,
+                  const std::vector<std::int32_t>& base, std::vector<Segment> segments, std::size_t pieces);
+
+    // Pieces of one group are no places for one another. At first each piece is a group of its own. O(segments).
+    void regroup(const std::vector<std::int32_t>& group);
+
+    // The cheapest place for this point that is not in `group` and costs less than `bound`. `hint`: a segment that is
+    // likely near (a: -1 for none); it changes nothing but the time taken.
+    SegmentPlace nearest(std::int32_t point, std::int32_t group, double bound = std::numeric_limits<double>::infinity(),
+                         const Segment& hint = {}) const;
+
+private:
+    struct Node { // rounded outward to floats, so that two of them fill a line of the cache
+        Vector3<float> low, high;
+        float thickest;     // largest radius of a segment's ends
+        std::int32_t group; // of all in it, or -1: several
+    };
+    static double least_cost(const Node&, const Vec3& p); // squared; no place in the node costs less
+    void try_segment(const Segment&, std::int32_t end, SegmentPlace& best, std::size_t& beside) const;
+
+    const std::vector<Vec3>& point_;
+    const std::vector<double>& radius_;
+    const std::vector<std::int32_t>& base_;
+    std::vector<Segment> segments_;
+    std::vector<std::vector<Node>> levels_; // blocks of segments, then pairs of nodes, up to one
+    std::vector<std::int32_t> group_;       // of each piece
+};
+
+} // namespace bough
