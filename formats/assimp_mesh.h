@@ -1,12 +1,11 @@
 // assimp_mesh.h: triangles as assimp gives them, for envelope_mesh.h alone, which calls this in a child process.
 #pragma once
 #include "lib/growth/mesh_interior.h"
+#include "model_kind.h"
 #include <string>
 #include <string_view>
 
 namespace bough {
-
-enum class AssimpKind { obj, fbx, gltf, glb, dae };
 
 struct AssimpMesh {
     std::vector<Vec3> vertex; // [file unit], axes of the file, nodes' transforms applied

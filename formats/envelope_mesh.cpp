@@ -2,6 +2,7 @@
 #include "assimp_mesh.h"
 #include "forked.h"
 #include "imported_tree.h"
+#include "model_kind.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <array>
@@ -44,32 +45,16 @@ bool has_vertex_line(std::string_view content) {
 
 AssimpKind kind_of(std::string_view content, const std::string& name) {
     if (content.empty()) throw InputError(name, std::string("is empty, ") + readable);
+    if (const std::optional<AssimpKind> kind = model_kind(content)) return *kind;
     if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
-    if (content.starts_with("Kaydara FBX Binary")) return AssimpKind::fbx;
-    if (content.starts_with("glTF")) return AssimpKind::glb;
     for (const Refused& r : refused)
         if (content.starts_with(r.begins))
             throw InputError(name, std::string("is ") + r.is + ", " + readable + "; export it as one of these");
     const std::size_t first = content.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) throw InputError(name, std::string("is blank, ") + readable);
     const std::string_view head = content.substr(first, 4096);
-    if (head.starts_with("; FBX")) return AssimpKind::fbx;
-    if (head[0] == '<' && head.find("<COLLADA") != std::string_view::npos) return AssimpKind::dae;
-    if (head[0] == '{' && content.find("\"asset\"") != std::string_view::npos) return AssimpKind::gltf;
     if (head[0] != '<' && head[0] != '{' && has_vertex_line(content)) return AssimpKind::obj;
     throw InputError(name, std::string("is of an unknown format, ") + readable);
-}
-
-// COLLADA's unit in metres, which assimp has applied.
-double collada_unit(std::string_view content) {
-    const std::size_t unit = content.find("<unit");
-    if (unit == std::string_view::npos) return 1;
-    const std::string_view element = content.substr(unit, std::min(content.find('>', unit), content.size()) - unit);
-    const std::size_t meter = element.find("meter=");
-    if (meter == std::string_view::npos || meter + 7 >= element.size()) return 1;
-    const std::string_view value = element.substr(meter + 7);
-    const std::optional<double> metres = parse_number(value.substr(0, value.find_first_of("\"'")));
-    return metres && *metres > 0 ? *metres : 1;
 }
 
 double guessed_unit(const EnvelopeMesh& mesh, ImportNotes& notes) {
@@ -89,7 +74,8 @@ double guessed_unit(const EnvelopeMesh& mesh, ImportNotes& notes) {
 EnvelopeMesh read_envelope_mesh(std::string_view content, const std::string& path, const ImportOptions& options,
                                 ImportNotes& notes) {
     const AssimpKind kind = kind_of(content, options.name);
-    const ChildResult child = run_forked([&] { return packed(read_by_assimp(content, path, kind, options.up != 0)); });
+    const ChildResult child =
+        run_forked([&] { return packed(read_by_assimp(content, path, kind, options.up != 0)); }, reader_limits);
     if (!child.failure.empty())
         throw InputError(options.name, "assimp could not read it: " + valid_utf8(child.failure) + "; " + readable);
     AssimpMesh found = unpacked(child.bytes);

@@ -3,10 +3,22 @@
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
 #include <new>
+#include <pthread.h>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+// A sanitizer's own memory is no matter of limits.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define BOUGH_CHILD_UNLIMITED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define BOUGH_CHILD_UNLIMITED
+#endif
+#endif
 
 namespace bough {
 namespace {
@@ -24,11 +36,30 @@ bool send(int pipe, const char* data, std::size_t size) {
     return true;
 }
 
-[[noreturn]] void be_child(int pipe, const std::function<std::string()>& work) {
-    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGHUP})
-        ::signal(crash, SIG_DFL);
-    const int nowhere = ::open("/dev/null", O_WRONLY);
-    if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+// [bytes] of address space that this process has.
+std::size_t address_space() {
+    std::ifstream file("/proc/self/statm");
+    std::size_t pages = 0;
+    file >> pages;
+    return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void keep_limits([[maybe_unused]] const ChildLimits& limits) {
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    if (limits.seconds > 0) {
+        const rlimit seconds{limits.seconds, limits.seconds + 1};
+        ::setrlimit(RLIMIT_CPU, &seconds);
+    }
+#ifndef BOUGH_CHILD_UNLIMITED
+    if (limits.bytes > 0) {
+        const rlimit bytes{address_space() + limits.bytes, RLIM_INFINITY};
+        ::setrlimit(RLIMIT_AS, &bytes);
+    }
+#endif
+}
+
+std::string outcome(const std::function<std::string()>& work) {
     std::string bytes(1, kFailed);
     try {
         std::string made = work();
@@ -41,6 +72,39 @@ bool send(int pipe, const char* data, std::size_t size) {
     } catch (...) {
         bytes += "failed";
     }
+    return bytes;
+}
+
+struct Job {
+    const std::function<std::string()>& work;
+    std::string bytes{};
+};
+
+void* run_job(void* job) {
+    static_cast<Job*>(job)->bytes = outcome(static_cast<Job*>(job)->work);
+    return nullptr;
+}
+
+// On a stack of its own size; without one where there is no memory for it.
+std::string outcome(const std::function<std::string()>& work, std::size_t stack) {
+    Job job{work};
+    pthread_attr_t size;
+    pthread_t thread;
+    ::pthread_attr_init(&size);
+    if (stack == 0 || ::pthread_attr_setstacksize(&size, stack) != 0 ||
+        ::pthread_create(&thread, &size, run_job, &job) != 0)
+        return outcome(work);
+    ::pthread_join(thread, nullptr);
+    return std::move(job.bytes);
+}
+
+[[noreturn]] void be_child(int pipe, const std::function<std::string()>& work, const ChildLimits& limits) {
+    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGHUP, SIGXCPU})
+        ::signal(crash, SIG_DFL);
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+    keep_limits(limits);
+    const std::string bytes = outcome(work, limits.stack);
     ::_exit(send(pipe, bytes.data(), bytes.size()) ? 0 : 1);
 }
 
@@ -57,7 +121,7 @@ std::string received(int pipe) {
 
 } // namespace
 
-ChildResult run_forked(const std::function<std::string()>& work) {
+ChildResult run_forked(const std::function<std::string()>& work, const ChildLimits& limits) {
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error(std::string("no pipe to a child process: ") + std::strerror(errno));
     const pid_t child = ::fork();
@@ -68,7 +132,7 @@ ChildResult run_forked(const std::function<std::string()>& work) {
     }
     if (child == 0) {
         ::close(ends[0]);
-        be_child(ends[1], work);
+        be_child(ends[1], work, limits);
     }
     ::close(ends[1]);
     std::string bytes = received(ends[0]);
@@ -77,7 +141,9 @@ ChildResult run_forked(const std::function<std::string()>& work) {
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     ChildResult result;
-    if (WIFSIGNALED(status))
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        result.failure = "took longer than " + std::to_string(limits.seconds) + " s";
+    else if (WIFSIGNALED(status))
         result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
     else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         result.failure = "crashed";

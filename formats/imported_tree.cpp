@@ -1,4 +1,5 @@
 #include "imported_tree.h"
+#include "leaf_hosts.h"
 #include "placed_import.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -173,20 +174,6 @@ double unit_of(const ImportedTree& tree, char up, const ImportOptions& options, 
     return unit;
 }
 
-OnPolyline host_leaf(const std::vector<ImportedBranch>& branches, ImportedLeaf& leaf) {
-    if (leaf.branch >= 0) return nearest_on(branches[leaf.branch].point, leaf.position);
-    OnPolyline best;
-    best.distance = std::numeric_limits<double>::infinity();
-    leaf.branch = 0;
-    for (std::size_t b = 0; b < branches.size(); ++b) {
-        const OnPolyline place = nearest_on(branches[b].point, leaf.position);
-        if (place.distance >= best.distance) continue;
-        best = place;
-        leaf.branch = std::int32_t(b);
-    }
-    return best;
-}
-
 void add_branch(Splines& s, const ImportedBranch& b, const Frame& frame) {
     s.parent.push_back(b.parent);
     s.parent_at.push_back(b.parent_at);
@@ -223,6 +210,10 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
     Frame frame;
     frame.up = up_axis(tree, options, notes);
     frame.unit = unit_of(tree, frame.up, options, notes);
+    notes.up = frame.up;
+    notes.unit = frame.unit;
+    notes.up_from = options.up != 0 ? "given" : tree.up != 0 ? "stated" : "guessed";
+    notes.unit_from = options.unit ? "given" : tree.unit ? "stated" : "guessed";
 
     Splines s;
     reserve(s, tree.branches);
@@ -233,11 +224,11 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
         add_branch(s, b, frame);
         if (tree.leaves.empty()) b = {}; // nobody asks again, and all of a large file twice is much
     }
-    for (ImportedLeaf& leaf : tree.leaves) {
+    for (ImportedLeaf& leaf : tree.leaves)
         if (leaf.branch >= 0) leaf.branch = ordered.index_of[leaf.branch];
-        const OnPolyline place = host_leaf(tree.branches, leaf);
-        add_leaf(s, leaf, place.fraction, frame);
-    }
+    find_hosts(tree.branches, tree.leaves);
+    for (const ImportedLeaf& leaf : tree.leaves)
+        add_leaf(s, leaf, nearest_on(tree.branches[leaf.branch].point, leaf.position).fraction, frame);
     bring_to_origin(s, notes);
     if (!options.unit) name_absurd_scale(s, notes);
     if (const auto defect = check(s)) {

@@ -32,7 +32,7 @@ struct ImportedTree {
 // Branches are put parents first, otherwise in file order; level is the depth. Points that repeat their predecessor
 // are left out with a note, and so is a branch without any length; what it carried goes to its parent. A tree far from
 // the origin is moved there, and an absurd size named (placed_import.h).
-// O(points + leaves), for leaves without a branch O(points) each. Throws InputError (place options.name) for a tree
+// O(points + leaves), with leaves without a branch O(points log points). Throws InputError (place options.name) for a tree
 // without branches and for one that breaks a rule of Splines.
 Splines finish_import(ImportedTree&&, const ImportOptions&, ImportNotes&);
 

@@ -18,9 +18,10 @@ public:
     void begin_array() { begin('['); }
     double number();
     bool boolean();
-    std::string_view string(); // as written: escapes are left as they are
-    void skip();               // any value
-    void end();                // nothing but blanks may come
+    std::string_view string();                 // as written: escapes are left as they are
+    void skip();                               // any value
+    std::size_t offset() const { return at_; } // behind what was read last
+    void end();                                // nothing but blanks may come
     [[noreturn]] void refuse(const std::string& message) const;
 
 private:

@@ -85,6 +85,12 @@ bool is_special(const std::string& path) {
 
 } // namespace
 
+std::string folder_of(const std::string& path) {
+    if (path == "-") return "";
+    const std::size_t slash = path.find_last_of('/');
+    return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
 std::string input_name(const std::string& path) {
     return path == "-" ? "<stdin>" : path;
 }

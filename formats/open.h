@@ -35,6 +35,8 @@ private:
 
 // How an input is called in messages: its path, "<stdin>" for "-".
 std::string input_name(const std::string& path);
+// Where files stand that an input names: its folder, "." for a bare name, "" for "-", which has none.
+std::string folder_of(const std::string& path);
 
 // One output file. Regular files are written beside their name and renamed by finish(), so that they appear whole or
 // not at all; "-" (stdout), devices and named pipes are written directly. Buffered. A file that is not finished is

@@ -63,6 +63,8 @@ std::vector<ImportedLeaf> leaves_of(const File& file, const std::vector<std::int
         leaf.width = reference.scale * shape.width;
         leaves.push_back(leaf);
     }
+    if (file.leaves_without_size > 0)
+        notes.lines.push_back(std::to_string(file.leaves_without_size) + " leaves of Scale 0 left out");
     if (shapeless > 0)
         notes.lines.push_back(std::to_string(shapeless) +
                               " leaves without a mesh of any extent: taken as long as their Scale and half as wide");

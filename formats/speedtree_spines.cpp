@@ -1,4 +1,5 @@
 #include "speedtree_spines.h"
+#include "pipe_rule.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <array>
@@ -78,8 +79,9 @@ std::vector<double> bone_ratios(const File& file, const SpineBranches& spines) {
 std::vector<double> bark_ratios(const File& file, const SpineBranches& spines) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < file.objects.size(); ++i) {
-        if (file.objects[i].spine.size() < 2) continue;
+        if (file.objects[i].surface.empty()) continue; // read for objects with a spine alone
         const ImportedBranch& b = spines.branches[spines.branch_of_object[i]];
+        if (b.point.size() < 2) continue;
         for (const Vec3& p : file.objects[i].surface) {
             const OnPolyline place = nearest_on(b.point, p);
             add_ratio(ratios, place.distance, radius_at(b, place));
@@ -119,6 +121,31 @@ double largest_extent(const std::vector<ImportedBranch>& branches) {
     return (high - low).maxCoeff();
 }
 
+bool has_radii(const ImportedBranch& b) {
+    return std::any_of(b.radius.begin(), b.radius.end(), [](double r) { return r > 0; });
+}
+
+// A spine without radii gets those of its bones, each at the point where the bone begins, the tip that of their last.
+void take_radii_of_bones(const File& file, const BoneBranches& bones, SpineBranches& spines, ImportNotes& notes) {
+    std::vector<char> wanting;
+    for (const ImportedBranch& b : spines.branches) wanting.push_back(!has_radii(b));
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < file.bones.size(); ++i) {
+        const std::int32_t k = spines.branch_of_bone[i];
+        if (k < 0 || !wanting[k] || !(file.bones[i].radius > 0)) continue;
+        ImportedBranch& b = spines.branches[k];
+        const OnPolyline place = nearest_on(b.point, file.bones[i].start);
+        const std::size_t point = std::min(place.segment + (place.t > 0.5), b.point.size() - 1);
+        taken += !(b.radius[point] > 0);
+        b.radius[point] = file.bones[i].radius;
+        double& tip = b.radius.back();
+        if (!(tip > 0)) tip = bones.branches[bones.branch_of[i]].radius.back();
+    }
+    if (taken > 0)
+        notes.lines.push_back(std::to_string(taken) +
+                              " points of spines without radii given the Radius of their bones");
+}
+
 double radius_factor(const File& file, const SpineBranches& spines, std::optional<double> unit, ImportNotes& notes) {
     std::vector<double> ratios = bone_ratios(file, spines);
     const char* yardstick = " Radius of bones";
@@ -140,14 +167,14 @@ double radius_factor(const File& file, const SpineBranches& spines, std::optiona
 
 } // namespace
 
-SpineBranches branches_of_spines(const File& file, const BoneBranches& bones, std::optional<double> unit,
+SpineBranches branches_of_spines(File& file, const BoneBranches& bones, std::optional<double> unit,
                                  ImportNotes& notes) {
     SpineBranches result;
     std::vector<std::int32_t> parent;
     for (const Object& o : file.objects) parent.push_back(o.parent);
     result.branch_of_object.assign(file.objects.size(), -1);
     for (const std::int32_t i : parents_first(parent).order) {
-        const Object& o = file.objects[i];
+        Object& o = file.objects[i];
         const std::int32_t above = o.parent < 0 ? -1 : result.branch_of_object[o.parent];
         if (o.spine.empty()) {
             result.branch_of_object[i] = above;
@@ -156,15 +183,19 @@ SpineBranches branches_of_spines(const File& file, const BoneBranches& bones, st
         ImportedBranch b;
         b.parent = above;
         if (above >= 0) b.parent_at = nearest_on(result.branches[above].point, o.spine.front()).fraction;
-        b.point = o.spine;
-        b.radius = o.spine_radius;
+        b.point = std::move(o.spine);
+        b.radius = std::move(o.spine_radius);
         result.branch_of_object[i] = std::int32_t(result.branches.size());
         result.branches.push_back(std::move(b));
     }
     result.branch_of_bone = spine_of_bones(bones, result.branches);
-    const double factor = radius_factor(file, result, unit, notes);
-    for (ImportedBranch& b : result.branches)
-        for (double& r : b.radius) r *= factor;
+    if (std::any_of(result.branches.begin(), result.branches.end(), has_radii)) {
+        const double factor = radius_factor(file, result, unit, notes);
+        for (ImportedBranch& b : result.branches)
+            for (double& r : b.radius) r *= factor;
+    }
+    take_radii_of_bones(file, bones, result, notes);
+    fill_radii(result.branches, notes);
     return result;
 }
 

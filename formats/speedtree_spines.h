@@ -18,7 +18,8 @@ struct SpineBranches {
 //   bark      median distance of bark points from the spine over the spine's radius beside them
 //   metres    the radii are metres, positions in `unit` [m] if it is known, else in likely_unit of the largest extent
 // A ratio within 0.8..1.1 of a power of ten or of a conversion between m, cm, mm, in and ft is taken as that factor.
-// `bones` may be empty. O(points), the matching of bones O(branches log branches).
-SpineBranches branches_of_spines(const File&, const BoneBranches& bones, std::optional<double> unit, ImportNotes&);
+// Spines without radii (no Radius, or all 0) have those of their bones, and what is still missing the pipe rule's
+// (pipe_rule.h). `bones` may be empty. O(points), the matching of bones O(branches log branches).
+SpineBranches branches_of_spines(File&, const BoneBranches& bones, std::optional<double> unit, ImportNotes&);
 
 } // namespace bough::speedtree

@@ -68,6 +68,7 @@ void parse_spine(const pugi::xml_node& node, const Vec3& origin, const Fields& f
     expect_count(node, object.spine.size(), f);
     for (Vec3& p : object.spine) p += origin;
     object.spine_radius = f.numbers(node, "Radius");
+    if (!node.child("Radius")) object.spine_radius.assign(object.spine.size(), 0);
     f.expect_length(node, "Radius", object.spine_radius.size(), object.spine.size());
     for (const double r : object.spine_radius)
         if (r < 0) f.refuse(node, "Radius holds " + shown(r) + ", expected 0 or more");
@@ -99,7 +100,11 @@ void parse_leaves(const pugi::xml_node& node, std::int32_t object, const Index& 
         leaf.angle = angle[i];
         leaf.scale = scale[i];
         if (!mesh.empty()) leaf.mesh = mesh[i];
-        if (scale[i] <= 0) f.refuse(node, "Scale holds " + shown(scale[i]) + ", expected more than 0");
+        if (scale[i] < 0) f.refuse(node, "Scale holds " + shown(scale[i]) + ", expected 0 or more");
+        if (scale[i] == 0) {
+            ++file.leaves_without_size;
+            continue;
+        }
         if (axis[i].squaredNorm() <= 0 && angle[i] != 0)
             f.refuse(node, "turns leaf " + std::to_string(i) + " about an axis of no length");
         if (!bone.empty() && bone[i] != -1 && !file.bones.empty()) {
@@ -153,34 +158,41 @@ void parse_meshes(const pugi::xml_node& root, const Fields& f, File& file) {
     }
 }
 
+// In lower case, without what goes before and after the word: " Z-Up" -> "z-up".
+std::string lower_of(std::string_view text) {
+    std::string out(trimmed(text));
+    for (char& c : out)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return out;
+}
+
 std::optional<double> stated_unit(const pugi::xml_node& root, const Fields& f) {
     const pugi::xml_attribute units = root.attribute("units");
     if (!units) return {};
-    const std::string_view u = trimmed(units.value());
-    for (const auto& [name, metres] : {std::pair<const char*, double>{"m", 1},
-                                       {"meters", 1},
-                                       {"metres", 1},
-                                       {"cm", 0.01},
-                                       {"centimeters", 0.01},
-                                       {"centimetres", 0.01},
-                                       {"mm", 0.001},
-                                       {"millimeters", 0.001},
-                                       {"millimetres", 0.001},
-                                       {"in", 0.0254},
-                                       {"inches", 0.0254},
-                                       {"ft", 0.3048},
-                                       {"feet", 0.3048}})
-        if (u == name) return metres;
-    f.refuse(root, "units is " + quoted(u) + ", expected m, cm, mm, in or ft");
+    const std::string u = lower_of(units.value());
+    const auto is = [&u](std::initializer_list<const char*> names) {
+        return std::any_of(names.begin(), names.end(),
+                           [&u](const char* n) { return u == n || u == n + std::string("s"); });
+    };
+    if (is({"m", "meter", "metre"})) return 1;
+    if (is({"cm", "centimeter", "centimetre"})) return 0.01;
+    if (is({"mm", "millimeter", "millimetre"})) return 0.001;
+    if (is({"in", "inch"}) || u == "inches") return 0.0254;
+    if (is({"ft", "foot"}) || u == "feet") return 0.3048;
+    f.refuse(root, "units is " + quoted(units.value()) + ", expected m, cm, mm, in or ft");
 }
 
 char stated_up(const pugi::xml_node& root, const Fields& f) {
     const pugi::xml_attribute up = root.attribute("upAxis");
     if (!up) return 0;
-    const std::string_view axis = trimmed(up.value());
-    if (axis == "Y" || axis == "y") return 'y';
-    if (axis == "Z" || axis == "z") return 'z';
-    f.refuse(root, "upAxis is " + quoted(axis) + ", expected Y or Z");
+    const std::string axis = lower_of(up.value());
+    for (const char c : {'y', 'z'}) {
+        const std::string letter(1, c);
+        for (const std::string& name :
+             {letter, "+" + letter, letter + "-up", letter + "_up", letter + "up", letter + " up"})
+            if (axis == name) return c;
+    }
+    f.refuse(root, "upAxis is " + quoted(up.value()) + ", expected Y or Z");
 }
 
 std::string stated_version(const pugi::xml_node& root) {

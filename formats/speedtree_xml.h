@@ -15,7 +15,7 @@ struct Object {
     std::int32_t parent = -1; // index, -1: none (no ParentID, or -1)
     std::string name;
     std::vector<Vec3> spine;          // empty: the object has no Spine
-    std::vector<double> spine_radius; // in a scale of its own
+    std::vector<double> spine_radius; // in a scale of its own, 0: the file gives none
     std::vector<Vec3> surface;        // some points of the bark, only read where the file has no bones
     std::size_t line = 0;
 };
@@ -48,6 +48,7 @@ struct File {
     std::vector<Object> objects;
     std::vector<Bone> bones;
     std::vector<LeafReference> leaves;
+    std::size_t leaves_without_size = 0; // of Scale 0, not among them
     std::vector<Mesh> meshes;
     std::optional<double> unit; // [m] attribute `units` of the root, if present
     char up = 0;                // attribute `upAxis`, if present

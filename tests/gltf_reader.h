@@ -101,9 +101,15 @@ inline std::vector<Matrix4d> node_matrices(const Glb& glb, double time) {
     const Json& nodes = glb.json["nodes"];
     std::vector<Vector3d> place(nodes.size(), Vector3d::Zero());
     std::vector<Quaterniond> turn(nodes.size(), Quaterniond::Identity());
+    std::vector<Matrix4d> scale(nodes.size(), Matrix4d::Identity()); // or the whole of a node that has a matrix
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i].contains("translation"))
             place[i] = Vector3d(nodes[i]["translation"][0], nodes[i]["translation"][1], nodes[i]["translation"][2]);
+        if (nodes[i].contains("matrix")) {
+            const std::vector<double> m = nodes[i]["matrix"];
+            scale[i] = Eigen::Map<const Matrix4d>(m.data());
+        }
+        for (int k = 0; k < 3 && nodes[i].contains("scale"); ++k) scale[i](k, k) = nodes[i]["scale"][std::size_t(k)];
         if (!nodes[i].contains("rotation")) continue;
         const std::vector<double> q = nodes[i]["rotation"];
         turn[i] = quaternion(q.data());
@@ -129,14 +135,14 @@ inline std::vector<Matrix4d> node_matrices(const Glb& glb, double time) {
     std::vector<std::size_t> open;
     for (const Json& root : glb.json["scenes"][0]["nodes"]) open.push_back(root);
     std::vector<int> seen(nodes.size(), 0);
-    for (const std::size_t root : open) world[root] = (Eigen::Translation3d(place[root]) * turn[root]).matrix();
+    for (const std::size_t root : open) world[root] = (Eigen::Translation3d(place[root]) * turn[root]).matrix() * scale[root];
     while (!open.empty()) {
         const std::size_t i = open.back();
         open.pop_back();
         REQUIRE(++seen[i] == 1);
         for (const Json& child : nodes[i].value("children", Json::array())) {
             const std::size_t c = child;
-            world[c] = world[i] * (Eigen::Translation3d(place[c]) * turn[c]).matrix();
+            world[c] = world[i] * (Eigen::Translation3d(place[c]) * turn[c]).matrix() * scale[c];
             open.push_back(c);
         }
     }

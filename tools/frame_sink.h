@@ -1,6 +1,7 @@
 // frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, or an animated glTF file.
 #pragma once
 #include "common.h"
+#include "formats/driven_model.h"
 #include "formats/gltf.h"
 #include "lib/model/motion.h"
 #include "lib/model/tree.h"
@@ -38,5 +39,10 @@ GltfOptions gltf_options(const GltfChoice&, const std::string& source);
 // the tree and the notes.
 std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int sides, double fps, const GltfChoice&,
                                      const std::string& source, std::vector<std::string>& notes);
+
+// --skin: the user's own model with the motion added, written by finish(). Keeps references to the tree and the notes.
+// The model is read before threads are started (user_model.h).
+std::unique_ptr<FrameSink> driven_sink(const std::string& file, UserModel, const Tree&, const DrivenOptions&,
+                                       std::vector<std::string>& notes);
 
 } // namespace bough

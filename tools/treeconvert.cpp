@@ -6,6 +6,7 @@
 #include "formats/splines.h"
 #include "formats/tree.h"
 #include "frame_sink.h"
+#include "import_stats.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
 #include "lib/model/drawn_pose.h"
@@ -69,7 +70,7 @@ void declare(CLI::App& app, Options& o) {
         ->option_text("NAME|FILE");
     app.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
     app.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
-    app.add_flag("--stats", o.stats, "Print what was made, merged and dropped on stderr");
+    app.add_flag("--stats", o.stats, "Print what was understood of the input and what was made of it on stderr");
     app.add_flag("--split", o.split, "One file for each root");
     add_merge_options(app, o.merge);
     add_import_options(app, o.choice);
@@ -114,19 +115,17 @@ void list_materials() {
                   << m.damping_ratio << "\t" << m.source << "\n";
 }
 
-Splines read_splines_of(const Options& o, std::vector<std::string>& notes) {
+Splines read_splines_of(const Options& o, ImportNotes& notes) {
     const std::string content = read_input(o.input);
     ImportOptions options;
     options.name = input_name(o.input);
+    options.folder = folder_of(o.input);
     if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
         throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + options.name +
                          " is a bough document, which is in metres and Y up");
     options.unit = unit_in_metres(o.choice.units);
     if (!o.choice.up.empty()) options.up = char(std::tolower(o.choice.up[0]));
-    ImportNotes found;
-    Splines splines = import_splines(content, options, found);
-    for (const std::string& line : found.lines) notes.push_back(line);
-    return splines;
+    return import_splines(content, options, notes);
 }
 
 SegmentOptions segment_options(const Options& o) {
@@ -222,8 +221,10 @@ void work(Options& o) {
     if (o.list_materials) return list_materials();
     refuse_contradictions(o);
     const std::string name = input_name(o.input);
-    std::vector<std::string> notes;
-    Splines splines = read_splines_of(o, notes);
+    ImportNotes found;
+    Splines splines = read_splines_of(o, found);
+    if (o.stats) std::cerr << import_statistics(splines, found);
+    std::vector<std::string> notes = std::move(found.lines);
     const Material material = chosen_material(o, splines);
     splines.source = with_command_line(splines.source, o.common);
     SegmentReport report;

@@ -3,6 +3,7 @@
 #include "formats/import.h"
 #include "formats/splines.h"
 #include "growth.h"
+#include "import_stats.h"
 #include <iostream>
 
 namespace {
@@ -14,7 +15,7 @@ struct Options {
     GrowthOptions growth;
     ImportChoice choice;
     std::string import;
-    bool strict = false;
+    bool strict = false, stats = false;
 };
 
 const ToolInfo info = {
@@ -24,10 +25,11 @@ const ToolInfo info = {
     "[--fruit]\n"
     "       treegen --params FILE [--bodies N] [--seed N] [--leaves] [--petals] [-o FILE]\n"
     "       treegen --envelope sphere|cone|box|FILE [--envelope-size X,Y,Z] [--attractors N] ... [-o FILE]\n"
-    "       treegen --import FILE [--units UNIT] [--up AXIS] [--strict] [--leaves] [--fruit] [-o FILE]",
-    "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, PLY skeletons, OBJ lines and\n"
-    "curves, curves of Blender (CSV, JSON), and bough splines; which one a file is, its content decides. The\n"
-    "result goes to treeconvert:\n"
+    "       treegen --import FILE [--units UNIT] [--up AXIS] [--strict] [--stats] [--leaves] [--fruit] [-o FILE]",
+    "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, MTG, cylinders of TreeQSM,\n"
+    "SimpleForest and aRchi, ez-tree's branches, PLY skeletons, OBJ lines and curves, curves of Blender (CSV, JSON), "
+    "and\n"
+    "bough splines; which one a file is, its content decides. The result goes to treeconvert:\n"
     "  treegen --bodies 2000 --seed 7 | treeconvert - -o tree.json\n"
     "Exit: 0 done, 1 usage, 2 bad input, 4 output not written, 130 interrupted.",
     {"json", "safetensors"}};
@@ -37,11 +39,13 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--import", o.import, "Import this file instead of growing; - for stdin")->option_text("FILE");
     app.add_flag("--strict", o.strict, "With --import: guesses, repairs and omissions of the reader are errors");
     add_import_options(app, o.choice);
+    app.add_flag("--stats", o.stats, "With --import: print what was understood of the file on stderr");
 }
 
 void refuse_contradictions(const Options& o) {
     bough::refuse_contradictions(o.growth, !o.import.empty());
     if (o.strict && o.import.empty()) throw UsageError("--strict: only with --import");
+    if (o.stats && o.import.empty()) throw UsageError("--stats: only with --import");
     if (!o.import.empty() || !o.growth.envelope.envelope.empty()) return;
     if (!o.choice.units.empty() && o.growth.params.empty())
         throw UsageError("--units: only with --import, --envelope FILE or the preset of ez-tree, which has none");
@@ -79,8 +83,10 @@ Splines imported(Options& o) {
     options.unit = unit_in_metres(o.choice.units);
     if (!o.choice.up.empty()) options.up = char(std::tolower(o.choice.up[0]));
     options.name = input_name(o.import);
+    options.folder = folder_of(o.import);
     ImportNotes notes;
     Splines splines = import_splines(content, options, notes);
+    if (o.stats) std::cerr << import_statistics(splines, notes);
     if (o.strict && !notes.lines.empty()) throw InputError(options.name, notes.lines.front() + " (--strict)");
     for (const std::string& line : notes.lines) o.common.notes.push_back(options.name + ": " + line);
     leave_out(splines, o.growth, o.common.notes);

@@ -11,17 +11,34 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <numbers>
 
 namespace {
 
 using namespace bough;
 
+DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, const std::string& source) {
+    DrivenOptions options;
+    options.fps = o.run.fps;
+    options.key_tolerance = gltf_options(o.gltf, source).key_tolerance;
+    options.source = source;
+    if (!setting.scene.trees.empty()) {
+        options.position = setting.scene.trees.front().position;
+        options.yaw = setting.scene.trees.front().yaw * std::numbers::pi / 180;
+    }
+    return options;
+}
+
 // shown: the tree that meshes are made of, the balls with it.
 std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
-                                     const std::string& format, const MotionFields& fields) {
+                                     const std::string& format, const MotionFields& fields,
+                                     std::optional<UserModel> model) {
     if (o.no_output) return nullptr;
     if (format == "obj") return obj_sink(o.common.output, shown, o.sides.value_or(8));
     const std::string source = with_command_line(setting.source, o.common);
+    if (model)
+        return driven_sink(o.common.output, std::move(*model), shown, driven_options(o, setting, source),
+                           o.common.notes);
     if (format == "glb")
         return gltf_sink(o.common.output, shown, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
     MotionHeader header;
@@ -119,7 +136,8 @@ std::vector<std::uint32_t> what_breaks(const TreesimOptions& o, const Setting& s
 }
 
 // Returns the number of frames made.
-template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& format) {
+template <class T>
+std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& format, std::optional<UserModel> model) {
     if (o.report_error && has_free_bodies(setting.scene))
         throw UsageError(std::string("--report-error: not with a scene's ") + (free_part(setting.scene) + 1) +
                          ", which the second run would not have");
@@ -166,8 +184,8 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
     const Tree own = changed ? shown_tree(setting.tree, broken, balls) : Tree();
     const Tree& shown = changed ? own : setting.whole ? setting.whole->tree : setting.tree;
     o.gltf.loose = broken.size() + balls.size();
-    std::unique_ptr<FrameSink> sink =
-        open_sink(o, setting, shown, setting.whole ? shown.size_bodies() : plan.bodies, format, fields);
+    std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, setting.whole ? shown.size_bodies() : plan.bodies,
+                                                format, fields, std::move(model));
     LoopStart loop;
     if (loops) {
         std::optional<Run<T>> before;
@@ -196,9 +214,18 @@ template <class T> std::int64_t simulate(TreesimOptions& o, Setting setting, con
 }
 
 std::int64_t make(TreesimOptions& o, const std::string& format) {
+    std::optional<UserModel> model;
+    if (!o.skin.empty()) { // before threads are started
+        ImportNotes notes;
+        model = read_user_model(o.skin, notes);
+        for (const std::string& line : notes.lines) o.common.notes.push_back(model->name + ": " + line);
+    }
     Setting setting = read_setting(o.run);
-    if (o.run.precision == "float") return simulate<float>(o, std::move(setting), format);
-    return simulate<double>(o, std::move(setting), format);
+    if (model && setting.ranges.size() != 1)
+        throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +
+                         " trees, expected one, which the model is of");
+    if (o.run.precision == "float") return simulate<float>(o, std::move(setting), format, std::move(model));
+    return simulate<double>(o, std::move(setting), format, std::move(model));
 }
 
 // What has nothing to do with putting parts together would be ignored.

@@ -33,6 +33,12 @@ void declare(CLI::App& app, TreesimOptions& o) {
     app.add_option("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
         ->option_text("N")
         ->check(whole_number(3, 256));
+    app.add_option("--skin", o.skin,
+                   "With -o FILE.glb: write this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: "
+                   "its own meshes, skins and materials, with the motion as an animation of its bones. The tree must "
+                   "have been made from it, or stand where its bones do")
+        ->option_text("FILE")
+        ->check(file_name());
     add_max_joints(app, o.gltf);
     add_key_tolerance(app, o.gltf);
     app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
@@ -115,6 +121,14 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     const bool mesh = format == "obj" || format == "glb";
     if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
+    if (!o.skin.empty()) {
+        if (format != "glb") throw UsageError("--skin: only with -o FILE.glb");
+        if (o.sides) throw UsageError("--sides: not with --skin, whose mesh is its own");
+        if (!o.gltf.max_joints.empty()) throw UsageError("--max-joints: not with --skin, whose bones are its own");
+        if (o.skin == "-" && o.run.input == "-") throw UsageError("--skin -: the input is read from stdin already");
+        if (o.skin == "-" && o.watch) throw UsageError("--watch: not with --skin -, which cannot be read again");
+        if (same_file(o.skin, o.common.output)) throw UsageError("--skin and -o name the same file");
+    }
     if (o.gltf.given() && format != "glb")
         throw UsageError(std::string(o.gltf.key_tolerance ? "--key-tolerance" : "--max-joints") + ": only with .glb");
     if (format == "obj") {

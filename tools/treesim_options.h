@@ -13,6 +13,7 @@ struct TreesimOptions {
     CommonOptions common;
     RunOptions run;
     std::string fields, save_state, save_tree, resume;
+    std::string skin; // the user's own model
     JoinOptions join;
     const CLI::App* app = nullptr; // for what was given
     GltfChoice gltf;

@@ -56,6 +56,7 @@ void watch(const TreesimOptions& o, const std::function<std::int64_t()>& run) {
     for (;;) {
         try {
             files = files_read(o.run);
+            if (!o.skin.empty()) files.push_back(o.skin);
         } catch (const std::exception&) {
             // the run will say why; what was read before is what may be mended
         }

@@ -1,0 +1,48 @@
+// armature.h: the rods of a model's armature: which nodes are bones, where each ends, how thick it is.
+//
+// Bones. A node that a skin or COLLADA calls a joint; in FBX every node that holds nothing and is no Null; in a file that
+// names none and has no faces, every node that holds nothing. Left out, each counted in a note:
+//   - a topmost node whose bones begin beside or at it rather than above it, unless the file calls it a joint: it is the
+//     armature's frame, not wood;
+//   - where a skin is: what moves no vertex, nor anything below it (IK targets, controls), but for the one place below a
+//     bone that ends a chain, which is that bone's end;
+//   - a bone without anything below it that says how long it is: alone, without vertices; Blender's `neutral_bone`.
+// A node whose name ends in `_end`, `.end` or `nub` with nothing below it marks the end of its parent and is no bone.
+// Ends. At such a mark; else where the file states it (Blender's COLLADA); else at the bone below that starts on this
+// bone's own axis, the farthest: the local axis on which most bones of the file carry another within 1e-4 (Blender's
+// is +Y); else, for a file whose bones have no such axis, at the start of the bone below with the longest way to a tip;
+// else along the axis as far as the vertices it moves most reach; else as long as the bone above. A bone reaches at
+// least as far as the bones below it start.
+// Radii. Of the vertices that a bone moves most, the median distance from its axis, of those in its first half where
+// there are at least 3, else of all (at least 3); other bones by the pipe rule (speedtree_bones.h).
+// Reads a ModelScene, its coordinates. O(nodes + vertices log vertices of a bone).
+#pragma once
+#include "imported_tree.h"
+#include "model_scene.h"
+#include "speedtree_xml.h"
+
+namespace bough {
+
+struct Armature {
+    std::vector<speedtree::Bone> bones; // all ends given; radius 0: not known
+    std::vector<std::int32_t> node;     // of each bone
+};
+
+// `up`: unit vector in the scene's coordinates. Empty where there is no bone.
+Armature armature_of(const ModelScene&, const Vec3& up, ImportNotes&);
+
+// ---- armature_joints.cpp ---- the nodes that are bones and those that mark a bone's end.
+struct ChosenJoints {
+    std::vector<std::int32_t> bone;  // nodes, parents first
+    std::vector<std::int32_t> above; // of each node: the bone it hangs on, as an index into `bone`, -1: none
+    std::vector<std::int32_t> mark;  // nodes that are an end of the bone above them
+};
+ChosenJoints choose_joints(const ModelScene&, const Vec3& up, ImportNotes&);
+
+// ---- armature_radii.cpp ---- radii from the vertices that each bone moves; needs ends.
+void measure_radii(const ModelScene&, Armature&, ImportNotes&);
+
+// ---- armature_format.cpp ---- the bones as branches; what has no radius gets it by the pipe rule (pipe_rule.h).
+ImportedTree tree_of(const Armature&, ImportNotes&);
+
+} // namespace bough

@@ -1,0 +1,81 @@
+#include "armature.h"
+#include "imported_tree.h"
+#include "line_graph.h"
+#include "pipe_rule.h"
+#include "speedtree_bones.h"
+
+namespace bough {
+namespace {
+
+bool recognizes(std::string_view content) {
+    return model_kind(content).has_value();
+}
+
+// Coordinates that the options' up axis or the file's own statement turn to Y up.
+Mat3 to_y_up(const ModelScene& scene, const ImportOptions& options) {
+    Mat3 axes = scene.to_y_up;
+    if (options.up == 'y') axes = Mat3::Identity();
+    if (options.up == 'z') axes << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    return axes;
+}
+
+[[noreturn]] void refuse(const ModelScene& scene, AssimpKind kind, const std::string& name) {
+    throw InputError(name, std::string(kind == AssimpKind::fbx ? "is an " : "is a ") + model_kind_name(kind) +
+                               " model " +
+                               (scene.triangles > 0 ? "of a mesh without bones or lines" : "without bones or lines") +
+                               ", which says nothing of where branches run; export it with its armature, or the "
+                               "tree's curves as lines");
+}
+
+// Line meshes, as a tree that stands along +Y.
+ImportedTree tree_of_lines(ModelScene& scene, const Mat3& axes, const std::string& name, ImportNotes& notes) {
+    for (Vec3& p : scene.line_point) {
+        if (!p.allFinite()) throw InputError(name, "has a line whose place is not finite");
+        p = axes * p;
+    }
+    RootedLines rooted = root_lines({std::move(scene.line_point), {}, std::move(scene.line)}, 'y', name, notes);
+    ImportedTree tree;
+    tree.branches = std::move(rooted.branches);
+    fill_radii(tree.branches, notes);
+    return tree;
+}
+
+Splines read(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
+    const AssimpKind kind = *model_kind(content);
+    ModelScene scene = read_model(content, kind, options);
+    const Mat3 axes = to_y_up(scene, options);
+    Armature armature = armature_of(scene, axes.transpose() * Vec3::UnitY(), notes);
+    const bool bones = !armature.bones.empty();
+    if (!bones && scene.line.empty()) refuse(scene, kind, options.name);
+    if (bones && scene.mesh_encoded)
+        notes.lines.push_back("the mesh is compressed or quantized and was not read: radii come from the bones alone");
+    if (bones && scene.skinned_meshes == 0 && !scene.line.empty())
+        notes.lines.push_back(std::to_string(scene.line.size()) + " lines not read beside the bones");
+    for (speedtree::Bone& bone : armature.bones) {
+        if (!bone.start.allFinite() || !bone.end.allFinite())
+            throw InputError(options.name, "has a bone whose place is not finite");
+        bone.start = axes * bone.start;
+        bone.end = axes * bone.end;
+    }
+    ImportedTree tree = bones ? tree_of(armature, notes) : tree_of_lines(scene, axes, options.name, notes);
+    tree.source = std::string(model_kind_name(kind)) + (bones ? " armature " : " lines ") + options.name;
+    if (scene.unit > 0) tree.unit = scene.unit;
+    ImportOptions turned = options;
+    turned.up = 'y';
+    if (options.unit && kind == AssimpKind::dae) // assimp has applied its own
+        turned.unit = *options.unit / collada_unit(content);
+    return finish_import(std::move(tree), turned, notes);
+}
+
+} // namespace
+
+ImportedTree tree_of(const Armature& armature, ImportNotes& notes) {
+    ImportedTree tree;
+    tree.branches = speedtree::branches_of_bones(armature.bones).branches;
+    fill_radii(tree.branches, notes);
+    return tree;
+}
+
+const SplineFormat armature_format{"FBX, glTF or COLLADA armature or lines", recognizes, read};
+
+} // namespace bough

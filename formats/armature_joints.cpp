@@ -1,0 +1,168 @@
+#include "armature.h"
+#include "plain_text.h"
+#include <algorithm>
+
+namespace bough {
+namespace {
+
+bool ends_without_case(std::string_view text, std::string_view ending) {
+    if (text.size() < ending.size()) return false;
+    text.remove_prefix(text.size() - ending.size());
+    return std::equal(text.begin(), text.end(), ending.begin(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b; });
+}
+
+bool named_as_end(std::string_view name) {
+    for (const char* ending : {"_end", ".end", "end site", "nub"})
+        if (ends_without_case(name, ending)) return true;
+    return false;
+}
+
+struct Choice {
+    const ModelScene& scene;
+    std::vector<char> candidate, leaf;    // leaf: no candidate below
+    std::vector<std::int32_t> above;      // nearest candidate above each node
+    std::vector<std::int64_t> own, below; // vertices that a node moves most; with all below it
+};
+
+Choice candidates(const ModelScene& scene) {
+    const std::size_t n = scene.parent.size();
+    Choice c{scene,
+             std::vector<char>(n, false),
+             std::vector<char>(n, true),
+             std::vector<std::int32_t>(n, -1),
+             std::vector<std::int64_t>(n, 0),
+             {}};
+    std::vector<char> has_child(n, false);
+    for (const std::int32_t p : scene.parent)
+        if (p >= 0) has_child[p] = true;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::int32_t p = scene.parent[i];
+        if (p >= 0) c.above[i] = c.candidate[p] ? p : c.above[p];
+        const bool is_end = c.above[i] >= 0 && !has_child[i] && named_as_end(scene.name[i]);
+        c.candidate[i] =
+            scene.role[i] == NodeRole::joint || (scene.role[i] == NodeRole::open && (scene.open_are_joints || is_end));
+    }
+    for (const std::int32_t node : scene.vertex_node) ++c.own[node];
+    return c;
+}
+
+void sum_below(Choice& c) {
+    c.below = c.own;
+    std::fill(c.leaf.begin(), c.leaf.end(), true);
+    for (std::size_t i = c.candidate.size(); i-- > 0;) {
+        if (!c.candidate[i] || c.above[i] < 0) continue;
+        c.below[c.above[i]] += c.below[i];
+        c.leaf[c.above[i]] = false;
+    }
+}
+
+void find_above(Choice& c) {
+    for (std::size_t i = 0; i < c.candidate.size(); ++i) {
+        const std::int32_t p = c.scene.parent[i];
+        c.above[i] = p < 0 ? -1 : c.candidate[p] ? p : c.above[p];
+    }
+}
+
+// Topmost nodes that are the armature's frame. Two at most, one above the other.
+std::size_t leave_out_frames(Choice& c, const Vec3& up) {
+    std::size_t count = 0;
+    for (int round = 0; round < 2; ++round) {
+        find_above(c);
+        std::vector<char> rises(c.candidate.size(), false), has_child(c.candidate.size(), false);
+        for (std::size_t i = 0; i < c.candidate.size(); ++i) {
+            if (!c.candidate[i] || c.above[i] < 0) continue;
+            const Vec3 step = c.scene.place[i] - c.scene.place[c.above[i]];
+            const double rise = step.dot(up);
+            has_child[c.above[i]] = true;
+            if (rise > (step - rise * up).norm()) rises[c.above[i]] = true;
+        }
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < c.candidate.size(); ++i)
+            if (c.candidate[i] && c.above[i] < 0 && c.scene.role[i] == NodeRole::open && has_child[i] && !rises[i]) {
+                c.candidate[i] = false;
+                ++found;
+            }
+        count += found;
+        if (found == 0) break;
+    }
+    find_above(c);
+    return count;
+}
+
+// Nodes below which no vertex moves, where others move some: kept is the one that ends a chain. Returns how many go.
+std::size_t leave_out_idle(Choice& c, std::vector<char>& mark) {
+    sum_below(c);
+    const std::size_t n = c.candidate.size();
+    std::vector<std::int32_t> moving(n, 0), idle(n, 0); // children of each kind
+    for (std::size_t i = 0; i < n; ++i)
+        if (c.candidate[i] && c.above[i] >= 0) ++(c.below[i] > 0 ? moving : idle)[c.above[i]];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!c.candidate[i] || c.below[i] > 0) continue;
+        const std::int32_t p = c.above[i];
+        if (p >= 0 && !c.candidate[p]) { // goes with what it hangs on
+            c.candidate[i] = false;
+            ++count;
+            continue;
+        }
+        if (mark[i]) continue;
+        const bool ends_chain = p >= 0 && (c.below[p] == 0 || (moving[p] == 0 && idle[p] == 1));
+        if (!ends_chain) {
+            c.candidate[i] = false;
+            ++count;
+        } else if (c.leaf[i]) {
+            mark[i] = true;
+        }
+    }
+    return count;
+}
+
+void note(std::size_t count, const char* what, ImportNotes& notes) {
+    if (count > 0) notes.lines.push_back(std::to_string(count) + what);
+}
+
+} // namespace
+
+ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes& notes) {
+    Choice c = candidates(scene);
+    const std::size_t n = c.candidate.size();
+    const std::size_t frames = leave_out_frames(c, up);
+    sum_below(c);
+    std::vector<char> mark(n, false);
+    std::size_t neutral = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!c.candidate[i] || !c.leaf[i]) continue;
+        mark[i] = c.above[i] >= 0 && c.own[i] == 0 && named_as_end(scene.name[i]);
+        if (c.above[i] < 0 && scene.name[i] == "neutral_bone") c.candidate[i] = false, ++neutral;
+    }
+    const std::size_t idle = scene.vertex.empty() ? 0 : leave_out_idle(c, mark);
+    // Where nothing says how long a bone is.
+    sum_below(c);
+    std::size_t alone = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        if (c.candidate[i] && c.above[i] < 0 && c.leaf[i] && c.own[i] < 3 && !scene.tip[i].allFinite())
+            c.candidate[i] = false, ++alone;
+    find_above(c);
+
+    ChosenJoints chosen;
+    std::vector<std::int32_t> bone_of(n, -1);
+    chosen.above.assign(n, -1);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (c.above[i] >= 0) chosen.above[i] = bone_of[c.above[i]];
+        if (!c.candidate[i]) continue;
+        if (mark[i] && chosen.above[i] >= 0) {
+            chosen.mark.push_back(std::int32_t(i));
+            bone_of[i] = chosen.above[i];
+        } else {
+            bone_of[i] = std::int32_t(chosen.bone.size());
+            chosen.bone.push_back(std::int32_t(i));
+        }
+    }
+    note(frames, " nodes taken as the armature's frame, no bone: what is below begins beside them", notes);
+    note(idle, " bones that move no vertex, nor anything below them, left out (controls)", notes);
+    note(neutral + alone, " bones that stand alone left out", notes);
+    return chosen;
+}
+
+} // namespace bough

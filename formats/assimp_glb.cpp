@@ -1,0 +1,116 @@
+#include "assimp_scene.h"
+#include "forked.h"
+#include "plain_text.h"
+#include "user_model.h"
+#include <algorithm>
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <set>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+aiMatrix4x4 in_root(const aiNode* node) {
+    aiMatrix4x4 m;
+    for (; node->mParent; node = node->mParent) m = node->mTransformation * m;
+    return m;
+}
+
+const aiNode* node_with(const aiNode* root, unsigned mesh) {
+    std::vector<const aiNode*> stack{root};
+    while (!stack.empty()) {
+        const aiNode* node = stack.back();
+        stack.pop_back();
+        if (std::find(node->mMeshes, node->mMeshes + node->mNumMeshes, mesh) != node->mMeshes + node->mNumMeshes)
+            return node;
+        stack.insert(stack.end(), node->mChildren, node->mChildren + node->mNumChildren);
+    }
+    return nullptr;
+}
+
+template <class T> void append(T**& list, unsigned& count, T* item) {
+    T** longer = new T*[count + 1];
+    std::copy(list, list + count, longer);
+    longer[count++] = item;
+    delete[] list;
+    list = longer;
+}
+
+// The node that a mesh's bones hang on.
+aiNode* above_bones(aiScene& scene, const aiMesh& mesh) {
+    std::set<std::string_view> names;
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) names.insert(mesh.mBones[b]->mName.C_Str());
+    aiNode* node = scene.mRootNode->FindNode(mesh.mBones[0]->mName);
+    while (node && names.contains(node->mName.C_Str())) node = node->mParent;
+    return node ? node : scene.mRootNode;
+}
+
+// Vertices of a skinned mesh that no bone moves stand still where their mesh stands; glTF wants a bone for them, too.
+void hold_unweighted(aiScene& scene) {
+    constexpr const char* name = "neutral_bone";
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        aiMesh& mesh = *scene.mMeshes[m];
+        if (mesh.mNumBones == 0) continue;
+        std::vector<char> weighted(mesh.mNumVertices, false);
+        for (unsigned b = 0; b < mesh.mNumBones; ++b)
+            for (unsigned k = 0; k < mesh.mBones[b]->mNumWeights; ++k) {
+                const aiVertexWeight& w = mesh.mBones[b]->mWeights[k];
+                if (w.mVertexId >= mesh.mNumVertices)
+                    throw std::runtime_error("a skin names a vertex that is not there");
+                if (w.mWeight > 0) weighted[w.mVertexId] = true;
+            }
+        std::vector<aiVertexWeight> held;
+        for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+            if (!weighted[v]) held.emplace_back(v, 1.0f);
+        const aiNode* const node = node_with(scene.mRootNode, m);
+        if (held.empty() || !node) continue;
+        aiNode* const armature = above_bones(scene, mesh);
+        if (!scene.mRootNode->FindNode(name)) {
+            auto* still = new aiNode(name);
+            still->mParent = armature;
+            append(armature->mChildren, armature->mNumChildren, still);
+        }
+        auto* bone = new aiBone;
+        bone->mName = name;
+        bone->mOffsetMatrix = in_root(scene.mRootNode->FindNode(name)).Inverse() * in_root(node);
+        bone->mNumWeights = static_cast<unsigned>(held.size());
+        bone->mWeights = new aiVertexWeight[held.size()];
+        std::copy(held.begin(), held.end(), bone->mWeights);
+        append(mesh.mBones, mesh.mNumBones, bone);
+    }
+}
+
+std::string convert(std::string_view content, AssimpKind kind) {
+    Assimp::Importer importer;
+    load_by_assimp(importer, content, "", kind, false);
+    const aiScene* scene = importer.ApplyPostProcessing(aiProcess_JoinIdenticalVertices | aiProcess_LimitBoneWeights |
+                                                        aiProcess_SortByPType);
+    if (!scene) throw std::runtime_error(importer.GetErrorString());
+    // The importer's own scene is changed: a copy would be a second one in memory.
+    hold_unweighted(const_cast<aiScene&>(*scene));
+    const ModelFrame frame = stated_frame(*scene, kind);
+    aiMatrix4x4& root = scene->mRootNode->mTransformation;
+    aiMatrix4x4 to_metres;
+    for (unsigned r = 0; r < 3; ++r)
+        for (unsigned c = 0; c < 3; ++c)
+            to_metres[r][c] = static_cast<ai_real>((frame.unit > 0 ? frame.unit : 1) * frame.axes(r, c));
+    root = to_metres * root;
+    Assimp::Exporter exporter;
+    const aiExportDataBlob* blob = exporter.ExportToBlob(scene, "glb2", 0u);
+    if (!blob) throw std::runtime_error(exporter.GetErrorString());
+    return {static_cast<const char*>(blob->data), blob->size};
+}
+
+} // namespace
+
+std::string glb_by_assimp(std::string_view content, AssimpKind kind, const ImportOptions& options) {
+    const ChildResult child = run_forked([&] { return convert(content, kind); }, reader_limits);
+    if (child.failure.empty()) return child.bytes;
+    throw InputError(options.name, "assimp could not turn it into glTF: " + valid_utf8(child.failure) + "; expected " +
+                                       model_kind_name(kind));
+}
+
+} // namespace bough

@@ -1,0 +1,22 @@
+// gltf_nodes.h: where the nodes of a glTF document stand (private to formats/).
+#pragma once
+#include "lib/model/math.h"
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+struct GltfNodes {
+    std::vector<std::int32_t> parent; // -1: none
+    std::vector<Eigen::Affine3d> local, world;
+    std::vector<Quat> turned;    // rotations of a node and all above it, without their scales
+    std::vector<double> unequal; // of each node's own scale: largest over least, less 1
+};
+// O(nodes). Throws InputError: a node that is its own ancestor or has two parents, numbers that are wrong.
+GltfNodes nodes_of(const nlohmann::ordered_json&, const std::string& name);
+
+// The nearest rotation, and what it leaves along its own axes (negative for a mirror); identity for a singular matrix.
+void part(const Mat3& linear, Quat& rotation, Vec3& scale);
+
+} // namespace bough

@@ -1,0 +1,11 @@
+// gltf_uri.h: the bytes that a glTF file's URI names: a data: URI's own, or those of a file beside it.
+#pragma once
+#include <string>
+
+namespace bough {
+
+// A relative URI may have %XX escapes. Throws std::runtime_error: not there, no folder, a network address, base64 that
+// is none.
+std::string bytes_of_uri(const std::string& uri, const std::string& folder);
+
+} // namespace bough

@@ -1,0 +1,19 @@
+// model_gltf.h: a glTF document cut down to what an armature is read from (private to formats/).
+#pragma once
+#include "gltf_document.h"
+
+namespace bough {
+
+struct GltfJoints {
+    std::vector<char> joint;       // of each node: whether a skin names it
+    std::vector<std::string> name; // of each node: its own
+    bool any = false;
+    bool mesh_encoded = false;
+};
+
+// Leaves nodes, meshes, skins and their arrays; names each node "#" and its index, because assimp knows joints by name
+// and names need not differ. Meshes in a form that assimp does not decode (Draco, meshopt, quantized positions) go too.
+// Throws Json exceptions for types that are wrong, std::out_of_range for indices.
+GltfJoints cut_down(nlohmann::ordered_json&);
+
+} // namespace bough

@@ -1,0 +1,233 @@
+#include "model_scene.h"
+#include "assimp_scene.h"
+#include "forked.h"
+#include "model_collada.h"
+#include "model_gltf.h"
+#include "plain_text.h"
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <limits>
+#include <unordered_map>
+
+namespace bough {
+namespace {
+
+using Matrix = Eigen::Matrix4d;
+
+Matrix matrix_of(const aiMatrix4x4& m) {
+    Matrix result;
+    for (unsigned r = 0; r < 4; ++r)
+        for (unsigned c = 0; c < 4; ++c) result(r, c) = static_cast<double>(m[r][c]);
+    return result;
+}
+
+Vec3 placed(const Matrix& m, const aiVector3D& v) {
+    return (m * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>();
+}
+
+struct Reading {
+    const aiScene& scene;
+    ModelScene& out;
+    std::vector<const aiNode*> node;
+    std::vector<Matrix> world;
+    std::unordered_map<std::string_view, std::int32_t> by_name;
+};
+
+bool is_null(const aiNode& node) {
+    bool null = false;
+    return node.mMetaData && node.mMetaData->Get("IsNull", null) && null;
+}
+
+// A root that assimp makes where a file has none, or several: without a place and of a name of its own.
+bool made_up(const aiNode& root, AssimpKind kind) {
+    const std::string_view name = root.mName.C_Str();
+    if (root.mNumMeshes > 0) return false;
+    return kind == AssimpKind::fbx ? name == "RootNode" : kind == AssimpKind::dae || !name.starts_with('#');
+}
+
+void read_nodes(Reading& r, AssimpKind kind) {
+    struct Open {
+        const aiNode* node;
+        std::int32_t parent;
+        Matrix above;
+    };
+    std::vector<Open> stack{{r.scene.mRootNode, -1, Matrix::Identity()}};
+    while (!stack.empty()) {
+        const Open at = stack.back();
+        stack.pop_back();
+        const Matrix world = at.above * matrix_of(at.node->mTransformation);
+        std::int32_t self = -1;
+        if (at.parent >= 0 || at.node != r.scene.mRootNode || !made_up(*at.node, kind)) {
+            self = static_cast<std::int32_t>(r.node.size());
+            const std::string_view name = at.node->mName.C_Str();
+            r.node.push_back(at.node);
+            r.world.push_back(world);
+            r.by_name.try_emplace(name, self);
+            r.out.parent.push_back(at.parent);
+            r.out.name.emplace_back(name);
+            r.out.role.push_back(at.node->mNumMeshes > 0 || is_null(*at.node) ? NodeRole::holder : NodeRole::open);
+        }
+        for (unsigned i = at.node->mNumChildren; i-- > 0;) stack.push_back({at.node->mChildren[i], self, world});
+    }
+    for (const Matrix& world : r.world) {
+        r.out.place.push_back(world.topRightCorner<3, 1>());
+        Mat3 axes = world.topLeftCorner<3, 3>();
+        for (int k = 0; k < 3; ++k) axes.col(k).normalize();
+        r.out.axes.push_back(axes);
+    }
+    r.out.tip.assign(r.node.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    const auto hold = [&](const aiString& name) {
+        const auto found = r.by_name.find(name.C_Str());
+        if (found != r.by_name.end()) r.out.role[static_cast<std::size_t>(found->second)] = NodeRole::holder;
+    };
+    for (unsigned i = 0; i < r.scene.mNumCameras; ++i) hold(r.scene.mCameras[i]->mName);
+    for (unsigned i = 0; i < r.scene.mNumLights; ++i) hold(r.scene.mLights[i]->mName);
+}
+
+// Vertices as the joints move them (linear blend), and which joint moves each most.
+void read_skinned(Reading& r, const aiMesh& mesh, std::vector<Vec3>& moved) {
+    const std::size_t n = mesh.mNumVertices;
+    std::vector<std::int32_t> most(n, -1);
+    std::vector<double> most_weight(n, 0), sum(n, 0);
+    moved.assign(n, Vec3::Zero());
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+        const aiBone& bone = *mesh.mBones[b];
+        const auto found = r.by_name.find(bone.mName.C_Str());
+        if (found == r.by_name.end()) throw std::runtime_error("a skin names a joint that is no node");
+        const auto joint = static_cast<std::size_t>(found->second);
+        r.out.role[joint] = NodeRole::joint;
+        const Matrix move = r.world[joint] * matrix_of(bone.mOffsetMatrix);
+        for (unsigned k = 0; k < bone.mNumWeights; ++k) {
+            const std::size_t v = bone.mWeights[k].mVertexId;
+            const double weight = static_cast<double>(bone.mWeights[k].mWeight);
+            if (v >= n) throw std::runtime_error("a skin names a vertex that is not there");
+            if (!(weight > 0)) continue;
+            moved[v] += weight * placed(move, mesh.mVertices[v]);
+            sum[v] += weight;
+            if (weight > most_weight[v]) most_weight[v] = weight, most[v] = found->second;
+        }
+    }
+    for (std::size_t v = 0; v < n; ++v) {
+        if (!(sum[v] > 0)) continue;
+        moved[v] /= sum[v];
+        if (mesh.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON) && moved[v].allFinite()) {
+            r.out.vertex.push_back(moved[v]);
+            r.out.vertex_node.push_back(most[v]);
+        }
+    }
+}
+
+void read_mesh(Reading& r, const aiMesh& mesh, const Matrix& world, bool first_time) {
+    std::vector<Vec3> moved;
+    if (mesh.mNumBones > 0 && !first_time) return;
+    if (mesh.mNumBones > 0) {
+        ++r.out.skinned_meshes;
+        read_skinned(r, mesh, moved);
+    }
+    const auto first = static_cast<std::int32_t>(r.out.line_point.size());
+    bool lines = false;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        r.out.triangles += face.mNumIndices == 3;
+        if (face.mNumIndices != 2) continue;
+        for (unsigned k = 0; k < 2; ++k)
+            if (face.mIndices[k] >= mesh.mNumVertices)
+                throw std::runtime_error("a line names a vertex that is not there");
+        r.out.line.push_back(
+            {first + static_cast<std::int32_t>(face.mIndices[0]), first + static_cast<std::int32_t>(face.mIndices[1])});
+        lines = true;
+    }
+    if (!lines) return;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+        r.out.line_point.push_back(moved.empty() ? placed(world, mesh.mVertices[v]) : moved[v]);
+}
+
+void read_meshes(Reading& r) {
+    std::vector<char> seen(r.scene.mNumMeshes, false);
+    const auto read = [&](const aiNode& node, const Matrix& world) {
+        for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+            const unsigned m = node.mMeshes[i];
+            read_mesh(r, *r.scene.mMeshes[m], world, !seen[m]);
+            seen[m] = true;
+        }
+    };
+    for (std::size_t i = 0; i < r.node.size(); ++i) read(*r.node[i], r.world[i]);
+}
+
+void mark_joints(Reading& r, const GltfJoints& joints) {
+    r.out.index.assign(r.node.size(), -1);
+    for (std::size_t i = 0; i < r.node.size(); ++i) {
+        const std::optional<std::int64_t> index =
+            r.out.name[i].starts_with('#') ? parse_integer(std::string_view(r.out.name[i]).substr(1)) : std::nullopt;
+        if (!index || *index < 0 || static_cast<std::size_t>(*index) >= joints.joint.size()) continue;
+        r.out.index[i] = static_cast<std::int32_t>(*index);
+        r.out.name[i] = joints.name[static_cast<std::size_t>(*index)];
+        if (joints.joint[static_cast<std::size_t>(*index)]) r.out.role[i] = NodeRole::joint;
+    }
+}
+
+// Roles and tips that COLLADA states. A tip is a vector from the bone's start in the armature's axes.
+void mark_collada(Reading& r, const std::unordered_map<std::string, ColladaJoint>& joints) {
+    for (std::size_t i = 0; i < r.node.size(); ++i) {
+        const auto found = joints.find(r.out.name[i]);
+        if (found == joints.end()) continue;
+        r.out.role[i] = NodeRole::joint;
+        if (!found->second.tip) continue;
+        std::int32_t above = r.out.parent[i]; // the armature: the nearest node that is no joint
+        while (above >= 0 && joints.contains(r.out.name[static_cast<std::size_t>(above)]))
+            above = r.out.parent[static_cast<std::size_t>(above)];
+        const Matrix frame =
+            above >= 0 ? r.world[static_cast<std::size_t>(above)] : matrix_of(r.scene.mRootNode->mTransformation);
+        r.out.tip[i] = r.out.place[i] + frame.topLeftCorner<3, 3>() * *found->second.tip;
+    }
+}
+
+ModelScene read_in_child(std::string_view content, AssimpKind kind, const ImportOptions& options) {
+    ModelScene out;
+    GltfJoints joints;
+    std::string glb;
+    if (kind == AssimpKind::glb || kind == AssimpKind::gltf) {
+        ImportNotes none;
+        GltfDocument document = read_gltf(content, options.name, options.folder, GltfImages::leave, none);
+        try {
+            out.animations =
+                static_cast<std::int64_t>(document.json.value("animations", nlohmann::ordered_json()).size());
+            joints = cut_down(document.json);
+        } catch (const std::exception& error) { // a type that is wrong, an index beyond
+            throw InputError(options.name, std::string("is no glTF 2.0: ") + error.what());
+        }
+        out.mesh_encoded = joints.mesh_encoded;
+        glb = glb_of(document, options.name);
+        content = glb;
+        kind = AssimpKind::glb;
+    }
+    Assimp::Importer importer;
+    const aiScene& scene = *load_by_assimp(importer, content, "", kind, options.up != 0);
+    Reading reading{scene, out, {}, {}, {}};
+    const ModelFrame frame = stated_frame(scene, kind);
+    out.to_y_up = frame.axes;
+    out.unit = frame.unit;
+    read_nodes(reading, kind);
+    read_meshes(reading);
+    mark_joints(reading, joints);
+    if (kind == AssimpKind::dae) mark_collada(reading, collada_joints(content));
+    // In an FBX file what is no joint is a Null or holds something.
+    const bool stated = std::count(out.role.begin(), out.role.end(), NodeRole::joint) > 0;
+    out.open_are_joints = kind == AssimpKind::fbx || (!stated && out.triangles == 0);
+    return out;
+}
+
+} // namespace
+
+ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOptions& options) {
+    const ChildResult child =
+        run_forked([&] { return bytes_of(read_in_child(content, kind, options)); }, reader_limits);
+    if (child.failure.empty()) return model_scene_of(child.bytes);
+    const std::string own = options.name + ": "; // of an InputError in the child
+    if (child.failure.starts_with(own)) throw InputError(options.name, valid_utf8(child.failure.substr(own.size())));
+    throw InputError(options.name,
+                     "assimp could not read it: " + valid_utf8(child.failure) + "; expected " + model_kind_name(kind));
+}
+
+} // namespace bough

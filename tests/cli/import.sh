@@ -1,0 +1,116 @@
+# Files of other programs, from file to moving tree: each of the cases that are not ours is read, converted and simulated
+# for 2 s in a gusty wind with finite results, or refused with exit 2 in one line; so are its first half and itself with
+# bytes changed at random. Nothing crashes, takes more than 1 GB or longer than its time.
+source "$(dirname "$0")/common.sh"
+
+# Run by every reader, with or without the cases.
+fixtures=$top/data/fixtures
+for file in cylinder_small.txt simpleforest_small.csv archi_small.csv shrub.mtg eztree_list.json shuffled.swc two_trees.txt two_trunks_spines.xml; do
+    expect 0 treegen --import "$fixtures/$file" --stats --leaves -o tree.json
+    for word in read units "up axis" roots height wood; do
+        grep -q "^$word  *[A-Za-z0-9]" err || fail "--stats of $file does not tell $word: $(cat err)"
+    done
+    # Whatever was guessed or left out is a line of its own, which --strict turns into an error.
+    notes=$(grep -c '^note ' err || true)
+    [[ $notes -eq $(grep -c '^treegen: ' err) ]] || fail "$file: $notes lines in --stats, but $(grep -c '^treegen: ' err) notes"
+    if ((notes > 0)); then
+        refused 2 "(--strict)" treegen --import "$fixtures/$file" --strict -o strict.json
+        refused 2 "(--strict)" treeconvert "$fixtures/$file" --strict -o strict.json
+        absent strict.json
+    fi
+done
+refused 1 "--stats" treegen --stats --seed 3
+expect 0 treeconvert "$fixtures/shrub.mtg" --units cm --up Z --stats -o tree.json
+grep -q '^read  *MTG: 4 branches on 3 levels, 10 points' err || fail "--stats of the shrub: $(cat err)"
+grep -q '^units  *cm (given)' err && grep -q '^up axis  *Z (given)' err && grep -q '^roots  *2' err || fail "$(cat err)"
+grep -q '^height  *3 m, from 0 to 3; 4 by 0.3 m wide' err || fail "$(cat err)"
+
+# What nobody can read is called by its name, whatever its content or its name says.
+refuse_as() {
+    local file=$1 text=$2
+    cat >"$file"
+    refused 2 "$text" treegen --import "$file" -o none.json
+    absent none.json
+}
+printf 'SRT 07.0.0\0\1\2' | refuse_as tree.xml "compiled SpeedTree tree"
+head -c 300 /dev/urandom | sed 's/^/x/' | refuse_as tree.spm "SpeedTree Modeler"
+printf 'Ogawa\377\0\0' | refuse_as tree.bin "Alembic"
+printf '#usda 1.0\n' | refuse_as tree.txt "USD"
+printf 'PXR-USDC\0\0' | refuse_as tree.usd "USD"
+printf 'MATLAB 5.0 MAT-file' | refuse_as QSM.csv "save_model_text"
+printf '//Maya ASCII 2022 scene\n' | refuse_as tree.ma "Maya"
+printf '\320\317\021\340\241\261\032\341' | refuse_as tree.max "3ds Max"
+printf 'BLENDER-v340' | refuse_as tree.blend "Blender"
+printf 'MM\1\2\0\0' | refuse_as tree.dat "3D Studio"
+gzip -c "$fixtures/shrub.mtg" | refuse_as shrub.mtg.gz "gzip"
+printf '<html><body>404</body></html>' | refuse_as tree.xml "web page"
+refuse_as params.json "treegen --params" <"$top/data/eztree_sprig.json"
+printf 'radius\tlength\n1\t2\n' | refuse_as table.txt "unknown format"
+
+[[ -n ${BOUGH_CASES_DIR:-} && -d ${BOUGH_CASES_DIR:-} ]] || {
+    echo "notice: BOUGH_CASES_DIR is not set, files of other programs are not tried"
+    exit 0
+}
+
+# What is to be read, by its path; all else is to be refused.
+readable='^(speedtree/|qsm/.*\.(txt|csv)$|sapling/.*\.(csv|json)$|sapling/.*\.(lines|nurbs|nurbs_py)\.obj$'
+readable+='|skeleton/.*\.(swc|ply)$|skeleton/reconstructed_appletree\.mtg$|eztree/.*\.branches\.json$'
+readable+='|invalid/Neuron(-flat|_zero_length_segments)\.swc$|models/testline\.obj$'
+# Armatures.
+readable+='|sapling/.*\.(fbx|gltf|glb|dae)$|models/(animation_with_skeleton\.fbx|simple_skin\.gltf)$)'
+# Address space: the tools map some libraries, 1.5 GB leaves them what they take without a file and 1 GB.
+limited() {
+    local seconds=$1
+    shift
+    (ulimit -v 1572864 -c 0 && exec timeout "$seconds" "$@")
+}
+
+cd "$BOUGH_CASES_DIR"
+mapfile -t cases < <(find . -type f ! -name README.md -printf '%P\n' | sort)
+cd "$work"
+for name in "${cases[@]}"; do
+    code=0
+    limited 60 treeconvert "$BOUGH_CASES_DIR/$name" -q -o tree.json >out 2>err </dev/null || code=$?
+    if [[ $code -eq 2 ]]; then
+        one_line "$(basename "$name")" treeconvert
+        [[ ! $name =~ $readable ]] || fail "$name is to be read: $(cat err)"
+        continue
+    fi
+    [[ $code -eq 0 && ! -s err ]] || fail "exit $code of treeconvert $name, expected 0 or 2: $(head -c 300 err)"
+    [[ $name =~ $readable ]] || fail "$name was read, expected a refusal"
+    code=0
+    limited 120 treesim tree.json -q --seconds 2 --wind gusty --no-output --hash >out 2>err </dev/null || code=$?
+    if [[ $code -eq 2 ]]; then # neurons, metres long, and branches drawn for pictures: no wood carries them
+        one_line "too soft to carry its weight" treesim
+        echo "notice: $name is read, but its wood is too soft to stand"
+    elif [[ $code -ne 0 ]]; then
+        fail "exit $code of treesim on $name: $(head -c 300 err)"
+    fi
+done
+
+# Damage. Sizes are kept small: what readers do with size is not what is asked here.
+damaged() {
+    local name=$1 file=$2 code=0
+    limited 60 treegen --import "$file" -q -o tree.json >out 2>err </dev/null || code=$?
+    [[ $code -eq 0 || $code -eq 2 ]] || fail "exit $code of treegen on $name, damaged ($(basename "$file")): $(head -c 300 err)"
+    [[ $code -eq 0 || $(wc -l <err) -eq 1 ]] || fail "$name, damaged: $(cat err)"
+}
+seed=1
+for name in "${cases[@]}"; do
+    size=$(stat -c %s "$BOUGH_CASES_DIR/$name")
+    ((size > 0)) || continue
+    copy=damaged_$(basename "$name")
+    head -c $((size / 2)) "$BOUGH_CASES_DIR/$name" >"$copy"
+    damaged "$name" "$copy"
+    for _ in 1 2; do
+        seed=$((seed + 1))
+        awk -v size="$size" -v seed=$seed 'BEGIN { srand(seed); for (k = 0; k < 12; ++k) print int(rand() * size), int(rand() * 256) }' >places
+        cp "$BOUGH_CASES_DIR/$name" "$copy"
+        chmod u+w "$copy"
+        while read -r at byte; do
+            printf "\\x$(printf %02x "$byte")" | dd of="$copy" bs=1 seek="$at" conv=notrunc status=none
+        done <places
+        damaged "$name" "$copy"
+    done
+    rm -f "$copy"
+done
