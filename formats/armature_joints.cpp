@@ -134,7 +134,7 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
     for (std::size_t i = 0; i < n; ++i) {
         if (!c.candidate[i] || !c.leaf[i]) continue;
         mark[i] = c.above[i] >= 0 && c.own[i] == 0 && named_as_end(scene.name[i]);
-        if (c.above[i] < 0 && scene.name[i] == "neutral_bone") c.candidate[i] = false, ++neutral;
+        if (c.above[i] < 0 && ends_without_case(scene.name[i], "neutral_bone")) c.candidate[i] = false, ++neutral;
     }
     const std::size_t idle = scene.vertex.empty() ? 0 : leave_out_idle(c, mark);
     // Where nothing says how long a bone is.

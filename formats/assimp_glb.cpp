@@ -83,6 +83,35 @@ void hold_unweighted(aiScene& scene) {
     }
 }
 
+// assimp writes a line as a triangle with a corner at the origin: what is no face is left out.
+void keep_faces(aiScene& scene) {
+    std::vector<int> place(scene.mNumMeshes, -1);
+    unsigned kept = 0;
+    bool skinned = false;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        aiMesh* mesh = scene.mMeshes[m];
+        if (mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)) {
+            skinned = skinned || mesh->mNumBones > 0;
+            place[m] = static_cast<int>(kept);
+            scene.mMeshes[kept++] = mesh;
+        } else {
+            delete mesh;
+        }
+    }
+    scene.mNumMeshes = kept;
+    if (!skinned) throw std::runtime_error("its bones move no mesh of faces");
+    std::vector<aiNode*> stack{scene.mRootNode};
+    while (!stack.empty()) {
+        aiNode* node = stack.back();
+        stack.pop_back();
+        unsigned count = 0;
+        for (unsigned i = 0; i < node->mNumMeshes; ++i)
+            if (const int m = place[node->mMeshes[i]]; m >= 0) node->mMeshes[count++] = static_cast<unsigned>(m);
+        node->mNumMeshes = count;
+        stack.insert(stack.end(), node->mChildren, node->mChildren + node->mNumChildren);
+    }
+}
+
 std::string convert(std::string_view content, AssimpKind kind) {
     Assimp::Importer importer;
     load_by_assimp(importer, content, "", kind, false);
@@ -90,6 +119,7 @@ std::string convert(std::string_view content, AssimpKind kind) {
                                                         aiProcess_SortByPType);
     if (!scene) throw std::runtime_error(importer.GetErrorString());
     // The importer's own scene is changed: a copy would be a second one in memory.
+    keep_faces(const_cast<aiScene&>(*scene));
     hold_unweighted(const_cast<aiScene&>(*scene));
     const ModelFrame frame = stated_frame(*scene, kind);
     aiMatrix4x4& root = scene->mRootNode->mTransformation;

@@ -1,8 +1,9 @@
 // user_model.h: a model of the user's own with its armature, as the glTF that it is or becomes, to be moved by a tree.
 //
 // A .glb or .gltf stays as it is, its buffers and images in one file (gltf_document.h). FBX and COLLADA are turned into
-// glTF by assimp, in a child process: nodes, meshes, skins, materials' colours, textures by name or embedded; a node
-// above them all brings the file's unit and axes to metres and Y up.
+// glTF by assimp, in a child process: nodes, meshes of faces (corners split by normal), skins, materials' colours, textures
+// by name or embedded; the topmost node brings the file's unit and axes to metres and Y up, and vertices that no bone
+// moves get one that stands still.
 #pragma once
 #include "armature.h"
 #include <memory>

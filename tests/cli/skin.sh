@@ -1,0 +1,42 @@
+# treesim --skin: the user's own model moved; armatures from the command line; what is refused.
+. "$(dirname "$0")/common.sh" "$@"
+
+twig=$top/data/fixtures/twig_armature.gltf
+expect 0 treeconvert "$twig" -o twig.json --stats
+grep -q "^splines     2 branches, 6 points" err || fail "--stats of an armature: $(cat err)"
+grep -q "controls" err || fail "a bone left out is not noted: $(cat err)"
+refused 2 "(--strict)" treeconvert "$twig" -o strict.json --strict
+run=(treesim twig.json --wind storm --seconds 1)
+expect 0 "${run[@]}" --skin "$twig" -o a.glb
+grep -q "4 bones of the model moved" err || fail "--skin says nothing: $(cat err)"
+grep -q 'animations of the same bones left out for the new one: "sway"' err || fail "the model's animation: $(cat err)"
+expect 0 "${run[@]}" --skin "$twig" -o b.glb --threads 1 -q
+[[ ! -s err ]] || fail "-q says $(cat err)"
+"${run[@]}" --skin - -o c.glb -q <"$twig" 2>err && fail "a .gltf from a pipe has no buffers"
+one_line "read from a pipe" treesim
+# The output is a model again: the same tree comes of it.
+expect 0 treegen --import "$twig" --no-source -o before.json
+expect 0 treegen --import a.glb --no-source -o after.json
+same <(sed 1,4d before.json | grep -v '"name"\|"source"') <(sed 1,4d after.json | grep -v '"name"\|"source"')
+cat a.glb | treesim twig.json --frames 3 --skin - -q -o e.glb || fail "a .glb from a pipe"
+
+# In a scene the model stays at its own origin.
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig.json", "position": [30, 0, 5], "yaw": 40}], "wind": "storm"}' >one.json
+expect 0 treesim one.json --frames 5 --skin "$twig" -o scene.glb
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig.json"}, {"file": "twig.json", "position": [3, 0, 0]}]}' >two.json
+refused 1 "expected one" treesim two.json --frames 5 --skin "$twig" -o two.glb
+
+refused 1 "--skin: only with -o FILE.glb" "${run[@]}" --skin "$twig" -o x.jsonl
+refused 1 "--sides: not with --skin" "${run[@]}" --skin "$twig" --sides 8 -o x.glb
+refused 1 "--max-joints: not with --skin" "${run[@]}" --skin "$twig" --max-joints 8 -o x.glb
+cp a.glb own.glb
+refused 1 "name the same file" "${run[@]}" --skin own.glb -o ./own.glb
+refused 2 "is no model that can be moved" "${run[@]}" --skin "$maple" -o x.glb
+refused 2 "has no armature" "${run[@]}" --skin "$top/data/fixtures/lines.gltf" -o x.glb
+refused 2 "none.glb" "${run[@]}" --skin none.glb -o x.glb
+head -c 900 a.glb >cut.glb
+refused 2 "cut off" "${run[@]}" --skin cut.glb -o x.glb
+refused 2 "cut off" treegen --import cut.glb
+treegen --bodies 300 -q | treeconvert - -q -o other.json
+refused 2 "expected the model that the tree was made from" treesim other.json --frames 3 --skin "$twig" -o x.glb
+absent x.glb x.jsonl two.glb strict.json
