@@ -33,9 +33,10 @@ std::string asset(const GltfOptions& options) {
     return text + "}";
 }
 
-// The joints' nodes: the drawn pose, children by name of body.
-std::string joint_nodes(const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin) {
-    std::vector<std::string> children(groups.size());
+// The joints' nodes: the drawn pose, children by name of body; `children` holds those that are no joints.
+std::string joint_nodes(const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin,
+                        std::vector<std::string> children) {
+    children.resize(groups.size());
     for (std::size_t g = 0; g < groups.size(); ++g) {
         if (groups.parent[g] < 0) continue;
         std::string& list = children[std::size_t(groups.parent[g])];
@@ -53,7 +54,8 @@ std::string joint_nodes(const JointGroups& groups, const GroupFrames& drawn, con
     return text;
 }
 
-std::string nodes(const Tree& tree, const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin) {
+std::string nodes(const Tree& tree, const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin,
+                  const GltfLeaves& leaves) {
     const std::string name = tree.name.empty() ? "tree" : tree.name;
     std::string text = "{\"name\":";
     append_string(text, name);
@@ -67,7 +69,7 @@ std::string nodes(const Tree& tree, const JointGroups& groups, const GroupFrames
         text += (first ? "" : ",") + std::to_string(first_joint + int(g));
         first = false;
     }
-    return text + "]}" + joint_nodes(groups, drawn, origin);
+    return text + "]}" + joint_nodes(groups, drawn, origin, leaves.children) + leaves.nodes;
 }
 
 // The file's joints as one skin; inverse bind matrices take the mesh's frame (the world less `origin`) to the joints'.
@@ -88,11 +90,32 @@ std::string skin_of(GltfFile& file, const GroupFrames& drawn, const Vec3& origin
     return text + "]}";
 }
 
+// x along the branch: z to x, x to y, y to z.
+Mat3 x_from_z() {
+    Mat3 turn;
+    turn.col(0) = Vec3::UnitZ();
+    turn.col(1) = Vec3::UnitX();
+    turn.col(2) = Vec3::UnitY();
+    return turn;
+}
+
+// The same joints with their own axes turned.
+GroupFrames turned(GroupFrames frames, const JointGroups& groups, const Mat3& turn) {
+    const Quat q(turn);
+    for (std::size_t g = 0; g < frames.x_w.size(); ++g) {
+        frames.R_wg[g] = frames.R_wg[g] * turn;
+        frames.rotation[g] = (groups.parent[g] < 0 ? frames.rotation[g] * q : q.conjugate() * frames.rotation[g] * q);
+        if (groups.parent[g] >= 0) frames.position[g] = turn.transpose() * frames.position[g];
+    }
+    return frames;
+}
+
 } // namespace
 
 GltfWriter::GltfWriter(Output& output, const Skin& skin, const Tree& tree, const JointGroups& groups,
                        const GltfOptions& options)
-    : output_(output), skin_(skin), tree_(tree), groups_(groups), options_(options), drawn_(drawn_frames(tree, groups)),
+    : output_(output), skin_(skin), tree_(tree), groups_(groups), options_(options),
+      drawn_(options.x_along ? turned(drawn_frames(tree, groups), groups, x_from_z()) : drawn_frames(tree, groups)),
       keys_(groups.parent, drawn_.rotation), rotation_(groups.size()) {
     if (groups.size() > 65536)
         throw std::length_error("a skin of " + std::to_string(groups.size()) +
@@ -103,7 +126,8 @@ GltfWriter::GltfWriter(Output& output, const Skin& skin, const Tree& tree, const
 
 void GltfWriter::write(const MotionFrame& frame) {
     assert(frame.rotation.size() == tree_.size_bodies());
-    for (std::size_t g = 0; g < groups_.size(); ++g) rotation_[g] = frame.rotation[std::size_t(groups_.lead[g])];
+    const Quat axes = options_.x_along ? Quat(x_from_z()) : Quat(Quat::Identity());
+    for (std::size_t g = 0; g < groups_.size(); ++g) rotation_[g] = frame.rotation[std::size_t(groups_.lead[g])] * axes;
     for (RootPath& path : paths_) {
         const Vec3 &is = frame.position[std::size_t(groups_.first[path.joint])], &drawn = drawn_.x_w[path.joint];
         path.place.push_back(is);
@@ -116,12 +140,20 @@ void GltfWriter::finish() {
     keys_.thin(options_.key_tolerance);
     const Vec3 origin = origin_of(skin_, drawn_);
     GltfFile file;
+    GltfLeaves leaves;
+    if (options_.leaf_instances)
+        leaves =
+            gltf_leaves(file, tree_, groups_, drawn_, first_joint + int(groups_.size()), 1, int(skin_.part.size()));
     std::string json = asset(options_);
+    if (!leaves.nodes.empty())
+        json +=
+            ",\n\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]";
     json += ",\n\"scene\":0,\"scenes\":[{\"nodes\":[" + std::to_string(mesh_node) + "," +
-            std::to_string(armature_node) + "]}],\n\"nodes\":[\n" + nodes(tree_, groups_, drawn_, origin) +
-            "],\n\"materials\":[\n" + gltf_materials(skin_) + "],\n\"meshes\":[{\"name\":\"skin\",\"primitives\":[\n";
+            std::to_string(armature_node) + "]}],\n\"nodes\":[\n" + nodes(tree_, groups_, drawn_, origin, leaves) +
+            "],\n\"materials\":[\n" + gltf_materials(skin_) + leaves.materials +
+            "],\n\"meshes\":[{\"name\":\"skin\",\"primitives\":[\n";
     json += gltf_primitives(file, skin_, groups_, origin);
-    json += "]}],\n\"skins\":[" + skin_of(file, drawn_, origin) + "]";
+    json += "]}" + leaves.meshes + "],\n\"skins\":[" + skin_of(file, drawn_, origin) + "]";
     const std::string animation = gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint);
     if (!animation.empty()) json += ",\n\"animations\":[" + animation + "]";
     file.write(output_, json);

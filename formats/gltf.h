@@ -10,6 +10,10 @@
 //
 // JSON is appended as text and numbers go out as they are made. (assimp's exporter was no choice: it wants the whole scene
 // as its own objects, one node, one channel with double keys for each joint, and puts the skinned mesh below a node.)
+// Leaves as instances (EXT_mesh_gpu_instancing, required: a program without it would show one leaf of a metre a joint):
+// a mesh for leaves, one for petals, each 1 m long and wide, and under each joint that bears some a node that draws them at
+// their places, turned and scaled, still relative to the joint. The skin is then one without leaves, the groups are those
+// of merge_joints without leaves.
 // A vertex moved by two bodies of one group is moved by the group alone. Weights are floats, joints u8 or u16, indices u16
 // where they fit; every array starts at a multiple of 4 bytes.
 // Cost: O(joints) and 16 bytes a joint for each frame; all else when it is finished.
@@ -28,6 +32,8 @@ struct GltfOptions {
     double key_tolerance = 0; // [rad] of joint_keys.h; 0 keeps every frame
     std::string generator;    // of asset.generator
     std::string source;       // of asset.extras.source, left out when empty
+    bool leaf_instances = false;
+    bool x_along = false; // a joint's x axis lies along the branch, as Unreal wants it; else z
 };
 
 // Where a root's joint is, frame after frame.

@@ -152,17 +152,19 @@ std::string gltf_primitives(GltfFile& file, const Skin& skin, const JointGroups&
     return text;
 }
 
+std::string gltf_material(const std::string& part, const Vec3& srgb) {
+    std::string text = "{\"name\":";
+    append_string(text, part);
+    const Eigen::Vector4d color(linear(srgb[0]), linear(srgb[1]), linear(srgb[2]), 1);
+    text += ",\"pbrMetallicRoughness\":{\"baseColorFactor\":" + gltf_list(color) +
+            ",\"metallicFactor\":0,\"roughnessFactor\":";
+    append_number(text, roughness(part));
+    return text + (part == "leaf" || part == "petal" ? "},\"doubleSided\":true}" : "}}");
+}
+
 std::string gltf_materials(const Skin& skin) {
     std::string text;
-    for (const SkinPart& part : skin.part) {
-        text += text.empty() ? "{\"name\":" : ",\n{\"name\":";
-        append_string(text, part.name);
-        const Eigen::Vector4d color(linear(part.color[0]), linear(part.color[1]), linear(part.color[2]), 1);
-        text += ",\"pbrMetallicRoughness\":{\"baseColorFactor\":" + gltf_list(color) +
-                ",\"metallicFactor\":0,\"roughnessFactor\":";
-        append_number(text, roughness(part.name));
-        text += part.name == "leaf" || part.name == "petal" ? "},\"doubleSided\":true}" : "}}";
-    }
+    for (const SkinPart& part : skin.part) text += (text.empty() ? "" : ",\n") + gltf_material(part.name, part.color);
     return text;
 }
 

@@ -59,6 +59,16 @@ std::string gltf_bounds(const Eigen::Vector3f& low, const Eigen::Vector3f& high)
 // ---- gltf_mesh.cpp ---- the mesh's primitives and "materials" as JSON; positions are written less `origin`.
 std::string gltf_primitives(GltfFile&, const Skin&, const JointGroups&, const Vec3& origin);
 std::string gltf_materials(const Skin&);
+std::string gltf_material(const std::string& part, const Vec3& srgb);
+
+// ---- gltf_leaves.cpp ---- leaves and petals as instances under the joints that bear them.
+struct GltfLeaves {
+    std::string materials, meshes, nodes; // elements of these arrays, each after a comma
+    std::vector<std::string> children;    // of each group: the numbers of its nodes, with commas
+};
+// Nodes, meshes and materials are numbered from those given. A leaf's frame is scaled by (width, thickness, length).
+GltfLeaves gltf_leaves(GltfFile&, const Tree&, const JointGroups&, const GroupFrames& drawn, int first_node,
+                       int first_mesh, int first_material);
 
 // ---- gltf_animation.cpp ---- the JSON of "animations", "" where there are no frames; joint j is node first_node + j.
 // Places are written less `origin`.

@@ -1,28 +1,12 @@
 #include "obj.h"
+#include "float_range.h"
 #include "text.h"
-#include <algorithm>
 #include <cassert>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 
 namespace bough {
 
 namespace {
-
-// Floats keep 7 digits of a coordinate. Far from the origin (laser scans) that is coarse against the mesh's own size;
-// there coordinates are written in double.
-bool floats_suffice(const std::vector<Vec3>& position) {
-    if (position.empty()) return true;
-    Vec3 low = position[0], high = position[0];
-    for (const Vec3& p : position) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-    return farthest * std::numeric_limits<float>::epsilon() <= 1e-6 * (high - low).maxCoeff();
-}
 
 template <class Number> void add_positions(Text& text, const std::vector<Vec3>& position) {
     for (const Vec3& p : position) {
@@ -80,7 +64,7 @@ void write_obj(Output& output, const Skin& skin, const std::vector<Vec3>& positi
         text.end_line();
     }
     for (const SkinPart& part : skin.part) {
-        text.add("o ");
+        text.add("g ");
         text.add(part.name);
         text.add("\nusemtl ");
         text.add(part.name);

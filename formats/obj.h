@@ -8,7 +8,8 @@
 namespace bough {
 
 // The mesh with the given positions and normals (arrays over the skin's vertices) and a mtllib line naming `mtl`, the
-// file's name as seen from the OBJ's folder. Vertex k of the skin is v, vt and vn k + 1; an object and material a part.
+// file's name as seen from the OBJ's folder. Vertex k of the skin is v, vt and vn k + 1; a group and material a part, all one
+// object, so that programs make one mesh of it, with the vertices in this order (what point caches and sequences need).
 // Coordinates are the shortest decimals that give the same float (double where the mesh lies so far from the origin that
 // a float is coarser than 1e-6 of its size), normals have 4 decimals; the locale does not matter. O(vertices + triangles).
 // Throws OutputError.

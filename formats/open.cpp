@@ -1,6 +1,7 @@
 #include "open.h"
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -221,7 +222,7 @@ void Output::open_temporary(unsigned mode) {
     do {
         const std::string leaf = ".bough-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp";
         temporary_ = (directory / leaf).string();
-        file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        file_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (file_ < 0 && errno == EEXIST);
     if (file_ < 0) {
         const int error = errno;
@@ -274,6 +275,33 @@ void Output::flush() {
     if (file_ < 0) throw OutputError(name_, "cannot be written: it is closed");
     write_out(buffer_);
     buffer_.clear();
+}
+
+void Output::replace(std::uint64_t at, std::string_view bytes) {
+    assert(changeable());
+    flush();
+    while (!bytes.empty()) {
+        const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), off_t(at));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail("cannot be written", errno);
+        bytes.remove_prefix(std::size_t(n));
+        at += std::uint64_t(n);
+    }
+}
+
+void Output::take_out(std::uint64_t at, std::uint64_t count) {
+    assert(changeable());
+    flush();
+    const auto block = std::make_unique<char[]>(buffer_size);
+    for (;;) {
+        const ssize_t n = ::pread(file_, block.get(), buffer_size, off_t(at + count));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail("cannot be read back", errno);
+        if (n == 0) break;
+        replace(at, {block.get(), std::size_t(n)});
+        at += std::uint64_t(n);
+    }
+    if (::ftruncate(file_, off_t(at)) != 0 || ::lseek(file_, off_t(at), SEEK_SET) < 0) fail("cannot be written", errno);
 }
 
 void Output::finish() {

@@ -52,6 +52,10 @@ public:
     void write(std::string_view bytes);
     void flush();  // what was written so far reaches the reader of a pipe (once a frame for JSON lines)
     void finish(); // flush, close, check, rename
+    // Whether what was written can still be changed: a file of our own, not stdout, a device or a pipe.
+    bool changeable() const { return !temporary_.empty(); }
+    void replace(std::uint64_t at, std::string_view bytes); // from byte `at` on, within what was written
+    void take_out(std::uint64_t at, std::uint64_t count);   // what follows moves up; O(what follows), 1 MiB of memory
     const std::string& name() const { return name_; }
 
 private:

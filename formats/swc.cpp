@@ -1,8 +1,10 @@
 // swc.cpp: SWC skeletons: '#' comments, then one node a line: id type x y z radius parent; ids in any order, parent -1
 // at a root. A root of type 1 in a file that has other types is a soma: its radius is not a branch's, and soma nodes
-// that carry nothing but mark its outline are left out. The format states neither unit nor axis.
+// that carry nothing but mark its outline are left out. The format states neither unit nor axis; files of our own do, in
+// a comment before the first node.
 #include "plain_text.h"
 #include "skeleton.h"
+#include "skeleton_writer.h"
 #include <array>
 #include <unordered_map>
 
@@ -137,6 +139,19 @@ bool recognizes_swc(std::string_view content) {
     return looks_like;
 }
 
+// Whether the comments before the first node are those of our own writer.
+bool is_our_own(std::string_view content) {
+    for (std::size_t at = 0; at < content.size();) {
+        const std::size_t end = std::min(content.find('\n', at), content.size());
+        const std::string_view line = trimmed(content.substr(at, end - at));
+        at = end + 1;
+        if (line.empty()) continue;
+        if (line.front() != '#') return false;
+        if (trimmed(line.substr(1)) == swc_frame) return true;
+    }
+    return false;
+}
+
 Splines read_swc(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     const Table table = parse_table(content, options.name);
     if (table.nodes.empty())
@@ -147,6 +162,7 @@ Splines read_swc(std::string_view content, const ImportOptions& options, ImportN
     ImportedTree tree;
     tree.branches = branches_of(std::move(skeleton), options.name, notes);
     tree.source = "SWC " + options.name;
+    if (is_our_own(content)) tree.unit = 1, tree.up = 'z';
     return finish_import(std::move(tree), options, notes);
 }
 

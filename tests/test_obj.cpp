@@ -7,6 +7,7 @@
 #include <clocale>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <unistd.h>
 
 using namespace bough;
@@ -151,6 +152,53 @@ TEST_CASE("names of a sequence") {
     CHECK(sequence_mtl("oak%d.obj") == "oak.mtl");
     CHECK(sequence_mtl("frames/_%d.obj") == "frames/_.mtl");
     CHECK(sequence_mtl("./x-y.%03d.obj") == "./x-y.mtl");
+}
+
+// Blender's add-on Stop-motion-OBJ takes all PREFIX*.obj of a folder in the order of their names, digits as numbers, as one
+// mesh a file without splitting it by objects, and keeps the first one's materials.
+TEST_CASE("an add-on that plays sequences finds the frames in their order, and one mesh in all") {
+    const auto key = [](const std::string& name) { // its alphanumKey: split at runs of digits, those as numbers
+        std::vector<std::pair<long, std::string>> parts(1);
+        bool digits = false;
+        for (const char c : name) {
+            const bool digit = c >= '0' && c <= '9';
+            if (digit != digits) parts.push_back({-1, ""});
+            digits = digit;
+            parts.back().second += c;
+            if (digit) parts.back() = {std::stol(parts.back().second), parts.back().second};
+        }
+        for (auto& part : parts)
+            if (part.first >= 0) part.second.clear();
+        return parts;
+    };
+    for (const char* pattern : {"f/oak_%04d.obj", "f/oak%d.obj", "f2/oak.%02d.obj"})
+        for (const std::int64_t f : {0, 8, 9, 98, 99, 999, 9999})
+            CHECK(key(sequence_name(pattern, f)) < key(sequence_name(pattern, f + 1)));
+
+    const Folder folder;
+    const Tree tree = make_tree::branched();
+    const Skin skin = build_skin(tree, {});
+    std::vector<Vec3> moved = skin.position;
+    for (Vec3& p : moved) p += 0.01 * p.y() * p.y() * Vec3(1, 0, 0);
+    std::vector<std::string> rest;
+    for (const std::vector<Vec3>* position : {&skin.position, &std::as_const(moved)}) {
+        Output obj(folder.file("frame.obj"));
+        write_obj(obj, skin, *position, skin.normal, "oak.mtl");
+        obj.finish();
+        std::istringstream lines(read_input(folder.file("frame.obj")));
+        std::string others;
+        std::size_t vertices = 0;
+        for (std::string line; std::getline(lines, line);)
+            if (line.compare(0, 2, "v ") == 0)
+                ++vertices;
+            else
+                others += line + "\n";
+        CHECK(vertices == skin.position.size());
+        rest.push_back(others);
+    }
+    CHECK(rest[0] == rest[1]); // faces, texture, materials and their file: all but the places (and here the normals)
+    CHECK(rest[0].find("\no ") == std::string::npos); // objects would be meshes of their own
+    CHECK(rest[0].compare(0, 15, "mtllib oak.mtl\n") == 0);
 }
 
 TEST_CASE("patterns that are none are refused with what is wrong") {

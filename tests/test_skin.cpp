@@ -134,3 +134,14 @@ TEST_CASE("extremes: long chains, odd parents, thin tips") {
         for (const Vec3& n : skin.normal) CHECK(n.norm() == Approx(1));
     }
 }
+
+// Programs leave out a vertex that no triangle has and number the rest anew; point caches would no longer fit.
+TEST_CASE("every vertex is some triangle's") {
+    for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(1000, 8), make_tree::chain(3, 1, 0.1, 0)}) {
+        const Skin skin = build_skin(tree, {});
+        std::vector<char> used(skin.position.size(), 0);
+        for (const auto& corners : skin.triangle)
+            for (const std::int32_t v : corners) used[std::size_t(v)] = 1;
+        CHECK(std::count(used.begin(), used.end(), 0) == 0);
+    }
+}

@@ -1,4 +1,4 @@
-// frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, or an animated glTF file.
+// frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, a point cache, or an animated glTF file.
 #pragma once
 #include "common.h"
 #include "formats/driven_model.h"
@@ -22,18 +22,37 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 // One OBJ a frame, each whole or absent, and one mtl. Keeps references to the tree.
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, int sides);
 
-// --max-joints and --key-tolerance, which treesim and treeconvert share.
+// One point cache, `format` mdd or pc2: of `frames` frames from number `first` on. Keeps a reference to the tree; what the
+// user should know is added to the notes. Throws UsageError where the format cannot count so many.
+std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree&, int sides,
+                                      double fps, std::int64_t first, std::int64_t frames,
+                                      std::vector<std::string>& notes);
+
+// --max-joints, --leaves-as and --key-tolerance (treesim alone).
 struct GltfChoice {
     std::string max_joints;              // a number or "all"; empty: 1000
     std::optional<double> key_tolerance; // [deg]
     std::size_t loose = 0;               // roots beside the trees': balls, and what breaks off
-    bool given() const { return !max_joints.empty() || key_tolerance; }
+    std::string leaves_as;               // "skin", "instances"; empty: skin
+    bool instances() const { return leaves_as == "instances"; }
+    // The first option that is given, or nullptr.
+    const char* given() const {
+        return !max_joints.empty()  ? "--max-joints"
+               : !leaves_as.empty() ? "--leaves-as"
+               : key_tolerance      ? "--key-tolerance"
+                                    : nullptr;
+    }
 };
 void add_max_joints(CLI::App&, GltfChoice&);
+void add_leaves_as(CLI::App&, GltfChoice&);
 void add_key_tolerance(CLI::App&, GltfChoice&);
 // The groups that --max-joints asks for. Throws UsageError: fewer than roots, more than a .glb can number.
 JointGroups chosen_joints(const Tree&, const GltfChoice&);
 GltfOptions gltf_options(const GltfChoice&, const std::string& source);
+// The skin that goes with --leaves-as. Throws UsageError where instances leave nothing of it.
+Skin chosen_skin(const Tree&, int sides, const GltfChoice&);
+// What --leaves-as instances loses, "" without it.
+std::string leaves_note(const Tree&, const GltfChoice&);
 
 // One .glb, written by finish(), which also notes what merging joints and leaving out keys cost. Keeps a reference to
 // the tree and the notes.

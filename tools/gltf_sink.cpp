@@ -15,7 +15,7 @@ class GltfSink : public FrameSink {
 public:
     GltfSink(const std::string& file, const Tree& tree, int sides, const GltfChoice& choice, const GltfOptions& options,
              std::vector<std::string>& notes)
-        : output_(file), tree_(tree), notes_(notes), skin_(build_skin(tree, {sides})),
+        : output_(file), tree_(tree), choice_(choice), notes_(notes), skin_(chosen_skin(tree, sides, choice)),
           groups_(chosen_joints(tree, choice)), writer_(output_, skin_, tree, groups_, options) {
         if (groups_.size() < tree.size_bodies()) error_.emplace(tree, groups_);
     }
@@ -36,13 +36,15 @@ private:
         if (error_) {
             double low = INFINITY, high = -INFINITY;
             for (const Vec3& p : skin_.position) low = std::min(low, p.y()), high = std::max(high, p.y());
-            text << tree_.size_bodies() << " bodies merged to " << groups_.size() << " joints (--max-joints): ends of "
+            text << tree_.size_bodies() << " bodies merged to " << groups_.size() << " joints ("
+                 << (choice_.instances() ? "--max-joints, --leaves-as instances" : "--max-joints") << "): ends of "
                  << "bodies are off by " << error_->rms() << " m RMS, " << error_->largest() << " m at most ("
                  << 100 * error_->rms() / (high - low) << " and " << 100 * error_->largest() / (high - low)
                  << " % of the height)";
             notes_.push_back(text.str());
             text.str("");
         }
+        if (const std::string lost = leaves_note(tree_, choice_); !lost.empty()) notes_.push_back(lost);
         const std::size_t all = writer_.keys().joints() * writer_.keys().frames(), kept = writer_.keys().count();
         if (kept == all) return;
         text << kept << " of " << all << " keys written (--key-tolerance)";
@@ -51,6 +53,7 @@ private:
 
     Output output_;
     const Tree& tree_;
+    const GltfChoice choice_;
     std::vector<std::string>& notes_;
     Skin skin_;
     JointGroups groups_;
@@ -74,6 +77,16 @@ void add_max_joints(CLI::App& app, GltfChoice& choice) {
             "", ""));
 }
 
+void add_leaves_as(CLI::App& app, GltfChoice& choice) {
+    app.add_option(
+           "--leaves-as", choice.leaves_as,
+           "Leaves and petals of a .glb: skin, part of the skinned mesh, each moved by its own joint where "
+           "--max-joints leaves it one (default); instances: one mesh drawn at each leaf's place "
+           "(EXT_mesh_gpu_instancing), fixed to the joint that bears it: far smaller, but leaves do not flutter")
+        ->option_text("NAME")
+        ->check(CLI::IsMember({"skin", "instances"}));
+}
+
 void add_key_tolerance(CLI::App& app, GltfChoice& choice) {
     app.add_option(
            "--key-tolerance", choice.key_tolerance,
@@ -82,16 +95,28 @@ void add_key_tolerance(CLI::App& app, GltfChoice& choice) {
         ->check(not_negative_number());
 }
 
+namespace {
+
+// Leaves and petals that something bears.
+std::size_t joined_leaves(const Tree& tree) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) count += is_flat(tree.kind[i]) && tree.parent[i] >= 0;
+    return count;
+}
+
+} // namespace
+
 JointGroups chosen_joints(const Tree& tree, const GltfChoice& choice) {
     const bool all = choice.max_joints == "all";
-    if (all && tree.size_bodies() > joints_most)
-        throw UsageError("--max-joints is 'all', which are " + std::to_string(tree.size_bodies()) +
+    const std::size_t leaves = choice.instances() ? joined_leaves(tree) : 0, bodies = tree.size_bodies() - leaves;
+    if (all && bodies > joints_most)
+        throw UsageError("--max-joints is 'all', which are " + std::to_string(bodies) +
                          " here, but a .glb can number " + std::to_string(joints_most));
-    const std::size_t most = all                         ? tree.size_bodies()
+    const std::size_t most = all                         ? bodies
                              : choice.max_joints.empty() ? std::min(joints_default + choice.loose, joints_most)
                                                          : std::stoull(choice.max_joints);
     try {
-        return merge_joints(tree, most);
+        return merge_joints(tree, most, !choice.instances());
     } catch (const std::invalid_argument& error) {
         throw UsageError("--max-joints " + std::string(error.what()));
     }
@@ -102,7 +127,22 @@ GltfOptions gltf_options(const GltfChoice& choice, const std::string& source) {
     options.key_tolerance = choice.key_tolerance.value_or(tolerance_default) * std::numbers::pi / 180;
     options.generator = std::string("bough ") + bough_version();
     options.source = source;
+    options.leaf_instances = choice.instances();
     return options;
+}
+
+Skin chosen_skin(const Tree& tree, int sides, const GltfChoice& choice) {
+    Skin skin = build_skin(tree, {sides, !choice.instances()});
+    if (skin.triangle.empty())
+        throw UsageError("--leaves-as instances: the tree holds leaves alone, which leaves no mesh with joints");
+    return skin;
+}
+
+std::string leaves_note(const Tree& tree, const GltfChoice& choice) {
+    const std::size_t leaves = choice.instances() ? joined_leaves(tree) : 0;
+    if (leaves == 0) return choice.instances() ? "--leaves-as instances: the tree has no leaves" : "";
+    return std::to_string(leaves) + " leaves and petals are instances, fixed to the joints that bear them: their own "
+                                    "motion is left out (--leaves-as skin keeps it)";
 }
 
 std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree& tree, int sides, double fps,

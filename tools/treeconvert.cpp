@@ -1,5 +1,6 @@
 // treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
 #include "common.h"
+#include "formats/dynamic_wind.h"
 #include "formats/import.h"
 #include "formats/material.h"
 #include "formats/obj.h"
@@ -26,7 +27,7 @@ using namespace bough;
 struct Options {
     CommonOptions common;
     ImportChoice choice;
-    std::string input, mesh, material;
+    std::string input, mesh, wind_groups, material;
     GltfChoice gltf;
     MergeChoice merge;
     std::optional<double> segment_length, max_bend;
@@ -65,6 +66,12 @@ void declare(CLI::App& app, Options& o) {
         ->option_text("N")
         ->check(whole_number(3, 256));
     add_max_joints(app, o.gltf);
+    add_leaves_as(app, o.gltf);
+    app.add_option("--wind-groups", o.wind_groups,
+                   "With --mesh FILE.glb: also write its joints' groups for Unreal's Dynamic Wind (JSON), by how many "
+                   "branches they are from the trunk; the joints' x axes then lie along the branches, as it wants them")
+        ->option_text("FILE")
+        ->check(file_name());
     app.add_option("--material", o.material,
                    "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
         ->option_text("NAME|FILE");
@@ -83,10 +90,17 @@ void refuse_contradictions(const Options& o) {
     if (o.mesh == "-") throw UsageError("--mesh is '-', expected a file name");
     if (!o.mesh.empty() && ending(o.mesh) != ".obj" && ending(o.mesh) != ".glb")
         throw UsageError("--mesh is '" + o.mesh + "', expected a name that ends in .obj or .glb");
-    if (o.gltf.given() && ending(o.mesh) != ".glb") throw UsageError("--max-joints: only with --mesh FILE.glb");
+    const char* const glb = o.gltf.given() ? o.gltf.given() : !o.wind_groups.empty() ? "--wind-groups" : nullptr;
+    if (glb && ending(o.mesh) != ".glb") throw UsageError(std::string(glb) + ": only with --mesh FILE.glb");
+    if (o.wind_groups == "-") throw UsageError("--wind-groups is '-', expected a file name");
+    for (const std::string* other : {&o.common.output, &o.mesh})
+        if (!o.wind_groups.empty() && same_file(o.wind_groups, *other))
+            throw UsageError("--wind-groups and " + std::string(other == &o.mesh ? "--mesh" : "-o") +
+                             " name the same file");
     if (!o.mesh.empty() && same_file(o.mesh, o.common.output)) throw UsageError("--mesh and -o name the same file");
     if (!o.split) return;
-    for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh)}) {
+    for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh),
+                                     std::pair("--wind-groups", &o.wind_groups)}) {
         if (file->empty()) continue;
         const std::string wrong = *file == "-" ? "a pattern such as trunk_%d.json is needed" : valid_sequence(*file);
         if (!wrong.empty()) throw UsageError("--split: " + std::string(name) + " is '" + *file + "': " + wrong);
@@ -176,17 +190,25 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
 
 using Outputs = std::vector<std::unique_ptr<Output>>;
 
-void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::string& mesh) {
-    SkinOptions skin_options;
-    if (o.sides) skin_options.sides = *o.sides;
-    const Skin skin = build_skin(tree, skin_options);
+void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::string& mesh, const std::string& wind) {
+    const Skin skin = chosen_skin(tree, o.sides.value_or(SkinOptions().sides), o.gltf);
     if (ending(mesh) == ".glb") {
         const JointGroups groups = chosen_joints(tree, o.gltf);
+        GltfOptions options = gltf_options(o.gltf, tree.source);
+        options.x_along = !wind.empty();
         outputs.push_back(std::make_unique<Output>(mesh));
-        GltfWriter(*outputs.back(), skin, tree, groups, gltf_options(o.gltf, tree.source)).finish();
+        GltfWriter(*outputs.back(), skin, tree, groups, options).finish();
+        if (!wind.empty()) {
+            outputs.push_back(std::make_unique<Output>(wind));
+            write_dynamic_wind(*outputs.back(), tree, groups);
+        }
+        if (const std::string lost = leaves_note(tree, o.gltf); !lost.empty())
+            o.common.notes.push_back(mesh + ": " + lost);
         if (groups.size() < tree.size_bodies())
-            o.common.notes.push_back(mesh + ": " + std::to_string(tree.size_bodies()) + " bodies merged to " +
-                                     std::to_string(groups.size()) + " joints (--max-joints)");
+            o.common.notes.push_back(
+                mesh + ": " + std::to_string(tree.size_bodies()) + " bodies merged to " +
+                std::to_string(groups.size()) +
+                (o.gltf.instances() ? " joints (--max-joints, --leaves-as instances)" : " joints (--max-joints)"));
         return;
     }
     const std::string mtl = std::filesystem::path(mesh).replace_extension(".mtl").string();
@@ -197,9 +219,10 @@ void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::strin
 }
 
 // A tree and the mesh that goes with it: all is written before anything appears under its name.
-void write_one(const Tree& tree, Options& o, const std::string& file, const std::string& mesh) {
+void write_one(const Tree& tree, Options& o, const std::string& file, const std::string& mesh,
+               const std::string& wind) {
     Outputs outputs;
-    if (!mesh.empty()) write_mesh(outputs, tree, o, mesh);
+    if (!mesh.empty()) write_mesh(outputs, tree, o, mesh, wind);
     outputs.push_back(std::make_unique<Output>(file));
     write_tree(*outputs.back(), tree, chosen_form(o.common));
     for (auto& output : outputs) output->finish();
@@ -207,9 +230,11 @@ void write_one(const Tree& tree, Options& o, const std::string& file, const std:
 
 void write_each(const std::vector<Tree>& trees, Options& o) {
     for (std::size_t k = 0; k < trees.size(); ++k) {
-        const std::string mesh = o.mesh.empty() ? "" : sequence_name(o.mesh, std::int64_t(k));
+        const auto named = [k](const std::string& pattern) {
+            return pattern.empty() ? std::string() : sequence_name(pattern, std::int64_t(k));
+        };
         try {
-            write_one(trees[k], o, sequence_name(o.common.output, std::int64_t(k)), mesh);
+            write_one(trees[k], o, named(o.common.output), named(o.mesh), named(o.wind_groups));
         } catch (const OutputError& error) {
             throw OutputError(o.common.output, "stopped after " + std::to_string(k) + " of " +
                                                    std::to_string(trees.size()) + " trees: " + error.what());
@@ -242,7 +267,7 @@ void work(Options& o) {
     if (o.split)
         write_each(split_roots(tree), o);
     else
-        write_one(tree, o, o.common.output, o.mesh);
+        write_one(tree, o, o.common.output, o.mesh, o.wind_groups);
     if (o.stats) std::cerr << statistics(splines, tree, report) << merged;
     for (const std::string& note : notes) o.common.notes.push_back(name + ": " + note);
 }

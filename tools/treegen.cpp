@@ -1,6 +1,7 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
 #include "formats/import.h"
+#include "formats/skeleton_writer.h"
 #include "formats/splines.h"
 #include "growth.h"
 #include "import_stats.h"
@@ -26,13 +27,16 @@ const ToolInfo info = {
     "       treegen --params FILE [--bodies N] [--seed N] [--leaves] [--petals] [-o FILE]\n"
     "       treegen --envelope sphere|cone|box|FILE [--envelope-size X,Y,Z] [--attractors N] ... [-o FILE]\n"
     "       treegen --import FILE [--units UNIT] [--up AXIS] [--strict] [--stats] [--leaves] [--fruit] [-o FILE]",
-    "Imports SpeedTree raw XML (with Spine, or bones only), treetools tree files, SWC, MTG, cylinders of TreeQSM,\n"
-    "SimpleForest and aRchi, ez-tree's branches, PLY skeletons, OBJ lines and curves, curves of Blender (CSV, JSON), "
-    "and\n"
-    "bough splines; which one a file is, its content decides. The result goes to treeconvert:\n"
+    "Writes bough splines (.json, .safetensors), or a skeleton for other programs: SWC (.swc) or a treetools tree "
+    "file\n"
+    "(.txt), in metres and Z up.\n"
+    "Imports SpeedTree raw XML (with Spine, or bones only), armatures and lines of FBX, glTF and COLLADA, cylinders of\n"
+    "TreeQSM, SimpleForest and aRchi, treetools tree files, SWC, MTG, ez-tree's branches, PLY skeletons, OBJ lines and\n"
+    "curves, curves of Blender (CSV, JSON), and bough splines; which one a file is, its content decides. The result\n"
+    "goes to treeconvert:\n"
     "  treegen --bodies 2000 --seed 7 | treeconvert - -o tree.json\n"
     "Exit: 0 done, 1 usage, 2 bad input, 4 output not written, 130 interrupted.",
-    {"json", "safetensors"}};
+    {"json", "safetensors", "swc", "treetools"}};
 
 void declare(CLI::App& app, Options& o) {
     add_growth_options(app, o.growth);
@@ -93,6 +97,27 @@ Splines imported(Options& o) {
     return splines;
 }
 
+std::string chosen_skeleton(const CommonOptions& common) {
+    if (!common.format.empty()) return common.format == "swc" || common.format == "treetools" ? common.format : "";
+    const std::string kind = ending(common.output);
+    return kind == ".swc" ? "swc" : kind == ".txt" ? "treetools" : "";
+}
+
+void write(const Splines& splines, CommonOptions& common) {
+    const std::string skeleton = chosen_skeleton(common);
+    const Form form = skeleton.empty() ? chosen_form(common) : Form::json;
+    Output output(common.output);
+    std::vector<std::string> lost;
+    if (skeleton == "swc")
+        write_swc(output, splines, lost);
+    else if (skeleton == "treetools")
+        write_treetools(output, splines, lost);
+    else
+        write_splines(output, splines, form);
+    output.finish();
+    for (const std::string& line : lost) common.notes.push_back(output.name() + ": " + line);
+}
+
 void work(Options& o) {
     if (o.growth.list_species) {
         for (const std::string& name : species_names()) std::cout << name << "\n";
@@ -101,9 +126,7 @@ void work(Options& o) {
     refuse_contradictions(o);
     Splines splines = o.import.empty() ? grow_tree(o.growth, o.choice, o.common) : imported(o);
     splines.source = with_command_line(splines.source, o.common);
-    Output output(o.common.output);
-    write_splines(output, splines, chosen_form(o.common));
-    output.finish();
+    write(splines, o.common);
 }
 
 } // namespace

@@ -31,9 +31,12 @@ DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, co
 
 // shown: the tree that meshes are made of, the balls with it.
 std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
-                                     const std::string& format, const MotionFields& fields,
-                                     std::optional<UserModel> model) {
+                                     const std::string& format, const MotionFields& fields, std::int64_t first,
+                                     std::int64_t last, std::optional<UserModel> model) {
     if (o.no_output) return nullptr;
+    if (is_point_cache(format))
+        return cache_sink(o.common.output, format, shown, o.sides.value_or(8), o.run.fps, first, last - first + 1,
+                          o.common.notes);
     if (format == "obj") return obj_sink(o.common.output, shown, o.sides.value_or(8));
     const std::string source = with_command_line(setting.source, o.common);
     if (model)
@@ -135,6 +138,23 @@ std::vector<std::uint32_t> what_breaks(const TreesimOptions& o, const Setting& s
     return broken;
 }
 
+// A point cache is of a mesh that is written elsewhere, whole.
+void refuse_broken_cache(const TreesimOptions& o, std::size_t broken) {
+    if (broken == 0) return;
+    throw UsageError(
+        "-o is '" + o.common.output + "': " + std::to_string(broken) +
+        " joints break in this run, and what breaks off is a mesh of its own, which a point cache does not "
+        "hold; expected .glb or frames of .obj");
+}
+
+void note_cache(TreesimOptions& o, const Setting& setting, std::size_t balls) {
+    if (balls == 0 && setting.ranges.size() == 1) return;
+    o.common.notes.push_back("the vertices are those of " + std::to_string(setting.ranges.size()) + " trees and " +
+                             std::to_string(balls) +
+                             " balls: the mesh that they move is the first frame of an OBJ sequence (the same run with "
+                             "--frames 1 -o rest_%d.obj)");
+}
+
 // Returns the number of frames made.
 template <class T>
 std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& format, std::optional<UserModel> model) {
@@ -151,18 +171,18 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     const Wishes wishes{fields.velocity, fields.torque,
                         !o.no_output || o.report_error || o.report_rigid || loops || !o.save_tree.empty()};
     if (!o.save_tree.empty()) require_one_tree(setting);
-    const bool needs_tree = loops || o.report_error || !o.save_tree.empty() || format == "obj" || format == "glb" ||
-                            has_free_bodies(setting.scene);
+    const bool mesh = is_mesh(format);
+    const bool needs_tree = loops || o.report_error || !o.save_tree.empty() || mesh || has_free_bodies(setting.scene);
     if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
     Plan<T> planned = needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
     interrupt_at_boundary();
     std::optional<SavedState> saved; // read once: it may come from a pipe
     if (!o.resume.empty()) saved = read_state(read_input(o.resume), input_name(o.resume));
     const SavedState* const from = saved ? &*saved : nullptr;
-    const bool mesh = format == "obj" || format == "glb";
     std::vector<std::uint32_t> broken;
     if (mesh && setting.scene.fracture)
         broken = what_breaks(o, setting, from, start_run(Plan<T>(planned), setting, o.run), frames);
+    if (is_point_cache(format)) refuse_broken_cache(o, broken.size());
     Run<T> run = start_run(std::move(planned), setting, o.run);
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
@@ -185,7 +205,8 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     const Tree& shown = changed ? own : setting.whole ? setting.whole->tree : setting.tree;
     o.gltf.loose = broken.size() + balls.size();
     std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, setting.whole ? shown.size_bodies() : plan.bodies,
-                                                format, fields, std::move(model));
+                                                format, fields, first, last, std::move(model));
+    if (is_point_cache(format)) note_cache(o, setting, balls.size());
     LoopStart loop;
     if (loops) {
         std::optional<Run<T>> before;
@@ -237,8 +258,7 @@ void put_together(const TreesimOptions& o) {
             std::none_of(known.begin(), known.end(), [&](const std::string& name) { return option->check_name(name); }))
             throw UsageError(option->get_name() + ": not with --join");
     const std::string format = o.no_output ? "" : chosen_format(o.common);
-    if (format == "obj" || format == "glb")
-        throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
+    if (is_mesh(format)) throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
     interrupt_at_boundary();
     JoinOptions join = o.join;
     join.hash = o.hash;

@@ -8,13 +8,14 @@ const ToolInfo treesim_info = {
     "Moves a tree or a scene in time and writes its frames.\n"
     "Usage: treesim TREE|SCENE [--wind NAME|FILE] [--seconds S|--frames N] [-o FILE] ...",
     "Frames go to stdout as JSON lines: a header line, then a frame a line. -o frames/oak_%04d.obj writes a mesh a\n"
-    "frame and frames/oak.mtl, -o oak.glb one skinned and animated mesh. --resume goes on after the saved frame with "
-    "the same tree and scene; --seconds and\n"
-    "--frames then say how many frames are added.\n"
+    "frame and frames/oak.mtl, -o oak.glb one skinned and animated mesh, -o oak.mdd or oak.pc2 where the vertices of\n"
+    "the mesh are that treeconvert --mesh oak.obj writes (Blender: import oak.obj, add the modifier Mesh Cache,\n"
+    "leave its axes: Forward +Y, Up +Z). --resume goes on after the saved frame with the same\n"
+    "tree and scene; --seconds and --frames then say how many frames are added.\n"
     "  treesim tree.json --wind gusty --seconds 10 > motion.jsonl\n"
     "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite or a loop that does not close, 4 output not written, 130 "
     "interrupted (frames so far stay).",
-    {"jsonl", "json", "safetensors", "obj", "glb"}};
+    {"jsonl", "json", "safetensors", "obj", "glb", "mdd", "pc2"}};
 
 namespace {
 
@@ -40,6 +41,7 @@ void declare(CLI::App& app, TreesimOptions& o) {
         ->option_text("FILE")
         ->check(file_name());
     add_max_joints(app, o.gltf);
+    add_leaves_as(app, o.gltf);
     add_key_tolerance(app, o.gltf);
     app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
     app.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
@@ -96,15 +98,16 @@ std::string chosen_format(const CommonOptions& common) {
     if (!common.format.empty()) return common.format;
     const std::string kind = ending(common.output);
     if (kind == ".json" || kind == ".safetensors" || kind == ".obj") return kind.substr(1);
-    if (kind == ".glb") {
+    if (kind == ".glb" || kind == ".mdd" || kind == ".pc2") {
         if (common.output.find('%') != std::string::npos)
-            throw UsageError("-o is '" + common.output + "', but a .glb holds all frames, so its name takes no number");
-        return "glb";
+            throw UsageError("-o is '" + common.output + "', but a " + kind +
+                             " holds all frames, so its name takes no number");
+        return kind.substr(1);
     }
     for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
         if (kind == known)
             throw UsageError("-o is '" + common.output + "', but " + known +
-                             " is not written; there are .jsonl, .json, .safetensors, .obj, .glb");
+                             " is not written; there are .jsonl, .json, .safetensors, .obj, .glb, .mdd, .pc2");
     return "jsonl";
 }
 
@@ -118,19 +121,20 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         throw UsageError("--report-error: only with --solver coupled, whose error is its step's alone");
     if (o.report_rigid && !o.resume.empty())
         throw UsageError("--report-rigid: not with --resume, which says nothing of the joints that are held");
-    const bool mesh = format == "obj" || format == "glb";
-    if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb)");
+    const bool mesh = is_mesh(format);
+    if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb, .mdd, .pc2)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
     if (!o.skin.empty()) {
         if (format != "glb") throw UsageError("--skin: only with -o FILE.glb");
         if (o.sides) throw UsageError("--sides: not with --skin, whose mesh is its own");
         if (!o.gltf.max_joints.empty()) throw UsageError("--max-joints: not with --skin, whose bones are its own");
+        if (!o.gltf.leaves_as.empty()) throw UsageError("--leaves-as: not with --skin, whose leaves are its own");
         if (o.skin == "-" && o.run.input == "-") throw UsageError("--skin -: the input is read from stdin already");
         if (o.skin == "-" && o.watch) throw UsageError("--watch: not with --skin -, which cannot be read again");
         if (same_file(o.skin, o.common.output)) throw UsageError("--skin and -o name the same file");
     }
-    if (o.gltf.given() && format != "glb")
-        throw UsageError(std::string(o.gltf.key_tolerance ? "--key-tolerance" : "--max-joints") + ": only with .glb");
+    if (const char* given = o.gltf.given(); given && format != "glb")
+        throw UsageError(std::string(given) + ": only with .glb");
     if (format == "obj") {
         const std::string wrong = o.common.output == "-" ? "a pattern such as frames/oak_%04d.obj is needed"
                                                          : valid_sequence(o.common.output);

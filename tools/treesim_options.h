@@ -28,8 +28,14 @@ void declare(CLI::App&, TreesimOptions&);
 
 // Throws UsageError for a name that is none.
 MotionFields chosen_fields(const TreesimOptions&);
-// jsonl, json, safetensors, obj or glb: --format, else by the output's ending. Throws UsageError for the ending of a format that is not written.
+// jsonl, json, safetensors, obj, mdd, pc2 or glb: --format, else by the output's ending. Throws UsageError for the ending of a format that is not written.
 std::string chosen_format(const CommonOptions&);
+inline bool is_point_cache(const std::string& format) {
+    return format == "mdd" || format == "pc2";
+}
+inline bool is_mesh(const std::string& format) {
+    return format == "obj" || format == "glb" || is_point_cache(format);
+}
 // Throws UsageError.
 void refuse_contradictions(const TreesimOptions&, const std::string& format);
 

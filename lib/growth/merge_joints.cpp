@@ -19,6 +19,7 @@ struct Chain {
     bool root;
     std::vector<std::int32_t> piece;
     std::size_t joints = 0; // that it keeps
+    bool joins = false;     // never gets one of its own
     double reach = 0, mass = 0;
 };
 
@@ -31,7 +32,7 @@ std::vector<Chain> find_chains(const Tree& tree) {
             chain_of[i] = chain_of[std::size_t(p)];
         } else {
             chain_of[i] = std::int32_t(chains.size());
-            chains.push_back({tree.kind[i] == Kind::branch ? tree.level[i] : beyond_levels, p < 0, {}, 0, 0, 0});
+            chains.push_back({tree.kind[i] == Kind::branch ? tree.level[i] : beyond_levels, p < 0, {}, 0, false, 0, 0});
         }
         chains[std::size_t(chain_of[i])].piece.push_back(std::int32_t(i));
     }
@@ -64,7 +65,7 @@ using Level = std::vector<Chain*>;
 // One joint for each branch, those that matter more first where not all fit.
 std::size_t give_first(const Level& level, std::size_t joints) {
     for (Chain* chain : level) {
-        if (chain->joints > 0 || joints == 0) continue;
+        if (chain->joints > 0 || chain->joins || joints == 0) continue;
         chain->joints = 1;
         --joints;
     }
@@ -142,7 +143,7 @@ std::int32_t leading(const Tree& tree, const Chain& chain, std::size_t from, std
 
 } // namespace
 
-JointGroups merge_joints(const Tree& tree, std::size_t most) {
+JointGroups merge_joints(const Tree& tree, std::size_t most, bool leaves) {
     const std::size_t n = tree.size_bodies();
     std::vector<Chain> chains = find_chains(tree);
     const std::size_t roots = std::size_t(std::count(tree.parent.begin(), tree.parent.end(), -1));
@@ -150,7 +151,10 @@ JointGroups merge_joints(const Tree& tree, std::size_t most) {
         throw std::invalid_argument("is " + std::to_string(most) + ", expected a joint for each of the " +
                                     std::to_string(roots) + " roots at least");
     weigh(chains, tree);
-    for (Chain& chain : chains) chain.joints = chain.root;
+    for (Chain& chain : chains) {
+        chain.joints = chain.root;
+        chain.joins = !leaves && is_flat(tree.kind[std::size_t(chain.piece.front())]);
+    }
     share_out(chains, most - roots);
 
     std::vector<std::int32_t> lead(n, -1); // of bodies that begin a group

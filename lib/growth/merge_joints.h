@@ -28,8 +28,9 @@ struct JointGroups {
     std::size_t size() const { return parent.size(); }
 };
 
-// At most `most` groups; a body each where all fit. Throws std::invalid_argument where there are more roots than that.
-JointGroups merge_joints(const Tree&, std::size_t most);
+// At most `most` groups; a body each where all fit. leaves false: leaves and petals always join the piece that bears them,
+// but for those that are roots. Throws std::invalid_argument where there are more roots than that.
+JointGroups merge_joints(const Tree&, std::size_t most, bool leaves = true);
 
 // Where the groups' frames stand when drawn: origin at the first body's joint, axes those of the leading body.
 struct GroupFrames {

@@ -120,7 +120,7 @@ Skin build_skin(const Tree& tree, const SkinOptions& options) {
     const std::vector<Vec3>& color = tree.color.empty() ? default_colors() : tree.color;
     close_part(skin, "bark", color[0]);
     for (const Kind kind : {Kind::leaf, Kind::petal}) {
-        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        for (std::size_t i = 0; i < tree.size_bodies() && options.leaves; ++i)
             if (tree.kind[i] == kind) add_leaf(skin, tree, pose, i);
         kind == Kind::leaf ? close_part(skin, "leaf", color[1]) : close_part(skin, "petal", color[2]);
     }

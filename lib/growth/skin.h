@@ -12,7 +12,8 @@
 // fruit are spheres with a thin stalk from joints outside them; all are moved by their body alone.
 // u runs 0..1 around (one seam column doubled), v is the arc length from the branch's joint over the circumference at its
 // base (of its thickest ring where that is a point), so that bark is not stretched; v < 0 inside the parent.
-// Reads a checked Tree in the drawn pose. O(bodies * sides). Constant topology: only positions and normals move.
+// Reads a checked Tree in the drawn pose. O(bodies * sides). Constant topology: only positions and normals move. Every
+// vertex is some triangle's.
 // Errors  std::length_error beyond 2^31 - 1 vertices.
 #pragma once
 #include "../model/tree.h"
@@ -26,6 +27,7 @@ struct SkinOptions {
     // Corners of a ring on the thickest branch, at least 3. Others take sides * sqrt(radius / thickest radius), so that
     // the distance between polygon and circle is about the same everywhere, never below 3.
     int sides = 8;
+    bool leaves = true; // false: no leaves and petals (for programs that get them as instances)
 };
 
 struct SkinPart {

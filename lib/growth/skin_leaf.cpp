@@ -54,15 +54,17 @@ void add_fruit(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t 
     std::int32_t lower = 0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const Row& at = rows[row];
-        std::int32_t upper = 0;
+        std::int32_t upper = 0; // the number of column 0
         for (int j = 0; j <= columns; ++j) {
+            // No triangle has a pole's first or last: programs leave out what none has, and count anew.
+            if (at.r == 0 && j == (row == 0 ? columns : 0)) continue;
             const double around = 2 * pi * (j % columns) / columns;
             const Vec3 out(std::cos(around), std::sin(around), 0);
             const Vec3 normal = std::sin(at.angle) * out - std::cos(at.angle) * Vec3::UnitZ();
             const std::int32_t added =
                 add_vertex(skin, pose.at(body, at.r * out + at.z * Vec3::UnitZ()), pose.R_wb[body] * normal,
                            double(j) / columns, double(row) / double(rows.size() - 1), binding);
-            if (j == 0) upper = added;
+            upper = added - j;
         }
         for (std::int32_t j = 0; row > 0 && j < columns; ++j) {
             if (rows[row - 1].r > 0) skin.triangle.push_back({lower + j, lower + j + 1, upper + j + 1});

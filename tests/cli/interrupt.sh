@@ -51,3 +51,21 @@ expect 0 treesim tree.json --resume state.json --frames 2 -o rest.jsonl
 last=$(find frames -name 'm_*.obj' | wc -l)
 grep -q "\"frame\": *$last[,}]" rest.jsonl || fail "the run does not go on with frame $last"
 absent
+
+# A point cache tells its number of frames first: it is mended.
+for form in mdd pc2; do
+    stop '.bough-*' treesim tree.json --frames 1000000 -o cut.$form
+    python3 - cut.$form <<'END' || fail "a .$form cut short"
+import os, struct, sys
+head = open(sys.argv[1], "rb").read(32)
+if sys.argv[1].endswith("mdd"):
+    frames, vertices = struct.unpack(">2i", head[:8])
+    size = 8 + 4 * frames + 12 * frames * vertices
+else:
+    _, _, vertices, _, _, frames = struct.unpack("<12siiffi", head)
+    size = 32 + 12 * frames * vertices
+assert os.path.getsize(sys.argv[1]) == size and 0 < frames < 1000000, (frames, vertices, size)
+END
+    rm -f cut.$form
+done
+absent

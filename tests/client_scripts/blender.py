@@ -22,7 +22,7 @@ def read_obj(name):
         for line in lines:
             if line.startswith("v "):
                 vertices.append([float(x) for x in line.split()[1:4]])
-            elif line.startswith("o "):
+            elif line.startswith("g "):
                 parts.append(set())
             elif line.startswith("f "):
                 parts[-1].update(int(corner.split("/")[0]) - 1 for corner in line.split()[1:])

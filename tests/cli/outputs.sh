@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# What goes to other programs beside .glb and OBJ frames: point caches, leaves as instances, groups for Unreal's wind,
+# skeletons.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+treegen --species cherry --season spring --bodies 600 --seed 3 -q -o splines.json
+treeconvert splines.json -q -o tree.json --mesh rest.obj
+run=(treesim tree.json --wind gusty --frames 9 --fps 25)
+
+# A point cache read by its description: as many vertices as the rest mesh has, where the OBJ frames have them.
+cat >cache.py <<'END'
+import glob, struct, sys
+data = open(sys.argv[1], "rb").read()
+if sys.argv[1].endswith("mdd"):
+    frames, vertices = struct.unpack(">2i", data[:8])
+    times = struct.unpack(f">{frames}f", data[8 : 8 + 4 * frames])
+    form, at, first = ">", 8 + 4 * frames, round(times[0] * 25)
+    assert all(abs(t - (first + k) / 25) < 1e-6 for k, t in enumerate(times)), times
+else:
+    mark, version, vertices, start, step, frames = struct.unpack("<12siiffi", data[:32])
+    assert (mark, version, step) == (b"POINTCACHE2\0", 1, 1)
+    form, at, first = "<", 32, int(start)
+assert len(data) == at + 12 * vertices * frames, (len(data), vertices, frames)
+assert vertices == sum(line.startswith("v ") for line in open("rest.obj")), vertices
+off = 0
+for k in range(frames):
+    found = struct.unpack(f"{form}{3 * vertices}f", data[at + 12 * vertices * k : at + 12 * vertices * (k + 1)])
+    wanted = [float(x) for line in open(f"m_{first + k:03d}.obj") if line.startswith("v ") for x in line.split()[1:]]
+    off = max(off, max(abs(a - b) for a, b in zip(found, wanted)))
+assert off < 1e-5, off
+print(frames, first)
+END
+"${run[@]}" -q -o m_%03d.obj
+for form in mdd pc2; do
+    expect 0 "${run[@]}" -o m.$form
+    [[ $(python3 cache.py m.$form) == "9 0" ]] || fail "a .$form of 9 frames: $(python3 cache.py m.$form 2>&1)"
+    "${run[@]}" -q --format $form >stdout.$form
+    same m.$form stdout.$form
+    treesim tree.json --wind gusty --frames 5 --fps 25 --no-output --save-state state.json
+    treesim tree.json --wind gusty --frames 4 --fps 25 --resume state.json -q -o end.$form
+    [[ $(python3 cache.py end.$form) == "4 5" ]] || fail "the rest of a .$form: $(python3 cache.py end.$form 2>&1)"
+    refused 1 "takes no number" "${run[@]}" -o m_%03d.$form
+    refused 1 "--fields" "${run[@]}" -o x.$form --fields pose
+    refused 1 "--max-joints" "${run[@]}" -o x.$form --max-joints 20
+    refused 4 "No such file" "${run[@]}" -o missing/x.$form
+    closed_stdout "${run[@]}" --format $form
+    absent x.$form
+done
+# What breaks off has a mesh of its own, which no cache of the whole holds; of several trees the mesh is named.
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "tree.json"}], "wind": "storm", "fracture": {"leaf": 1e-6}}' >breaks.json
+refused 1 "joints break in this run" treesim breaks.json --frames 9 -o x.pc2
+absent x.pc2
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "tree.json"}, {"file": "tree.json", "position": [9, 0, 0]}]}' >two.json
+expect 0 treesim two.json --frames 2 -o two.pc2
+grep -q -- "--frames 1 -o rest_%d.obj" err || fail "nothing is said of the mesh that two trees need: $(cat err)"
+
+# Leaves as instances: smaller, fewer joints, said what is lost; the same in treeconvert.
+expect 0 "${run[@]}" -o skin.glb --max-joints all
+expect 0 "${run[@]}" -o leaves.glb --max-joints all --leaves-as instances
+grep -q "leaves and petals are instances" err || fail "nothing is said of leaves that do not flutter: $(cat err)"
+grep -aq '"extensionsRequired":\["EXT_mesh_gpu_instancing"\]' leaves.glb || fail "no instances in leaves.glb"
+! grep -aq EXT_mesh skin.glb || fail "instances where none were asked for"
+[[ $(wc -c <leaves.glb) -lt $(($(wc -c <skin.glb) / 2)) ]] || fail "instances save little: $(wc -c skin.glb leaves.glb)"
+expect 0 treeconvert splines.json -o /dev/null --mesh rest.glb --leaves-as instances
+grep -aq EXT_mesh rest.glb || fail "treeconvert wrote no instances"
+refused 1 "--leaves-as" "${run[@]}" -o x.glb --leaves-as cards
+refused 1 "--leaves-as" "${run[@]}" -o x_%d.obj --leaves-as instances
+refused 1 "--leaves-as" treeconvert splines.json --mesh x.obj --leaves-as instances
+treegen --bodies 60 -q | treeconvert - -q -o bare.json
+expect 0 treesim bare.json --frames 2 -o bare.glb --leaves-as instances
+grep -q "no leaves" err || fail "nothing is said of a tree without leaves: $(cat err)"
+
+# Groups for Unreal's wind: the joints' names are the .glb's, in its order.
+expect 0 treeconvert splines.json -o /dev/null --mesh wind.glb --max-joints 80 --wind-groups wind.json
+python3 - <<'PY' || fail "wind.json does not fit wind.glb"
+import json, struct
+data = open("wind.glb", "rb").read()
+glb = json.loads(data[20 : 20 + struct.unpack("<I", data[12:16])[0]])
+wind = json.load(open("wind.json"))
+joints = [glb["nodes"][j]["name"] for j in glb["skins"][0]["joints"]]
+assert [j["JointName"] for j in wind["Joints"]] == joints and len(joints) == 80
+assert {j["SimulationGroupIndex"] for j in wind["Joints"]} == set(range(len(wind["SimulationGroups"])))
+PY
+refused 1 "--wind-groups" treeconvert splines.json --wind-groups x.json
+refused 1 "--wind-groups" treeconvert splines.json --mesh x.obj --wind-groups x.json
+refused 1 "same file" treeconvert splines.json -o x.json --mesh x.glb --wind-groups x.json
+refused 4 "missing/x.json" treeconvert splines.json -o y.json --mesh x.glb --wind-groups missing/x.json
+absent x.json y.json x.glb
+expect 0 treeconvert "$top/data/fixtures/two_trunks_spines.xml" -q --split -o t_%d.json --mesh t_%d.glb --wind-groups w_%d.json
+[[ -s w_0.json && -s w_1.json ]] || fail "no groups a trunk: $(ls)"
+
+# Skeletons: by the name or --format; what they lose is said; nothing is guessed when they come back as high a tree.
+high() { treeconvert "$1" --strict -q -o /dev/null --stats 2>&1 | sed -n 's/^height *\([0-9.]*\).*/\1/p'; }
+treegen --import splines.json -q -o bare.splines.json
+for name in tree.swc tree.txt; do
+    expect 0 treegen --import splines.json --leaves -o $name
+    grep -q "leaves and petals left out" err || fail "nothing is said of leaves that $name lacks: $(cat err)"
+    expect 0 treeconvert $name --strict -o made.json
+    awk -v a="$(high $name)" -v b="$(high bare.splines.json)" 'BEGIN { exit !(a > 0.95 * b && a < 1.05 * b) }' ||
+        fail "$name gives a tree $(high $name) m high, not $(high bare.splines.json)"
+done
+treegen --import splines.json -q --no-source --format treetools >again.txt
+treegen --import splines.json -q --no-source -o tree.txt
+same again.txt tree.txt
+closed_stdout treegen --import splines.json -q --format swc
+refused 4 "No such file" treegen --import splines.json -o missing/x.swc
+absent
