@@ -31,7 +31,7 @@ std::size_t still_meshes(const Json& json, const GltfNodes& nodes, const std::ve
 
 DrivenModel::DrivenModel(UserModel model, const Tree& tree, const DrivenOptions& options,
                          std::vector<std::string>& notes)
-    : model_(std::move(model)), tree_(tree), options_(options) {
+    : model_(std::move(model)), options_(options) {
     const Eigen::Affine3d world_from_file = Eigen::Translation3d(options.position) *
                                             Eigen::AngleAxisd(options.yaw, Vec3::UnitY()) *
                                             Eigen::Translation3d(model_.moved);

@@ -31,7 +31,7 @@ struct DrivenOptions {
 
 class DrivenModel {
 public:
-    // Keeps a reference to the tree, which is drawn where the scene puts it. Throws InputError where most bones lie
+    // The tree is drawn where the scene puts it. Throws InputError where most bones lie
     // beside the tree's bodies, or reach less than half or more than twice as high. Notes: bones that do, animations left out, meshes that nothing moves.
     DrivenModel(UserModel, const Tree&, const DrivenOptions&, std::vector<std::string>& notes);
     void write(const MotionFrame&);
@@ -57,7 +57,6 @@ private:
     void clear_matrix(std::size_t bone);
 
     UserModel model_;
-    const Tree& tree_;
     DrivenOptions options_;
     Eigen::Affine3d file_from_world_;
     std::vector<Mat3> drawn_R_wb_;
