@@ -37,7 +37,7 @@ bool send(int pipe, const char* data, std::size_t size) {
 }
 
 // [bytes] of address space that this process has.
-std::size_t address_space() {
+[[maybe_unused]] std::size_t address_space() {
     std::ifstream file("/proc/self/statm");
     std::size_t pages = 0;
     file >> pages;
