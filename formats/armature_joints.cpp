@@ -118,6 +118,24 @@ std::size_t leave_out_idle(Choice& c, std::vector<char>& mark) {
     return count;
 }
 
+// Nodes that could be an armature's, with others of their kind, where the file says which nodes are joints and names
+// none of these.
+std::size_t unnamed_chains(const Choice& c) {
+    const std::size_t n = c.candidate.size();
+    if (c.scene.open_are_joints) return 0;
+    std::vector<char> carries(n, false); // a joint, or something to be seen
+    for (std::size_t i = n; i-- > 0;) {
+        if (c.candidate[i] || c.scene.role[i] != NodeRole::open) carries[i] = true;
+        if (carries[i] && c.scene.parent[i] >= 0) carries[c.scene.parent[i]] = true;
+    }
+    std::vector<char> in_a_row(n, false);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::int32_t p = c.scene.parent[i];
+        if (p >= 0 && !carries[i] && !carries[p] && c.above[i] < 0) in_a_row[i] = in_a_row[p] = true;
+    }
+    return std::size_t(std::count(in_a_row.begin(), in_a_row.end(), true));
+}
+
 void note(std::size_t count, const char* what, ImportNotes& notes) {
     if (count > 0) notes.lines.push_back(std::to_string(count) + what);
 }
@@ -127,6 +145,7 @@ void note(std::size_t count, const char* what, ImportNotes& notes) {
 ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes& notes) {
     Choice c = candidates(scene);
     const std::size_t n = c.candidate.size();
+    const std::size_t unnamed = unnamed_chains(c);
     const std::size_t frames = leave_out_frames(c, up);
     sum_below(c);
     std::vector<char> mark(n, false);
@@ -161,6 +180,7 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
     }
     note(frames, " nodes taken as the armature's frame, no bone: what is below begins beside them", notes);
     note(idle, " bones that move no vertex, nor anything below them, left out (controls)", notes);
+    note(unnamed, " nodes in a row that no skin names left out: bones of an armature without a mesh?", notes);
     note(neutral + alone, " bones that stand alone left out", notes);
     return chosen;
 }

@@ -1,5 +1,6 @@
 #include "assimp_scene.h"
 #include "forked.h"
+#include "model_collada.h"
 #include "plain_text.h"
 #include "user_model.h"
 #include <algorithm>
@@ -46,6 +47,31 @@ aiNode* above_bones(aiScene& scene, const aiMesh& mesh) {
     aiNode* node = scene.mRootNode->FindNode(mesh.mBones[0]->mName);
     while (node && names.contains(node->mName.C_Str())) node = node->mParent;
     return node ? node : scene.mRootNode;
+}
+
+// assimp finds a skin's bones by name (COLLADA: by sid): of two armatures with the same names it would move one twice.
+void refuse_names_used_twice(const aiScene& scene, std::string_view content, AssimpKind kind) {
+    const auto collada =
+        kind == AssimpKind::dae ? collada_joints(content) : std::unordered_map<std::string, ColladaJoint>();
+    const auto skin_name = [&](const aiString& name) {
+        const auto found = collada.find(name.C_Str());
+        return found == collada.end() || found->second.sid.empty() ? std::string(name.C_Str()) : found->second.sid;
+    };
+    std::set<std::string> bones, seen;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b)
+            bones.insert(skin_name(scene.mMeshes[m]->mBones[b]->mName));
+    std::vector<const aiNode*> stack{scene.mRootNode};
+    while (!stack.empty()) {
+        const aiNode* node = stack.back();
+        stack.pop_back();
+        const std::string name = skin_name(node->mName);
+        if (bones.contains(name) && !seen.insert(name).second)
+            throw std::runtime_error("two of its nodes are called " + quoted(name) +
+                                     ", as a skin's bone is; give the bones of each armature names of their own, or "
+                                     "export glTF");
+        stack.insert(stack.end(), node->mChildren, node->mChildren + node->mNumChildren);
+    }
 }
 
 // Vertices of a skinned mesh that no bone moves stand still where their mesh stands; glTF wants a bone for them, too.
@@ -121,6 +147,7 @@ std::string convert(std::string_view content, AssimpKind kind) {
     // The importer's own scene is changed: a copy would be a second one in memory.
     keep_faces(const_cast<aiScene&>(*scene));
     hold_unweighted(const_cast<aiScene&>(*scene));
+    refuse_names_used_twice(*scene, content, kind);
     const ModelFrame frame = stated_frame(*scene, kind);
     aiMatrix4x4& root = scene->mRootNode->mTransformation;
     aiMatrix4x4 to_metres;

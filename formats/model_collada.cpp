@@ -32,7 +32,8 @@ struct Walker : pugi::xml_tree_walker {
         if (without_prefix(node.name()) != "node" || node.attribute("type").as_string() != std::string_view("JOINT"))
             return true;
         const char* const id = node.attribute("id").as_string();
-        joints.try_emplace(*id != '\0' ? id : node.attribute("name").as_string(), ColladaJoint{tip_of(node)});
+        joints.try_emplace(*id != '\0' ? id : node.attribute("name").as_string(),
+                           ColladaJoint{node.attribute("sid").as_string(), tip_of(node)});
         return true;
     }
 };

@@ -9,6 +9,7 @@
 namespace bough {
 
 struct ColladaJoint {
+    std::string sid; // by which a skin names it, unique within its armature alone
     std::optional<Vec3>
         tip; // from the joint to the bone's end, in the armature's axes: Blender's extra tip_x, tip_y, tip_z
 };

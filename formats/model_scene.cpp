@@ -4,6 +4,7 @@
 #include "model_collada.h"
 #include "model_gltf.h"
 #include "plain_text.h"
+#include "skin_joint.h"
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
@@ -31,7 +32,13 @@ struct Reading {
     ModelScene& out;
     std::vector<const aiNode*> node;
     std::vector<Matrix> world;
-    std::unordered_map<std::string_view, std::int32_t> by_name;
+    NodesByName by_name;
+    const std::unordered_map<std::string, ColladaJoint>& collada;
+    // By which a skin means it: assimp names all COLLADA joints of one sid by the id of the first.
+    std::string_view skin_name(const char* name) const {
+        const auto found = collada.find(name);
+        return found == collada.end() || found->second.sid.empty() ? name : std::string_view(found->second.sid);
+    }
 };
 
 bool is_null(const aiNode& node) {
@@ -63,7 +70,7 @@ void read_nodes(Reading& r, AssimpKind kind) {
             const std::string_view name = at.node->mName.C_Str();
             r.node.push_back(at.node);
             r.world.push_back(world);
-            r.by_name.try_emplace(name, self);
+            r.by_name.add(r.skin_name(at.node->mName.C_Str()));
             r.out.parent.push_back(at.parent);
             r.out.name.emplace_back(name);
             r.out.role.push_back(at.node->mNumMeshes > 0 || is_null(*at.node) ? NodeRole::holder : NodeRole::open);
@@ -78,26 +85,28 @@ void read_nodes(Reading& r, AssimpKind kind) {
     }
     r.out.tip.assign(r.node.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     const auto hold = [&](const aiString& name) {
-        const auto found = r.by_name.find(name.C_Str());
-        if (found != r.by_name.end()) r.out.role[static_cast<std::size_t>(found->second)] = NodeRole::holder;
+        const std::int32_t node = r.by_name.first(name.C_Str());
+        if (node >= 0) r.out.role[static_cast<std::size_t>(node)] = NodeRole::holder;
     };
     for (unsigned i = 0; i < r.scene.mNumCameras; ++i) hold(r.scene.mCameras[i]->mName);
     for (unsigned i = 0; i < r.scene.mNumLights; ++i) hold(r.scene.mLights[i]->mName);
 }
 
 // Vertices as the joints move them (linear blend), and which joint moves each most.
-void read_skinned(Reading& r, const aiMesh& mesh, std::vector<Vec3>& moved) {
+void read_skinned(Reading& r, const aiMesh& mesh, const Matrix& mesh_world, std::vector<Vec3>& moved) {
     const std::size_t n = mesh.mNumVertices;
     std::vector<std::int32_t> most(n, -1);
     std::vector<double> most_weight(n, 0), sum(n, 0);
     moved.assign(n, Vec3::Zero());
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
         const aiBone& bone = *mesh.mBones[b];
-        const auto found = r.by_name.find(bone.mName.C_Str());
-        if (found == r.by_name.end()) throw std::runtime_error("a skin names a joint that is no node");
-        const auto joint = static_cast<std::size_t>(found->second);
+        const Matrix offset = matrix_of(bone.mOffsetMatrix);
+        const std::int32_t node =
+            joint_of(r.by_name, r.skin_name(bone.mName.C_Str()), r.world, r.out.role, offset, mesh_world);
+        if (node < 0) throw std::runtime_error("a skin names a joint that is no node");
+        const auto joint = static_cast<std::size_t>(node);
         r.out.role[joint] = NodeRole::joint;
-        const Matrix move = r.world[joint] * matrix_of(bone.mOffsetMatrix);
+        const Matrix move = r.world[joint] * offset;
         for (unsigned k = 0; k < bone.mNumWeights; ++k) {
             const std::size_t v = bone.mWeights[k].mVertexId;
             const double weight = static_cast<double>(bone.mWeights[k].mWeight);
@@ -105,7 +114,7 @@ void read_skinned(Reading& r, const aiMesh& mesh, std::vector<Vec3>& moved) {
             if (!(weight > 0)) continue;
             moved[v] += weight * placed(move, mesh.mVertices[v]);
             sum[v] += weight;
-            if (weight > most_weight[v]) most_weight[v] = weight, most[v] = found->second;
+            if (weight > most_weight[v]) most_weight[v] = weight, most[v] = node;
         }
     }
     for (std::size_t v = 0; v < n; ++v) {
@@ -123,7 +132,7 @@ void read_mesh(Reading& r, const aiMesh& mesh, const Matrix& world, bool first_t
     if (mesh.mNumBones > 0 && !first_time) return;
     if (mesh.mNumBones > 0) {
         ++r.out.skinned_meshes;
-        read_skinned(r, mesh, moved);
+        read_skinned(r, mesh, world, moved);
     }
     const auto first = static_cast<std::int32_t>(r.out.line_point.size());
     bool lines = false;
@@ -168,7 +177,8 @@ void mark_joints(Reading& r, const GltfJoints& joints) {
 }
 
 // Roles and tips that COLLADA states. A tip is a vector from the bone's start in the armature's axes.
-void mark_collada(Reading& r, const std::unordered_map<std::string, ColladaJoint>& joints) {
+void mark_collada(Reading& r) {
+    const auto& joints = r.collada;
     for (std::size_t i = 0; i < r.node.size(); ++i) {
         const auto found = joints.find(r.out.name[i]);
         if (found == joints.end()) continue;
@@ -204,14 +214,16 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
     }
     Assimp::Importer importer;
     const aiScene& scene = *load_by_assimp(importer, content, "", kind, options.up != 0);
-    Reading reading{scene, out, {}, {}, {}};
+    const auto collada =
+        kind == AssimpKind::dae ? collada_joints(content) : std::unordered_map<std::string, ColladaJoint>();
+    Reading reading{scene, out, {}, {}, {}, collada};
     const ModelFrame frame = stated_frame(scene, kind);
     out.to_y_up = frame.axes;
     out.unit = frame.unit;
     read_nodes(reading, kind);
     read_meshes(reading);
     mark_joints(reading, joints);
-    if (kind == AssimpKind::dae) mark_collada(reading, collada_joints(content));
+    mark_collada(reading);
     // In an FBX file what is no joint is a Null or holds something.
     const bool stated = std::count(out.role.begin(), out.role.end(), NodeRole::joint) > 0;
     out.open_are_joints = kind == AssimpKind::fbx || (!stated && out.triangles == 0);
@@ -224,8 +236,10 @@ ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOpt
     const ChildResult child =
         run_forked([&] { return bytes_of(read_in_child(content, kind, options)); }, reader_limits);
     if (child.failure.empty()) return model_scene_of(child.bytes);
-    const std::string own = options.name + ": "; // of an InputError in the child
-    if (child.failure.starts_with(own)) throw InputError(options.name, valid_utf8(child.failure.substr(own.size())));
+    const std::string own = options.name + ":"; // of an InputError in the child, with a line or without
+    const std::size_t place = child.failure.find(": ", options.name.size());
+    if (child.failure.starts_with(own) && place != std::string::npos)
+        throw InputError(child.failure.substr(0, place), valid_utf8(child.failure.substr(place + 2)));
     throw InputError(options.name,
                      "assimp could not read it: " + valid_utf8(child.failure) + "; expected " + model_kind_name(kind));
 }

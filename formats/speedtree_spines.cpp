@@ -9,21 +9,31 @@
 namespace bough::speedtree {
 namespace {
 
-// Finds the branch whose first point is nearest: first points sorted by x, searched outward from the wanted x.
+// Finds the branch whose first point is nearest: first points, each place once, sorted along the axis on which they lie
+// widest apart and searched outward from the wanted place.
 class NearestStart {
 public:
     explicit NearestStart(const std::vector<ImportedBranch>& branches) : branches_(branches), order_(branches.size()) {
         std::iota(order_.begin(), order_.end(), 0);
-        std::stable_sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) { return x(a) < x(b); });
+        if (order_.empty()) return;
+        Vec3 low = start(0), high = low;
+        for (const ImportedBranch& b : branches) {
+            low = low.cwiseMin(b.point.front());
+            high = high.cwiseMax(b.point.front());
+        }
+        (high - low).maxCoeff(&axis_);
+        std::stable_sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) { return before(a, b); });
+        const auto same = [&](std::int32_t a, std::int32_t b) { return start(a) == start(b); };
+        order_.erase(std::unique(order_.begin(), order_.end(), same), order_.end());
     }
     std::int32_t find(const Vec3& p) const {
-        const auto middle = std::lower_bound(order_.begin(), order_.end(), p.x(),
-                                             [&](std::int32_t i, double wanted) { return x(i) < wanted; });
+        const auto middle = std::lower_bound(order_.begin(), order_.end(), p[axis_],
+                                             [&](std::int32_t i, double wanted) { return start(i)[axis_] < wanted; });
         std::int32_t best = -1;
         double distance = std::numeric_limits<double>::infinity();
         const auto closer = [&](std::int32_t i) {
-            if (std::abs(x(i) - p.x()) > distance) return false;
-            const double d = (branches_[i].point.front() - p).norm();
+            if (distance == 0 || std::abs(start(i)[axis_] - p[axis_]) > distance) return false;
+            const double d = (start(i) - p).norm();
             if (d < distance) {
                 best = i;
                 distance = d;
@@ -36,9 +46,16 @@ public:
     }
 
 private:
-    double x(std::int32_t i) const { return branches_[i].point.front().x(); }
+    const Vec3& start(std::int32_t i) const { return branches_[i].point.front(); }
+    // All of one place stand side by side, in the order of their branches.
+    bool before(std::int32_t a, std::int32_t b) const {
+        for (const Eigen::Index k : {axis_, (axis_ + 1) % 3, (axis_ + 2) % 3})
+            if (start(a)[k] != start(b)[k]) return start(a)[k] < start(b)[k];
+        return false;
+    }
     const std::vector<ImportedBranch>& branches_;
     std::vector<std::int32_t> order_;
+    Eigen::Index axis_ = 0;
 };
 
 std::vector<std::int32_t> spine_of_bones(const BoneBranches& bones, const std::vector<ImportedBranch>& branches) {

@@ -6,6 +6,8 @@
 #include "skeleton.h"
 #include "skeleton_writer.h"
 #include <array>
+#include <cmath>
+#include <optional>
 #include <unordered_map>
 
 namespace bough {
@@ -29,7 +31,7 @@ struct Table {
 // Calls row(line, number) for each line that is neither blank nor a comment, until it returns false.
 template <class Row> void each_row(std::string_view content, Row&& row) {
     std::size_t number = 0;
-    for (std::size_t at = 0; at < content.size();) {
+    for (std::size_t at = content.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < content.size();) {
         const std::size_t end = std::min(content.find('\n', at), content.size());
         const std::string_view line = trimmed(content.substr(at, end - at));
         at = end + 1;
@@ -43,6 +45,15 @@ template <class Row> void each_row(std::string_view content, Row&& row) {
     throw InputError(file_line(name, line), message);
 }
 
+// "12.0" is one, too: some programs print all columns as reals.
+std::optional<std::int64_t> whole_number(std::string_view text) {
+    if (const auto integer = parse_integer(text)) return integer;
+    constexpr double most = 9007199254740992.0;
+    const auto real = parse_number(text);
+    if (!real || *real != std::floor(*real) || std::abs(*real) > most) return {};
+    return std::int64_t(*real);
+}
+
 Node parse_node(std::string_view line, std::size_t number, const std::string& name, bool& more_columns) {
     std::array<std::string_view, columns> field;
     std::size_t at = 0, n = 0;
@@ -50,7 +61,7 @@ Node parse_node(std::string_view line, std::size_t number, const std::string& na
     if (n < columns) refuse(name, number, std::to_string(n) + " columns, expected 7: id type x y z radius parent");
     more_columns = more_columns || !next_token(line, at).empty();
     const auto integer = [&](std::size_t k, const char* what) {
-        const auto value = parse_integer(field[k]);
+        const auto value = whole_number(field[k]);
         if (!value) refuse(name, number, quoted(field[k]) + " is not a node's " + what + ", expected an integer");
         return *value;
     };
@@ -131,7 +142,7 @@ bool recognizes_swc(std::string_view content) {
         for (std::string_view field = next_token(line, at); !field.empty(); field = next_token(line, at), ++n) {
             const bool whole = n == 0 || n == 1 || n == 6;
             looks_like = looks_like &&
-                         (n >= columns || (whole ? parse_integer(field).has_value() : parse_number(field).has_value()));
+                         (n >= columns || (whole ? whole_number(field).has_value() : parse_number(field).has_value()));
         }
         looks_like = looks_like && n >= columns;
         return false;

@@ -1,5 +1,6 @@
 #include "formats/armature.h"
 #include "formats/forked.h"
+#include "formats/user_model.h"
 #include "import_support.h"
 #include <atomic>
 #include <csignal>
@@ -34,7 +35,7 @@ std::string error_beside(const std::string& content, const std::string& name) {
     } catch (const InputError& error) {
         const std::string text = error.what();
         CHECK(text.find('\n') == std::string::npos);
-        CHECK(text.rfind(name + ": ", 0) == 0);
+        CHECK(text.rfind(name + ":", 0) == 0); // a line may follow
         return text;
     }
     return {};
@@ -122,6 +123,37 @@ TEST_CASE("scales, nodes between bones, another bone axis and several roots") {
         json["nodes"][1]["children"] = {2};
     });
     CHECK(imported(roots, "r.gltf", beside_fixtures()).splines.parent == std::vector<std::int32_t>{-1, -1});
+}
+
+TEST_CASE("of two armatures with bones of the same names each skin has its own") {
+    const Imported in = imported(fixture("two_armatures.dae"), "two.dae");
+    const Splines& s = in.splines;
+    REQUIRE(s.parent == std::vector<std::int32_t>{-1, -1});
+    std::vector<double> x{s.point[0].x(), s.point[std::size_t(s.first_point[1])].x()};
+    std::sort(x.begin(), x.end());
+    CHECK(near({x[0], x[1], 0}, {0, 3, 0}, 1e-6));
+    CHECK(total_length(s) == Approx(4 + 2));
+    for (const double r : s.radius) CHECK(r == Approx(0.1));
+    // assimp cannot tell them apart when it writes glTF.
+    CHECK_THROWS_AS(glb_by_assimp(fixture("two_armatures.dae"), AssimpKind::dae, {}), InputError);
+}
+
+TEST_CASE("nodes in a row that no skin names are told of") {
+    const std::string beside = changed(fixture("twig_armature.gltf"), [](Json& json) {
+        const int first = int(json["nodes"].size());
+        json["nodes"].push_back(Json{{"name", "a"}, {"children", {first + 1}}});
+        json["nodes"].push_back(Json{{"name", "b"}, {"translation", {0, 1, 0}}});
+        json["scenes"][0]["nodes"].push_back(first);
+    });
+    CHECK(imported(beside, "b.gltf", beside_fixtures()).notes_hold("2 nodes in a row that no skin names"));
+    const Imported alone = imported(fixture("twig_armature.gltf"), "t.gltf", beside_fixtures());
+    CHECK(!alone.notes_hold("that no skin names"));
+}
+
+TEST_CASE("an error found in the child names file and line once") {
+    const std::string text = error_beside("{\"asset\": {},\n\"nodes\": [,]}", "broken.gltf");
+    CHECK(text.rfind("broken.gltf:2: ", 0) == 0);
+    CHECK(text.find("assimp") == std::string::npos);
 }
 
 TEST_CASE("line meshes are welded into a tree, strips and pairs, scaled by their node") {

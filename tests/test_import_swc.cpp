@@ -108,6 +108,15 @@ TEST_CASE("skeletons of neurons: lengths and roots as another reading counts the
     }
 }
 
+TEST_CASE("a byte order mark, and whole numbers printed as reals") {
+    const Splines s = imported("\xEF\xBB\xBF"
+                               "1.0\t2.0\t0\t0\t0\t0.1\t-1.0\n2.0\t2.0\t0\t0\t5\t0.1\t1.0\n",
+                               "b.swc")
+                          .splines;
+    CHECK(total_length(s) == Approx(5));
+    CHECK(error_of("1.5 2 0 0 0 .1 -1\n", "h.swc").find("h.swc:1: \"1.5\" is not a node's id") == 0);
+}
+
 TEST_CASE("an SWC with missing parents names the first row that has one") {
     const auto content = foreign_case("invalid/Neuron_missing_parents.swc");
     if (!content) return;
