@@ -212,7 +212,7 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
     frame.unit = unit_of(tree, frame.up, options, notes);
     notes.up = frame.up;
     notes.unit = frame.unit;
-    notes.up_from = options.up != 0 ? "given" : tree.up != 0 ? "stated" : "guessed";
+    if (options.up != 0 || tree.up == 0) notes.up_from = options.up != 0 ? "given" : "guessed"; // else by the reader
     notes.unit_from = options.unit ? "given" : tree.unit ? "stated" : "guessed";
 
     Splines s;

@@ -234,7 +234,7 @@ RootedLines root_lines(LineGraph&& g, char up, const std::string& name, ImportNo
     result.up = up;
     if (up == 0) {
         result.up = likely_up(pieces.point, pieces.radius, pieces.segment);
-        notes.lines.push_back(up_note(result.up));
+        note_guessed_up(result.up, notes);
     }
     const std::vector<Attachment> joined = attach_pieces(pieces, result.up);
     Skeleton s;

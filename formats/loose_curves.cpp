@@ -128,7 +128,7 @@ char join_curves(Curves& curves, char up, CurveBase base, const std::string& nam
     Pieces pieces = pieces_of(curves);
     if (up == 0) {
         up = likely_up(pieces.point, pieces.radius, pieces.segment);
-        notes.lines.push_back(up_note(up));
+        note_guessed_up(up, notes);
     }
     const std::vector<Attachment> joined = joined_pieces(pieces, curves, up, base, notes);
     const std::vector<double> arc = arc_lengths(curves);

@@ -168,7 +168,10 @@ Splines read_mtg(std::string_view content, const ImportOptions& options, ImportN
     tree.branches = branches_of(std::move(nodes.skeleton), options.name, notes);
     fill_radii(tree.branches, notes);
     tree.source = "MTG " + options.name;
-    if (options.up == 0) notes.lines.push_back("up axis: taken as Z, as AMAPmod has it (--up overrides)");
+    if (options.up == 0) {
+        notes.lines.push_back("up axis: taken as Z, as AMAPmod has it (--up overrides)");
+        notes.up_from = "guessed";
+    }
     tree.up = 'z';
     return finish_import(std::move(tree), options, notes);
 }

@@ -59,4 +59,11 @@ char likely_up(const std::vector<Vec3>& point, const std::vector<double>& radius
     return upright(1) > upright(0) ? 'z' : 'y';
 }
 
+void note_guessed_up(char up, ImportNotes& notes) {
+    notes.lines.push_back(
+        std::string("up axis: the file states none; taken as ") + char(up - 'a' + 'A') +
+        ", along which the wood stands more upright over its lowest or thickest end (--up overrides)");
+    notes.up_from = "guessed";
+}
+
 } // namespace bough

@@ -1,7 +1,7 @@
 // up_axis.h: which axis is up in a file that does not say so, from wood that has no root yet.
 #pragma once
+#include "import.h"
 #include "nearest_segment.h"
-#include <string>
 
 namespace bough {
 
@@ -10,10 +10,7 @@ namespace bough {
 // the lowest point along that axis. O(segments).
 char likely_up(const std::vector<Vec3>& point, const std::vector<double>& radius, const std::vector<Segment>&);
 
-// What likely_up() goes by, for a note.
-inline std::string up_note(char up) {
-    return std::string("up axis: the file states none; taken as ") + char(up - 'a' + 'A') +
-           ", which the thickest wood, or without radii all of it, stands along more upright (--up overrides)";
-}
+// Notes what likely_up() chose, and by what.
+void note_guessed_up(char up, ImportNotes&);
 
 } // namespace bough

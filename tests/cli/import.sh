@@ -20,6 +20,13 @@ for file in cylinder_small.txt simpleforest_small.csv archi_small.csv shrub.mtg 
     fi
 done
 refused 1 "--stats" treegen --stats --seed 3
+# Where the note says guessed, so do the statistics, whichever reader guessed.
+for file in lines.obj tip_to_base.obj shrub.mtg; do
+    expect 0 treegen --import "$fixtures/$file" --stats -o tree.json
+    grep -q '^up axis  *[YZ] (guessed)' err && grep -q '^note  *up axis: ' err || fail "$file: $(cat err)"
+    expect 0 treegen --import "$fixtures/$file" --up Y --stats -o tree.json
+    grep -q '^up axis  *Y (given)' err && ! grep -q '^note  *up axis: ' err || fail "$file: $(cat err)"
+done
 expect 0 treeconvert "$fixtures/shrub.mtg" --units cm --up Z --stats -o tree.json
 grep -q '^read  *MTG: 4 branches on 3 levels, 10 points' err || fail "--stats of the shrub: $(cat err)"
 grep -q '^units  *cm (given)' err && grep -q '^up axis  *Z (given)' err && grep -q '^roots  *2' err || fail "$(cat err)"
