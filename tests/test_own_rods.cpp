@@ -1,5 +1,6 @@
 #include "formats/gltf.h"
 #include "lib/growth/segment.h"
+#include "lib/model/wood.h"
 #include "tests/import_support.h"
 #include <filesystem>
 #include <unistd.h>
@@ -13,7 +14,7 @@ namespace {
 Splines orchard_tree() {
     Splines s;
     s.parent = {-1, 0, 1, 0};
-    s.parent_at = {0, 0.5, 0.4, 1};
+    s.parent_at = {0, 0.6, 0.639, 1};
     s.level = {0, 1, 2, 1};
     s.point = {{0, 0, 0},     {0, 1, 0},       {0.2, 2, 0.1}, {0.1, 1.2, 0}, {0.8, 1.6, 0.1},
                {1.4, 1.7, 0}, {0.9, 1.62, .1}, {1, 1.9, 0.3}, {0.2, 2, 0.1}, {0.1, 2.6, 0.2}};
@@ -62,7 +63,7 @@ double length_of(const Splines& s, std::size_t b) {
 
 TEST_CASE("our own .glb is read as the tree it shows, whatever joints were merged, with leaves and fruit in it") {
     const Splines drawn = orchard_tree();
-    const Tree tree = segment(drawn, {}).tree;
+    const Tree tree = segment(drawn, wood_presets().front(), {});
     for (const std::size_t joints : {std::size_t(1000), std::size_t(6), std::size_t(1)})
         for (const bool instances : {false, true})
             for (const bool x_along : {false, true}) {
@@ -89,10 +90,10 @@ TEST_CASE("our own .glb is read as the tree it shows, whatever joints were merge
 }
 
 TEST_CASE("extras that are not as we write them are passed over: the joints are then bones") {
-    std::string content = glb_of_tree(segment(orchard_tree(), {}).tree, 1000, false, false);
+    std::string content = glb_of_tree(segment(orchard_tree(), wood_presets().front(), {}), 1000, false, false);
     const std::size_t at = content.find("bough_rods\":[0,-1");
     REQUIRE(at != std::string::npos);
-    content.replace(at, 17, "bough_rods\":[0.5,");
+    content.replace(at, 17, "bough_rods\":[0.5 ");
     const Imported back = imported(content, "own.glb");
     CHECK(back.notes_hold("bones measured on the mesh"));
 }
