@@ -40,10 +40,38 @@ ImportedTree tree_of_lines(ModelScene& scene, const Mat3& axes, const std::strin
     return tree;
 }
 
+// The last steps of all models; `tree` stands along +Y.
+Splines finish(ImportedTree&& tree, const ModelScene& scene, const ImportOptions& options, ImportNotes& notes) {
+    if (scene.unit > 0) tree.unit = scene.unit;
+    ImportOptions turned = options;
+    turned.up = 'y';
+    Splines made = finish_import(std::move(tree), turned, notes);
+    notes.up = options.up != 0 ? options.up : scene.to_y_up.isIdentity(1e-6) ? 'y' : 'z';
+    notes.up_from = options.up != 0 ? "given" : "stated";
+    return made;
+}
+
+// A tree that we wrote, as it was.
+Splines own_tree(const ModelScene& scene, const Mat3& axes, const ImportOptions& options, ImportNotes& notes) {
+    ImportedTree tree;
+    tree.branches = branches_of(scene.own_rod);
+    for (ImportedBranch& branch : tree.branches)
+        for (Vec3& p : branch.point) {
+            if (!p.allFinite()) throw InputError(options.name, "has a joint whose place is not finite");
+            p = axes * p;
+        }
+    tree.source = "bough's joints in " + options.name;
+    if (scene.own_others > 0)
+        notes.lines.push_back(std::to_string(scene.own_others) +
+                              " leaves, petals and fruit left out: a .glb says where the wood is, not where they grow");
+    return finish(std::move(tree), scene, options, notes);
+}
+
 Splines read(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     const AssimpKind kind = *model_kind(content);
     ModelScene scene = read_model(content, kind, options);
     const Mat3 axes = to_y_up(scene, options);
+    if (!scene.own_rod.empty()) return own_tree(scene, axes, options, notes);
     Armature armature = armature_of(scene, axes.transpose() * Vec3::UnitY(), notes);
     const bool bones = !armature.bones.empty();
     if (!bones && scene.line.empty()) refuse(scene, kind, options.name);
@@ -59,12 +87,10 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
     }
     ImportedTree tree = bones ? tree_of(armature, notes) : tree_of_lines(scene, axes, options.name, notes);
     tree.source = std::string(model_kind_name(kind)) + (bones ? " armature " : " lines ") + options.name;
-    if (scene.unit > 0) tree.unit = scene.unit;
-    ImportOptions turned = options;
-    turned.up = 'y';
+    ImportOptions own_unit = options;
     if (options.unit && kind == AssimpKind::dae) // assimp has applied its own
-        turned.unit = *options.unit / collada_unit(content);
-    return finish_import(std::move(tree), turned, notes);
+        own_unit.unit = *options.unit / collada_unit(content);
+    return finish(std::move(tree), scene, own_unit, notes);
 }
 
 } // namespace

@@ -35,7 +35,7 @@ std::string asset(const GltfOptions& options) {
 
 // The joints' nodes: the drawn pose, children by name of body; `children` holds those that are no joints.
 std::string joint_nodes(const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin,
-                        std::vector<std::string> children) {
+                        std::vector<std::string> children, const std::vector<std::string>& rods) {
     children.resize(groups.size());
     for (std::size_t g = 0; g < groups.size(); ++g) {
         if (groups.parent[g] < 0) continue;
@@ -49,7 +49,7 @@ std::string joint_nodes(const JointGroups& groups, const GroupFrames& drawn, con
                 "\",\"translation\":" + gltf_list(Eigen::Vector3f(place.cast<float>())) +
                 ",\"rotation\":" + gltf_list(Eigen::Vector4f(drawn.rotation[g].coeffs().cast<float>()));
         if (!children[g].empty()) text += ",\"children\":[" + children[g] + "]";
-        text += '}';
+        text += rods[g] + '}';
     }
     return text;
 }
@@ -69,7 +69,8 @@ std::string nodes(const Tree& tree, const JointGroups& groups, const GroupFrames
         text += (first ? "" : ",") + std::to_string(first_joint + int(g));
         first = false;
     }
-    return text + "]}" + joint_nodes(groups, drawn, origin, leaves.children) + leaves.nodes;
+    return text + "]}" + joint_nodes(groups, drawn, origin, leaves.children, gltf_rods(tree, groups, drawn)) +
+           leaves.nodes;
 }
 
 // The file's joints as one skin; inverse bind matrices take the mesh's frame (the world less `origin`) to the joints'.

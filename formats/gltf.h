@@ -14,6 +14,7 @@
 // a mesh for leaves, one for petals, each 1 m long and wide, and under each joint that bears some a node that draws them at
 // their places, turned and scaled, still relative to the joint. The skin is then one without leaves, the groups are those
 // of merge_joints without leaves.
+// Each joint's extras say which bodies of wood it holds (own_rods.h), so that the tree can be read again from the file.
 // A vertex moved by two bodies of one group is moved by the group alone. Weights are floats, joints u8 or u16, indices u16
 // where they fit; every array starts at a multiple of 4 bytes.
 // Cost: O(joints) and 16 bytes a joint for each frame; all else when it is finished.

@@ -70,6 +70,9 @@ struct GltfLeaves {
 GltfLeaves gltf_leaves(GltfFile&, const Tree&, const JointGroups&, const GroupFrames& drawn, int first_node,
                        int first_mesh, int first_material);
 
+// ---- gltf_rods.cpp ---- each group's "extras", after a comma: what wood it holds, as own_rods.h has it.
+std::vector<std::string> gltf_rods(const Tree&, const JointGroups&, const GroupFrames& drawn);
+
 // ---- gltf_animation.cpp ---- the JSON of "animations", "" where there are no frames; joint j is node first_node + j.
 // Places are written less `origin`.
 std::string gltf_animation(GltfFile&, const JointKeys&, const std::vector<RootPath>&, const Vec3& origin, double fps,

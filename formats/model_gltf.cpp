@@ -45,6 +45,7 @@ GltfJoints cut_down(Json& json) {
             found.joint.at(joint.get<std::size_t>()) = true;
             found.any = true;
         }
+    found.own = own_rods(json["nodes"]);
     found.mesh_encoded = any_encoded(json);
     for (const char* other : {"animations", "materials", "textures", "images", "samplers", "cameras", "extensions",
                               "extensionsUsed", "extensionsRequired", "extras"})

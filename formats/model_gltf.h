@@ -1,12 +1,14 @@
 // model_gltf.h: a glTF document cut down to what an armature is read from (private to formats/).
 #pragma once
 #include "gltf_document.h"
+#include "own_rods.h"
 
 namespace bough {
 
 struct GltfJoints {
     std::vector<char> joint;       // of each node: whether a skin names it
     std::vector<std::string> name; // of each node: its own
+    OwnRods own;                   // what our own files say of them
     bool any = false;
     bool mesh_encoded = false;
 };

@@ -164,6 +164,16 @@ void read_meshes(Reading& r) {
     for (std::size_t i = 0; i < r.node.size(); ++i) read(*r.node[i], r.world[i]);
 }
 
+// What our own file says of a joint.
+void take_own(Reading& r, std::size_t node, const std::vector<OwnRod>& rods) {
+    if (rods.empty()) r.out.role[node] = NodeRole::holder;
+    for (const OwnRod& rod : rods) {
+        r.out.own_rod.push_back(in_world(rod, Eigen::Affine3d(r.world[node])));
+        const OwnRod& at = r.out.own_rod.back();
+        if (rod[0] == rods.front()[0]) r.out.tip[node] = {at[6], at[7], at[8]};
+    }
+}
+
 void mark_joints(Reading& r, const GltfJoints& joints) {
     r.out.index.assign(r.node.size(), -1);
     for (std::size_t i = 0; i < r.node.size(); ++i) {
@@ -173,7 +183,10 @@ void mark_joints(Reading& r, const GltfJoints& joints) {
         r.out.index[i] = static_cast<std::int32_t>(*index);
         r.out.name[i] = joints.name[static_cast<std::size_t>(*index)];
         if (joints.joint[static_cast<std::size_t>(*index)]) r.out.role[i] = NodeRole::joint;
+        if (!joints.own.rods.empty() && joints.own.ours[static_cast<std::size_t>(*index)])
+            take_own(r, i, joints.own.rods[static_cast<std::size_t>(*index)]);
     }
+    r.out.own_others = joints.own.others;
 }
 
 // Roles and tips that COLLADA states. A tip is a vector from the bone's start in the armature's axes.

@@ -4,7 +4,7 @@
 #include "import.h"
 #include "lib/model/math.h"
 #include "model_kind.h"
-#include <array>
+#include "own_rods.h"
 
 namespace bough {
 
@@ -33,6 +33,11 @@ struct ModelScene {
     // Line meshes, in that pose.
     std::vector<Vec3> line_point;
     std::vector<std::array<std::int32_t, 2>> line;
+
+    // Of our own files: the wood that the joints hold, in that pose; leaves, petals and fruit beside it. Joints without
+    // wood are then holders, and tips those of the wood.
+    std::vector<OwnRod> own_rod;
+    std::int64_t own_others = 0;
 
     std::int64_t triangles = 0, skinned_meshes = 0, animations = 0;
     bool mesh_encoded = false; // glTF with a mesh in a form that is not decoded here: it was left out

@@ -10,8 +10,9 @@ std::string bytes_of(const ModelScene& s) {
     for (const std::string& name : s.name) names += valid_utf8(name) + '\n';
     pack(bytes, s.to_y_up.data(), 9);
     pack(bytes, &s.unit, 1);
-    const std::int64_t counts[5] = {s.triangles, s.skinned_meshes, s.animations, s.mesh_encoded, s.open_are_joints};
-    pack(bytes, counts, 5);
+    const std::int64_t counts[6] = {s.triangles,    s.skinned_meshes,  s.animations,
+                                    s.mesh_encoded, s.open_are_joints, s.own_others};
+    pack(bytes, counts, 6);
     pack_all<std::int32_t, 1>(bytes, s.parent);
     pack_all<std::uint8_t, 1>(bytes, s.role);
     pack_all<std::int32_t, 1>(bytes, s.index);
@@ -22,6 +23,7 @@ std::string bytes_of(const ModelScene& s) {
     pack_all<std::int32_t, 1>(bytes, s.vertex_node);
     pack_all<double, 3>(bytes, s.line_point);
     pack_all<std::int32_t, 2>(bytes, s.line);
+    pack_all<double, 10>(bytes, s.own_rod);
     return bytes + names;
 }
 
@@ -30,10 +32,10 @@ ModelScene model_scene_of(const std::string& bytes) {
     std::size_t from = 0;
     unpack(bytes, from, s.to_y_up.data(), 9);
     unpack(bytes, from, &s.unit, 1);
-    std::int64_t counts[5];
-    unpack(bytes, from, counts, 5);
+    std::int64_t counts[6];
+    unpack(bytes, from, counts, 6);
     s.triangles = counts[0], s.skinned_meshes = counts[1], s.animations = counts[2];
-    s.mesh_encoded = counts[3] != 0, s.open_are_joints = counts[4] != 0;
+    s.mesh_encoded = counts[3] != 0, s.open_are_joints = counts[4] != 0, s.own_others = counts[5];
     unpack_all<std::int32_t, 1>(bytes, from, s.parent);
     unpack_all<std::uint8_t, 1>(bytes, from, s.role);
     unpack_all<std::int32_t, 1>(bytes, from, s.index);
@@ -44,6 +46,7 @@ ModelScene model_scene_of(const std::string& bytes) {
     unpack_all<std::int32_t, 1>(bytes, from, s.vertex_node);
     unpack_all<double, 3>(bytes, from, s.line_point);
     unpack_all<std::int32_t, 2>(bytes, from, s.line);
+    unpack_all<double, 10>(bytes, from, s.own_rod);
     for (std::size_t i = 0; i < s.parent.size(); ++i) {
         const std::size_t end = std::min(bytes.find('\n', from), bytes.size());
         s.name.push_back(bytes.substr(from, end - from));
