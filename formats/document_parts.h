@@ -7,8 +7,7 @@
 namespace bough {
 
 // ---- head.cpp: what kind of file it is, from its head ----
-std::size_t text_start(std::string_view content); // first byte that is no byte order mark or blank; size(): none
-bool looks_binary(std::string_view content);      // begins with a header's length, as no text does
+bool looks_binary(std::string_view content); // begins with a header's length, as no text does
 
 // ---- errors.cpp: places and advice ----
 std::string pointer(const std::string& at, std::string_view key); // at + "/" + key, escaped, in one line

@@ -46,7 +46,7 @@ bool has_vertex_line(std::string_view content) {
 AssimpKind kind_of(std::string_view content, const std::string& name) {
     if (content.empty()) throw InputError(name, std::string("is empty, ") + readable);
     if (const std::optional<AssimpKind> kind = model_kind(content)) return *kind;
-    if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
+    content = without_bom(content);
     for (const Refused& r : refused)
         if (content.starts_with(r.begins))
             throw InputError(name, std::string("is ") + r.is + ", " + readable + "; export it as one of these");

@@ -1,4 +1,5 @@
 #include "document_parts.h"
+#include "plain_text.h"
 #include <algorithm>
 
 namespace bough {

@@ -140,15 +140,15 @@ void add_drawn(ImportedTree& tree, const std::vector<Listed>& list, const std::s
 
 bool recognizes_list(std::string_view content) {
     const std::string_view head = content.substr(0, 65536);
-    const std::size_t first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    if (first == std::string_view::npos || (head[first] != '{' && head[first] != '[')) return false;
+    const std::size_t first = text_start(head);
+    if (first == head.size() || (head[first] != '{' && head[first] != '[')) return false;
     for (const char* key : {"\"origin\"", "\"orientation\"", "\"length\"", "\"radius\""})
         if (head.find(key) == std::string_view::npos) return false;
     return true;
 }
 
 Splines read_list(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
-    if (content.substr(0, 3) == "\xEF\xBB\xBF") content.remove_prefix(3);
+    content = without_bom(content);
     const Dump dump = read_dump(content, options.name);
     ImportedTree tree;
     if (const auto grown = regrown(dump, options.name)) {

@@ -29,10 +29,7 @@ struct Chunks {
 };
 
 Chunks chunks_of(std::string_view content, const std::string& name) {
-    if (!content.starts_with("glTF")) {
-        if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
-        return {content, {}};
-    }
+    if (!content.starts_with("glTF")) return {without_bom(content), {}};
     if (content.size() < 20) throw InputError(name, "is cut off within its header, expected a .glb");
     if (word(content, 4) != 2)
         throw InputError(name, "is glTF " + std::to_string(word(content, 4)) + ".0, expected 2.0; export it as 2.0");

@@ -25,8 +25,7 @@ std::string stem_of(const std::string& file) {
 }
 
 bool named(const std::string& file, std::initializer_list<const char*> parts) {
-    std::string name = std::filesystem::path(file).filename().string();
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string name = lower_case(std::filesystem::path(file).filename().string());
     return std::any_of(parts.begin(), parts.end(), [&](const char* p) { return name.find(p) != std::string::npos; });
 }
 
@@ -65,8 +64,7 @@ std::vector<std::string> ParameterNotes::lines() const {
 }
 
 GrowthParameters read_growth_parameters(std::string_view content, const std::string& file, ParameterNotes& notes) {
-    std::size_t at = content.starts_with("\xef\xbb\xbf") ? 3 : 0;
-    while (at < content.size() && is_blank(content[at])) ++at;
+    const std::size_t at = text_start(content);
     if (at == content.size()) throw InputError(file, std::string("is empty, expected ") + readable);
     if (content.find('\0') != std::string_view::npos)
         throw InputError(file, std::string("is not text, expected ") + readable);

@@ -1,4 +1,5 @@
 #include "document_parts.h"
+#include "plain_text.h"
 #include <algorithm>
 
 namespace bough {
@@ -30,11 +31,6 @@ std::string find_text(std::string_view text, const std::vector<std::string_view>
 }
 
 } // namespace
-
-std::size_t text_start(std::string_view content) {
-    const std::size_t mark = content.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;
-    return std::min(content.find_first_not_of(" \t\r\n", mark), content.size());
-}
 
 bool looks_binary(std::string_view content) {
     const std::size_t start = text_start(content);

@@ -29,18 +29,13 @@ struct Ending {
 };
 constexpr std::array endings{Ending{".swc", &swc_format}, Ending{".mtg", &mtg_format}, Ending{".obj", &obj_format}};
 
-bool ends_with(std::string_view name, std::string_view ending) {
-    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
-    return name.size() >= ending.size() &&
-           std::equal(name.end() - std::ptrdiff_t(ending.size()), name.end(), ending.begin(), same);
-}
-
 const SplineFormat* format_of(std::string_view content, const std::string& name) {
     for (const SplineFormat* format : formats)
         if (format->recognizes(content)) return format;
     if (content.substr(0, 65536).find('\0') != std::string_view::npos) return nullptr;
+    const std::string file = lower_case(name);
     for (const Ending& e : endings)
-        if (ends_with(name, e.ends)) return e.format;
+        if (file.ends_with(e.ends)) return e.format;
     return nullptr;
 }
 

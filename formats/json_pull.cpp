@@ -6,9 +6,7 @@
 
 namespace bough {
 
-JsonPull::JsonPull(std::string_view text, const std::string& name) : text_(text), name_(name) {
-    if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
-}
+JsonPull::JsonPull(std::string_view text, const std::string& name) : text_(text), name_(name), at_(bom_size(text)) {}
 
 void JsonPull::refuse(const std::string& message) const {
     throw InputError(file_line(name_, line_of(text_, at_)), message);

@@ -5,7 +5,7 @@
 namespace bough {
 
 std::optional<AssimpKind> model_kind(std::string_view content) {
-    if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
+    content = without_bom(content);
     if (content.starts_with("Kaydara FBX Binary")) return AssimpKind::fbx;
     if (content.starts_with("glTF")) return AssimpKind::glb;
     const std::size_t first = content.find_first_not_of(" \t\r\n");

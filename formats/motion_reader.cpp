@@ -1,4 +1,5 @@
 #include "motion_fields.h"
+#include "plain_text.h"
 #include <algorithm>
 #include <cstring>
 

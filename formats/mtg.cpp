@@ -19,17 +19,10 @@ namespace {
 
 constexpr std::size_t none = std::size_t(-1);
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return out;
-}
-
 std::size_t feature(const mtg::File& file, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names)
         for (std::size_t k = 0; k < file.features.size(); ++k)
-            if (lower(file.features[k]) == name) return k;
+            if (lower_case(file.features[k]) == name) return k;
     return none;
 }
 
@@ -136,7 +129,7 @@ void note_what_is_left(const mtg::File& file, const Nodes& nodes, ImportNotes& n
 
 bool recognizes_mtg(std::string_view content) {
     constexpr std::size_t head = 65536;
-    if (content.substr(0, 3) == "\xEF\xBB\xBF") content.remove_prefix(3);
+    content = without_bom(content);
     content = content.substr(0, head);
     for (std::size_t at = 0; at < content.size();) {
         const std::size_t end = std::min(content.find('\n', at), content.size());

@@ -19,9 +19,7 @@ bool is_digit(char c) {
 // Lines without comments and without the blanks at their end, not blank.
 class Lines {
 public:
-    explicit Lines(std::string_view content) : content_(content) {
-        if (content.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
-    }
+    explicit Lines(std::string_view content) : content_(content), at_(bom_size(content)) {}
     bool next(std::string_view& line) {
         while (at_ < content_.size()) {
             const std::size_t end = std::min(content_.find('\n', at_), content_.size());

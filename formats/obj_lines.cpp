@@ -18,7 +18,7 @@ public:
     Reader(std::string_view content, const std::string& name) : content_(content), name_(name) {}
 
     ObjLines read() {
-        for (std::size_t at = content_.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0; at < content_.size();) {
+        for (std::size_t at = bom_size(content_); at < content_.size();) {
             ++line_;
             std::string_view line = next_line(at);
             if (!line.empty() && line.back() == '\\') line = continued(line, at);
@@ -184,7 +184,7 @@ ObjLines read_obj_lines(std::string_view content, const std::string& name) {
 }
 
 bool looks_like_obj(std::string_view content) {
-    if (content.substr(0, 3) == "\xEF\xBB\xBF") content.remove_prefix(3);
+    content = without_bom(content);
     const std::string_view head = content.substr(0, 65536);
     for (std::size_t at = 0; at < head.size();) {
         const std::size_t end = std::min(head.find('\n', at), head.size());

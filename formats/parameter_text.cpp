@@ -53,7 +53,7 @@ bool Parser::take(char c) {
 
 // A byte order mark, a docstring and "params =".
 void Parser::skip_head() {
-    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;
+    at_ = bom_size(text_);
     skip();
     for (const char* quotes : {"\"\"\"", "'''"})
         if (text_.substr(at_).starts_with(quotes)) {

@@ -12,6 +12,18 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+std::string lower_case(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lower_case(c); });
+    return out;
+}
+
+std::size_t text_start(std::string_view text) {
+    std::size_t at = bom_size(text);
+    while (at < text.size() && is_blank(text[at])) ++at;
+    return at;
+}
+
 namespace {
 
 // from_chars reports "too small" and "too large" alike; the sign of the exponent tells them apart.

@@ -13,6 +13,22 @@ inline bool is_blank(char c) {
 
 std::string_view trimmed(std::string_view);
 
+// A to Z as small letters, all other bytes as they are.
+inline char lower_case(char c) {
+    return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+}
+std::string lower_case(std::string_view);
+
+// UTF-8's byte order mark, which many a program writes in front: its length, 0 without; the text behind it; and the first byte
+// that is neither it nor blank, size() if there is none.
+inline std::size_t bom_size(std::string_view text) {
+    return text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+}
+inline std::string_view without_bom(std::string_view text) {
+    return text.substr(bom_size(text));
+}
+std::size_t text_start(std::string_view);
+
 // The next run of non-blank characters at or after `from`, which moves behind it; empty at the end.
 inline std::string_view next_token(std::string_view text, std::size_t& from) {
     while (from < text.size() && is_blank(text[from])) ++from;

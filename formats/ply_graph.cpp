@@ -14,21 +14,15 @@ namespace {
 
 using Names = std::initializer_list<const char*>;
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return text;
-}
-
 bool is_one_of(const std::string& name, Names names) {
-    return std::any_of(names.begin(), names.end(), [&](const char* n) { return lower(name) == n; });
+    return std::any_of(names.begin(), names.end(), [&](const char* n) { return lower_case(name) == n; });
 }
 
 // The property with the first of these names that there is, -1: none.
 int find(const PlyElement& element, Names names) {
     for (const char* name : names)
         for (std::size_t k = 0; k < element.property.size(); ++k)
-            if (!element.property[k].list && lower(element.property[k].name) == name) return int(k);
+            if (!element.property[k].list && lower_case(element.property[k].name) == name) return int(k);
     return -1;
 }
 

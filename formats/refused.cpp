@@ -94,13 +94,6 @@ constexpr std::array<Ending, 28> endings{{
     {".bin", "a buffer of other data", "name the .gltf that it belongs to"},
 }};
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return out;
-}
-
 bool matches(std::string_view content, std::string_view pattern) {
     if (content.size() < pattern.size()) return false;
     for (std::size_t k = 0; k < pattern.size(); ++k)
@@ -141,9 +134,9 @@ void refuse_unread(std::string_view content, const std::string& name) {
     for (const Begin& b : begins)
         if (matches(content, b.begins)) refuse(name, b.is, b.advice);
     const std::string_view head = content.substr(0, 4096);
-    const std::size_t first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    if (first == std::string_view::npos) throw InputError(name, std::string("is blank, ") + readable);
-    const std::string file = lower(name);
+    const std::size_t first = text_start(head);
+    if (first == head.size()) throw InputError(name, std::string("is blank, ") + readable);
+    const std::string file = lower_case(name);
     for (const Ending& e : endings)
         if (file.ends_with(e.ends)) refuse(name, e.is, e.advice);
     if (head[first] == '<') refuse_xml(head, name);

@@ -154,9 +154,9 @@ std::optional<double> unit_called(const std::string& name) {
 
 bool recognizes_curves(std::string_view content) {
     const std::string_view head = content.substr(0, 65536);
-    const std::size_t first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    return first != std::string_view::npos && head[first] == '{' &&
-           head.find("\"splines\"") != std::string_view::npos && head.find("\"co\"") != std::string_view::npos;
+    const std::size_t first = text_start(head);
+    return first != head.size() && head[first] == '{' && head.find("\"splines\"") != std::string_view::npos &&
+           head.find("\"co\"") != std::string_view::npos;
 }
 
 Splines read_curves(std::string_view content, const ImportOptions& options, ImportNotes& notes) {

@@ -65,9 +65,7 @@ Header parse_header(std::string_view line) {
 
 class Lines {
 public:
-    explicit Lines(std::string_view content) : content_(content) {
-        if (content_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
-    }
+    explicit Lines(std::string_view content) : content_(content), at_(bom_size(content)) {}
     bool next(std::string_view& line) { // neither blank nor a comment
         while (at_ < content_.size()) {
             const std::size_t end = std::min(content_.find('\n', at_), content_.size());

@@ -31,7 +31,7 @@ struct Table {
 // Calls row(line, number) for each line that is neither blank nor a comment, until it returns false.
 template <class Row> void each_row(std::string_view content, Row&& row) {
     std::size_t number = 0;
-    for (std::size_t at = content.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < content.size();) {
+    for (std::size_t at = bom_size(content); at < content.size();) {
         const std::size_t end = std::min(content.find('\n', at), content.size());
         const std::string_view line = trimmed(content.substr(at, end - at));
         at = end + 1;

@@ -64,8 +64,7 @@ std::vector<std::string> Table::names_of(std::string_view content) {
 }
 
 Table::Table(std::string_view content, const std::string& name, std::span<const std::string_view> triples)
-    : content_(content), name_(name) {
-    if (content_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
+    : content_(content), name_(name), at_(bom_size(content)) {
     std::string_view line;
     if (!next_line(line)) return;
     delimiter_ = delimiter_of(line);

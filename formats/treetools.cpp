@@ -50,10 +50,6 @@ private:
     std::size_t at_ = 0;
 };
 
-std::string_view without_bom(std::string_view content) {
-    return content.substr(0, 3) == "\xEF\xBB\xBF" ? content.substr(3) : content;
-}
-
 Fields parse_fields(std::string_view line, const std::string& place) {
     Fields f;
     const std::size_t last = line.rfind(mandatory);

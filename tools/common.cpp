@@ -1,4 +1,5 @@
 #include "common.h"
+#include "formats/plain_text.h"
 #include "lib/fast/targets.h"
 #include <algorithm>
 #include <atomic>
@@ -304,9 +305,7 @@ std::vector<double> number_list(const std::string& option, const std::string& te
 }
 
 std::string ending(const std::string& path) {
-    std::string result = std::filesystem::path(path).extension().string();
-    for (char& c : result) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return result;
+    return lower_case(std::filesystem::path(path).extension().string());
 }
 
 Form chosen_form(const CommonOptions& common) {

@@ -51,7 +51,7 @@ void place_mesh(EnvelopeMesh& mesh, const EnvelopeOptions& o, const std::string&
 Envelope mesh_envelope(const EnvelopeOptions& o, const ImportChoice& choice, CommonOptions& common) {
     ImportOptions options;
     options.unit = unit_in_metres(choice.units);
-    if (!choice.up.empty()) options.up = char(std::tolower(choice.up[0]));
+    if (!choice.up.empty()) options.up = lower_case(choice.up[0]);
     options.name = input_name(o.envelope);
     ImportNotes notes;
     const std::string content = read_input(o.envelope);

@@ -4,6 +4,7 @@
 #include "formats/import.h"
 #include "formats/material.h"
 #include "formats/obj.h"
+#include "formats/plain_text.h"
 #include "formats/splines.h"
 #include "formats/tree.h"
 #include "frame_sink.h"
@@ -138,7 +139,7 @@ Splines read_splines_of(const Options& o, ImportNotes& notes) {
         throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + options.name +
                          " is a bough document, which is in metres and Y up");
     options.unit = unit_in_metres(o.choice.units);
-    if (!o.choice.up.empty()) options.up = char(std::tolower(o.choice.up[0]));
+    if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
     return import_splines(content, options, notes);
 }
 

@@ -1,6 +1,7 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
 #include "formats/import.h"
+#include "formats/plain_text.h"
 #include "formats/skeleton_writer.h"
 #include "formats/splines.h"
 #include "growth.h"
@@ -30,8 +31,10 @@ const ToolInfo info = {
     "Writes bough splines (.json, .safetensors), or a skeleton for other programs: SWC (.swc) or a treetools tree "
     "file\n"
     "(.txt), in metres and Z up.\n"
-    "Imports SpeedTree raw XML (with Spine, or bones only), armatures and lines of FBX, glTF and COLLADA, cylinders of\n"
-    "TreeQSM, SimpleForest and aRchi, treetools tree files, SWC, MTG, ez-tree's branches, PLY skeletons, OBJ lines and\n"
+    "Imports SpeedTree raw XML (with Spine, or bones only), armatures and lines of FBX, glTF and COLLADA, cylinders "
+    "of\n"
+    "TreeQSM, SimpleForest and aRchi, treetools tree files, SWC, MTG, ez-tree's branches, PLY skeletons, OBJ lines "
+    "and\n"
     "curves, curves of Blender (CSV, JSON), and bough splines; which one a file is, its content decides. The result\n"
     "goes to treeconvert:\n"
     "  treegen --bodies 2000 --seed 7 | treeconvert - -o tree.json\n"
@@ -85,7 +88,7 @@ Splines imported(Options& o) {
                          " is a bough document, which is in metres and Y up");
     ImportOptions options;
     options.unit = unit_in_metres(o.choice.units);
-    if (!o.choice.up.empty()) options.up = char(std::tolower(o.choice.up[0]));
+    if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
     options.name = input_name(o.import);
     options.folder = folder_of(o.import);
     ImportNotes notes;
