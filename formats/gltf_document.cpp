@@ -144,14 +144,6 @@ std::size_t add_view(GltfDocument& document, std::string_view bytes) {
     return views.size() - 1;
 }
 
-const char* image_type(std::string_view bytes) {
-    if (bytes.starts_with("\x89PNG")) return "image/png";
-    if (bytes.starts_with("\xFF\xD8")) return "image/jpeg";
-    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
-    if (bytes.starts_with("\xABKTX 20")) return "image/ktx2";
-    return nullptr;
-}
-
 void embed_images(GltfDocument& document, const std::string& folder, ImportNotes& notes) {
     if (!document.json.contains("images")) return;
     for (std::size_t i = 0; i < document.json["images"].size(); ++i) {
@@ -179,6 +171,14 @@ void embed_images(GltfDocument& document, const std::string& folder, ImportNotes
 }
 
 } // namespace
+
+const char* image_type(std::string_view bytes) {
+    if (bytes.starts_with("\x89PNG")) return "image/png";
+    if (bytes.starts_with("\xFF\xD8")) return "image/jpeg";
+    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
+    if (bytes.starts_with("\xABKTX 20")) return "image/ktx2";
+    return nullptr;
+}
 
 GltfDocument read_gltf(std::string_view content, const std::string& name, const std::string& folder, GltfImages images,
                        ImportNotes& notes) {

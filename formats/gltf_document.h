@@ -24,6 +24,9 @@ enum class GltfImages { leave, embed };
 GltfDocument read_gltf(std::string_view content, const std::string& name, const std::string& folder, GltfImages,
                        ImportNotes&);
 
+// The type of an image that begins with these bytes ("image/png", jpeg, webp, ktx2), or null.
+const char* image_type(std::string_view bytes);
+
 // Appends an array to the binary chunk from a multiple of 4: its view, and an accessor of `count` floats or vectors
 // ("SCALAR", "VEC3", "VEC4"). Returns the accessor's index.
 std::size_t add_floats(GltfDocument&, const std::vector<float>&, const char* type, bool with_bounds);

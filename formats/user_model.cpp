@@ -1,5 +1,5 @@
 #include "user_model.h"
-#include "gltf_document.h"
+#include "assimp_mends.h"
 #include "plain_text.h"
 
 namespace bough {
@@ -18,41 +18,6 @@ Vec3 moved_by_import(const Armature& armature, const ImportOptions& options) {
     for (const Vec3& p : finish_import(std::move(tree), metres, none).point) after = after.cwiseMin(p);
     const Vec3 way = after - before;
     return way.norm() > 1e-9 * (1 + before.norm()) ? way : Vec3(Vec3::Zero());
-}
-
-// What assimp's writer gets wrong: an embedded image's type is the ending of its file or folder ("fbm"), and a morph target
-// has as many vertices as its mesh had before they were split.
-void mend_assimp(GltfDocument& document, ImportNotes& notes) {
-    nlohmann::ordered_json& json = document.json;
-    if (json.contains("images"))
-        for (nlohmann::ordered_json& image : json["images"]) {
-            if (!image.contains("bufferView")) continue;
-            const auto& view = json.at("bufferViews").at(image["bufferView"].get<std::size_t>());
-            const std::string_view bytes = std::string_view(document.binary).substr(view.value("byteOffset", 0u));
-            if (bytes.starts_with("\x89PNG")) image["mimeType"] = "image/png";
-            if (bytes.starts_with("\xFF\xD8")) image["mimeType"] = "image/jpeg";
-        }
-    if (!json.contains("meshes")) return;
-    const auto count = [&](const nlohmann::ordered_json& accessor) {
-        return json.at("accessors").at(accessor.get<std::size_t>()).at("count").get<std::size_t>();
-    };
-    std::size_t without = 0;
-    for (nlohmann::ordered_json& mesh : json["meshes"]) {
-        bool fit = true, any = false;
-        for (const auto& primitive : mesh.at("primitives"))
-            for (const auto& target : primitive.value("targets", nlohmann::ordered_json::array()))
-                for (const auto& accessor : target) {
-                    any = true;
-                    fit = fit && count(accessor) == count(primitive.at("attributes").at("POSITION"));
-                }
-        if (!any || fit) continue;
-        ++without;
-        for (const char* name : {"weights", "extras"}) mesh.erase(name);
-        for (nlohmann::ordered_json& primitive : mesh["primitives"]) primitive.erase("targets");
-    }
-    if (without > 0)
-        notes.lines.push_back(std::to_string(without) + " meshes come without their shape keys: assimp does not keep " +
-                              "them with the vertices (export glTF to keep them)");
 }
 
 } // namespace
