@@ -28,16 +28,12 @@ Mat3 to_y_up(const ModelScene& scene, const ImportOptions& options) {
 }
 
 // Line meshes, as a tree that stands along +Y.
-ImportedTree tree_of_lines(ModelScene& scene, const Mat3& axes, const std::string& name, ImportNotes& notes) {
+ImportedTree tree_of_line_meshes(ModelScene& scene, const Mat3& axes, const std::string& name, ImportNotes& notes) {
     for (Vec3& p : scene.line_point) {
         if (!p.allFinite()) throw InputError(name, "has a line whose place is not finite");
         p = axes * p;
     }
-    RootedLines rooted = root_lines({std::move(scene.line_point), {}, std::move(scene.line)}, 'y', name, notes);
-    ImportedTree tree;
-    tree.branches = std::move(rooted.branches);
-    fill_radii(tree.branches, notes);
-    return tree;
+    return tree_of_lines({std::move(scene.line_point), {}, std::move(scene.line)}, 'y', name, notes);
 }
 
 // The last steps of all models; `tree` stands along +Y.
@@ -85,7 +81,7 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
         bone.start = axes * bone.start;
         bone.end = axes * bone.end;
     }
-    ImportedTree tree = bones ? tree_of(armature, notes) : tree_of_lines(scene, axes, options.name, notes);
+    ImportedTree tree = bones ? tree_of(armature, notes) : tree_of_line_meshes(scene, axes, options.name, notes);
     tree.source = std::string(model_kind_name(kind)) + (bones ? " armature " : " lines ") + options.name;
     ImportOptions own_unit = options;
     if (options.unit && kind == AssimpKind::dae) // assimp has applied its own

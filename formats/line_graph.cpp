@@ -1,5 +1,6 @@
 #include "line_graph.h"
 #include "attach.h"
+#include "pipe_rule.h"
 #include "plain_text.h"
 #include "skeleton.h"
 #include "up_axis.h"
@@ -245,6 +246,15 @@ RootedLines root_lines(LineGraph&& g, char up, const std::string& name, ImportNo
     join_parts(s, joined, notes);
     result.branches = branches_of(std::move(s), name, notes);
     return result;
+}
+
+ImportedTree tree_of_lines(LineGraph&& g, char up, const std::string& name, ImportNotes& notes) {
+    RootedLines rooted = root_lines(std::move(g), up, name, notes);
+    fill_radii(rooted.branches, notes);
+    ImportedTree tree;
+    tree.branches = std::move(rooted.branches);
+    tree.up = rooted.up;
+    return tree;
 }
 
 } // namespace bough

@@ -26,4 +26,7 @@ struct RootedLines {
 // Throws InputError (place `name`) where no line has a length; a line's points must exist.
 RootedLines root_lines(LineGraph&&, char up, const std::string& name, ImportNotes&);
 
+// The same as a tree, unknown radii by the pipe rule.
+ImportedTree tree_of_lines(LineGraph&&, char up, const std::string& name, ImportNotes&);
+
 } // namespace bough

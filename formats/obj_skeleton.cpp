@@ -80,18 +80,16 @@ Splines read_obj(std::string_view content, const ImportOptions& options, ImportN
         notes.lines.push_back(std::to_string(obj.faces + obj.surfaces) + " faces not read beside the lines");
     if (obj.other_points > 0) notes.lines.push_back(std::to_string(obj.other_points) + " point elements not read");
     ImportedTree tree;
-    tree.source = "Wavefront OBJ " + options.name;
     tree.branches = curves_of(obj, notes);
     if (obj.lines.edge.empty()) {
         obj = {};
         tree.up = join_bare_curves(tree.branches, options, notes);
+        fill_radii(tree.branches, notes);
     } else {
         add_as_lines(obj.lines, tree.branches);
-        RootedLines rooted = root_lines(std::move(obj.lines), options.up, options.name, notes);
-        tree.branches = std::move(rooted.branches);
-        tree.up = rooted.up;
+        tree = tree_of_lines(std::move(obj.lines), options.up, options.name, notes);
     }
-    fill_radii(tree.branches, notes);
+    tree.source = "Wavefront OBJ " + options.name;
     return finish_import(std::move(tree), options, notes);
 }
 

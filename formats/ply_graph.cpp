@@ -3,7 +3,6 @@
 // for each branch become one. Metres and Z up, as laser scans have it, are what the format's users mean; it states
 // neither, so both are guessed.
 #include "line_graph.h"
-#include "pipe_rule.h"
 #include "plain_text.h"
 #include "ply_elements.h"
 #include <algorithm>
@@ -175,12 +174,8 @@ bool recognizes_ply(std::string_view content) {
 
 Splines read_ply(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     LineGraph graph = Reader(content, options.name, notes).graph;
-    RootedLines rooted = root_lines(std::move(graph), options.up, options.name, notes);
-    ImportedTree tree;
+    ImportedTree tree = tree_of_lines(std::move(graph), options.up, options.name, notes);
     tree.source = "PLY skeleton " + options.name;
-    tree.branches = std::move(rooted.branches);
-    tree.up = rooted.up;
-    fill_radii(tree.branches, notes);
     return finish_import(std::move(tree), options, notes);
 }
 
