@@ -12,6 +12,7 @@
 #include "eztree.h"
 #include "eztree_list.h"
 #include "imported_tree.h"
+#include "lib/model/polyline.h"
 #include "plain_text.h"
 #include <algorithm>
 
@@ -23,9 +24,8 @@ using namespace eztree;
 bool agrees(const Splines& s, const std::vector<Listed>& list) {
     if (s.branches() != list.size()) return false;
     for (std::size_t b = 0; b < list.size(); ++b) {
-        const auto first = std::size_t(s.first_point[b]), end = std::size_t(s.first_point[b + 1]);
-        double length = 0;
-        for (std::size_t k = first; k + 1 < end; ++k) length += (s.point[k + 1] - s.point[k]).norm();
+        const auto first = std::size_t(s.first_point[b]);
+        const double length = arc_lengths(points_of(s, b)).back();
         const double tolerance = 1e-4 * std::max(1.0, list[0].length);
         if ((s.point[first] - list[b].origin).norm() > tolerance || std::abs(length - list[b].length) > tolerance ||
             std::abs(s.radius[first] - list[b].radius) > 1e-4 * std::max(list[b].radius, 1e-3))
@@ -130,9 +130,7 @@ void add_drawn(ImportedTree& tree, const std::vector<Listed>& list, const std::s
         tree.branches[i].parent = parent[i];
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
-        const std::vector<Vec3>& point = tree.branches[i].point;
-        std::vector<double> arc{0};
-        for (std::size_t k = 1; k < point.size(); ++k) arc.push_back(arc.back() + (point[k] - point[k - 1]).norm());
+        const std::vector<double> arc = arc_lengths(tree.branches[i].point);
         for (std::size_t k = 0; k < children[i].size() && arc.back() > 0; ++k)
             tree.branches[children[i][k]].parent_at = std::min(1.0, arc[k + 1] / arc.back());
     }

@@ -1,5 +1,6 @@
 #include "loose_curves.h"
 #include "attach.h"
+#include "lib/model/polyline.h"
 #include "plain_text.h"
 #include "up_axis.h"
 #include <algorithm>
@@ -113,12 +114,14 @@ std::vector<Attachment> joined_pieces(Pieces& pieces, const Curves& curves, char
 }
 
 // Arc lengths up to each point, so that many joints on one curve cost no more than one.
-std::vector<double> arc_lengths(const Curves& curves) {
-    std::vector<double> arc;
-    for (const ImportedBranch& c : curves)
-        for (std::size_t k = 0; k < c.point.size(); ++k)
-            arc.push_back(k == 0 ? 0 : arc.back() + (c.point[k] - c.point[k - 1]).norm());
-    return arc;
+// Of all points, one curve after another.
+std::vector<double> arcs_of(const Curves& curves) {
+    std::vector<double> all;
+    for (const ImportedBranch& c : curves) {
+        const std::vector<double> arc = arc_lengths(c.point);
+        all.insert(all.end(), arc.begin(), arc.end());
+    }
+    return all;
 }
 
 } // namespace
@@ -131,7 +134,7 @@ char join_curves(Curves& curves, char up, CurveBase base, const std::string& nam
         note_guessed_up(up, notes);
     }
     const std::vector<Attachment> joined = joined_pieces(pieces, curves, up, base, notes);
-    const std::vector<double> arc = arc_lengths(curves);
+    const std::vector<double> arc = arcs_of(curves);
     std::size_t attached = 0;
     double gap = 0;
     for (std::size_t i = 0; i < curves.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "loose_trunks.h"
 #include "attach.h"
+#include "lib/model/polyline.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <limits>
@@ -78,20 +79,9 @@ Measured measured(const Pieces& pieces, char up) {
     return m;
 }
 
-double length_of(const ImportedBranch& b) {
-    double length = 0;
-    for (std::size_t k = 0; k + 1 < b.point.size(); ++k) length += (b.point[k + 1] - b.point[k]).norm();
-    return length;
-}
-
 double fraction_at(const ImportedBranch& b, std::size_t piece, double t) {
-    double arc = 0, total = 0;
-    for (std::size_t k = 0; k + 1 < b.point.size(); ++k) {
-        const double length = (b.point[k + 1] - b.point[k]).norm();
-        if (k == piece) arc = total + t * length;
-        total += length;
-    }
-    return total > 0 ? std::min(1.0, arc / total) : 0;
+    const std::vector<double> arc = arc_lengths(b.point);
+    return arc.back() > 0 ? std::min(1.0, (arc[piece] + t * (arc[piece + 1] - arc[piece])) / arc.back()) : 0;
 }
 
 } // namespace
@@ -119,7 +109,7 @@ void join_loose_trunks(Branches& branches, char up, ImportNotes& notes) {
         const double radius = (1 - on.t) * pieces.radius[on.a] + on.t * pieces.radius[on.b];
         if (on.gap > radius + b.radius.front()) {
             bridge[trunks.branch[k]] = on.gap;
-            length[trunks.branch[k]] = length_of(b);
+            length[trunks.branch[k]] = arc_lengths(b.point).back();
         }
         widest = std::max(widest, on.gap);
         ++count;

@@ -1,4 +1,5 @@
 #include "pipe_rule.h"
+#include "lib/model/polyline.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <limits>
@@ -15,12 +16,6 @@ bool known(double radius) {
 
 bool tapers_to_a_point(const ImportedBranch& b) {
     return b.radius.size() > 1 && !known(b.radius.back()) && known(b.radius[b.radius.size() - 2]);
-}
-
-std::vector<double> arcs_of(const ImportedBranch& b) {
-    std::vector<double> arc(b.point.size(), 0);
-    for (std::size_t k = 1; k < arc.size(); ++k) arc[k] = arc[k - 1] + (b.point[k] - b.point[k - 1]).norm();
-    return arc;
 }
 
 // Branch indices, parents first, and each branch's children from its tip to its base.
@@ -56,7 +51,7 @@ Carried carried_by(const Branches& branches, const Family& f) {
     Carried c{std::vector<std::vector<double>>(branches.size()), std::vector<double>(branches.size(), 0)};
     for (std::size_t i = f.order.size(); i-- > 0;) {
         const std::int32_t b = f.order[i];
-        const std::vector<double> arc = arcs_of(branches[b]);
+        const std::vector<double> arc = arc_lengths(branches[b].point);
         c.way[b] = arc.empty() ? 0 : arc.back();
         c.tips[b].assign(arc.size(), 1);
         double sum = 1;
@@ -101,7 +96,7 @@ double tip_radius(const Branches& branches, const Carried& carried) {
 void measure_hosts(const Branches& branches, const Family& f, std::int32_t b, std::vector<double>& host) {
     const ImportedBranch& branch = branches[b];
     if (f.first[b] == f.first[b + 1] || branch.point.size() < 2) return;
-    const std::vector<double> arc = arcs_of(branch);
+    const std::vector<double> arc = arc_lengths(branch.point);
     std::size_t k = arc.size() - 1; // children stand from the tip to the base
     for (std::int32_t c = f.first[b]; c < f.first[b + 1]; ++c) {
         const double at = branches[f.child[c]].parent_at * arc.back();
@@ -131,7 +126,7 @@ void fill_branch(ImportedBranch& b, const std::vector<double>& tips, double tip,
         return;
     }
     const bool pointed = tapers_to_a_point(b);
-    const std::vector<double> arc = arcs_of(b);
+    const std::vector<double> arc = arc_lengths(b.point);
     const auto from = [&](std::size_t known_at, std::size_t k) {
         b.radius[k] = b.radius[known_at] * thickness(tips[k] / tips[known_at]);
     };

@@ -1,4 +1,5 @@
 #include "import_stats.h"
+#include "lib/model/polyline.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,9 +29,7 @@ std::string unit_name(double unit) {
 
 double length_of(const Splines& s) {
     double length = 0;
-    for (std::size_t b = 0; b < s.branches(); ++b)
-        for (auto k = std::size_t(s.first_point[b]); k + 1 < std::size_t(s.first_point[b + 1]); ++k)
-            length += (s.point[k + 1] - s.point[k]).norm();
+    for (std::size_t b = 0; b < s.branches(); ++b) length += arc_lengths(points_of(s, b)).back();
     return length;
 }
 

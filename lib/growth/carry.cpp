@@ -1,5 +1,6 @@
 #include "carry.h"
 #include "../model/body_shape.h"
+#include "../model/polyline.h"
 #include "bark.h"
 #include <algorithm>
 #include <cmath>
@@ -43,9 +44,7 @@ private:
 
 Carrier::Carrier(Splines& s, const Material& wood, double most_sag, std::size_t b)
     : s_(s), wood_(wood), most_sag_(most_sag), branch_(b), first_(std::size_t(s.first_point[b])),
-      last_(std::size_t(s.first_point[b + 1]) - 1), arc_{0} {
-    for (std::size_t k = first_; k < last_; ++k) arc_.push_back(arc_.back() + (s.point[k + 1] - s.point[k]).norm());
-}
+      last_(std::size_t(s.first_point[b + 1]) - 1), arc_(arc_lengths(points_of(s, b))) {}
 
 void Carrier::add(const Load& load) {
     mass_ += load.mass;

@@ -1,3 +1,4 @@
+#include "../model/polyline.h"
 #include "colony.h"
 #include "turn.h"
 #include "weber_penn.h"
@@ -20,10 +21,8 @@ struct OnTwig {
 // The last stretch of a branch.
 class Twig {
 public:
-    Twig(const Splines& s, std::size_t b, double leafy) : s_(s), first_(static_cast<std::size_t>(s.first_point[b])) {
-        const auto last = static_cast<std::size_t>(s.first_point[b + 1]) - 1;
-        arc_.push_back(0);
-        for (std::size_t k = first_; k < last; ++k) arc_.push_back(arc_.back() + (s.point[k + 1] - s.point[k]).norm());
+    Twig(const Splines& s, std::size_t b, double leafy)
+        : s_(s), first_(static_cast<std::size_t>(s.first_point[b])), arc_(arc_lengths(points_of(s, b))) {
         from_ = std::max(0.0, arc_.back() - leafy);
     }
     OnTwig at(double share) const {

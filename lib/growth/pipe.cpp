@@ -1,4 +1,5 @@
 #include "pipe.h"
+#include "../model/polyline.h"
 #include "bark.h"
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,7 @@ struct Load {
 // Raises the radii of one branch for its loads; returns what it needs at its base.
 double thicken(Splines& s, std::size_t b, double exponent, std::vector<Load>& loads) {
     const auto first = std::size_t(s.first_point[b]), last = std::size_t(s.first_point[b + 1]) - 1;
-    std::vector<double> arc{0};
-    for (std::size_t k = first; k < last; ++k) arc.push_back(arc.back() + (s.point[k + 1] - s.point[k]).norm());
+    const std::vector<double> arc = arc_lengths(points_of(s, b));
     std::sort(loads.begin(), loads.end(), [](const Load& x, const Load& y) { return x.at > y.at; });
     double needed = std::pow(s.radius[last], exponent);
     std::size_t next = 0;
