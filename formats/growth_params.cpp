@@ -19,11 +19,6 @@ std::string joined(const std::vector<std::string>& parts, const char* between) {
     return result;
 }
 
-// "dir/weeping_willow.py" -> "weeping_willow".
-std::string stem_of(const std::string& file) {
-    return std::filesystem::path(file).stem().string();
-}
-
 bool named(const std::string& file, std::initializer_list<const char*> parts) {
     const std::string name = lower_case(std::filesystem::path(file).filename().string());
     return std::any_of(parts.begin(), parts.end(), [&](const char* p) { return name.find(p) != std::string::npos; });

@@ -65,13 +65,6 @@ double likely_unit(double height) {
     return height <= tallest ? 1 : height <= 100 * tallest ? 0.01 : 0.001;
 }
 
-std::string stem_of(const std::string& path) {
-    const std::size_t slash = path.find_last_of('/');
-    const std::string file = slash == std::string::npos ? path : path.substr(slash + 1);
-    const std::size_t dot = file.find_last_of('.');
-    return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
-}
-
 namespace {
 
 std::size_t leave_out_repeated_points(ImportedBranch& branch) {

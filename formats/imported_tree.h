@@ -60,7 +60,4 @@ OnPolyline nearest_on(const std::vector<Vec3>& polyline, const Vec3& p);
 // Fraction of the way from a to b where p projects to, within 0..1.
 double projected(const Vec3& a, const Vec3& b, const Vec3& p);
 
-// File name without folders and ending.
-std::string stem_of(const std::string& path);
-
 } // namespace bough

@@ -65,6 +65,13 @@ std::optional<std::int64_t> parse_integer(std::string_view token) {
     return value;
 }
 
+std::string stem_of(const std::string& path) {
+    const std::size_t slash = path.find_last_of('/');
+    const std::string file = slash == std::string::npos ? path : path.substr(slash + 1);
+    const std::size_t dot = file.find_last_of('.');
+    return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
+}
+
 std::size_t line_of(std::string_view content, std::size_t offset) {
     const auto end = content.begin() + std::ptrdiff_t(std::min(offset, content.size()));
     return 1 + std::size_t(std::count(content.begin(), end, '\n'));
@@ -116,12 +123,6 @@ std::string valid_utf8(std::string text) {
         at += std::max<std::size_t>(1, length);
     }
     return text;
-}
-
-std::string shown(double value) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 4);
-    return {digits.data(), end.ptr};
 }
 
 } // namespace bough

@@ -1,5 +1,6 @@
 // plain_text.h: strict numbers and places in plain text, for the readers of foreign formats. No locale takes part.
 #pragma once
+#include "lib/model/shortest_text.h"
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,6 +43,9 @@ inline std::string_view next_token(std::string_view text, std::size_t& from) {
 std::optional<double> parse_number(std::string_view token, bool decimal_comma = false);
 std::optional<std::int64_t> parse_integer(std::string_view token);
 
+// File name without folders and ending.
+std::string stem_of(const std::string& path);
+
 // 1-based line of an offset. O(offset).
 std::size_t line_of(std::string_view content, std::size_t offset);
 // The same for offsets that never fall, O(content) in all.
@@ -61,7 +65,9 @@ std::string file_line(const std::string& name, std::size_t line);
 std::string quoted(std::string_view);
 // The text with every byte that is not part of valid UTF-8, and every control character, replaced by '?'.
 std::string valid_utf8(std::string text);
-// A number for a message, 4 digits.
-std::string shown(double);
+// A number for a message.
+inline std::string shown(double value) {
+    return four_digits(value);
+}
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "formats/skeleton_writer.h"
 #include "lib/growth/grow.h"
+#include "tests/hand_made.h"
 #include "tests/import_support.h"
 #include <filesystem>
 #include <map>
@@ -7,6 +8,7 @@
 
 using namespace bough;
 using namespace bough::test;
+using hand_made::add_branch;
 
 namespace {
 
@@ -31,17 +33,6 @@ Text written(Writer writer, const Splines& splines) {
     made.text = read_input(path);
     std::filesystem::remove(path);
     return made;
-}
-
-void add_branch(Splines& s, std::int32_t parent, double at, const std::vector<Vec3>& points,
-                const std::vector<double>& radii) {
-    if (s.first_point.empty()) s.first_point = {0};
-    s.parent.push_back(parent);
-    s.parent_at.push_back(at);
-    s.level.push_back(parent < 0 ? 0 : s.level[std::size_t(parent)] + 1);
-    s.point.insert(s.point.end(), points.begin(), points.end());
-    s.radius.insert(s.radius.end(), radii.begin(), radii.end());
-    s.first_point.push_back(std::int32_t(s.point.size()));
 }
 
 // A trunk of 4 m and 8 points of height 0, 2, 4; a branch at a point, one between two points, one off the axis, a second trunk.

@@ -1,10 +1,12 @@
-// shortest_text.h: a number as people write it in messages.
+// shortest_text.h: a number as people write it in messages, whatever the locale.
 #pragma once
 #include <string>
 
 namespace bough {
 
-// With as few digits as read back as the same number, whatever the locale.
+// With as few digits as read back as the same number.
 std::string shortest_text(double);
+// Rounded to 4 digits.
+std::string four_digits(double);
 
 } // namespace bough

@@ -1,8 +1,7 @@
 #include "explain.h"
 #include "../fast/plan_lanes.h"
+#include "../model/shortest_text.h"
 #include "state_arrays.h"
-#include <array>
-#include <charconv>
 
 namespace bough {
 
@@ -18,13 +17,6 @@ const char* solver_name(Solver solver) {
     static constexpr const char* names[] = {"coupled", "analytic", "articulated-explicit", "articulated-implicit",
                                             "articulated-reference"};
     return names[std::size_t(solver)];
-}
-
-std::string four_digits(double value) { // of four digits, whatever the locale
-    std::array<char, 32> buffer;
-    const auto end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 4).ptr;
-    return std::string(buffer.data(), end);
 }
 
 template <class T> std::string forces_text(const Plan<T>& plan) {

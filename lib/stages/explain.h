@@ -8,6 +8,4 @@ namespace bough {
 // Fills stages and arrays of a plan whose other fields are final. wishes: what make_plan was given.
 template <class T> void explain(Plan<T>&, const Wishes&);
 
-std::string four_digits(double); // whatever the locale
-
 } // namespace bough

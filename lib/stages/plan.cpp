@@ -1,6 +1,7 @@
 #include "plan.h"
 #include "../fast/plan_lanes.h"
 #include "../fast/sleep.h"
+#include "../model/shortest_text.h"
 #include "explain.h"
 #include "fictitious.h"
 #include "leaf_air.h"
