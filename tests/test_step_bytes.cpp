@@ -1,4 +1,5 @@
 #include "lanes_support.h"
+#include "lib/fast/shared_constants.h"
 #include "lib/fast/step_bytes.h"
 #include "make_tree.h"
 
@@ -47,8 +48,16 @@ TEST_CASE("bytes of a layout made by hand") {
     CHECK(all.total().out == all.next.out + all.solved.out + all.records.out);
 
     CHECK(coupled_step_bytes(layout, true, true, 4, false).solved.in == 2 * 4 * 54 * 64); // fetched, and read
-    CHECK(coupled_step_bytes(layout, false, true, 4, true).constants.in == 6 * 24 * 64); // no drag_area
-    CHECK(coupled_step_bytes(layout, true, false, 4, true).constants.in == 6 * 22 * 64); // no carried moment
+    CHECK(coupled_step_bytes(layout, false, true, 4, true).constants.in == 6 * 24 * 64);  // no drag_area
+    CHECK(coupled_step_bytes(layout, true, false, 4, true).constants.in == 6 * 22 * 64);  // no carried moment
+    // Constants of three rows, shared by all six: in once, by a table of six rows and one more; past the caches as if not.
+    const StepBytes shared = coupled_step_bytes(layout, true, true, 4, true, 3);
+    CHECK(shared.constants.in == 3 * 25 * 64);
+    CHECK(shared.indices.in == all.indices.in + 4 * 7);
+    CHECK(shared.tables == all.tables - 3 * 25 * 64 + 4 * 7);
+    CHECK(shared.total().out == all.total().out);
+    CHECK(coupled_step_bytes(layout, true, true, 4, true, 20971).constants.in == 20971 * 25 * 64); // just below 32 MB
+    CHECK(coupled_step_bytes(layout, true, true, 4, true, 20972).constants.in == 6 * 25 * 64);
     Layout wide = layout; // in double 8 lanes: 34 -> 40, 54 -> 56, 12 -> 16 reals of 8 bytes
     wide.lanes = 8;
     CHECK(coupled_step_bytes(wide, true, true, 8, true).records.in == 4 * (40 + 56 + 16) * 8);
@@ -80,6 +89,24 @@ TEMPLATE_TEST_CASE("the tables that are counted are those that a run has allocat
     }
 }
 
+TEMPLATE_TEST_CASE("of shared constants, too", "", float, double) {
+    using T = TestType;
+    const auto row = [](const auto& rows) { return rows.size() * sizeof(rows[0]); };
+    lanes::Case c{"instances", lanes::grown(300), lanes::everything()};
+    const std::size_t n = c.tree.size_bodies();
+    append(c.tree, Tree(c.tree), Vec3(3, 0, 0), 0);
+    c.ranges = {{0, n, 0}, {n, n, 1000}};
+    lanes::Run<T> run(c, Target::baseline);
+    REQUIRE(run.plan.lanes.sharing.on);
+    const Layout& layout = run.plan.lanes.layout;
+    const Lanes<T>& l = run.state.lanes;
+    const StepBytes bytes = coupled_step_bytes(layout, true, true, sizeof(T), false, shared_rows(run.plan));
+    CHECK(bytes.tables == row(run.plan.lanes.constants) + row(run.plan.lanes.sharing.row) + row(l.table) +
+                              row(l.outward) + row(l.inward) + row(l.accelerated) + row(layout.fork_of_row) +
+                              row(layout.fork) + row(layout.base) + row(layout.landing));
+    CHECK(bytes.constants.in == row(run.plan.lanes.constants));
+}
+
 // Of by_hand(): 6 rows, of which the top's one is visited twice.
 TEST_CASE("bytes of the analytic step over a layout made by hand") {
     const StepBytes all = analytic_step_bytes(by_hand(), true, true, true, false, 4);
@@ -90,6 +117,12 @@ TEST_CASE("bytes of the analytic step over a layout made by hand") {
     CHECK(all.solved.in + all.solved.out == 0);
     CHECK(all.records.in == 4 * (16 + 32) * 4); // 16, 28 -> 32 reals of 4 bytes
     CHECK(all.indices.in == 4 * (7 + 48 + 48 + 32));
+    const StepBytes shared = analytic_step_bytes(by_hand(), true, true, true, false, 4, false, 3);
+    CHECK(shared.constants.in == 3 * 29 * 64);
+    CHECK(shared.indices.in == all.indices.in + 4 * 7);
+    CHECK(shared.tables == all.tables - 3 * 29 * 64 + 4 * 7);
+    // Kept coefficients are each body's own: 30 of them, and of the constants all but beta, the two factors and gravity's row.
+    CHECK(analytic_step_bytes(by_hand(), true, true, true, true, 4, false, 3).constants.in == (3 * 25 + 7 * 30) * 64);
     CHECK(analytic_step_bytes(by_hand(), false, true, false, false, 4).constants.in == 7 * 23 * 64);
     CHECK(analytic_step_bytes(by_hand(), false, false, true, false, 4).records.in == 4 * (16 + 16) * 4);
 }

@@ -1,9 +1,22 @@
 #include "notes.h"
+#include "lib/fast/shared_constants.h"
 #include <array>
 #include <iomanip>
 #include <sstream>
 
 namespace bough {
+
+namespace {
+
+template <class T> std::string sharing_text(const Plan<T>& plan) {
+    const fast::PlannedLanes<T>& lanes = plan.lanes;
+    const std::string rows = std::to_string(lanes.layout.rows) + " rows: ";
+    const std::string bytes = std::to_string(lanes.constants.size() * sizeof(fast::Row<T>)) + " bytes, ";
+    if (!lanes.sharing.on) return bytes + rows + "none shared, " + lanes.sharing.reason;
+    return bytes + rows + "shared by instances, " + std::to_string(fast::shared_rows(plan)) + " kept";
+}
+
+} // namespace
 
 template <class T>
 std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes, const RunOptions& run) {
@@ -23,6 +36,7 @@ std::string explanation(const Plan<T>& plan, const std::vector<std::string>& cha
     }
     text << "constants of bodies in document order "
          << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
+    if (plan.lanes.on) text << "constants of rows in lanes " << sharing_text(plan) << "\n";
     text << "state: " << used << " bytes, left out " << left << " bytes\n";
     return text.str();
 }

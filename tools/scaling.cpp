@@ -1,6 +1,7 @@
 #include "scaling.h"
 #include "growth.h"
 #include "lib/fast/operations.h"
+#include "lib/fast/shared_constants.h"
 #include "lib/fast/step_bytes.h"
 #include "lib/growth/segment.h"
 #include "machine_limits.h"
@@ -54,10 +55,12 @@ template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
     const fast::Layout& layout = plan.lanes.layout;
     // wide.h writes past the caches where a register is a line.
     const bool streamed = plan.target == fast::Target::avx512 && fast::streams(layout);
-    const fast::StepBytes bytes = plan.solver == Solver::coupled
-                                      ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed)
-                                      : fast::analytic_step_bytes(layout, plan.wind, plan.pushes(), plan.gravity,
-                                                                  plan.refresh > 0, sizeof(T), plan.field);
+    const std::uint64_t shared = fast::shared_rows(plan);
+    const fast::StepBytes bytes =
+        plan.solver == Solver::coupled
+            ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed, shared)
+            : fast::analytic_step_bytes(layout, plan.wind, plan.pushes(), plan.gravity, plan.refresh > 0, sizeof(T),
+                                        plan.field, shared);
     const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
     cost.slots = each(std::uint64_t(layout.rows) * std::uint64_t(layout.lanes));
     cost.constants_in = each(bytes.constants.in);

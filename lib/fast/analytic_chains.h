@@ -51,7 +51,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     Own& own() { return static_cast<Own&>(*this); }
 
     const T* constants_at(std::uint32_t row, int lane) const {
-        return rows.constants + row * std::size_t(constant_count) * L + lane;
+        return rows.constants + this->constants_row(row) * std::size_t(constant_count) * L + lane;
     }
     T* motion_at(std::uint32_t row, int lane) const {
         return rows.motion + row * std::size_t(motion::count) * L + lane;
@@ -150,7 +150,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane) const {
         const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
         const Rows<T> out = loaded_of(row, lane);
-        prefetch_constants<Own::template frozen<kind>>(k.at + constant_count * L);
+        prefetch_constants<Own::template frozen<kind>>(constants_at(row + 1, lane));
         prefetch(y0.at + motion::count * L, (Own::template frozen<kind> ? motion::theta_dot : motion::count) * L);
         const V3<W> theta = y0.vector(motion::theta);
         const W q = dot(theta, theta);

@@ -3,6 +3,7 @@
 #include "clear_lanes.h"
 #include "frozen_lanes.h"
 #include "lane_tables.h"
+#include "shared_constants.h"
 #include "targets.h"
 #include <algorithm>
 
@@ -60,28 +61,20 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
 } // namespace
 
 template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lanes) {
-    const int count = analytic::constants(plan.wind);
-    lanes.constants.assign(std::size_t(lanes.layout.rows) * std::size_t(count), Row<T>{});
-    for (std::size_t slot = 0; slot < lanes.layout.body.size(); ++slot) {
-        const Slot<T> row(lanes.constants, count, slot);
-        const std::int32_t body = lanes.layout.body[slot];
-        if (body < 0) {
-            put_analytic_pad(row);
-            continue;
-        }
-        const auto i = std::size_t(body);
+    const auto body = [&](std::size_t i, const Slot<T>& row) {
         put_body(plan, i, row);
         row.put(analytic::constant::inertia_joint, plan.inertia_joint[i]);
         row.put(analytic::constant::bend, plan.inertia_factor[i][0]); // x and y alike (plan.cpp)
         row.put(analytic::constant::twist, plan.inertia_factor[i][2]);
         if (plan.gravity) row.put(analytic::constant::gravity_row, plan.gravity_row[i]);
-        if (!plan.wind) continue;
+        if (!plan.wind) return;
         row.put(analytic::constant::sway, plan.sway[i]);
         row.put(analytic::constant::joint_distance, plan.joint_distance[i]);
         row.put(analytic::constant::com_distance, plan.com_distance[i]);
         row.put(analytic::constant::inverse_weight, plan.inverse_weight[i]);
         row.put(analytic::constant::drag_area, plan.drag_area[i]);
-    }
+    };
+    fill_constants(lanes, analytic::constants(plan.wind), put_analytic_pad<T>, body);
 }
 
 template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {

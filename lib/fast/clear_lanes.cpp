@@ -1,6 +1,7 @@
 #include "clear_lanes.h"
 #include "analytic_rows.h"
 #include "lane_tables.h"
+#include <cassert>
 
 namespace bough::fast {
 
@@ -18,6 +19,7 @@ template <class T> void put_analytic_pad(const Slot<T>& row) {
 }
 
 template <class T> void clear_lanes(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+    assert(!plan.lanes.sharing.on); // never with /fracture
     const bool analytic = plan.solver == Solver::analytic;
     const int constants = analytic ? analytic::constants(plan.wind) : int(constant::count);
     const int motions = analytic ? int(analytic::motion::count) : int(motion::count);
@@ -37,6 +39,7 @@ template <class T> void clear_lanes(Plan<T>& plan, State<T>& state, const std::v
 }
 
 template <class T> void put_carried_moment(Plan<T>& plan, std::size_t body) {
+    assert(!plan.lanes.sharing.on);
     const Slot<T> row(plan.lanes.constants, constant::count, plan.lanes.layout.slot[body]);
     row.put(constant::carried_moment, plan.carried_moment[body]);
 }

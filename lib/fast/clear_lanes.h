@@ -17,7 +17,7 @@ template <class T> constexpr T pad_rate2 = T(1e4); // [1/s^2] K over inertia
 template <class T> void put_pad(const Slot<T>&);
 template <class T> void put_analytic_pad(const Slot<T>&);
 
-// Makes the bodies' lanes pads at rest. O(bodies + rows).
+// Makes the bodies' lanes pads at rest. The plan's rows share no constants, here as below (shared_constants.h). O(bodies + rows).
 template <class T> void clear_lanes(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies);
 
 // Plan::carried_moment of a body, where its lane has it.

@@ -161,7 +161,7 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
     BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
                               W& fastest, SweepFlags& flags) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
-        prefetch(k.at + constant::count * L, constant::count * L);
+        prefetch(constants(row + 1, lane).at, constant::count * L);
         prefetch(now(row + 1, lane).at, motion::count * L);
         const T h = rows.h;
         const W mass = k.real(constant::mass);

@@ -109,6 +109,7 @@ template <class T> void place_tables(const Plan<T>& plan, State<T>& state, doubl
     rows.fork = layout.fork.data();
     rows.fork_of_row = layout.fork_of_row.data();
     rows.constants = plan.lanes.constants.front().lane;
+    rows.constants_row = plan.lanes.sharing.on ? plan.lanes.sharing.row.data() : nullptr;
     rows.outward_records = data(lanes.outward);
     rows.inward_records = data(lanes.inward);
     rows.h = T(plan.dt);

@@ -24,12 +24,20 @@ struct BlockRest {
     Rest rest = Rest::awake;
 };
 
+// Whether rows of constants that are equal are kept once (shared_constants.h).
+struct PlannedSharing {
+    bool on = false;
+    std::string reason;             // why not
+    std::vector<std::uint32_t> row; // on: of each row, and of one beyond the last, which row of the constants it reads
+};
+
 // In the plan. Constant after make_plan.
 template <class T> struct PlannedLanes {
     bool on = false;
     std::string reason; // why, or why not
     Layout layout;
-    RowVector<T> constants;
+    RowVector<T> constants; // a row each row, or each different one
+    PlannedSharing sharing;
     std::vector<std::int32_t> pull_of_row; // empty without pulls
     std::vector<std::size_t> pull;         // Plan::pulls in the order of rows
     std::vector<T> profile;                // [1] the wind's, over height

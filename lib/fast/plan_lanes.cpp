@@ -4,26 +4,19 @@
 #include "analytic_lanes_step.h"
 #include "clear_lanes.h"
 #include "lane_tables.h"
+#include "shared_constants.h"
 #include <algorithm>
 
 namespace bough::fast {
 namespace {
 
 template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
-    lanes.constants.assign(std::size_t(lanes.layout.rows) * constant::count, Row<T>{});
-    for (std::size_t slot = 0; slot < lanes.layout.body.size(); ++slot) {
-        const Slot<T> row(lanes.constants, constant::count, slot);
-        const std::int32_t body = lanes.layout.body[slot];
-        if (body < 0) {
-            put_pad(row);
-            continue;
-        }
-        const auto i = std::size_t(body);
+    fill_constants(lanes, constant::count, put_pad<T>, [&](std::size_t i, const Slot<T>& row) {
         put_body(plan, i, row);
         row.put(constant::inertia_joint, own_inertia(plan.inertia_joint[i]));
         if (plan.gravity) row.put(constant::carried_moment, plan.carried_moment[i]);
         if (plan.wind) row.put(constant::drag_area, plan.drag_area[i]);
-    }
+    });
 }
 
 template <class T> void fill_pulls(const Plan<T>& plan, PlannedLanes<T>& lanes) {
@@ -60,7 +53,7 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
 
 } // namespace
 
-template <class T> void plan_lanes(Plan<T>& plan) {
+template <class T> void plan_lanes(Plan<T>& plan, const std::vector<TreeRange>& ranges) {
     PlannedLanes<T>& lanes = plan.lanes;
     lanes.reason = reason_against(plan);
     lanes.on = lanes.reason.empty();
@@ -71,6 +64,8 @@ template <class T> void plan_lanes(Plan<T>& plan) {
     const std::vector<Kind> branches(plan.wind ? 0 : plan.bodies, Kind::branch); // without wind all are alike
     lanes.layout = make_layout(plan.parent, plan.wind ? plan.kind : branches, ground,
                                std::uint32_t(plan.splines.size() + 1), Row<T>::lanes);
+    lanes.sharing.reason = reason_against_sharing(plan.scene, ranges);
+    lanes.sharing.on = lanes.sharing.reason.empty();
     if (plan.solver == Solver::analytic)
         fill_analytic(plan, lanes);
     else
@@ -84,7 +79,7 @@ template <class T> void plan_lanes(Plan<T>& plan) {
     lanes.per_metre = table.per_metre;
 }
 
-template void plan_lanes(Plan<float>&);
-template void plan_lanes(Plan<double>&);
+template void plan_lanes(Plan<float>&, const std::vector<TreeRange>&);
+template void plan_lanes(Plan<double>&, const std::vector<TreeRange>&);
 
 } // namespace bough::fast

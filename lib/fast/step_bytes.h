@@ -4,12 +4,13 @@
 // Supposed: every table is larger than the caches, so that each sweep fetches anew what it reads, and what it writes goes out; what a block
 // alone works in (`loaded`, constants between its two sweeps, and `solved` of a block of whole trees) stays in the core's cache. A line that is
 // written through the caches is fetched first, so it moves in and out; one that is streamed past them moves out alone.
-//   constants   in once, but for what gravity and wind alone read
+//   constants   in once, but for what gravity and wind alone read. Where instances share them (shared_constants.h) in once for all rows, if they
+//               are together no more than shared_cache; else as if they were not shared
 //   now         in once; theta and theta_dot a second time where the sweep outward has to wait for other blocks
 //   next        in and out; out alone where it takes the place of what a row of a waiting block was solved to
 //   solved      out (streamed), or in and out; in once more. None where the block is of whole trees
 //   records     of each joint (outward, inward, accelerated): in and out
-//   indices     of rows and of chains' lanes (fork_of_row; base, landing): in with each sweep that reads them
+//   indices     of rows and of chains' lanes (fork_of_row; base, landing): in with each sweep that reads them; of shared constants, once
 // A scheme of one pole, and every block is awake (sleep.h). Not counted: the energy guard's sweep, pulls, the wind's table, groups and blocks: nothing beside these,
 // or not in every step.
 #pragma once
@@ -31,15 +32,16 @@ struct StepBytes {
     Moved total() const;
 };
 
-// real: sizeof of the precision. streamed: `solved` goes past the caches.
-StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t real, bool streamed);
+// real: sizeof of the precision. streamed: `solved` goes past the caches. shared: rows of constants that there are where rows share them; 0: they do not.
+StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t real, bool streamed,
+                             std::uint64_t shared = 0);
 
 // frozen: coefficients are kept (stages/frozen.h), which count among the constants; what they alone are made of is left where it is, and the
 // motion is without theta_dot. As of branches none of which is made anew: where there are leaves or much is, that moves other bytes.
 // The analytic step's (analytic_rows.h), which changes the motion where it stands: `next` goes out and need not come in. The top is visited twice, every
 // other block once; nothing waits.
 StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, bool frozen, std::size_t real,
-                              bool field = false);
+                              bool field = false, std::uint64_t shared = 0);
 
 // Whether `solved` of a layout is more than shared_cache, and is written past the caches where the target can.
 // Measured (Xeon, 480 MB shared; coupled, float, gusty wind; streamed over not): 10k bodies, 2.8 MB: 1.24; 100k, 24 MB: 1.08; 1M, 230 MB: 0.69.

@@ -31,8 +31,12 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         for (int k = 0; k < reals; k += L) __builtin_prefetch(at + k);
     }
 
+    // Where the constants of a row stand (shared_constants.h). It may be the row beyond the last, of which nothing is read.
+    BOUGH_FORCE std::size_t constants_row(std::uint32_t row) const {
+        return rows.constants_row ? rows.constants_row[row] : row;
+    }
     Rows<const T> constants(std::uint32_t row, int lane) const {
-        return {rows.constants + (row * std::size_t(constant::count)) * L + lane};
+        return {rows.constants + (constants_row(row) * std::size_t(constant::count)) * L + lane};
     }
     Rows<const T> now(std::uint32_t row, int lane) const {
         return {rows.now + std::ptrdiff_t(row - rows.first_row) * rows.now_stride * L + lane};

@@ -58,6 +58,7 @@ template <class T> struct SweepRows {
     const std::uint32_t *base, *landing, *fork;
     const std::int32_t* fork_of_row;
     const T* constants;
+    const std::uint32_t* constants_row;  // of each row, and of one beyond, which of these it reads; null: its own
     T *outward_records, *inward_records; // between chains, a record a joint
     const std::int32_t* pull_of_row;     // first in pulls, -1: none; null: no pulls at all
     const PullOnLane<T>* pulls;          // rising by row

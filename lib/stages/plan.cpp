@@ -262,7 +262,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.lanes.reason = "not asked for";
     if (simd) {
         plan.target = *simd;
-        fast::plan_lanes(plan);
+        fast::plan_lanes(plan, ranges);
         fast::plan_sleep(plan, sleep);
         if (plan.lanes.on) plan.velocity = wishes.velocity; // the drag finds its own
     }

@@ -38,6 +38,17 @@ expect 0 treesim together.json --seconds 1 --no-output --hash -q
 [[ $(cat err) != "$whole" ]] || fail "starts change nothing"
 expect 0 treesim park.json --seconds 0.2 --explain --no-output
 grep -q "starts, 3 clocks" err || fail "the plan does not name the starts: $(grep lanes err)"
+# Its places share constants, in float whatever their yaws; trees of their own do not, nor what may break.
+rows() { grep '^constants of rows in lanes ' err; }
+expect 0 treesim park.json --frames 2 --precision float --explain --no-output
+rows | grep -Eq '^constants of rows in lanes [0-9]+ bytes, [0-9]+ rows: shared by instances, [0-9]+ kept$' || fail "places share nothing: $(rows)"
+read -r all kept < <(rows | sed -E 's/.* ([0-9]+) rows: .* ([0-9]+) kept/\1 \2/')
+((kept < all)) || fail "$kept rows are kept of $all"
+sed 's/"trees"/"fracture": {"leaf": 1}, "trees"/' park.json >breaks.json
+expect 0 treesim breaks.json --frames 2 --precision float --explain --no-output
+rows | grep -q ' rows: none shared, /fracture$' || fail "shared, but may break: $(rows)"
+expect 0 treesim t1.json --frames 2 --explain --no-output
+rows | grep -q ' rows: none shared, one tree$' || fail "one tree shares: $(rows)"
 
 # Parts: whatever their number, precision and solver, the whole's motion and hash.
 python3 - <<'END'
