@@ -13,7 +13,7 @@
 // In double, trees under different yaws share next to nothing where gravity acts and `pose` is not `rest`: the start (pose.h) is found in the
 // world's axes, and its last digits differ. In float they are rounded away, but for about one number in 10^8.
 //
-// Cost O(rows), 1 % of make_plan's time: a row is put together in the cache, hashed, and compared with the one it may be. At no time are more
+// Cost O(rows): a row is put together in the cache, hashed, and compared with the one it may be. At no time are more
 // rows in memory than are different.
 #pragma once
 #include "../stages/plan.h"
