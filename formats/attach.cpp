@@ -1,4 +1,5 @@
 #include "attach.h"
+#include "release.h"
 #include <algorithm>
 #include <optional>
 
@@ -9,27 +10,39 @@ constexpr double ground_band = 0.05;  // of the height of all: what begins in it
 constexpr double tree_length = 0.25;  // of the longest piece there: shorter ones are loose wood
 constexpr double own_tree_gap = 0.5;  // of its length: what is as far away from all others is no part of them
 constexpr double touching_gap = 1e-3; // of the height: nearer than that is a joint
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::ptrdiff_t run = 64; // pieces that one thread asks for in a row
 
 struct Choice {
     std::int32_t end = -1;
     SegmentPlace place;
 };
 
-class Joiner {
+} // namespace
+
+class PieceJoiner::Work {
 public:
-    Joiner(Pieces& pieces, char up)
+    Work(Pieces& pieces, char up)
         : pieces_(pieces), axis_(up == 'z' ? 2 : 1), length_(pieces.size(), 0), low_(pieces.size()),
-          high_(pieces.size()), choice_(pieces.size()), root_(pieces.size(), false) {
+          high_(pieces.size()) {
+        if (pieces.size() == 0) return;
         measure();
-        if (pieces.size() == 1) pieces.segment.clear(); // nothing to look for
+        if (pieces.size() == 1) release(pieces.segment); // nothing to look for
         search_.emplace(pieces.point, pieces.radius, pieces.base, std::move(pieces.segment), pieces.size());
-        // What stands together in a file often grows on one branch.
-        for (std::size_t p = 0; p < pieces.size(); ++p)
-            choice_[p] = best_of(p, std::int32_t(p), p > 0 ? choice_[p - 1].place.segment : Segment());
+    }
+
+    void join() {
+        choice_.resize(pieces_.size());
+        root_.assign(pieces_.size(), false);
+        if (pieces_.size() == 0) return;
+        choose_places();
         choose_roots();
         while (open_circles()) {
         }
+        search_.reset();
     }
+
+    const SegmentSearch& search() const { return *search_; }
 
     std::vector<Attachment> result() const {
         std::vector<Attachment> joined(pieces_.size());
@@ -61,12 +74,57 @@ private:
         height_ = *std::max_element(high_.begin(), high_.end()) - ground_;
     }
 
-    Choice best_of(std::size_t p, std::int32_t group, const Segment& hint = {}) const {
-        Choice best;
-        for (const std::int32_t* e = begin(p); e != end(p); ++e) {
-            if (pieces_.base[p] >= 0 && *e != pieces_.base[p]) continue;
-            const SegmentPlace place = search_->nearest(*e, group, best.place.cost, hint);
-            if (best.end < 0 || place.segment.a >= 0) best = {*e, place};
+    // What stands together in a file often grows on one branch, or on the next, so that within a run each piece looks there
+    // first. Runs are the same for any number of threads.
+    void choose_places() {
+        const auto pieces = std::ptrdiff_t(pieces_.size());
+#pragma omp parallel for schedule(dynamic, 1) if (pieces > run)
+        for (std::ptrdiff_t first = 0; first < pieces; first += run) {
+            std::vector<Segment> likely;
+            for (std::ptrdiff_t p = first; p < std::min(first + run, pieces); ++p) {
+                const Choice& choice = choice_[std::size_t(p)] = best_of(std::size_t(p), std::int32_t(p), likely);
+                set_likely(choice.place.segment, likely);
+            }
+        }
+    }
+
+    // Segments near to where a piece was joined, and those of the next piece.
+    void set_likely(const Segment& found, std::vector<Segment>& likely) const {
+        constexpr std::int32_t window = 8; // segments to either side
+        likely.clear();
+        if (found.a < 0) return;
+        likely.push_back(found);
+        if (!pieces_.curves) return;
+        const auto add = [&](std::int32_t piece, std::int32_t from, std::int32_t to) {
+            from = std::max(from, begin(std::size_t(piece))[0]);
+            to = std::min(to, begin(std::size_t(piece))[1]);
+            for (std::int32_t k = from; k < to; ++k) likely.push_back({k, k + 1, piece});
+        };
+        add(found.piece, found.a - window, found.b + window);
+        if (std::size_t(found.piece) + 1 < pieces_.size()) {
+            const std::int32_t next = begin(std::size_t(found.piece) + 1)[0];
+            add(found.piece + 1, next, next + window);
+        }
+    }
+
+    Choice best_of(std::size_t p, std::int32_t group, std::span<const Segment> likely = {}) const {
+        const std::int32_t* const all = pieces_.base[p] >= 0 ? &pieces_.base[p] : begin(p);
+        const std::span<const std::int32_t> ends(all, pieces_.base[p] >= 0 ? all + 1 : end(p));
+        Choice best{ends.front(), search_->nearest(ends.front(), group, infinity, likely)};
+        // As many of the next ones at once as are likely to find nothing better.
+        std::size_t many = 1;
+        for (std::size_t at = 1; at < ends.size();) {
+            many = std::min(many, ends.size() - at);
+            if (many > 1 && search_->may_find(ends.subspan(at, many), group, best.place.cost)) {
+                many /= 2;
+                continue;
+            }
+            if (many == 1) {
+                const SegmentPlace place = search_->nearest(ends[at], group, best.place.cost, likely);
+                if (place.segment.a >= 0) best = {ends[at], place};
+            }
+            at += many;
+            many *= 2;
         }
         return best;
     }
@@ -87,7 +145,9 @@ private:
         return best;
     }
 
-    bool on_ground(std::int32_t point) const { return up(point) <= ground_ + ground_band * height_; }
+    bool on_ground(std::int32_t point) const {
+        return up(point) <= ground_ + ground_band * height_;
+    }
 
     // Whether a piece begins on the ground and touches no other above it, or is far from all others.
     bool own_tree(std::size_t p) const {
@@ -143,24 +203,29 @@ private:
         }
         if (circles.empty()) return false;
         search_->regroup(group);
-        for (const std::vector<std::int32_t>& circle : circles) {
-            double least = std::numeric_limits<double>::infinity();
-            std::int32_t moved = -1;
-            Choice to;
-            for (const std::int32_t p : circle) {
-                const Choice other = best_of(std::size_t(p), group[p]);
-                const double added = other.place.cost - choice_[p].place.cost;
-                if (other.place.segment.a < 0 || (moved >= 0 && added >= least)) continue;
-                least = added;
-                moved = p;
-                to = other;
-            }
-            if (moved < 0) // nothing else is a place for any of them
-                root_[circle.front()] = true;
-            else
-                choice_[moved] = to;
-        }
+        const auto count = std::ptrdiff_t(circles.size());
+#pragma omp parallel for schedule(dynamic, 16) if (count > run)
+        for (std::ptrdiff_t c = 0; c < count; ++c) open_circle(circles[std::size_t(c)], group);
         return true;
+    }
+
+    // Changes the circle's own pieces alone.
+    void open_circle(const std::vector<std::int32_t>& circle, const std::vector<std::int32_t>& group) {
+        double least = std::numeric_limits<double>::infinity();
+        std::int32_t moved = -1;
+        Choice to;
+        for (const std::int32_t p : circle) {
+            const Choice other = best_of(std::size_t(p), group[p]);
+            const double added = other.place.cost - choice_[p].place.cost;
+            if (other.place.segment.a < 0 || (moved >= 0 && added >= least)) continue;
+            least = added;
+            moved = p;
+            to = other;
+        }
+        if (moved < 0) // nothing else is a place for any of them
+            root_[circle.front()] = true;
+        else
+            choice_[moved] = to;
     }
 
     const Pieces& pieces_;
@@ -172,11 +237,20 @@ private:
     std::vector<char> root_;
 };
 
-} // namespace
+PieceJoiner::PieceJoiner(Pieces& pieces, char up) : work_(std::make_unique<Work>(pieces, up)) {}
+PieceJoiner::~PieceJoiner() = default;
+
+const SegmentSearch& PieceJoiner::search() const {
+    return work_->search();
+}
+
+std::vector<Attachment> PieceJoiner::join() {
+    work_->join();
+    return work_->result();
+}
 
 std::vector<Attachment> attach_pieces(Pieces& pieces, char up) {
-    if (pieces.size() == 0) return {};
-    return Joiner(pieces, up).result();
+    return PieceJoiner(pieces, up).join();
 }
 
 } // namespace bough

@@ -2,6 +2,7 @@
 // trees that stand on the ground.
 #pragma once
 #include "nearest_segment.h"
+#include <memory>
 
 namespace bough {
 
@@ -12,6 +13,7 @@ struct Pieces {
     std::vector<std::int32_t> end;  // points by which pieces may be joined to others, piece by piece
     std::vector<std::size_t> first; // pieces + 1 entries into `end`; of every piece at least one
     std::vector<std::int32_t> base; // of each piece: the one end it begins with, or -1: any of its ends
+    bool curves = false;            // each piece has two ends, and the segments from a point to the next between them
     std::size_t size() const { return base.size(); }
 };
 
@@ -28,7 +30,22 @@ struct Attachment {
 // piece on the ground begins at its thickest end in the lower half, or, without radii, its lowest.
 // All others are joined by the end, and to the place, that cost least (nearest_segment.h); circles are opened where that
 // adds least (Edmonds' rule). `up` is 'y' or 'z'. O((segments + ends) log segments), times log pieces for circles.
-// Takes the segments out of `pieces`, which a large file has no memory to hold twice.
+// Takes the segments out of `pieces`, which a large file has no memory to hold twice. Searches run on OpenMP's threads;
+// how many changes nothing.
 std::vector<Attachment> attach_pieces(Pieces& pieces, char up);
+
+// The same in two steps, for who wants to search before it is known which end each piece begins with. `pieces` must
+// outlive it; `base` may be changed until join(), which is called once.
+class PieceJoiner {
+public:
+    PieceJoiner(Pieces& pieces, char up);
+    ~PieceJoiner();
+    const SegmentSearch& search() const; // every piece a group of its own; there are pieces
+    std::vector<Attachment> join();
+
+private:
+    class Work;
+    std::unique_ptr<Work> work_;
+};
 
 } // namespace bough

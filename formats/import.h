@@ -3,6 +3,7 @@
 #pragma once
 #include "lib/model/splines.h"
 #include "open.h"
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,13 @@ struct ImportOptions {
     char up = 0;        // 'y' or 'z' for the file's up axis; 0: as above
     std::string name;   // how the file is called in messages
     std::string folder; // where files stand that it names (a .gltf's buffers); "": nowhere
+    // Called by a reader that has taken the content in, before it makes a tree of it: whoever holds the content may give
+    // its memory back meanwhile. It must stay readable, as messages look for lines in it. May be empty.
+    std::function<void()> taken_in;
+
+    void let_go() const {
+        if (taken_in) taken_in();
+    }
 };
 
 // What a reader wants the user to know: guesses made (units, up) with the reason, things left out, with counts.

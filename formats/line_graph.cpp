@@ -2,6 +2,7 @@
 #include "attach.h"
 #include "pipe_rule.h"
 #include "plain_text.h"
+#include "release.h"
 #include "skeleton.h"
 #include "up_axis.h"
 #include "weld.h"
@@ -66,14 +67,29 @@ void weld_points(LineGraph& g, ImportNotes& notes) {
     notes.lines.push_back(count_of(before - g.point.size(), "points welded to others at their place"));
 }
 
+// By first point, then second: put into order by the first, which leaves a few of each to be sorted.
+void sort_lines(Edges& edges, std::size_t points) {
+    if (std::is_sorted(edges.begin(), edges.end())) return;
+    std::vector<std::int32_t> at(points + 1, 0);
+    for (const auto& e : edges) ++at[std::size_t(e[0]) + 1];
+    std::partial_sum(at.begin(), at.end(), at.begin());
+    Edges sorted(edges.size());
+    for (const auto& e : edges) sorted[at[e[0]]++] = e;
+    edges = std::move(sorted);
+    for (auto first = edges.begin(); first != edges.end();) {
+        const auto end = std::find_if(first, edges.end(), [&](const auto& e) { return e[0] != (*first)[0]; });
+        if (end - first > 1) std::sort(first, end);
+        first = end;
+    }
+}
+
 void drop_repeated_lines(LineGraph& g, ImportNotes& notes) {
     const std::size_t before = g.edge.size();
     for (auto& e : g.edge)
         if (e[0] > e[1]) std::swap(e[0], e[1]);
-    const auto is_point = [](const auto& e) { return e[0] == e[1]; };
-    g.edge.erase(std::remove_if(g.edge.begin(), g.edge.end(), is_point), g.edge.end());
+    std::erase_if(g.edge, [](const auto& e) { return e[0] == e[1]; });
     const std::size_t points = before - g.edge.size();
-    std::sort(g.edge.begin(), g.edge.end());
+    sort_lines(g.edge, g.point.size());
     g.edge.erase(std::unique(g.edge.begin(), g.edge.end()), g.edge.end());
     if (points > 0) notes.lines.push_back(count_of(points, "lines without length left out"));
     if (const std::size_t twice = before - points - g.edge.size())
@@ -100,6 +116,7 @@ void cut_circles(LineGraph& g, ImportNotes& notes) {
 // Neighbours of each point: others[first[i]] .. others[first[i + 1] - 1].
 struct Neighbours {
     std::vector<std::int32_t> first, others;
+    Neighbours() = default;
     Neighbours(std::size_t points, const Edges& edges) : first(points + 2, 0), others(2 * edges.size()) {
         for (const auto& e : edges)
             for (const std::int32_t i : e) ++first[i + 2];
@@ -228,9 +245,9 @@ RootedLines root_lines(LineGraph&& g, char up, const std::string& name, ImportNo
     drop_repeated_lines(g, notes);
     if (g.edge.empty()) throw InputError(name, "holds no line with a length, expected at least one");
     cut_circles(g, notes);
-    const Neighbours near(g.point.size(), g.edge);
+    Neighbours near(g.point.size(), g.edge);
     Pieces pieces = pieces_of(g, near);
-    g.edge = {};
+    release(g.edge);
     RootedLines result;
     result.up = up;
     if (up == 0) {
@@ -240,6 +257,7 @@ RootedLines root_lines(LineGraph&& g, char up, const std::string& name, ImportNo
     const std::vector<Attachment> joined = attach_pieces(pieces, result.up);
     Skeleton s;
     s.parent = parents_from(joined, near, pieces.point.size());
+    near = {};
     s.point = std::move(pieces.point);
     s.radius = std::move(pieces.radius);
     for (double& r : s.radius) r = std::max(0.0, r);

@@ -12,6 +12,8 @@ public:
     MappedInput& operator=(const MappedInput&) = delete;
     ~MappedInput();
     std::string_view content() const { return pages_ ? std::string_view(pages_, size_) : content_; }
+    // Pages leave the memory until they are looked at again, when the file is asked once more. What came from a pipe stays.
+    void give_back() const;
 
 private:
     std::string content_;

@@ -1,5 +1,6 @@
 #include "nearest_segment.h"
 #include "imported_tree.h"
+#include "segment_order.h"
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -7,8 +8,10 @@
 namespace bough {
 namespace {
 
-constexpr std::size_t block = 4;
 constexpr std::size_t most_beside = 256; // bases passed over for one end
+constexpr double rounding = 1e-6;        // relative, of a difference of floats, and more
+constexpr std::int32_t no_box = std::numeric_limits<std::int32_t>::max();
+constexpr std::ptrdiff_t few_for_threads = 10000;
 constexpr double too_thin = 10; // cost for each unit of radius that the place is thinner than what begins there
 
 double cost_of(double distance, double radius) {
@@ -23,48 +26,8 @@ float below(double v) {
     return double(f) > v ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
 }
 
-// Every third bit of 63 from the 21 of v.
-std::uint64_t spread(std::uint64_t v) {
-    v &= 0x1fffff;
-    v = (v | v << 32) & 0x1f00000000ffff;
-    v = (v | v << 16) & 0x1f0000ff0000ff;
-    v = (v | v << 8) & 0x100f00f00f00f00f;
-    v = (v | v << 4) & 0x10c30c30c30c30c3;
-    return (v | v << 2) & 0x1249249249249249;
-}
-
-// Which power of 64 a segment's size has: long and thick ones would blow up the boxes of the small ones among them.
-std::uint32_t size_class(const Segment& s, const std::vector<Vec3>& point, const std::vector<double>& radius) {
-    const double size = std::max({(point[s.b] - point[s.a]).norm(), radius[s.a], radius[s.b]});
-    return std::uint32_t(std::clamp(std::ilogb(size), -1000, 1000) + 1000) / 6;
-}
-
-// By size class, within one along a Morton curve.
-void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& radius, std::vector<Segment>& segments) {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const Segment& s : segments) {
-        low = low.cwiseMin(point[s.a]).cwiseMin(point[s.b]);
-        high = high.cwiseMax(point[s.a]).cwiseMax(point[s.b]);
-    }
-    const double size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
-    // One number to sort by: the size class, counted from the smallest (63 of a factor of 64 are all there can be of
-    // use), above 19 bits of each axis. Equal ones stay in order.
-    std::uint32_t smallest = std::numeric_limits<std::uint32_t>::max();
-    for (const Segment& s : segments) smallest = std::min(smallest, size_class(s, point, radius));
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(segments.size());
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const Segment& s = segments[i];
-        const Vec3 middle = (0.5 * (point[s.a] + point[s.b]) - low) / size * 524287.0;
-        const std::uint64_t place = spread(std::uint64_t(middle.x())) | spread(std::uint64_t(middle.y())) << 1 |
-                                    spread(std::uint64_t(middle.z())) << 2;
-        const std::uint64_t above = std::min(size_class(s, point, radius) - smallest, 63u);
-        keyed[i] = {above << 57 | place, std::uint32_t(i)};
-    }
-    std::sort(keyed.begin(), keyed.end());
-    std::vector<Segment> sorted;
-    sorted.reserve(segments.size());
-    for (const auto& [key, i] : keyed) sorted.push_back(segments[i]);
-    segments = std::move(sorted);
+float above(double v) {
+    return -below(-v);
 }
 
 } // namespace
@@ -72,117 +35,250 @@ void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& ra
 SegmentSearch::SegmentSearch(const std::vector<Vec3>& point, const std::vector<double>& radius,
                              const std::vector<std::int32_t>& base, std::vector<Segment> segments, std::size_t pieces)
     : point_(point), radius_(radius), base_(base), segments_(std::move(segments)), group_(pieces) {
-    sort_by_place(point_, radius_, segments_);
+    sort_by_place(point_, radius_, segments_, pieces);
     std::iota(group_.begin(), group_.end(), 0);
-    for (std::size_t count = (segments_.size() + block - 1) / block;; count = (count + 1) / 2) {
-        levels_.emplace_back(count);
-        if (count <= 1) break;
+    const auto divided = [](std::size_t n) { return (n + wide - 1) / wide; };
+    for (std::size_t boxes = divided(segments_.size()); boxes > 0; boxes = levels_.back().size()) {
+        levels_.emplace_back(divided(boxes));
+        if (boxes <= wide) break;
     }
-    for (std::size_t k = 0; k < levels_[0].size(); ++k) {
-        Node& node = levels_[0][k];
-        Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-        double thickest = 0;
-        for (std::size_t i = k * block; i < std::min((k + 1) * block, segments_.size()); ++i)
-            for (const std::int32_t p : {segments_[i].a, segments_[i].b}) {
-                low = low.cwiseMin(point_[p]);
-                high = high.cwiseMax(point_[p]);
-                thickest = std::max(thickest, radius_[p]);
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        std::vector<Node>& nodes = levels_[level];
+        const auto count = std::ptrdiff_t(nodes.size());
+#pragma omp parallel for schedule(static) if (count > few_for_threads)
+        for (std::ptrdiff_t k = 0; k < count; ++k)
+            for (std::size_t at = 0; at < wide; ++at) {
+                const std::size_t part = std::size_t(k) * wide + at;
+                Node& node = nodes[std::size_t(k)];
+                if (level == 0)
+                    set_box(node, at, part);
+                else if (part < levels_[level - 1].size())
+                    join_boxes(levels_[level - 1][part], node, at);
+                else
+                    node.first[at] = no_box;
             }
-        for (int axis = 0; axis < 3; ++axis) {
-            node.low[axis] = below(low[axis]);
-            node.high[axis] = -below(-high[axis]);
-        }
-        node.thickest = -below(-thickest);
     }
-    for (std::size_t level = 1; level < levels_.size(); ++level)
-        for (std::size_t k = 0; k < levels_[level].size(); ++k) {
-            const std::vector<Node>& parts = levels_[level - 1];
-            Node& node = levels_[level][k] = parts[2 * k];
-            if (2 * k + 1 == parts.size()) continue;
-            node.low = node.low.cwiseMin(parts[2 * k + 1].low);
-            node.high = node.high.cwiseMax(parts[2 * k + 1].high);
-            node.thickest = std::max(node.thickest, parts[2 * k + 1].thickest);
-        }
     regroup(std::vector<std::int32_t>(group_));
+}
+
+void SegmentSearch::set_box(Node& node, std::size_t at, std::size_t block) const {
+    node.first[at] = no_box;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    double thickest = 0;
+    for (std::size_t i = block * wide; i < std::min((block + 1) * wide, segments_.size()); ++i) {
+        if (segments_[i].a < 0) continue;
+        node.first[at] = std::min(node.first[at], segments_[i].a);
+        for (const std::int32_t p : {segments_[i].a, segments_[i].b}) {
+            low = low.cwiseMin(point_[p]);
+            high = high.cwiseMax(point_[p]);
+            thickest = std::max(thickest, radius_[p]);
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        node.low[axis][at] = below(low[axis]);
+        node.high[axis][at] = above(high[axis]);
+    }
+    node.thickest[at] = above(thickest);
+}
+
+void SegmentSearch::join_boxes(const Node& parts, Node& node, std::size_t at) {
+    node.first[at] = no_box;
+    for (int axis = 0; axis < 3; ++axis) {
+        node.low[axis][at] = std::numeric_limits<float>::infinity();
+        node.high[axis][at] = -node.low[axis][at];
+    }
+    node.thickest[at] = 0;
+    for (std::size_t k = 0; k < wide; ++k) {
+        if (parts.first[k] == no_box) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            node.low[axis][at] = std::min(node.low[axis][at], parts.low[axis][k]);
+            node.high[axis][at] = std::max(node.high[axis][at], parts.high[axis][k]);
+        }
+        node.thickest[at] = std::max(node.thickest[at], parts.thickest[k]);
+        node.first[at] = std::min(node.first[at], parts.first[k]);
+    }
+}
+
+void SegmentSearch::set_group(Node& node, std::size_t at, std::size_t block) const {
+    if (node.first[at] == no_box) return;
+    node.group[at] = group_[segments_[block * wide].piece];
+    for (std::size_t i = block * wide; i < std::min((block + 1) * wide, segments_.size()); ++i)
+        if (segments_[i].a >= 0 && group_[segments_[i].piece] != node.group[at]) node.group[at] = -1;
+}
+
+std::int32_t SegmentSearch::common_group(const Node& node) {
+    for (std::size_t k = 1; k < wide; ++k)
+        if (node.first[k] != no_box && node.group[k] != node.group[0]) return -1;
+    return node.group[0];
 }
 
 void SegmentSearch::regroup(const std::vector<std::int32_t>& group) {
     group_ = group;
-    for (std::size_t k = 0; k < levels_[0].size(); ++k) {
-        std::int32_t& all = levels_[0][k].group;
-        all = group_[segments_[k * block].piece];
-        for (std::size_t i = k * block; i < std::min((k + 1) * block, segments_.size()); ++i)
-            if (group_[segments_[i].piece] != all) all = -1;
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        const auto count = std::ptrdiff_t(levels_[level].size());
+#pragma omp parallel for schedule(static) if (count > few_for_threads)
+        for (std::ptrdiff_t k = 0; k < count; ++k)
+            for (std::size_t at = 0; at < wide; ++at) {
+                const std::size_t part = std::size_t(k) * wide + at;
+                Node& node = levels_[level][std::size_t(k)];
+                if (level == 0)
+                    set_group(node, at, part);
+                else if (node.first[at] != no_box)
+                    node.group[at] = common_group(levels_[level - 1][part]);
+            }
     }
-    for (std::size_t level = 1; level < levels_.size(); ++level)
-        for (std::size_t k = 0; k < levels_[level].size(); ++k) {
-            const std::vector<Node>& parts = levels_[level - 1];
-            const bool same = 2 * k + 1 == parts.size() || parts[2 * k].group == parts[2 * k + 1].group;
-            levels_[level][k].group = same ? parts[2 * k].group : -1;
+}
+
+struct SegmentSearch::Asked {
+    const std::int32_t end, group;
+    const double thickness; // of the end
+    SegmentPlace best;
+    std::size_t beside = 0;
+    float low[3], high[3]; // where the end is, rounded down and up
+
+    Asked(std::int32_t e, std::int32_t g, const Vec3& from, const Vec3& to, double radius, double bound)
+        : end(e), group(g), thickness(std::max(0.0, radius)) {
+        best.cost = bound;
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = below(from[axis]);
+            high[axis] = above(to[axis]);
         }
-}
+    }
 
-double SegmentSearch::least_cost(const Node& node, const Vec3& p) {
-    const Vec3 low = node.low.cast<double>() - p, high = p - node.high.cast<double>();
-    const double d2 = low.cwiseMax(high).cwiseMax(0.0).squaredNorm();
-    const double r2 = double(node.thickest) * double(node.thickest);
-    return d2 < r2 ? d2 * (d2 / r2) * (d2 / r2) : d2;
-}
+    // Squares of what a place in each box costs at least for its distance: what floats may round up, overflow or lose below
+    // their range is taken off.
+    Floats least_costs(const Node& node) const {
+        constexpr float largest = std::numeric_limits<float>::max(), smallest = std::numeric_limits<float>::min();
+        Floats d2 = Floats::Zero();
+        for (int axis = 0; axis < 3; ++axis)
+            d2 += (node.low[axis] - high[axis]).max(low[axis] - node.high[axis]).max(0.0f).square();
+        d2 = d2.min(largest);
+        const Floats within = (d2 / node.thickest.square().max(smallest)).min(1.0f);
+        return (float(1 - rounding) * (d2 * within.square()) - smallest).max(0.0f);
+    }
 
-void SegmentSearch::try_segment(const Segment& s, std::int32_t end, SegmentPlace& best, std::size_t& beside) const {
-    const Vec3 &a = point_[s.a], &b = point_[s.b], &p = point_[end];
+    // Squares of twice the way to the middle of each box: of those the end is in, where to look first.
+    Floats off_middle(const Node& node) const {
+        Floats off = Floats::Zero();
+        for (int axis = 0; axis < 3; ++axis)
+            off += (node.low[axis] + node.high[axis] - (low[axis] + high[axis])).square();
+        return off;
+    }
+
+    // Whether a box with this least cost, so thick, may hold a place to be preferred.
+    bool may_hold(float cost2, float thickest, std::int32_t first) const {
+        const double thin = (1 - rounding) * too_thin * std::max(0.0, thickness - double(thickest));
+        const double left =
+            best.cost - std::min(thin, std::numeric_limits<double>::max()); // never infinity less infinity
+        if (!(left >= 0) || double(cost2) > left * left) return false;
+        return cost2 > 0 || left > 0 || first <= best.segment.a;
+    }
+};
+
+void SegmentSearch::try_segment(const Segment& s, Asked& asked) const {
+    const Vec3 &a = point_[s.a], &b = point_[s.b], &p = point_[asked.end];
     const double t = projected(a, b, p);
     const Vec3 place = a + t * (b - a);
     const double distance = (place - p).norm();
     const double radius = (1 - t) * std::max(0.0, radius_[s.a]) + t * std::max(0.0, radius_[s.b]);
-    const double cost = cost_of(distance, radius) + too_thin * std::max(0.0, std::max(0.0, radius_[end]) - radius);
+    double cost = cost_of(distance, radius) + too_thin * std::max(0.0, asked.thickness - radius);
+    if (std::isfinite(distance)) cost = std::min(cost, std::numeric_limits<double>::max()); // wood of any thickness
     // Equally near: the segment whose points come first, whatever the order of search.
+    SegmentPlace& best = asked.best;
     if (cost > best.cost || (cost == best.cost && std::pair(s.a, s.b) > std::pair(best.segment.a, best.segment.b)))
         return;
-    if (const std::int32_t begin = base_[s.piece]; begin >= 0 && beside < most_beside) {
-        const double close = std::max(0.0, std::min(radius_[begin], radius_[end]));
+    if (const std::int32_t begin = base_[s.piece]; begin >= 0 && asked.beside < most_beside) {
+        const double close = std::max(0.0, std::min(radius_[begin], radius_[asked.end]));
         if ((place - point_[begin]).norm() <= close) {
-            ++beside;
+            ++asked.beside;
             return;
         }
     }
     best = {s, t, distance, cost};
 }
 
-SegmentPlace SegmentSearch::nearest(std::int32_t end, std::int32_t group, double bound, const Segment& hint) const {
-    SegmentPlace best;
-    best.cost = bound;
-    std::size_t beside = 0;
-    if (hint.a >= 0 && group_[hint.piece] != group) try_segment(hint, end, best, beside);
-    struct Open {
-        std::size_t level, node;
-        double cost;
-    };
-    // Two a level are enough: of each node taken out, two come in one level below.
-    std::array<Open, 80> open;
+void SegmentSearch::try_block(std::size_t block, Asked& asked) const {
+    for (std::size_t i = block * wide; i < std::min((block + 1) * wide, segments_.size()); ++i)
+        if (segments_[i].a >= 0 && group_[segments_[i].piece] != asked.group) try_segment(segments_[i], asked);
+}
+
+namespace {
+
+// Boxes that are still to be looked into: of each that is taken out at most four come in, one level below, of 17 that 2^32
+// segments can have.
+struct Open {
+    std::int32_t level;
+    std::uint32_t part; // block of segments, or node of the level below
+    float cost2, thickest, off_middle;
+    std::int32_t first;
+    bool after(const Open& o) const { return cost2 != o.cost2 ? cost2 > o.cost2 : off_middle > o.off_middle; }
+};
+constexpr std::size_t most_open = 17 * 4;
+
+} // namespace
+
+SegmentPlace SegmentSearch::nearest(std::int32_t end, std::int32_t group, double bound,
+                                    std::span<const Segment> likely) const {
+    Asked asked(end, group, point_[end], point_[end], radius_[end], bound);
+    for (const Segment& s : likely)
+        if (group_[s.piece] != group) try_segment(s, asked);
+    std::array<Open, most_open> open;
     std::size_t count = 0;
-    const auto add = [&](std::size_t level, std::size_t k) {
+    const auto look_into = [&](std::size_t level, std::size_t k) {
         const Node& node = levels_[level][k];
-        if (node.group == group) return;
-        const double cost = least_cost(node, point_[end]);
-        if (cost < best.cost * best.cost) open[count++] = {level, k, cost};
+        const Floats cost2 = asked.least_costs(node), off_middle = asked.off_middle(node);
+        const std::size_t before = count;
+        for (std::size_t at = 0; at < wide; ++at) {
+            if (node.first[at] == no_box || node.group[at] == group ||
+                !asked.may_hold(cost2[at], node.thickest[at], node.first[at]))
+                continue;
+            const Open box{std::int32_t(level), std::uint32_t(k * wide + at),
+                           cost2[at],           node.thickest[at],
+                           off_middle[at],      node.first[at]};
+            // The nearest is looked into first, of those that the end is in the one in whose middle it is.
+            std::size_t to = count++;
+            for (; to > before && box.after(open[to - 1]); --to) open[to] = open[to - 1];
+            open[to] = box;
+        }
     };
-    if (!segments_.empty()) add(levels_.size() - 1, 0);
+    if (!levels_.empty()) look_into(levels_.size() - 1, 0);
     while (count > 0) {
         const Open at = open[--count];
-        if (at.cost >= best.cost * best.cost) continue; // thousands may begin at one place
-        if (at.level == 0) {
-            for (std::size_t i = at.node * block; i < std::min((at.node + 1) * block, segments_.size()); ++i)
-                if (group_[segments_[i].piece] != group) try_segment(segments_[i], end, best, beside);
-            continue;
-        }
-        const std::size_t before = count;
-        add(at.level - 1, 2 * at.node);
-        if (2 * at.node + 1 < levels_[at.level - 1].size()) add(at.level - 1, 2 * at.node + 1);
-        // The nearer of the two is looked into first.
-        if (count == before + 2 && open[before].cost < open[before + 1].cost) std::swap(open[before], open[before + 1]);
+        if (!asked.may_hold(at.cost2, at.thickest, at.first)) continue;
+        if (at.level == 0)
+            try_block(at.part, asked);
+        else
+            look_into(std::size_t(at.level) - 1, at.part);
     }
-    return best;
+    return asked.best;
+}
+
+bool SegmentSearch::may_find(std::span<const std::int32_t> points, std::int32_t group, double bound) const {
+    if (points.empty() || levels_.empty()) return false;
+    Vec3 low = point_[points.front()], high = low;
+    double thinnest = radius_[points.front()];
+    for (const std::int32_t p : points) {
+        low = low.cwiseMin(point_[p]);
+        high = high.cwiseMax(point_[p]);
+        thinnest = std::min(thinnest, radius_[p]);
+    }
+    const Asked asked(-1, group, low, high, thinnest, bound);
+    std::array<std::pair<std::size_t, std::size_t>, most_open> open; // level, node
+    std::size_t count = 0;
+    open[count++] = {levels_.size() - 1, 0};
+    while (count > 0) {
+        const auto [level, k] = open[--count];
+        const Node& node = levels_[level][k];
+        const Floats cost2 = asked.least_costs(node);
+        for (std::size_t at = 0; at < wide; ++at) {
+            if (node.first[at] == no_box || node.group[at] == group ||
+                !asked.may_hold(cost2[at], node.thickest[at], node.first[at]))
+                continue;
+            if (level == 0) return true;
+            open[count++] = {level - 1, k * wide + at};
+        }
+    }
+    return false;
 }
 
 } // namespace bough

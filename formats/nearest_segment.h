@@ -1,9 +1,10 @@
 // nearest_segment.h: the nearest of many segments to a point, over pieces of wood (curves, parts of a graph) that have
-// radii where those are known. Segments are sorted by size and along a Morton curve, and boxed in a tree of bounds.
-// Making it O(segments log segments); a search O(log segments) in the usual case.
+// radii where those are known. Segments are sorted by size and along a Morton curve, and boxed in a tree of bounds, four to
+// a node so that one look at it tells of all four. Making it O(segments log segments); a search O(log segments) in the usual case.
 #pragma once
 #include "lib/model/math.h"
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace bough {
@@ -34,25 +35,39 @@ public:
     // Pieces of one group are no places for one another. At first each piece is a group of its own. O(segments).
     void regroup(const std::vector<std::int32_t>& group);
 
-    // The cheapest place for this point that is not in `group` and costs less than `bound`. `hint`: a segment that is
-    // likely near (a: -1 for none); it changes nothing but the time taken.
+    // The cheapest place for this point that is not in `group` and costs less than `bound`; of equally cheap ones that on
+    // the segment whose points come first. `likely`: segments that may well be near; they change nothing but the time
+    // taken. May be called by several threads at once.
     SegmentPlace nearest(std::int32_t point, std::int32_t group, double bound = std::numeric_limits<double>::infinity(),
-                         const Segment& hint = {}) const;
+                         std::span<const Segment> likely = {}) const;
+
+    // False only where nearest() finds nothing for any of these points. What many points that lie close together ask is
+    // answered in one search, if they lie far from all others.
+    bool may_find(std::span<const std::int32_t> points, std::int32_t group, double bound) const;
 
 private:
-    struct Node { // rounded outward to floats, so that two of them fill a line of the cache
-        Vector3<float> low, high;
-        float thickest;     // largest radius of a segment's ends
-        std::int32_t group; // of all in it, or -1: several
+    static constexpr std::size_t wide = 4; // boxes of a node, segments of a block
+    // Boxes side by side, rounded outward to floats. On the lowest level each holds a block of segments.
+    using Floats = Eigen::Array<float, wide, 1>;
+    struct Node {
+        Floats low[3], high[3];
+        Floats thickest;          // largest radius of a segment's ends
+        std::int32_t first[wide]; // the first point of its segments; the largest number there is: no such box
+        std::int32_t group[wide]; // of all in it, or -1: several
     };
-    static double least_cost(const Node&, const Vec3& p); // squared; no place in the node costs less
-    void try_segment(const Segment&, std::int32_t end, SegmentPlace& best, std::size_t& beside) const;
+    struct Asked; // a search that is going on
+    void set_box(Node&, std::size_t at, std::size_t block) const;
+    void set_group(Node&, std::size_t at, std::size_t block) const;
+    static void join_boxes(const Node& parts, Node&, std::size_t at);
+    static std::int32_t common_group(const Node&);
+    void try_segment(const Segment&, Asked&) const;
+    void try_block(std::size_t block, Asked&) const;
 
     const std::vector<Vec3>& point_;
     const std::vector<double>& radius_;
     const std::vector<std::int32_t>& base_;
     std::vector<Segment> segments_;
-    std::vector<std::vector<Node>> levels_; // blocks of segments, then pairs of nodes, up to one
+    std::vector<std::vector<Node>> levels_; // from blocks of segments up to one node
     std::vector<std::int32_t> group_;       // of each piece
 };
 

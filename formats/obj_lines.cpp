@@ -87,7 +87,7 @@ private:
             take_curve(line, at);
         } else if (key == "parm" && open_ && next_token(line, at) == "u") {
             for (std::string_view t = next_token(line, at); !t.empty(); t = next_token(line, at))
-                curve_.knot.push_back(number(t, "a knot"));
+                obj_.curve_knot.push_back(number(t, "a knot"));
         } else if (key == "end") {
             finish_curve();
         }
@@ -143,6 +143,8 @@ private:
 
     void take_curve(std::string_view line, std::size_t at) {
         finish_curve();
+        curve_.point = obj_.curve_point.size();
+        curve_.knot = obj_.curve_knot.size();
         if (type_ == "bspline" || type_.empty())
             curve_.kind = ObjCurve::Kind::bspline;
         else if (type_ == "bezier")
@@ -153,15 +155,19 @@ private:
             refuse("curv of cstype " + quoted(type_) + ", expected bspline, bezier or cardinal");
         for (int k = 0; k < 2; ++k) number(next_token(line, at), "an end of the curve's range");
         for (std::string_view t = next_token(line, at); !t.empty() && t.front() != '#'; t = next_token(line, at))
-            curve_.point.push_back(vertex(t));
-        if (curve_.point.empty()) refuse("curv names no vertex, expected u0 u1 and vertices");
+            obj_.curve_point.push_back(vertex(t));
+        if (obj_.curve_point.size() == curve_.point) refuse("curv names no vertex, expected u0 u1 and vertices");
         curve_.degree = degree_;
         curve_.rational = rational_;
         open_ = true;
     }
 
     void finish_curve() {
-        if (open_) obj_.curves.push_back(std::move(curve_));
+        if (open_) {
+            curve_.points = obj_.curve_point.size() - curve_.point;
+            curve_.knots = obj_.curve_knot.size() - curve_.knot;
+            obj_.curves.push_back(curve_);
+        }
         curve_ = {};
         open_ = false;
     }

@@ -6,8 +6,8 @@
 namespace bough {
 
 struct ObjCurve {
-    std::vector<std::int32_t> point; // control points, into ObjLines::lines.point
-    std::vector<double> knot;        // parm u
+    std::size_t point = 0, points = 0; // control points: the first and how many, in ObjLines::curve_point
+    std::size_t knot = 0, knots = 0;   // parm u, the same in curve_knot
     int degree = 1;
     bool rational = false;
     enum class Kind { bspline, bezier, cardinal } kind = Kind::bspline;
@@ -17,6 +17,8 @@ struct ObjLines {
     LineGraph lines;            // its points are all v; no radii
     std::vector<double> weight; // fourth number of each v, or empty: none has one
     std::vector<ObjCurve> curves;
+    std::vector<std::int32_t> curve_point;                 // of all curves, into lines.point
+    std::vector<double> curve_knot;                        // of all curves
     std::size_t faces = 0, surfaces = 0, other_points = 0; // f, surf; p
 };
 

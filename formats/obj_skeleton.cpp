@@ -6,35 +6,46 @@
 #include "loose_curves.h"
 #include "obj_lines.h"
 #include "pipe_rule.h"
+#include "release.h"
 
 namespace bough {
 namespace {
 
-std::vector<Vec3> line_of(const ObjLines& obj, const ObjCurve& curve, std::size_t& by_points) {
+// A curve's points, weights and knots.
+struct Controls {
     std::vector<Vec3> point;
-    std::vector<double> weight;
-    for (const std::int32_t i : curve.point) {
-        point.push_back(obj.lines.point[i]);
-        if (curve.rational && !obj.weight.empty()) weight.push_back(obj.weight[i]);
-    }
-    std::optional<std::vector<Vec3>> line;
-    if (curve.kind == ObjCurve::Kind::bspline)
-        line = bspline_points(point, weight, curve.knot, curve.degree);
-    else if (curve.kind == ObjCurve::Kind::bezier)
-        line = bezier_points(point, weight, curve.degree);
-    else if (point.size() > 3) // it runs through all but the first and the last
-        line.emplace(point.begin() + 1, point.end() - 1);
-    by_points += !line;
-    return line ? std::move(*line) : point;
-}
+    std::vector<double> weight, knot;
 
-std::vector<ImportedBranch> curves_of(const ObjLines& obj, ImportNotes& notes) {
-    std::vector<ImportedBranch> curves;
+    void take(const ObjLines& obj, const ObjCurve& curve) {
+        point.clear();
+        weight.clear();
+        for (std::size_t k = curve.point; k < curve.point + curve.points; ++k) {
+            const std::int32_t i = obj.curve_point[k];
+            point.push_back(obj.lines.point[i]);
+            if (curve.rational && !obj.weight.empty()) weight.push_back(obj.weight[i]);
+        }
+        const auto first = obj.curve_knot.begin() + std::ptrdiff_t(curve.knot);
+        knot.assign(first, first + std::ptrdiff_t(curve.knots));
+    }
+    // Nothing: the line is along the points.
+    std::optional<std::vector<Vec3>> evaluated(const ObjCurve& curve) const {
+        if (curve.kind == ObjCurve::Kind::bspline) return bspline_points(point, weight, knot, curve.degree);
+        if (curve.kind == ObjCurve::Kind::bezier) return bezier_points(point, weight, curve.degree);
+        if (point.size() <= 3) return {};
+        return std::vector<Vec3>(point.begin() + 1, point.end() - 1); // it runs through all but the first and the last
+    }
+};
+
+LooseCurves curves_of(const ObjLines& obj, ImportNotes& notes) {
+    LooseCurves curves;
+    Controls controls;
     std::size_t by_points = 0;
     for (const ObjCurve& c : obj.curves) {
-        ImportedBranch& curve = curves.emplace_back();
-        curve.point = line_of(obj, c, by_points);
-        curve.radius.assign(curve.point.size(), 0);
+        controls.take(obj, c);
+        const auto line = controls.evaluated(c);
+        by_points += !line;
+        for (const Vec3& p : line ? *line : controls.point) curves.add(p, 0);
+        curves.end_curve();
     }
     if (by_points > 0)
         notes.lines.push_back(std::to_string(by_points) +
@@ -44,23 +55,39 @@ std::vector<ImportedBranch> curves_of(const ObjLines& obj, ImportNotes& notes) {
 }
 
 // Lines and curves in one file: the curves' points become lines, too.
-void add_as_lines(LineGraph& lines, const std::vector<ImportedBranch>& curves) {
-    for (const ImportedBranch& c : curves)
-        for (std::size_t k = 0; k < c.point.size(); ++k) {
+void add_as_lines(LineGraph& lines, const LooseCurves& curves) {
+    for (std::size_t c = 0; c < curves.size(); ++c)
+        for (std::int32_t k = curves.first[c]; k < curves.first[c + 1]; ++k) {
             const std::int32_t i = std::int32_t(lines.point.size());
-            lines.point.push_back(c.point[k]);
-            if (k > 0) lines.edge.push_back({i - 1, i});
+            lines.point.push_back(curves.point[k]);
+            if (k > curves.first[c]) lines.edge.push_back({i - 1, i});
         }
 }
 
+LooseCurves loosened(std::vector<ImportedBranch>&& branches) {
+    LooseCurves curves;
+    std::size_t points = 0;
+    for (const ImportedBranch& b : branches) points += b.point.size();
+    curves.point.reserve(points);
+    curves.radius.reserve(points);
+    for (ImportedBranch& b : branches) {
+        curves.point.insert(curves.point.end(), b.point.begin(), b.point.end());
+        curves.radius.insert(curves.radius.end(), b.radius.begin(), b.radius.end());
+        curves.end_curve();
+        b = {};
+    }
+    release(branches);
+    return curves;
+}
+
 // Joined twice: radii by the pipe rule over the first result tell stems that begin side by side from their host.
-char join_bare_curves(std::vector<ImportedBranch>& curves, const ImportOptions& options, ImportNotes& notes) {
-    const char up = join_curves(curves, options.up, CurveBase::unknown, options.name, notes);
+JoinedCurves join_bare_curves(LooseCurves&& curves, const ImportOptions& options, ImportNotes& notes) {
+    JoinedCurves joined = join_curves(std::move(curves), options.up, CurveBase::unknown, options.name, notes);
     ImportNotes known;
-    fill_radii(curves, known);
-    join_curves(curves, up, CurveBase::first, options.name, known);
-    for (ImportedBranch& c : curves) c.radius.assign(c.point.size(), 0);
-    return up;
+    fill_radii(joined.branches, known);
+    joined = join_curves(loosened(std::move(joined.branches)), joined.up, CurveBase::first, options.name, known);
+    for (ImportedBranch& c : joined.branches) c.radius.assign(c.point.size(), 0);
+    return joined;
 }
 
 [[noreturn]] void refuse(const ObjLines& obj, const std::string& name) {
@@ -75,18 +102,22 @@ char join_bare_curves(std::vector<ImportedBranch>& curves, const ImportOptions& 
 
 Splines read_obj(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     ObjLines obj = read_obj_lines(content, options.name);
+    options.let_go();
     if (obj.lines.edge.empty() && obj.curves.empty()) refuse(obj, options.name);
     if (obj.faces + obj.surfaces > 0)
         notes.lines.push_back(std::to_string(obj.faces + obj.surfaces) + " faces not read beside the lines");
     if (obj.other_points > 0) notes.lines.push_back(std::to_string(obj.other_points) + " point elements not read");
     ImportedTree tree;
-    tree.branches = curves_of(obj, notes);
+    LooseCurves curves = curves_of(obj, notes);
+    release(obj.curves, obj.curve_point, obj.curve_knot);
     if (obj.lines.edge.empty()) {
         obj = {};
-        tree.up = join_bare_curves(tree.branches, options, notes);
+        JoinedCurves joined = join_bare_curves(std::move(curves), options, notes);
+        tree.branches = std::move(joined.branches);
+        tree.up = joined.up;
         fill_radii(tree.branches, notes);
     } else {
-        add_as_lines(obj.lines, tree.branches);
+        add_as_lines(obj.lines, curves);
         tree = tree_of_lines(std::move(obj.lines), options.up, options.name, notes);
     }
     tree.source = "Wavefront OBJ " + options.name;

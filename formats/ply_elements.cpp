@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace bough {
 namespace {
@@ -161,12 +162,31 @@ public:
         entry_.line = ascii_ ? header.lines + 1 : 0;
     }
 
-    const PlyEntry& read(const PlyElement& element, std::uint64_t index) {
+    // Entries of this element follow.
+    void begin(const PlyElement& element) {
         entry_.element = &element;
+        const auto is_list = [](const PlyProperty& p) { return p.list; };
+        lists_ = std::any_of(element.property.begin(), element.property.end(), is_list);
+        entry_.values.resize(element.property.size());
+        entry_.first.resize(element.property.size() + 1);
+        std::iota(entry_.first.begin(), entry_.first.end(), std::size_t(0));
+    }
+
+    const PlyEntry& read(std::uint64_t index) {
         entry_.index = index;
+        if (lists_)
+            read_lists();
+        else
+            for (std::size_t k = 0; k < entry_.values.size(); ++k)
+                entry_.values[k] = number(entry_.element->property[k].type);
+        return entry_;
+    }
+
+private:
+    void read_lists() {
         entry_.values.clear();
-        entry_.first.assign(1, 0);
-        for (const PlyProperty& p : element.property) {
+        for (std::size_t k = 0; k < entry_.element->property.size(); ++k) {
+            const PlyProperty& p = entry_.element->property[k];
             std::size_t count = 1;
             if (p.list) {
                 const double n = number(p.count);
@@ -175,13 +195,11 @@ public:
             }
             const std::size_t left = (content_.size() - at_) / (ascii_ ? 1 : size_of(p.type));
             if (count > left) refuse("ends early");
-            for (std::size_t k = 0; k < count; ++k) entry_.values.push_back(number(p.type));
-            entry_.first.push_back(entry_.values.size());
+            for (std::size_t i = 0; i < count; ++i) entry_.values.push_back(number(p.type));
+            entry_.first[k + 1] = entry_.values.size();
         }
-        return entry_;
     }
 
-private:
     [[noreturn]] void refuse(const std::string& message) const {
         throw InputError(entry_.place(), message + " at " + entry_.element->name + " " + std::to_string(entry_.index) +
                                              " of " + std::to_string(entry_.element->count));
@@ -205,7 +223,7 @@ private:
 
     std::string_view content_;
     std::size_t at_;
-    bool ascii_, swap_;
+    bool ascii_, swap_, lists_ = false; // lists_: the element has some
     PlyEntry entry_;
 };
 
@@ -236,8 +254,9 @@ void each_ply_entry(std::string_view content, const PlyHeader& header, const std
     for (std::size_t k = 0; k < last; ++k) {
         const PlyElement& element = header.element[k];
         const bool use = wanted(element);
+        reader.begin(element);
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            const PlyEntry& read = reader.read(element, i);
+            const PlyEntry& read = reader.read(i);
             if (use) entry(element, read);
         }
     }

@@ -99,6 +99,9 @@ public:
         if (!edge_ || edge_->count == 0) refuse_without_edges();
         vertex_at_ = columns_of(*vertex_, name, notes);
         edge_at_ = edge_columns(*edge_, name);
+        graph.point.reserve(vertex_->count); // the header has been held against the file's size
+        if (vertex_at_.radius >= 0) graph.radius.reserve(vertex_->count);
+        graph.edge.reserve(edge_->count);
         each_ply_entry(
             content, header_, name, [this](const PlyElement& e) { return &e == vertex_ || &e == edge_; },
             [this](const PlyElement& e, const PlyEntry& entry) {
@@ -174,6 +177,7 @@ bool recognizes_ply(std::string_view content) {
 
 Splines read_ply(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     LineGraph graph = Reader(content, options.name, notes).graph;
+    options.let_go();
     ImportedTree tree = tree_of_lines(std::move(graph), options.up, options.name, notes);
     tree.source = "PLY skeleton " + options.name;
     return finish_import(std::move(tree), options, notes);

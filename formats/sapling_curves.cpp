@@ -54,10 +54,9 @@ public:
         json_.end();
     }
 
-    std::vector<ImportedBranch> curves() {
+    LooseCurves curves() {
         const double factor = bevel_ > 0 ? bevel_ : 1;
-        for (ImportedBranch& c : curves_)
-            for (double& r : c.radius) r *= factor;
+        for (double& r : curves_.radius) r *= factor;
         return std::move(curves_);
     }
     bool without_bevel() const { return bevel_ == 0; }
@@ -123,24 +122,23 @@ private:
     }
 
     void add_curve(bool bezier) {
-        ImportedBranch& c = curves_.emplace_back();
-        c.point.push_back(knots_.front().point);
-        c.radius.push_back(knots_.front().radius);
+        curves_.add(knots_.front().point, knots_.front().radius);
         for (std::size_t k = 1; k < knots_.size(); ++k) {
             const Knot &a = knots_[k - 1], &b = knots_[k];
             const int n = bezier && a.has_right && b.has_left ? pieces(a, b) : 1;
             for (int i = 1; i <= n; ++i) {
                 const double t = double(i) / n;
-                c.point.push_back(i == n ? b.point : cubic_bezier(a.point, a.right, b.left, b.point, t));
-                c.radius.push_back((1 - t) * a.radius + t * b.radius);
+                curves_.add(i == n ? b.point : cubic_bezier(a.point, a.right, b.left, b.point, t),
+                            (1 - t) * a.radius + t * b.radius);
             }
         }
+        curves_.end_curve();
     }
 
     JsonPull json_;
     double bevel_ = 1, resolution_ = 12; // Blender's own
     std::vector<Knot> knots_;
-    std::vector<ImportedBranch> curves_;
+    LooseCurves curves_;
 };
 
 std::optional<double> unit_called(const std::string& name) {
@@ -162,8 +160,9 @@ bool recognizes_curves(std::string_view content) {
 Splines read_curves(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     Reader file(content, options.name);
     ImportedTree tree;
-    tree.branches = file.curves();
-    if (tree.branches.empty()) throw InputError(options.name, "holds no spline with points, expected at least one");
+    LooseCurves curves = file.curves();
+    options.let_go();
+    if (curves.size() == 0) throw InputError(options.name, "holds no spline with points, expected at least one");
     tree.unit = unit_called(file.units);
     if (!file.units.empty() && !tree.unit)
         notes.lines.push_back("units " + quoted(file.units) + " are none that are known");
@@ -174,7 +173,9 @@ Splines read_curves(std::string_view content, const ImportOptions& options, Impo
     if (file.closed > 0) notes.lines.push_back(std::to_string(file.closed) + " closed curves opened");
     tree.source = "curves of Blender " + options.name;
     const char up = options.up != 0 ? options.up : tree.up;
-    tree.up = join_curves(tree.branches, up, CurveBase::unknown, options.name, notes);
+    JoinedCurves joined = join_curves(std::move(curves), up, CurveBase::unknown, options.name, notes);
+    tree.branches = std::move(joined.branches);
+    tree.up = joined.up;
     fill_radii(tree.branches, notes);
     return finish_import(std::move(tree), options, notes);
 }

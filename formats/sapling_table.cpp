@@ -26,7 +26,8 @@ enum Column : std::size_t { spline, knot, x, y, z, radius, bevel, columns };
 struct Header {
     char comma = ',';
     std::array<int, columns> at{-1, -1, -1, -1, -1, -1, -1};
-    std::vector<std::string> others; // columns that are not read
+    std::vector<Column> column;      // of each field of a row; `columns`: it is not read
+    std::vector<std::string> others; // names of those
     bool good() const { return at[spline] >= 0 && at[x] >= 0 && at[y] >= 0 && at[z] >= 0; }
 };
 
@@ -47,15 +48,17 @@ Header parse_header(std::string_view line) {
         const auto is = [&](std::initializer_list<const char*> names) {
             return std::find(names.begin(), names.end(), name) != names.end();
         };
-        const std::size_t column = is({"spline", "spline_id", "spline_index", "curve", "curve_id"}) ? spline
-                                   : is({"point", "point_id", "point_index", "knot"})               ? knot
-                                   : is({"x", "co_x"})                                              ? x
-                                   : is({"y", "co_y"})                                              ? y
-                                   : is({"z", "co_z"})                                              ? z
-                                   : is({"radius", "r"})                                            ? radius
-                                   : is({"bevel_depth"})                                            ? bevel
-                                                                                                    : columns;
-        if (column < columns && h.at[column] < 0)
+        const Column column = is({"spline", "spline_id", "spline_index", "curve", "curve_id"}) ? spline
+                              : is({"point", "point_id", "point_index", "knot"})               ? knot
+                              : is({"x", "co_x"})                                              ? x
+                              : is({"y", "co_y"})                                              ? y
+                              : is({"z", "co_z"})                                              ? z
+                              : is({"radius", "r"})                                            ? radius
+                              : is({"bevel_depth"})                                            ? bevel
+                                                                                               : columns;
+        const bool read = column < columns && h.at[column] < 0;
+        h.column.push_back(read ? column : columns);
+        if (read)
             h.at[column] = int(k);
         else if (!name.empty())
             h.others.push_back(name);
@@ -91,26 +94,25 @@ struct Row {
     double radius;
 };
 
-Row parse_row(std::string_view line, const Header& h, const std::string& place) {
+// `place()` is asked for messages alone: a line's name is made of more than its numbers are.
+template <class Place> Row parse_row(std::string_view line, const Header& h, Place&& place) {
     std::array<double, columns> value{0, 0, 0, 0, 0, 0, 1};
     std::array<bool, columns> seen{};
     each_field(line, h.comma, [&](std::size_t k, std::string_view field) {
-        for (std::size_t c = 0; c < columns; ++c) {
-            if (h.at[c] != int(k)) continue;
-            field = trimmed(field);
-            if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-                field = field.substr(1, field.size() - 2);
-            if (field.empty() && (c == radius || c == bevel)) return;
-            const auto number = parse_number(field, h.comma != ',');
-            if (!number) throw InputError(place, quoted(field) + " is no finite number");
-            if (c <= knot && *number != std::floor(*number))
-                throw InputError(place, quoted(field) + " is not a curve's or point's number, expected an integer");
-            value[c] = *number;
-            seen[c] = true;
-        }
+        const Column c = k < h.column.size() ? h.column[k] : columns;
+        if (c == columns) return;
+        field = trimmed(field);
+        if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+        if (field.empty() && (c == radius || c == bevel)) return;
+        const auto number = parse_number(field, h.comma != ',');
+        if (!number) throw InputError(place(), quoted(field) + " is no finite number");
+        if (c <= knot && *number != std::floor(*number))
+            throw InputError(place(), quoted(field) + " is not a curve's or point's number, expected an integer");
+        value[c] = *number;
+        seen[c] = true;
     });
     for (const std::size_t c : {spline, x, y, z})
-        if (!seen[c]) throw InputError(place, "has too few columns, expected those that the first line names");
+        if (!seen[c]) throw InputError(place(), "has too few columns, expected those that the first line names");
     return {std::int64_t(std::clamp(value[spline], -9e15, 9e15)),
             std::int64_t(std::clamp(value[knot], -9e15, 9e15)),
             {value[x], value[y], value[z]},
@@ -125,38 +127,44 @@ bool stands_before(const Row& a, const Row& b) {
 template <class Take> void each_row(Lines lines, const Header& h, const std::string& name, Take&& take) {
     std::string_view line;
     for (std::int64_t number = 0; lines.next(line); ++number) {
-        Row row = parse_row(line, h, file_line(name, lines.number));
+        Row row = parse_row(line, h, [&] { return file_line(name, lines.number); });
         if (h.at[knot] < 0) row.knot = number;
         if (!take(row)) return;
     }
 }
 
-void add(std::vector<ImportedBranch>& curves, const Row& row, const Row* before) {
-    if (!before || row.spline != before->spline) curves.emplace_back();
-    curves.back().point.push_back(row.point);
-    curves.back().radius.push_back(row.radius);
-}
-
 // Rows that stand in order, as they usually do, are not kept.
-std::vector<ImportedBranch> curves_of(const Lines& lines, const Header& h, const std::string& name) {
-    std::vector<ImportedBranch> curves;
+LooseCurves curves_of(const Lines& lines, const Header& h, const std::string& name, std::size_t most_rows) {
+    LooseCurves curves;
+    curves.point.reserve(most_rows);
+    curves.radius.reserve(most_rows);
     std::optional<Row> before;
+    const auto add = [&](const Row& row) {
+        if (before && row.spline != before->spline) curves.end_curve();
+        curves.add(row.point, row.radius);
+        before = row;
+    };
     bool sorted = true;
     each_row(lines, h, name, [&](const Row& row) {
         sorted = !before || !stands_before(row, *before);
-        if (sorted) add(curves, row, before ? &*before : nullptr);
-        before = row;
+        if (sorted) add(row);
         return sorted;
     });
-    if (sorted) return curves;
-    curves.clear();
-    std::vector<Row> rows;
-    each_row(lines, h, name, [&](const Row& row) {
-        rows.push_back(row);
-        return true;
-    });
-    std::stable_sort(rows.begin(), rows.end(), stands_before);
-    for (std::size_t i = 0; i < rows.size(); ++i) add(curves, rows[i], i > 0 ? &rows[i - 1] : nullptr);
+    if (!sorted) {
+        curves = {};
+        before.reset();
+        std::vector<Row> rows;
+        rows.reserve(most_rows);
+        each_row(lines, h, name, [&](const Row& row) {
+            rows.push_back(row);
+            return true;
+        });
+        std::stable_sort(rows.begin(), rows.end(), stands_before);
+        curves.point.reserve(rows.size());
+        curves.radius.reserve(rows.size());
+        for (const Row& row : rows) add(row);
+    }
+    if (before) curves.end_curve();
     return curves;
 }
 
@@ -172,12 +180,15 @@ Splines read_table(std::string_view content, const ImportOptions& options, Impor
     lines.next(line);
     const Header header = parse_header(line);
     for (const std::string& other : header.others) notes.lines.push_back("column " + quoted(other) + " not read");
+    const auto most_rows = std::size_t(std::count(content.begin(), content.end(), '\n'));
+    LooseCurves curves = curves_of(lines, header, options.name, most_rows);
+    if (curves.size() == 0) throw InputError(options.name, "holds no point, expected a row for each after the first");
+    options.let_go();
     ImportedTree tree;
-    tree.branches = curves_of(lines, header, options.name);
-    if (tree.branches.empty())
-        throw InputError(options.name, "holds no point, expected a row for each after the first");
     tree.source = "table of curves " + options.name;
-    tree.up = join_curves(tree.branches, options.up, CurveBase::unknown, options.name, notes);
+    JoinedCurves joined = join_curves(std::move(curves), options.up, CurveBase::unknown, options.name, notes);
+    tree.branches = std::move(joined.branches);
+    tree.up = joined.up;
     fill_radii(tree.branches, notes);
     return finish_import(std::move(tree), options, notes);
 }

@@ -1,5 +1,6 @@
 #include "skeleton.h"
 #include "plain_text.h"
+#include "release.h"
 
 namespace bough {
 namespace {
@@ -122,9 +123,10 @@ std::vector<ImportedBranch> branches_of(Skeleton&& s, const std::string& name, I
     if (sorted.cycle >= 0)
         throw InputError(file_line(name, s.line[sorted.cycle]), "is its own ancestor, expected a tree");
     const std::vector<std::int32_t>& order = sorted.order;
+    release(s.line);
     std::vector<char> joined;
     const std::size_t zero_length = join_coincident(s, order, joined);
-    const std::vector<std::int32_t> next = continuations(s, order, joined);
+    std::vector<std::int32_t> next = continuations(s, order, joined);
 
     std::vector<ImportedBranch> branches;
     std::vector<std::int32_t> branch_of(s.parent.size(), -1);
@@ -147,14 +149,19 @@ std::vector<ImportedBranch> branches_of(Skeleton&& s, const std::string& name, I
         start.push_back(p);
         length.push_back(arc[i] = segment);
     }
+    std::size_t lone = 0;
+    for (const std::int32_t i : order) lone += s.parent[i] < 0 && root_children[i] == 0;
+    std::vector<double> from; // [file unit] of each branch's start within the branch that it leaves
+    from.reserve(branches.size());
+    for (const std::int32_t p : start) from.push_back(arc[p]);
+    // A large tree has no memory to hold these beside the branches.
+    release(next, root_children, joined, arc);
     fill(s, order, branch_of, count, branches);
     stand_loose_on_trunks(s, branches, start);
     for (std::size_t b = 0; b < branches.size(); ++b) {
         const std::int32_t parent = branches[b].parent;
-        if (parent >= 0) branches[b].parent_at = std::min(1.0, arc[start[b]] / length[parent]);
+        if (parent >= 0) branches[b].parent_at = std::min(1.0, from[b] / length[parent]);
     }
-    std::size_t lone = 0;
-    for (const std::int32_t i : order) lone += s.parent[i] < 0 && root_children[i] == 0;
     if (zero_length > 0)
         notes.lines.push_back(std::to_string(zero_length) + " segments without length joined to their parent");
     if (lone > 0) notes.lines.push_back(std::to_string(lone) + " roots without a segment left out");

@@ -43,6 +43,7 @@ Splines read_speedtree(std::string_view content, const ImportOptions& options, I
     if (file.bones.empty() && !file.has_spines())
         throw InputError(options.name, "has no skeleton (neither Spine nor Bone); export it from SpeedTree as Raw XML "
                                        "with spines or bones switched on");
+    options.let_go();
     ImportedTree tree;
     tree.name = tree_name(file);
     tree.source = "SpeedTree raw XML" + (file.version.empty() ? "" : " " + file.version) + " " + options.name +

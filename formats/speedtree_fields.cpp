@@ -12,12 +12,20 @@ std::optional<double> comma_number(std::string_view token) {
 
 } // namespace
 
+std::size_t Fields::offset(const pugi::xml_node& node) const {
+    return begin_ + std::size_t(std::max(std::ptrdiff_t(0), node.offset_debug()));
+}
+
 std::size_t Fields::line(const pugi::xml_node& node) const {
-    return line_of(content_, std::size_t(std::max(std::ptrdiff_t(0), node.offset_debug())));
+    return line_of(content_, offset(node));
 }
 
 void Fields::refuse(const pugi::xml_node& node, const std::string& message) const {
-    throw InputError(file_line(name_, line(node)), std::string("<") + node.name() + "> " + message);
+    refuse(node.name(), offset(node), message);
+}
+
+void Fields::refuse(const char* element, std::size_t offset, const std::string& message) const {
+    throw InputError(file_line(name_, line_of(content_, offset)), std::string("<") + element + "> " + message);
 }
 
 template <class T, class Parse>

@@ -11,10 +11,14 @@ namespace bough::speedtree {
 
 class Fields {
 public:
-    Fields(std::string_view content, const std::string& name) : content_(content), name_(name) {}
+    // Of nodes read from the content's bytes from `begin` on.
+    Fields(std::string_view content, const std::string& name, std::size_t begin = 0)
+        : content_(content), name_(name), begin_(begin) {}
 
+    std::size_t offset(const pugi::xml_node&) const; // in the content
     std::size_t line(const pugi::xml_node&) const;
     [[noreturn]] void refuse(const pugi::xml_node&, const std::string& message) const; // "<Bone> ..." at its line
+    [[noreturn]] void refuse(const char* element, std::size_t offset, const std::string& message) const;
 
     // Attributes. A missing one is an error unless a fallback is given.
     double number(const pugi::xml_node&, const char* attribute) const;
@@ -40,6 +44,7 @@ private:
 
     std::string_view content_;
     std::string name_;
+    std::size_t begin_;
 };
 
 } // namespace bough::speedtree

@@ -1,7 +1,7 @@
 #include "speedtree_xml.h"
 #include "imported_tree.h"
 #include "plain_text.h"
-#include "speedtree_fields.h"
+#include "speedtree_elements.h"
 #include <algorithm>
 #include <unordered_map>
 
@@ -10,21 +10,32 @@ namespace {
 
 using Index = std::unordered_map<std::int64_t, std::int32_t>;
 
+// Where an element stands in the file, and the parent it names.
+struct Link {
+    std::size_t offset;
+    std::int64_t parent;
+};
+
+Link link_of(const pugi::xml_node& node, const Fields& f) {
+    return {f.offset(node), f.integer(node, "ParentID", -1)};
+}
+
 // Turns ParentIDs into indices and refuses missing parents and cycles. -1 is a root.
 template <class T>
-void link_parents(std::vector<T>& items, const std::vector<pugi::xml_node>& nodes, const Index& index,
+void link_parents(std::vector<T>& items, const std::vector<Link>& links, const Index& index, const char* element,
                   const Fields& f) {
     std::vector<std::int32_t> parent(items.size(), -1);
     for (std::size_t i = 0; i < items.size(); ++i) {
-        const std::int64_t id = f.integer(nodes[i], "ParentID", -1);
+        const std::int64_t id = links[i].parent;
         if (id == -1) continue;
         const auto found = index.find(id);
         if (found == index.end())
-            f.refuse(nodes[i], "ParentID " + std::to_string(id) + " does not exist, expected the ID of another or -1");
+            f.refuse(element, links[i].offset,
+                     "ParentID " + std::to_string(id) + " does not exist, expected the ID of another or -1");
         items[i].parent = parent[i] = found->second;
     }
     const std::int32_t cycle = parents_first(parent).cycle;
-    if (cycle >= 0) f.refuse(nodes[cycle], "is its own ancestor, expected a tree");
+    if (cycle >= 0) f.refuse(element, links[cycle].offset, "is its own ancestor, expected a tree");
 }
 
 void add_id(Index& index, std::int64_t id, std::size_t at, const pugi::xml_node& node, const Fields& f) {
@@ -50,16 +61,18 @@ Bone parse_bone(const pugi::xml_node& node, const Fields& f) {
     return bone;
 }
 
-Index parse_bones(const pugi::xml_node& root, const Fields& f, File& file) {
+Index parse_bones(const Elements& elements, const Fields& f, File& file) {
     Index index;
-    std::vector<pugi::xml_node> nodes;
-    for (const pugi::xml_node& node : root.child("Bones").children("Bone")) {
-        file.bones.push_back(parse_bone(node, f));
-        add_id(index, file.bones.back().id, nodes.size(), node, f);
-        nodes.push_back(node);
-    }
-    if (root.child("Bones")) expect_count(root.child("Bones"), nodes.size(), f);
-    link_parents(file.bones, nodes, index, f);
+    std::vector<Link> links;
+    elements.each("Bones", "Bone", [&](const pugi::xml_node& node, const Fields& of_node) {
+        file.bones.push_back(parse_bone(node, of_node));
+        add_id(index, file.bones.back().id, links.size(), node, of_node);
+        links.push_back(link_of(node, of_node));
+    });
+    elements.section("Bones", [&](const pugi::xml_node& bones, const Fields& of_bones) {
+        expect_count(bones, links.size(), of_bones);
+    });
+    link_parents(file.bones, links, index, "Bone", f);
     return index;
 }
 
@@ -118,28 +131,28 @@ void parse_leaves(const pugi::xml_node& node, std::int32_t object, const Index& 
     }
 }
 
-void parse_objects(const pugi::xml_node& root, const Index& bones, const Fields& f, File& file) {
+void parse_objects(const Elements& elements, const Index& bones, const Fields& f, File& file) {
     Index index;
-    std::vector<pugi::xml_node> nodes;
-    for (const pugi::xml_node& node : root.child("Objects").children("Object")) {
+    std::vector<Link> links;
+    elements.each("Objects", "Object", [&](const pugi::xml_node& node, const Fields& of_node) {
         Object object;
-        object.id = f.integer(node, "ID");
+        object.id = of_node.integer(node, "ID");
         object.name = node.attribute("Name").value();
-        const Vec3 origin = f.vector(node, "Abs", Vec3::Zero());
-        if (const pugi::xml_node spine = node.child("Spine")) parse_spine(spine, origin, f, object);
+        const Vec3 origin = of_node.vector(node, "Abs", Vec3::Zero());
+        if (const pugi::xml_node spine = node.child("Spine")) parse_spine(spine, origin, of_node, object);
         const pugi::xml_node points = node.child("Points");
-        if (points && !object.spine.empty() && file.bones.empty()) parse_surface(points, origin, f, object);
+        if (points && !object.spine.empty() && file.bones.empty()) parse_surface(points, origin, of_node, object);
         for (const pugi::xml_node& leaves : node.children("LeafReferences"))
-            parse_leaves(leaves, std::int32_t(nodes.size()), bones, f, file);
-        add_id(index, object.id, nodes.size(), node, f);
+            parse_leaves(leaves, std::int32_t(links.size()), bones, of_node, file);
+        add_id(index, object.id, links.size(), node, of_node);
         file.objects.push_back(std::move(object));
-        nodes.push_back(node);
-    }
-    link_parents(file.objects, nodes, index, f);
+        links.push_back(link_of(node, of_node));
+    });
+    link_parents(file.objects, links, index, "Object", f);
 }
 
-void parse_meshes(const pugi::xml_node& root, const Fields& f, File& file) {
-    for (const pugi::xml_node& node : root.child("Meshes").children("Mesh")) {
+void parse_meshes(const Elements& elements, File& file) {
+    elements.each("Meshes", "Mesh", [&](const pugi::xml_node& node, const Fields& f) {
         Mesh mesh;
         mesh.id = f.integer(node, "ID");
         for (const pugi::xml_node& lod : node.children("LOD")) {
@@ -155,7 +168,7 @@ void parse_meshes(const pugi::xml_node& root, const Fields& f, File& file) {
             break;
         }
         file.meshes.push_back(mesh);
-    }
+    });
 }
 
 // In lower case, without what goes before and after the word: " Z-Up" -> "z-up".
@@ -207,26 +220,18 @@ bool File::has_spines() const {
 }
 
 File parse(std::string_view content, const std::string& name) {
+    const Elements elements(content, name);
     const Fields f(content, name);
-    pugi::xml_document document;
-    const pugi::xml_parse_result result =
-        document.load_buffer(content.data(), content.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!result)
-        throw InputError(file_line(name, line_of(content, std::size_t(std::max(std::ptrdiff_t(0), result.offset)))),
-                         std::string("XML is broken (") + result.description() +
-                             "), expected a whole SpeedTree raw XML file");
-    const pugi::xml_node root = document.child("SpeedTreeRaw");
-    if (!root)
-        throw InputError(name,
-                         "root element is " + quoted(document.document_element().name()) + ", expected SpeedTreeRaw");
     File file;
-    file.unit = stated_unit(root, f);
-    file.up = stated_up(root, f);
-    file.version = stated_version(root);
-    file.source = root.attribute("Source").value();
-    const Index bones = parse_bones(root, f, file);
-    parse_objects(root, bones, f, file);
-    parse_meshes(root, f, file);
+    elements.root([&](const pugi::xml_node& root, const Fields& of_root) {
+        file.unit = stated_unit(root, of_root);
+        file.up = stated_up(root, of_root);
+        file.version = stated_version(root);
+        file.source = root.attribute("Source").value();
+    });
+    const Index bones = parse_bones(elements, f, file);
+    parse_objects(elements, bones, f, file);
+    parse_meshes(elements, file);
     return file;
 }
 

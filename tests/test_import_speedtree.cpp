@@ -249,6 +249,59 @@ TEST_CASE("very many spines that begin at one place are found by their bones") {
     CHECK(in.splines.branches() == count + 1);
 }
 
+TEST_CASE(
+    "spines without radii have those of the bones that begin nearest to them, as a search through all finds them") {
+    // Spines side by side that fill a wide, deep and low space, many of them at one place or in one plane; each has a bone, which
+    // begins a little off and says a thickness of its own.
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> unit(0, 1);
+    constexpr int count = 400;
+    std::vector<Vec3> start;
+    std::string objects, bones;
+    std::vector<Vec3> bone_start;
+    const auto number = [](double v) { return std::to_string(v); }; // of six places, which are read back
+    const auto rounded = [&](double v) { return std::stod(number(v)); };
+    for (int i = 0; i < count; ++i) {
+        Vec3 p(rounded(9 * unit(random)), rounded(5 * unit(random)), rounded(2 * unit(random)));
+        if (i % 4 == 1) p.x() = 3;
+        if (i % 4 == 2) p = start[random() % start.size()];
+        start.push_back(p);
+        bone_start.emplace_back(rounded(p.x() + 0.3 * unit(random)), rounded(p.y()),
+                                rounded(p.z() + 0.3 * unit(random)));
+        const Vec3& b = bone_start.back();
+        objects += "<Object ID=\"" + std::to_string(i) + "\" AbsX=\"" + number(p.x()) + "\" AbsY=\"" + number(p.y()) +
+                   "\" AbsZ=\"" + number(p.z()) + "\"><Spine><X>0 0</X><Y>0 0</Y><Z>0 1</Z></Spine></Object>";
+        bones += "<Bone ID=\"" + std::to_string(i) + "\" ParentID=\"-1\" Radius=\"" + number(0.01 + 0.001 * i) +
+                 "\" StartX=\"" + number(b.x()) + "\" StartY=\"" + number(b.y()) + "\" StartZ=\"" + number(b.z()) +
+                 "\" EndX=\"" + number(b.x()) + "\" EndY=\"" + number(b.y()) + "\" EndZ=\"" + number(b.z() + 1) +
+                 "\"/>";
+    }
+    ImportOptions options;
+    options.unit = 1;
+    options.up = 'y';
+    const Splines s =
+        imported("<SpeedTreeRaw><Objects>" + objects + "</Objects><Bones>" + bones + "</Bones></SpeedTreeRaw>", "x.xml",
+                 options)
+            .splines;
+    REQUIRE(s.branches() == count);
+    // Of bones that are nearest to one spine the last one's radius counts.
+    std::vector<double> radius(count, 0);
+    for (int i = 0; i < count; ++i) {
+        int nearest = 0;
+        for (int k = 0; k < count; ++k)
+            if ((start[k] - bone_start[i]).norm() < (start[nearest] - bone_start[i]).norm()) nearest = k;
+        radius[nearest] = 0.01 + 0.001 * i;
+    }
+    std::size_t told = 0;
+    for (int k = 0; k < count; ++k) {
+        if (radius[k] == 0) continue; // by the pipe rule
+        ++told;
+        const std::int32_t first = s.first_point[k];
+        CHECK(s.radius[first] == Approx(radius[k]));
+    }
+    CHECK(told > 200);
+}
+
 TEST_CASE("the young maple of data is a tree of three levels with leaves") {
     const Imported in = imported(content_of(std::string(BOUGH_DATA_DIR) + "/young_maple.xml"), "young_maple.xml");
     const Splines& s = in.splines;

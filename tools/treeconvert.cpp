@@ -2,6 +2,7 @@
 #include "common.h"
 #include "formats/dynamic_wind.h"
 #include "formats/import.h"
+#include "formats/mapped.h"
 #include "formats/material.h"
 #include "formats/obj.h"
 #include "formats/plain_text.h"
@@ -131,10 +132,12 @@ void list_materials() {
 }
 
 Splines read_splines_of(const Options& o, ImportNotes& notes) {
-    const std::string content = read_input(o.input);
+    const MappedInput file(o.input);
+    const std::string_view content = file.content();
     ImportOptions options;
     options.name = input_name(o.input);
     options.folder = folder_of(o.input);
+    options.taken_in = [&file] { file.give_back(); };
     if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
         throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + options.name +
                          " is a bough document, which is in metres and Y up");

@@ -1,6 +1,7 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
 #include "formats/import.h"
+#include "formats/mapped.h"
 #include "formats/plain_text.h"
 #include "formats/skeleton_writer.h"
 #include "formats/splines.h"
@@ -82,7 +83,8 @@ void leave_out(Splines& splines, const GrowthOptions& o, std::vector<std::string
 }
 
 Splines imported(Options& o) {
-    const std::string content = read_input(o.import);
+    const MappedInput file(o.import);
+    const std::string_view content = file.content();
     if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
         throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + input_name(o.import) +
                          " is a bough document, which is in metres and Y up");
@@ -91,6 +93,7 @@ Splines imported(Options& o) {
     if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
     options.name = input_name(o.import);
     options.folder = folder_of(o.import);
+    options.taken_in = [&file] { file.give_back(); };
     ImportNotes notes;
     Splines splines = import_splines(content, options, notes);
     if (o.stats) std::cerr << import_statistics(splines, notes);
