@@ -1,4 +1,5 @@
 #include "armature.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include "speedtree_bones.h"
 #include <algorithm>
@@ -136,9 +137,11 @@ void make_ends(Rods& r, int axis, ImportNotes& notes) {
         set_end(bone, bone.start + length * direction[b]);
     }
     if (by_mesh > 0)
-        notes.lines.push_back(std::to_string(by_mesh) + " bones without an end: they reach as far as their vertices");
+        notes.lines.push_back(counted(by_mesh, "bone without an end: it reaches as far as its vertices",
+                                      "bones without an end: they reach as far as their vertices"));
     if (by_parent > 0)
-        notes.lines.push_back(std::to_string(by_parent) + " bones without an end: as long as the bone they go on from");
+        notes.lines.push_back(counted(by_parent, "bone without an end: as long as the bone it goes on from",
+                                      "bones without an end: as long as the bone they go on from"));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "armature.h"
 #include "imported_tree.h"
+#include "lib/model/counted.h"
 #include "line_graph.h"
 #include "pipe_rule.h"
 #include "speedtree_bones.h"
@@ -74,7 +75,7 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
     if (bones && scene.mesh_encoded)
         notes.lines.push_back("the mesh is compressed or quantized and was not read: radii come from the bones alone");
     if (bones && scene.skinned_meshes == 0 && !scene.line.empty())
-        notes.lines.push_back(std::to_string(scene.line.size()) + " lines not read beside the bones");
+        notes.lines.push_back(counted(scene.line.size(), "line", "lines") + " not read beside the bones");
     for (speedtree::Bone& bone : armature.bones) {
         if (!bone.start.allFinite() || !bone.end.allFinite())
             throw InputError(options.name, "has a bone whose place is not finite");

@@ -1,4 +1,5 @@
 #include "armature.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
 
@@ -136,8 +137,8 @@ std::size_t unnamed_chains(const Choice& c) {
     return std::size_t(std::count(in_a_row.begin(), in_a_row.end(), true));
 }
 
-void note(std::size_t count, const char* what, ImportNotes& notes) {
-    if (count > 0) notes.lines.push_back(std::to_string(count) + what);
+void note(std::size_t count, const char* one, const char* many, ImportNotes& notes) {
+    if (count > 0) notes.lines.push_back(counted(count, one, many));
 }
 
 } // namespace
@@ -178,10 +179,13 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
             chosen.bone.push_back(std::int32_t(i));
         }
     }
-    note(frames, " nodes taken as the armature's frame, no bone: what is below begins beside them", notes);
-    note(idle, " bones that move no vertex, nor anything below them, left out (controls)", notes);
-    note(unnamed, " nodes in a row that no skin names left out: bones of an armature without a mesh?", notes);
-    note(neutral + alone, " bones that stand alone left out", notes);
+    note(frames, "node taken as the armature's frame, no bone: what is below begins beside it",
+         "nodes taken as the armature's frame, no bone: what is below begins beside them", notes);
+    note(idle, "bone that moves no vertex, nor anything below it, left out (control)",
+         "bones that move no vertex, nor anything below them, left out (controls)", notes);
+    note(unnamed, "node that no skin names left out: a bone of an armature without a mesh?",
+         "nodes in a row that no skin names left out: bones of an armature without a mesh?", notes);
+    note(neutral + alone, "bone that stands alone left out", "bones that stand alone left out", notes);
     return chosen;
 }
 

@@ -1,6 +1,7 @@
 #include "driven_model.h"
 #include "gltf_document.h"
 #include "gltf_nodes.h"
+#include "lib/model/counted.h"
 #include "lib/model/drawn_pose.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -109,10 +110,13 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
     }
     keys_ = std::make_unique<JointKeys>(above, drawn);
     if (unequal > 0)
-        notes.push_back(model_.name + ": " + std::to_string(unequal) +
-                        " bones hang on nodes scaled unequally: their rotations are only near");
+        notes.push_back(model_.name + ": " +
+                        counted(unequal, "bone hangs on a node scaled unequally: its rotation is only near",
+                                "bones hang on nodes scaled unequally: their rotations are only near"));
     if (const std::size_t still = still_meshes(model_.document->json, nodes, is_driven))
-        notes.push_back(model_.name + ": " + std::to_string(still) + " meshes stay still: no bone carries them");
+        notes.push_back(
+            model_.name + ": " +
+            counted(still, "mesh stays still: no bone carries it", "meshes stay still: no bone carries them"));
 }
 
 void DrivenModel::clear_matrix(std::size_t bone) {

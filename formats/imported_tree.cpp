@@ -1,5 +1,6 @@
 #include "imported_tree.h"
 #include "leaf_hosts.h"
+#include "lib/model/counted.h"
 #include "placed_import.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -112,8 +113,10 @@ Ordered order_branches(std::vector<ImportedBranch>&& branches, ImportNotes& note
         result.index_of[i] = std::int32_t(result.branches.size());
         result.branches.push_back(std::move(b));
     }
-    if (repeated > 0) notes.lines.push_back(std::to_string(repeated) + " points that repeat the one before left out");
-    if (empty > 0) notes.lines.push_back(std::to_string(empty) + " branches without length left out");
+    if (repeated > 0)
+        notes.lines.push_back(counted(repeated, "point that repeats the one before left out",
+                                      "points that repeat the one before left out"));
+    if (empty > 0) notes.lines.push_back(counted(empty, "branch", "branches") + " without length left out");
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "loose_curves.h"
 #include "attach.h"
+#include "lib/model/counted.h"
 #include "lib/model/polyline.h"
 #include "plain_text.h"
 #include "up_axis.h"
@@ -15,7 +16,7 @@ void leave_out_points(Curves& curves, const std::string& name, ImportNotes& note
         return std::all_of(c.point.begin(), c.point.end(), [&](const Vec3& p) { return p == c.point.front(); });
     };
     if (const std::size_t count = std::erase_if(curves, is_point))
-        notes.lines.push_back(std::to_string(count) + " curves without length left out");
+        notes.lines.push_back(counted(count, "curve", "curves") + " without length left out");
     if (curves.empty()) throw InputError(name, "holds no curve with a length, expected at least one");
 }
 
@@ -154,8 +155,8 @@ char join_curves(Curves& curves, char up, CurveBase base, const std::string& nam
         std::reverse(curves[i].radius.begin(), curves[i].radius.end());
     }
     if (attached > 0)
-        notes.lines.push_back(std::to_string(attached) +
-                              " curves attached to the nearest branch, as the file names no " +
+        notes.lines.push_back(counted(attached, "curve", "curves") +
+                              " attached to the nearest branch, as the file names no " +
                               "parents, over a gap of up to " + shown(gap));
     return up;
 }

@@ -1,4 +1,5 @@
 #include "skeleton.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 
 namespace bough {
@@ -156,8 +157,9 @@ std::vector<ImportedBranch> branches_of(Skeleton&& s, const std::string& name, I
     std::size_t lone = 0;
     for (const std::int32_t i : order) lone += s.parent[i] < 0 && root_children[i] == 0;
     if (zero_length > 0)
-        notes.lines.push_back(std::to_string(zero_length) + " segments without length joined to their parent");
-    if (lone > 0) notes.lines.push_back(std::to_string(lone) + " roots without a segment left out");
+        notes.lines.push_back(counted(zero_length, "segment without length joined to its parent",
+                                      "segments without length joined to their parent"));
+    if (lone > 0) notes.lines.push_back(counted(lone, "root", "roots") + " without a segment left out");
     return branches;
 }
 

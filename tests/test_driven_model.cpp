@@ -154,7 +154,7 @@ TEST_CASE("animations of other nodes stay, those of the bones are named as left 
                            [&](const std::string& line) { return line.find(text) != std::string::npos; });
     };
     CHECK(noted("left out for the new one: \"sway\""));
-    CHECK(noted("1 meshes stay still"));
+    CHECK(noted("1 mesh stays still"));
     REQUIRE(read.lines.size() == 1);
     CHECK(read.lines[0].find("\"gone.png\"") != std::string::npos);
     const Json& image = glb.json["images"][0];

@@ -66,8 +66,8 @@ TEST_CASE("an armature with its mesh: a mark, a bone that begins midway, a contr
     // The four corners of the ring at each bone's start stand this far off; at tips the taper goes on.
     const std::vector<double> radius{0.1, 0.08, 0.06, 0.04, 0.03, 0.0225};
     for (std::size_t k = 0; k < radius.size(); ++k) CHECK(s.radius[k] == Approx(radius[k]).epsilon(1e-6));
-    CHECK(in.notes_hold("1 bones that move no vertex"));
-    CHECK(in.notes_hold("1 bones without an end: they reach as far as their vertices"));
+    CHECK(in.notes_hold("1 bone that moves no vertex"));
+    CHECK(in.notes_hold("1 bone without an end: it reaches as far as its vertices"));
     CHECK(in.notes_hold("radii of 4 of 4 bones measured"));
     CHECK(in.notes.lines.size() == 3); // unit and up axis are the format's
 }
@@ -94,7 +94,7 @@ TEST_CASE("where the file says nothing of joints, a topmost node whose bones beg
         json["nodes"][1]["translation"] = {3, 0, 1};
     });
     const Imported in = imported(bare, "bare.gltf");
-    CHECK(in.notes_hold("1 nodes taken as the armature's frame"));
+    CHECK(in.notes_hold("1 node taken as the armature's frame"));
     CHECK(near(in.splines.point[0], {3, 0, 1}, 1e-6));
     CHECK(in.splines.branches() == 2);
     // Without the mark the last bone of the trunk is as long as the one before it.

@@ -65,7 +65,7 @@ void is_the_fork(const Imported& in) {
     CHECK(s.radius[0] == Approx(0.2));
     CHECK(s.radius[1] == Approx(0.1)); // the thicker of the two at that place
     CHECK(s.radius[2] == Approx(0.05));
-    CHECK(in.notes_hold("1 points welded"));
+    CHECK(in.notes_hold("1 point welded"));
 }
 
 } // namespace
@@ -115,7 +115,7 @@ TEST_CASE("PLY files without a skeleton are refused with advice, wrong ones with
     std::string mesh = replaced(good, "element edge 3\nproperty int vertex1\nproperty int vertex2",
                                 "element face 1\nproperty list uchar int vertex_indices");
     mesh.replace(mesh.find("1 0\n1 2\n4 3\n"), std::string::npos, "3 0 1 2\n");
-    CHECK(error_of(mesh, "x.ply").find("x.ply: is a mesh of 1 faces") == 0);
+    CHECK(error_of(mesh, "x.ply").find("x.ply: is a mesh of 1 face ") == 0);
     std::string cut = binary(false);
     cut.pop_back();
     CHECK(error_of(cut, "x.ply").find("x.ply: ends early at Vertex 4 of 5") == 0);

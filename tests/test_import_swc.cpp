@@ -18,7 +18,7 @@ TEST_CASE("an SWC skeleton with shuffled ids, a soma, two roots and a segment wi
     CHECK(s.radius[0] == 0.5);
     CHECK(s.radius[s.first_point[2]] == 0.25);
     CHECK(s.radius.back() == 0.1);
-    CHECK(in.notes_hold("1 outline nodes"));
+    CHECK(in.notes_hold("1 outline node"));
     CHECK(in.notes_hold("taken as Z"));
     CHECK(in.notes_hold("taken as m, because the tree is 7 units high"));
 }

@@ -11,6 +11,7 @@
 #include "import_stats.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
+#include "lib/model/counted.h"
 #include "lib/model/drawn_pose.h"
 #include "lib/model/split.h"
 #include "lib/model/sway.h"
@@ -152,12 +153,13 @@ SegmentOptions segment_options(const Options& o) {
 }
 
 void note_repairs(const SegmentReport& report, std::vector<std::string>& notes) {
-    const auto note = [&](std::int64_t count, const char* what) {
-        if (count > 0) notes.push_back(std::to_string(count) + what);
+    const auto note = [&](std::int64_t count, const char* one, const char* many) {
+        if (count > 0) notes.push_back(counted(count, one, many));
     };
-    note(report.merged_points, " near-coincident points merged");
-    note(report.dropped_branches, " branches without length left out, what grows on them moved to their parent");
-    note(report.thin_points, " radii raised to the least that has a mass");
+    note(report.merged_points, "near-coincident point merged", "near-coincident points merged");
+    note(report.dropped_branches, "branch without length left out, what grows on it moved to its parent",
+         "branches without length left out, what grows on them moved to their parent");
+    note(report.thin_points, "radius raised to the least that has a mass", "radii raised to the least that has a mass");
 }
 
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {

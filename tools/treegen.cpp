@@ -6,6 +6,7 @@
 #include "formats/splines.h"
 #include "growth.h"
 #include "import_stats.h"
+#include "lib/model/counted.h"
 #include <iostream>
 
 namespace {
@@ -62,7 +63,7 @@ void refuse_contradictions(const Options& o) {
 // Leaves and fruit come only when asked for, from a file as from growth; what was left out is said.
 void leave_out(Splines& splines, const GrowthOptions& o, std::vector<std::string>& notes) {
     if (!o.leaves && splines.leaves() > 0) {
-        notes.push_back(std::to_string(splines.leaves()) + " leaves left out (--leaves keeps them)");
+        notes.push_back(counted(splines.leaves(), "leaf", "leaves") + " left out (--leaves keeps them)");
         splines.leaf_branch.clear();
         splines.leaf_at.clear();
         splines.leaf_position.clear();
