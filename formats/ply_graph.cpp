@@ -169,7 +169,7 @@ private:
 };
 
 bool recognizes_ply(std::string_view content) {
-    return content.substr(0, 4) == "ply\n" || content.substr(0, 5) == "ply\r\n";
+    return content.starts_with("ply\n") || content.starts_with("ply\r");
 }
 
 Splines read_ply(std::string_view content, const ImportOptions& options, ImportNotes& notes) {

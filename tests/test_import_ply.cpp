@@ -76,6 +76,16 @@ TEST_CASE("a PLY skeleton in text and in both binary forms, with other types, na
     is_the_fork(little);
     CHECK(little.notes_hold("half of the vertices' \"diameter\""));
     is_the_fork(imported(binary(true), "x.ply"));
+    std::string cr = ascii(); // old Mac programs; in a binary file only the header has lines
+    std::replace(cr.begin(), cr.end(), '\n', '\r');
+    is_the_fork(imported(cr, "x.ply"));
+    for (const bool big : {false, true}) {
+        std::string bytes = binary(big);
+        const std::size_t data = bytes.find("end_header\r\n") + 12;
+        bytes.erase(std::remove(bytes.begin(), bytes.begin() + std::ptrdiff_t(data), '\n'),
+                    bytes.begin() + std::ptrdiff_t(data));
+        is_the_fork(imported(bytes, "x.ply"));
+    }
     std::string crlf;
     for (const char c : ascii()) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
     is_the_fork(imported(crlf, "x.ply"));
