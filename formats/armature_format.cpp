@@ -3,6 +3,7 @@
 #include "lib/model/counted.h"
 #include "line_graph.h"
 #include "pipe_rule.h"
+#include "plain_text.h"
 #include "speedtree_bones.h"
 
 namespace bough {
@@ -34,7 +35,11 @@ ImportedTree tree_of_line_meshes(ModelScene& scene, const Mat3& axes, const std:
         if (!p.allFinite()) throw InputError(name, "has a line whose place is not finite");
         p = axes * p;
     }
-    return tree_of_lines({std::move(scene.line_point), {}, std::move(scene.line)}, 'y', name, notes);
+    for (const double r : scene.line_radius)
+        if (!(r >= 0) || std::isinf(r))
+            throw InputError(name, "has a line of radius " + shown(r) + ", expected 0 or more");
+    LineGraph graph{std::move(scene.line_point), std::move(scene.line_radius), std::move(scene.line)};
+    return tree_of_lines(std::move(graph), 'y', name, notes);
 }
 
 // The last steps of all models; `tree` stands along +Y.

@@ -15,7 +15,10 @@ struct GltfJoints {
 
 // Leaves nodes, meshes, skins and their arrays; names each node "#" and its index, because assimp knows joints by name
 // and names need not differ. Meshes in a form that assimp does not decode (Draco, meshopt, quantized positions) go too.
+// Radii of lines (a custom attribute _RADIUS, or _DIAMETER, _WIDTH, _THICKNESS of twice that, in upper or lower case),
+// which assimp does not know, become x of TEXCOORD_0. Indices of lines are looked at, as assimp passes over wrong ones;
+// matrices of skins that leave them out become identities, as the format has it.
 // Throws Json exceptions for types that are wrong, std::out_of_range for indices.
-GltfJoints cut_down(nlohmann::ordered_json&);
+GltfJoints cut_down(GltfDocument&);
 
 } // namespace bough

@@ -29,9 +29,11 @@ struct ModelScene {
     // Vertices of skinned meshes in that pose, and the node that moves each most.
     std::vector<Vec3> vertex;
     std::vector<std::int32_t> vertex_node;
+    std::vector<Vec3> vertex_by_node; // the same as the mesh's own node places them; empty: all there already
 
     // Line meshes, in that pose.
     std::vector<Vec3> line_point;
+    std::vector<double> line_radius; // [file unit] of each point; 0: none stated
     std::vector<std::array<std::int32_t, 2>> line;
 
     // Of our own files: the wood that the joints hold, in that pose; leaves, petals and fruit beside it. Joints without

@@ -21,7 +21,9 @@ std::string bytes_of(const ModelScene& s) {
     pack_all<double, 3>(bytes, s.tip);
     pack_all<double, 3>(bytes, s.vertex);
     pack_all<std::int32_t, 1>(bytes, s.vertex_node);
+    pack_all<double, 3>(bytes, s.vertex_by_node);
     pack_all<double, 3>(bytes, s.line_point);
+    pack_all<double, 1>(bytes, s.line_radius);
     pack_all<std::int32_t, 2>(bytes, s.line);
     pack_all<double, 10>(bytes, s.own_rod);
     return bytes + names;
@@ -44,7 +46,9 @@ ModelScene model_scene_of(const std::string& bytes) {
     unpack_all<double, 3>(bytes, from, s.tip);
     unpack_all<double, 3>(bytes, from, s.vertex);
     unpack_all<std::int32_t, 1>(bytes, from, s.vertex_node);
+    unpack_all<double, 3>(bytes, from, s.vertex_by_node);
     unpack_all<double, 3>(bytes, from, s.line_point);
+    unpack_all<double, 1>(bytes, from, s.line_radius);
     unpack_all<std::int32_t, 2>(bytes, from, s.line);
     unpack_all<double, 10>(bytes, from, s.own_rod);
     for (std::size_t i = 0; i < s.parent.size(); ++i) {
