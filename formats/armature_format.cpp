@@ -22,11 +22,14 @@ Mat3 to_y_up(const ModelScene& scene, const ImportOptions& options) {
 }
 
 [[noreturn]] void refuse(const ModelScene& scene, AssimpKind kind, const std::string& name) {
-    throw InputError(name, std::string(kind == AssimpKind::fbx ? "is an " : "is a ") + model_kind_name(kind) +
-                               " model " +
-                               (scene.triangles > 0 ? "of a mesh without bones or lines" : "without bones or lines") +
-                               ", which says nothing of where branches run; export it with its armature, or the "
-                               "tree's curves as lines");
+    throw InputError(
+        name, std::string(kind == AssimpKind::fbx ? "is an " : "is a ") + model_kind_name(kind) + " model " +
+                  (scene.triangles > 0 ? "of a mesh without bones or lines" : "without bones or lines") +
+                  (scene.other_scenes > 0 ? " (its default scene; " + std::to_string(scene.other_scenes) +
+                                                (scene.other_scenes == 1 ? " other is" : " others are") + " not read)"
+                                          : "") +
+                  ", which says nothing of where branches run; export it with its armature, or the "
+                  "tree's curves as lines");
 }
 
 // Line meshes, as a tree that stands along +Y.
@@ -76,6 +79,8 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
     if (!scene.own_rod.empty()) return own_tree(scene, axes, options, notes);
     Armature armature = armature_of(scene, axes.transpose() * Vec3::UnitY(), notes);
     const bool bones = !armature.bones.empty();
+    if (scene.other_scenes > 0)
+        notes.lines.push_back(counted(scene.other_scenes, "scene", "scenes") + " beside the default one not read");
     if (!bones && scene.line.empty()) refuse(scene, kind, options.name);
     if (bones && scene.mesh_encoded)
         notes.lines.push_back("the mesh is compressed or quantized and was not read: radii come from the bones alone");

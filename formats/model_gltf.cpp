@@ -98,6 +98,19 @@ void complete_skin(GltfDocument& document, std::size_t number) {
     document.json["skins"][number]["inverseBindMatrices"] = added;
 }
 
+// A file may leave its scenes out; assimp wants one.
+void add_missing_scene(Json& json) {
+    if (json.contains("scenes") && !json["scenes"].empty()) return;
+    std::vector<char> root(json["nodes"].size(), true);
+    for (const Json& node : json["nodes"])
+        for (const Json& child : node.value("children", Json::array())) root.at(child.get<std::size_t>()) = false;
+    Json nodes = Json::array();
+    for (std::size_t i = 0; i < root.size(); ++i)
+        if (root[i]) nodes.push_back(i);
+    json["scenes"] = Json::array({Json{{"nodes", std::move(nodes)}}});
+    json["scene"] = 0;
+}
+
 } // namespace
 
 GltfJoints cut_down(GltfDocument& document) {
@@ -111,6 +124,8 @@ GltfJoints cut_down(GltfDocument& document) {
             found.any = true;
         }
     found.own = own_rods(json["nodes"]);
+    add_missing_scene(json);
+    found.other_scenes = json["scenes"].size() - 1;
     found.mesh_encoded = any_encoded(json);
     for (const char* other : {"animations", "materials", "textures", "images", "samplers", "cameras", "extensions",
                               "extensionsUsed", "extensionsRequired", "extras"})

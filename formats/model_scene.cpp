@@ -233,6 +233,7 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
             throw InputError(options.name, std::string("is no glTF 2.0: ") + error.what());
         }
         out.mesh_encoded = joints.mesh_encoded;
+        out.other_scenes = static_cast<std::int64_t>(joints.other_scenes);
         glb = glb_of(document, options.name);
         content = glb;
         kind = AssimpKind::glb;

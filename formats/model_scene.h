@@ -42,6 +42,7 @@ struct ModelScene {
     std::int64_t own_others = 0;
 
     std::int64_t triangles = 0, skinned_meshes = 0, animations = 0;
+    std::int64_t other_scenes = 0; // of a glTF file, not read
     bool mesh_encoded = false; // glTF with a mesh in a form that is not decoded here: it was left out
     Mat3 to_y_up = Mat3::Identity();
     double unit = 0; // [m] 0: the file states none

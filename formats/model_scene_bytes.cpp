@@ -10,9 +10,9 @@ std::string bytes_of(const ModelScene& s) {
     for (const std::string& name : s.name) names += valid_utf8(name) + '\n';
     pack(bytes, s.to_y_up.data(), 9);
     pack(bytes, &s.unit, 1);
-    const std::int64_t counts[6] = {s.triangles,    s.skinned_meshes,  s.animations,
-                                    s.mesh_encoded, s.open_are_joints, s.own_others};
-    pack(bytes, counts, 6);
+    const std::int64_t counts[7] = {s.triangles,       s.skinned_meshes, s.animations,  s.mesh_encoded,
+                                    s.open_are_joints, s.own_others,     s.other_scenes};
+    pack(bytes, counts, 7);
     pack_all<std::int32_t, 1>(bytes, s.parent);
     pack_all<std::uint8_t, 1>(bytes, s.role);
     pack_all<std::int32_t, 1>(bytes, s.index);
@@ -34,10 +34,11 @@ ModelScene model_scene_of(const std::string& bytes) {
     std::size_t from = 0;
     unpack(bytes, from, s.to_y_up.data(), 9);
     unpack(bytes, from, &s.unit, 1);
-    std::int64_t counts[6];
-    unpack(bytes, from, counts, 6);
+    std::int64_t counts[7];
+    unpack(bytes, from, counts, 7);
     s.triangles = counts[0], s.skinned_meshes = counts[1], s.animations = counts[2];
     s.mesh_encoded = counts[3] != 0, s.open_are_joints = counts[4] != 0, s.own_others = counts[5];
+    s.other_scenes = counts[6];
     unpack_all<std::int32_t, 1>(bytes, from, s.parent);
     unpack_all<std::uint8_t, 1>(bytes, from, s.role);
     unpack_all<std::int32_t, 1>(bytes, from, s.index);

@@ -300,6 +300,24 @@ TEST_CASE("lines of glTF: radii of a custom attribute, vertices that are not the
          "mesh 0, primitive 1: a line names vertex 6, expected 0 to 5");
 }
 
+TEST_CASE("scenes: the default one is read, others are told of, without any all nodes are") {
+    const std::string good = fixture("twig_armature.gltf");
+    const auto with_other = [&](int shown) {
+        return changed(good, [shown](Json& json) {
+            json["scenes"].push_back(Json{{"nodes", {int(json["nodes"].size())}}});
+            json["nodes"].push_back(Json{{"name", "pot"}, {"mesh", 0}});
+            json["scene"] = shown;
+        });
+    };
+    const Imported first = imported(with_other(0), "s.gltf", beside_fixtures());
+    CHECK(first.splines.branches() == 2);
+    CHECK(first.notes_hold("1 scene beside the default one not read"));
+    CHECK(error_beside(with_other(1), "s.gltf").find("(its default scene; 1 other is not read)") != std::string::npos);
+    const std::string none = changed(good, [](Json& json) { json.erase("scenes"), json.erase("scene"); });
+    CHECK(imported(none, "s.gltf", beside_fixtures()).splines.point ==
+          imported(good, "s.gltf", beside_fixtures()).splines.point);
+}
+
 TEST_CASE("nodes in a row that no skin names are told of") {
     const std::string beside = changed(fixture("twig_armature.gltf"), [](Json& json) {
         const int first = int(json["nodes"].size());
@@ -336,7 +354,8 @@ TEST_CASE("damaged glTF is refused in one line") {
         CHECK(error.find(text) != std::string::npos);
     };
     says([](Json& j) { j["buffers"][0]["uri"] = "gone.bin"; }, "\"gone.bin\" is not beside the file");
-    says([](Json& j) { j["buffers"][0]["uri"] = "https://example.org/a.bin"; }, "not on this machine");
+    says([](Json& j) { j["buffers"][0]["uri"] = "https://example.org/a.bin"; }, "expected a relative path");
+    says([](Json& j) { j["buffers"][0]["uri"] = "/etc/passwd"; }, "expected a relative path");
     says([](Json& j) { j["buffers"][0]["uri"] = "data:;base64,A*"; }, "expected base64");
     says([](Json& j) { j["buffers"][0]["byteLength"] = 99999; }, "has 1576 bytes, expected 99999");
     says([](Json& j) { j["bufferViews"][0]["byteLength"] = 9999; }, "of a buffer of 1576");

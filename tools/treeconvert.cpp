@@ -100,6 +100,8 @@ void refuse_contradictions(const Options& o) {
             throw UsageError("--wind-groups and " + std::string(other == &o.mesh ? "--mesh" : "-o") +
                              " name the same file");
     if (!o.mesh.empty() && same_file(o.mesh, o.common.output)) throw UsageError("--mesh and -o name the same file");
+    refuse_overwriting({{"INPUT", o.input}, {"--material", o.material}},
+                       {{"-o", o.common.output}, {"--mesh", o.mesh}, {"--wind-groups", o.wind_groups}});
     if (!o.split) return;
     for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh),
                                      std::pair("--wind-groups", &o.wind_groups)}) {

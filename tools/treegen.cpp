@@ -54,6 +54,8 @@ void refuse_contradictions(const Options& o) {
     bough::refuse_contradictions(o.growth, !o.import.empty());
     if (o.strict && o.import.empty()) throw UsageError("--strict: only with --import");
     if (o.stats && o.import.empty()) throw UsageError("--stats: only with --import");
+    refuse_overwriting({{"--params", o.growth.params}, {"--envelope", o.growth.envelope.envelope}},
+                       {{"-o", o.common.output}});
     if (!o.import.empty() || !o.growth.envelope.envelope.empty()) return;
     if (!o.choice.units.empty() && o.growth.params.empty())
         throw UsageError("--units: only with --import, --envelope FILE or the preset of ez-tree, which has none");
@@ -82,11 +84,19 @@ void leave_out(Splines& splines, const GrowthOptions& o, std::vector<std::string
     }
 }
 
+std::string chosen_skeleton(const CommonOptions& common) {
+    if (!common.format.empty()) return common.format == "swc" || common.format == "treetools" ? common.format : "";
+    const std::string kind = ending(common.output);
+    return kind == ".swc" ? "swc" : kind == ".txt" ? "treetools" : "";
+}
+
 Splines imported(Options& o) {
     const std::string content = read_input(o.import);
     if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
         throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + input_name(o.import) +
                          " is a bough document, which is in metres and Y up");
+    if (!is_splines(content) || !chosen_skeleton(o.common).empty()) // splines may be written in their own place
+        refuse_overwriting({{"--import", o.import}}, {{"-o", o.common.output}});
     ImportOptions options;
     options.unit = unit_in_metres(o.choice.units);
     if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
@@ -99,12 +109,6 @@ Splines imported(Options& o) {
     for (const std::string& line : notes.lines) o.common.notes.push_back(options.name + ": " + line);
     leave_out(splines, o.growth, o.common.notes);
     return splines;
-}
-
-std::string chosen_skeleton(const CommonOptions& common) {
-    if (!common.format.empty()) return common.format == "swc" || common.format == "treetools" ? common.format : "";
-    const std::string kind = ending(common.output);
-    return kind == ".swc" ? "swc" : kind == ".txt" ? "treetools" : "";
 }
 
 void write(const Splines& splines, CommonOptions& common) {

@@ -30,7 +30,7 @@ refused 1 "--skin: only with -o FILE.glb" "${run[@]}" --skin "$twig" -o x.jsonl
 refused 1 "--sides: not with --skin" "${run[@]}" --skin "$twig" --sides 8 -o x.glb
 refused 1 "--max-joints: not with --skin" "${run[@]}" --skin "$twig" --max-joints 8 -o x.glb
 cp a.glb own.glb
-refused 1 "name the same file" "${run[@]}" --skin own.glb -o ./own.glb
+refused 1 "which --skin reads" "${run[@]}" --skin own.glb -o ./own.glb
 refused 2 "is no model that can be moved" "${run[@]}" --skin "$maple" -o x.glb
 refused 2 "has no armature" "${run[@]}" --skin "$top/data/fixtures/lines.gltf" -o x.glb
 refused 2 "none.glb" "${run[@]}" --skin none.glb -o x.glb
