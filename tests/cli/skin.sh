@@ -4,7 +4,7 @@
 twig=$top/data/fixtures/twig_armature.gltf
 expect 0 treeconvert "$twig" -o twig.json --stats
 grep -q "^splines     2 branches, 6 points" err || fail "--stats of an armature: $(cat err)"
-grep -q "controls" err || fail "a bone left out is not noted: $(cat err)"
+grep -q "(control)" err || fail "a bone left out is not noted: $(cat err)"
 refused 2 "(--strict)" treeconvert "$twig" -o strict.json --strict
 run=(treesim twig.json --wind storm --seconds 1)
 expect 0 "${run[@]}" --skin "$twig" -o a.glb
