@@ -1,4 +1,5 @@
 #include "armature.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include "speedtree_bones.h"
 #include <algorithm>
@@ -25,6 +26,7 @@ struct Rods {
     const ChosenJoints& chosen;
     Armature made;
     std::vector<std::vector<std::int32_t>> below; // of each bone: nodes of the bones and marks that hang on it
+    const std::vector<Vec3>* vertex = nullptr;    // to measure by: standing_mesh
 };
 
 // The axis along which most bones carry another one; -1: less than half of those that carry any.
@@ -80,13 +82,13 @@ std::vector<double> reach(const Rods& r, const std::vector<Vec3>& direction) {
     std::vector<std::int32_t> bone_of(r.scene.parent.size(), -1), count(r.made.bones.size(), 0);
     for (std::size_t b = 0; b < r.made.bones.size(); ++b) bone_of[std::size_t(r.made.node[b])] = std::int32_t(b);
     std::vector<double> farthest(r.made.bones.size(), 0);
-    for (std::size_t v = 0; v < r.scene.vertex.size(); ++v) {
+    for (std::size_t v = 0; v < r.vertex->size(); ++v) {
         const std::int32_t b = bone_of[std::size_t(r.scene.vertex_node[v])];
         if (b < 0) continue;
         ++count[std::size_t(b)];
         farthest[std::size_t(b)] =
             std::max(farthest[std::size_t(b)],
-                     (r.scene.vertex[v] - r.made.bones[std::size_t(b)].start).dot(direction[std::size_t(b)]));
+                     ((*r.vertex)[v] - r.made.bones[std::size_t(b)].start).dot(direction[std::size_t(b)]));
     }
     for (std::size_t b = 0; b < farthest.size(); ++b)
         if (count[b] < 3) farthest[b] = 0;
@@ -97,8 +99,8 @@ std::vector<double> reach(const Rods& r, const std::vector<Vec3>& direction) {
 std::vector<Vec3> toward_vertices(const Rods& r) {
     std::vector<Vec3> sum(r.scene.parent.size(), Vec3::Zero()), result;
     std::vector<double> count(r.scene.parent.size(), 0);
-    for (std::size_t v = 0; v < r.scene.vertex.size(); ++v) {
-        sum[std::size_t(r.scene.vertex_node[v])] += r.scene.vertex[v];
+    for (std::size_t v = 0; v < r.vertex->size(); ++v) {
+        sum[std::size_t(r.scene.vertex_node[v])] += (*r.vertex)[v];
         ++count[std::size_t(r.scene.vertex_node[v])];
     }
     for (std::size_t b = 0; b < r.made.bones.size(); ++b) {
@@ -136,9 +138,11 @@ void make_ends(Rods& r, int axis, ImportNotes& notes) {
         set_end(bone, bone.start + length * direction[b]);
     }
     if (by_mesh > 0)
-        notes.lines.push_back(std::to_string(by_mesh) + " bones without an end: they reach as far as their vertices");
+        notes.lines.push_back(counted(by_mesh, "bone without an end: it reaches as far as its vertices",
+                                      "bones without an end: they reach as far as their vertices"));
     if (by_parent > 0)
-        notes.lines.push_back(std::to_string(by_parent) + " bones without an end: as long as the bone they go on from");
+        notes.lines.push_back(counted(by_parent, "bone without an end: as long as the bone it goes on from",
+                                      "bones without an end: as long as the bone they go on from"));
 }
 
 } // namespace
@@ -160,10 +164,11 @@ Armature armature_of(const ModelScene& scene, const Vec3& up, ImportNotes& notes
             if (const std::int32_t b = chosen.above[std::size_t(node)]; b >= 0) r.below[std::size_t(b)].push_back(node);
     const int axis = usual_axis(r);
     take_ends(r, axis);
+    r.vertex = &standing_mesh(scene, r.made, notes);
     make_ends(r, axis, notes);
     ImportNotes by_longest_way; // as the header says; no guess about an end that the file lacks
     speedtree::complete_ends(r.made.bones, by_longest_way);
-    measure_radii(scene, r.made, notes);
+    measure_radii(scene, *r.vertex, r.made, notes);
     return std::move(r.made);
 }
 

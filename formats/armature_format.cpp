@@ -1,7 +1,9 @@
 #include "armature.h"
 #include "imported_tree.h"
+#include "lib/model/counted.h"
 #include "line_graph.h"
 #include "pipe_rule.h"
+#include "plain_text.h"
 #include "speedtree_bones.h"
 
 namespace bough {
@@ -20,11 +22,14 @@ Mat3 to_y_up(const ModelScene& scene, const ImportOptions& options) {
 }
 
 [[noreturn]] void refuse(const ModelScene& scene, AssimpKind kind, const std::string& name) {
-    throw InputError(name, std::string(kind == AssimpKind::fbx ? "is an " : "is a ") + model_kind_name(kind) +
-                               " model " +
-                               (scene.triangles > 0 ? "of a mesh without bones or lines" : "without bones or lines") +
-                               ", which says nothing of where branches run; export it with its armature, or the "
-                               "tree's curves as lines");
+    throw InputError(
+        name, std::string(kind == AssimpKind::fbx ? "is an " : "is a ") + model_kind_name(kind) + " model " +
+                  (scene.triangles > 0 ? "of a mesh without bones or lines" : "without bones or lines") +
+                  (scene.other_scenes > 0 ? " (its default scene; " + std::to_string(scene.other_scenes) +
+                                                (scene.other_scenes == 1 ? " other is" : " others are") + " not read)"
+                                          : "") +
+                  ", which says nothing of where branches run; export it with its armature, or the "
+                  "tree's curves as lines");
 }
 
 // Line meshes, as a tree that stands along +Y.
@@ -33,7 +38,11 @@ ImportedTree tree_of_line_meshes(ModelScene& scene, const Mat3& axes, const std:
         if (!p.allFinite()) throw InputError(name, "has a line whose place is not finite");
         p = axes * p;
     }
-    return tree_of_lines({std::move(scene.line_point), {}, std::move(scene.line)}, 'y', name, notes);
+    for (const double r : scene.line_radius)
+        if (!(r >= 0) || std::isinf(r))
+            throw InputError(name, "has a line of radius " + shown(r) + ", expected 0 or more");
+    LineGraph graph{std::move(scene.line_point), std::move(scene.line_radius), std::move(scene.line)};
+    return tree_of_lines(std::move(graph), 'y', name, notes);
 }
 
 // The last steps of all models; `tree` stands along +Y.
@@ -70,11 +79,13 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
     if (!scene.own_rod.empty()) return own_tree(scene, axes, options, notes);
     Armature armature = armature_of(scene, axes.transpose() * Vec3::UnitY(), notes);
     const bool bones = !armature.bones.empty();
+    if (scene.other_scenes > 0)
+        notes.lines.push_back(counted(scene.other_scenes, "scene", "scenes") + " beside the default one not read");
     if (!bones && scene.line.empty()) refuse(scene, kind, options.name);
     if (bones && scene.mesh_encoded)
         notes.lines.push_back("the mesh is compressed or quantized and was not read: radii come from the bones alone");
     if (bones && scene.skinned_meshes == 0 && !scene.line.empty())
-        notes.lines.push_back(std::to_string(scene.line.size()) + " lines not read beside the bones");
+        notes.lines.push_back(counted(scene.line.size(), "line", "lines") + " not read beside the bones");
     for (speedtree::Bone& bone : armature.bones) {
         if (!bone.start.allFinite() || !bone.end.allFinite())
             throw InputError(options.name, "has a bone whose place is not finite");

@@ -1,6 +1,8 @@
 #include "armature.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
+#include <array>
 
 namespace bough {
 namespace {
@@ -118,6 +120,74 @@ std::size_t leave_out_idle(Choice& c, std::vector<char>& mark) {
     return count;
 }
 
+// A topmost bone with a chain of others below it, where none of them moves a vertex and other bones do: an armature of its
+// own (a second tree, a rig that the mesh has left) rather than controls, which stand alone. Leaves all of its bones out.
+struct Bare {
+    std::size_t armatures = 0, bones = 0;
+    std::string name; // of the first
+};
+
+Bare leave_out_bare_armatures(Choice& c) {
+    Bare bare;
+    const std::size_t n = c.candidate.size();
+    std::vector<char> is_bare(n, false);
+    std::vector<std::int32_t> top(n);
+    for (std::size_t i = 0; i < n; ++i) top[i] = c.above[i] < 0 ? std::int32_t(i) : top[c.above[i]];
+    for (std::size_t i = 0; i < n; ++i) // one with a bone below it that carries another
+        if (c.candidate[i] && c.above[i] >= 0 && c.above[c.above[i]] >= 0 && c.below[top[i]] == 0)
+            is_bare[top[i]] = true;
+    for (std::size_t i = 0; i < n; ++i) { // parents first
+        if (!c.candidate[i]) continue;
+        if (c.above[i] >= 0 && is_bare[c.above[i]]) is_bare[i] = true;
+        if (!is_bare[i]) continue;
+        if (c.above[i] < 0 && ++bare.armatures == 1) bare.name = c.scene.name[i];
+        ++bare.bones;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        if (is_bare[i]) c.candidate[i] = false;
+    if (bare.bones > 0) find_above(c), sum_below(c);
+    return bare;
+}
+
+// A word of a name, between what is no letter, that riggers give to bones which move others: IK_tip, hand.ctrl, PoleTarget.
+bool named_as_control(std::string_view name) {
+    constexpr std::array<std::string_view, 8> words{"ik",         "ctrl",   "ctl",  "control",
+                                                    "controller", "target", "pole", "mch"};
+    std::string word;
+    const auto known = [&] { return std::find(words.begin(), words.end(), word) != words.end(); };
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool upper = name[i] >= 'A' && name[i] <= 'Z', lower = name[i] >= 'a' && name[i] <= 'z';
+        const bool after_lower = i > 0 && name[i - 1] >= 'a' && name[i - 1] <= 'z';
+        if ((!upper && !lower) || (upper && after_lower)) {
+            if (known()) return true;
+            word.clear();
+        }
+        if (upper || lower) word += upper ? char(name[i] - 'A' + 'a') : name[i];
+    }
+    return known();
+}
+
+// Without vertices names alone tell: such bones go, with nothing but such bones below them, unless that would be all.
+// Returns what goes: how many, and the first one's name.
+std::pair<std::size_t, std::string> leave_out_named_controls(Choice& c) {
+    const std::size_t n = c.candidate.size();
+    std::vector<char> control(n, false);
+    std::size_t bones = 0, controls = 0;
+    for (std::size_t i = 0; i < n; ++i) control[i] = c.candidate[i] && named_as_control(c.scene.name[i]);
+    for (std::size_t i = n; i-- > 0;)
+        if (c.candidate[i] && !control[i] && c.above[i] >= 0) control[c.above[i]] = false;
+    std::string first;
+    for (std::size_t i = 0; i < n; ++i) {
+        bones += c.candidate[i] != 0;
+        if (control[i] && ++controls == 1) first = c.scene.name[i];
+    }
+    if (controls == 0 || controls == bones) return {0, ""};
+    for (std::size_t i = 0; i < n; ++i)
+        if (control[i]) c.candidate[i] = false;
+    find_above(c), sum_below(c);
+    return {controls, first};
+}
+
 // Nodes that could be an armature's, with others of their kind, where the file says which nodes are joints and names
 // none of these.
 std::size_t unnamed_chains(const Choice& c) {
@@ -136,8 +206,8 @@ std::size_t unnamed_chains(const Choice& c) {
     return std::size_t(std::count(in_a_row.begin(), in_a_row.end(), true));
 }
 
-void note(std::size_t count, const char* what, ImportNotes& notes) {
-    if (count > 0) notes.lines.push_back(std::to_string(count) + what);
+void note(std::size_t count, const char* one, const char* many, ImportNotes& notes) {
+    if (count > 0) notes.lines.push_back(counted(count, one, many));
 }
 
 } // namespace
@@ -155,6 +225,9 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
         mark[i] = c.above[i] >= 0 && c.own[i] == 0 && named_as_end(scene.name[i]);
         if (c.above[i] < 0 && ends_without_case(scene.name[i], "neutral_bone")) c.candidate[i] = false, ++neutral;
     }
+    const Bare bare = scene.vertex.empty() ? Bare() : leave_out_bare_armatures(c);
+    const auto [controls, control] =
+        scene.vertex.empty() ? leave_out_named_controls(c) : std::pair<std::size_t, std::string>();
     const std::size_t idle = scene.vertex.empty() ? 0 : leave_out_idle(c, mark);
     // Where nothing says how long a bone is.
     sum_below(c);
@@ -178,10 +251,22 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
             chosen.bone.push_back(std::int32_t(i));
         }
     }
-    note(frames, " nodes taken as the armature's frame, no bone: what is below begins beside them", notes);
-    note(idle, " bones that move no vertex, nor anything below them, left out (controls)", notes);
-    note(unnamed, " nodes in a row that no skin names left out: bones of an armature without a mesh?", notes);
-    note(neutral + alone, " bones that stand alone left out", notes);
+    note(frames, "node taken as the armature's frame, no bone: what is below begins beside it",
+         "nodes taken as the armature's frame, no bone: what is below begins beside them", notes);
+    note(idle, "bone that moves no vertex, nor anything below it, left out (control)",
+         "bones that move no vertex, nor anything below them, left out (controls)", notes);
+    if (bare.bones > 0)
+        notes.lines.push_back(counted(bare.bones, "bone", "bones") + " of " +
+                              counted(bare.armatures, "armature", "armatures") + " that move no vertex left out (" +
+                              quoted(bare.name) + (bare.armatures > 1 ? " ..." : "") +
+                              "): export what is a tree with its mesh, or alone");
+    if (controls > 0)
+        notes.lines.push_back(counted(controls, "bone", "bones") + " left out as " +
+                              (controls == 1 ? "a control by its name (" : "controls by their names (") +
+                              quoted(control) + (controls > 1 ? " ..." : "") + "): rename what is wood");
+    note(unnamed, "node that no skin names left out: a bone of an armature without a mesh?",
+         "nodes in a row that no skin names left out: bones of an armature without a mesh?", notes);
+    note(neutral + alone, "bone that stands alone left out", "bones that stand alone left out", notes);
     return chosen;
 }
 

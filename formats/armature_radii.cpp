@@ -25,18 +25,18 @@ double radius_of(const std::vector<Place>& places) {
 
 } // namespace
 
-void measure_radii(const ModelScene& scene, Armature& armature, ImportNotes& notes) {
-    if (scene.vertex.empty()) return;
+void measure_radii(const ModelScene& scene, const std::vector<Vec3>& vertex, Armature& armature, ImportNotes& notes) {
+    if (vertex.empty()) return;
     std::vector<std::int32_t> bone_of(scene.parent.size(), -1);
     for (std::size_t b = 0; b < armature.bones.size(); ++b) bone_of[armature.node[b]] = std::int32_t(b);
     std::vector<std::vector<Place>> places(armature.bones.size());
-    for (std::size_t v = 0; v < scene.vertex.size(); ++v) {
+    for (std::size_t v = 0; v < vertex.size(); ++v) {
         const std::int32_t b = bone_of[scene.vertex_node[v]];
         if (b < 0) continue;
         const Vec3 axis = armature.bones[b].end - armature.bones[b].start;
         const double length = axis.norm();
         if (!(length > 0)) continue;
-        const Vec3 from = scene.vertex[v] - armature.bones[b].start;
+        const Vec3 from = vertex[v] - armature.bones[b].start;
         const double along = from.dot(axis) / length;
         places[b].push_back({along / length, (from - along / length * axis).norm()});
     }

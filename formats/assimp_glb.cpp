@@ -1,4 +1,5 @@
 #include "assimp_scene.h"
+#include "error.h"
 #include "forked.h"
 #include "model_collada.h"
 #include "plain_text.h"
@@ -50,7 +51,7 @@ aiNode* above_bones(aiScene& scene, const aiMesh& mesh) {
 }
 
 // assimp finds a skin's bones by name (COLLADA: by sid): of two armatures with the same names it would move one twice.
-void refuse_names_used_twice(const aiScene& scene, std::string_view content, AssimpKind kind) {
+void refuse_names_used_twice(const aiScene& scene, std::string_view content, AssimpKind kind, const std::string& file) {
     const auto collada =
         kind == AssimpKind::dae ? collada_joints(content) : std::unordered_map<std::string, ColladaJoint>();
     const auto skin_name = [&](const aiString& name) {
@@ -67,9 +68,9 @@ void refuse_names_used_twice(const aiScene& scene, std::string_view content, Ass
         stack.pop_back();
         const std::string name = skin_name(node->mName);
         if (bones.contains(name) && !seen.insert(name).second)
-            throw std::runtime_error("two of its nodes are called " + quoted(name) +
-                                     ", as a skin's bone is; give the bones of each armature names of their own, or "
-                                     "export glTF");
+            throw InputError(file, "two of its nodes are called " + quoted(name) +
+                                       ", as a skin's bone is; give the bones of each armature names of their own, or "
+                                       "export glTF");
         stack.insert(stack.end(), node->mChildren, node->mChildren + node->mNumChildren);
     }
 }
@@ -110,10 +111,10 @@ void hold_unweighted(aiScene& scene) {
 }
 
 // assimp writes a line as a triangle with a corner at the origin: what is no face is left out.
-void keep_faces(aiScene& scene) {
+void keep_faces(aiScene& scene, const std::string& file) {
     std::vector<int> place(scene.mNumMeshes, -1);
     unsigned kept = 0;
-    bool skinned = false;
+    bool skinned = false, lines = false;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         aiMesh* mesh = scene.mMeshes[m];
         if (mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)) {
@@ -121,11 +122,16 @@ void keep_faces(aiScene& scene) {
             place[m] = static_cast<int>(kept);
             scene.mMeshes[kept++] = mesh;
         } else {
+            lines = lines || (mesh->mNumBones > 0 && mesh->mPrimitiveTypes & aiPrimitiveType_LINE);
             delete mesh;
         }
     }
     scene.mNumMeshes = kept;
-    if (!skinned) throw std::runtime_error("its bones move no mesh of faces");
+    if (!skinned)
+        throw InputError(file,
+                         lines ? "its bones move lines, no mesh of faces; give the curves a thickness (a bevel) and "
+                                 "make a mesh of them before it is exported"
+                               : "its bones move no mesh of faces, expected a skinned mesh");
     std::vector<aiNode*> stack{scene.mRootNode};
     while (!stack.empty()) {
         aiNode* node = stack.back();
@@ -138,16 +144,16 @@ void keep_faces(aiScene& scene) {
     }
 }
 
-std::string convert(std::string_view content, AssimpKind kind) {
+std::string convert(std::string_view content, AssimpKind kind, const std::string& file) {
     Assimp::Importer importer;
     load_by_assimp(importer, content, "", kind, false);
     const aiScene* scene = importer.ApplyPostProcessing(aiProcess_JoinIdenticalVertices | aiProcess_LimitBoneWeights |
                                                         aiProcess_SortByPType);
     if (!scene) throw std::runtime_error(importer.GetErrorString());
     // The importer's own scene is changed: a copy would be a second one in memory.
-    keep_faces(const_cast<aiScene&>(*scene));
+    keep_faces(const_cast<aiScene&>(*scene), file);
     hold_unweighted(const_cast<aiScene&>(*scene));
-    refuse_names_used_twice(*scene, content, kind);
+    refuse_names_used_twice(*scene, content, kind, file);
     const ModelFrame frame = stated_frame(*scene, kind);
     aiMatrix4x4& root = scene->mRootNode->mTransformation;
     aiMatrix4x4 to_metres;
@@ -163,11 +169,19 @@ std::string convert(std::string_view content, AssimpKind kind) {
 
 } // namespace
 
+std::string not_turned(const std::string& why) {
+    const bool said = !why.empty() && why != unnamed_failure;
+    return std::string("assimp could not turn it into glTF") +
+           (said ? ": " + valid_utf8(why) : ", and does not say why") +
+           "; export glTF (.glb) from the program that wrote it, which is taken as it is";
+}
+
 std::string glb_by_assimp(std::string_view content, AssimpKind kind, const ImportOptions& options) {
-    const ChildResult child = run_forked([&] { return convert(content, kind); }, reader_limits);
+    const ChildResult child = run_forked([&] { return convert(content, kind, options.name); }, reader_limits);
     if (child.failure.empty()) return child.bytes;
-    throw InputError(options.name, "assimp could not turn it into glTF: " + valid_utf8(child.failure) + "; expected " +
-                                       model_kind_name(kind));
+    const std::string own = options.name + ": "; // of an InputError in the child
+    if (child.failure.starts_with(own)) throw InputError(options.name, valid_utf8(child.failure.substr(own.size())));
+    throw InputError(options.name, not_turned(child.failure));
 }
 
 } // namespace bough

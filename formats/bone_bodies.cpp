@@ -77,15 +77,16 @@ BoneBodies bodies_of_bones(const std::vector<speedtree::Bone>& bones, const Tree
                            const std::vector<Vec3>& x_w) {
     std::vector<std::int32_t> body, segment_of(tree.size_bodies(), -1);
     std::vector<Vec3> start, end;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    constexpr double any = std::numeric_limits<double>::infinity();
+    Vec3 low = Vec3::Constant(any), high = -low;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (tree.kind[i] != Kind::branch) continue;
         segment_of[i] = std::int32_t(body.size());
         body.push_back(std::int32_t(i));
         start.push_back(x_w[i]);
         end.push_back(x_w[i] + R_wb[i].col(2) * tree.size[i][0]);
-        low = std::min({low, start.back().y(), end.back().y()});
-        high = std::max({high, start.back().y(), end.back().y()});
+        low = low.cwiseMin(start.back()).cwiseMin(end.back());
+        high = high.cwiseMax(start.back()).cwiseMax(end.back());
     }
     BoneBodies result;
     result.turn.assign(bones.size(), -1);
@@ -94,13 +95,13 @@ BoneBodies bodies_of_bones(const std::vector<speedtree::Bone>& bones, const Tree
         result.missed = bones.size();
         return result;
     }
-    result.tree_height = high - low;
-    low = std::numeric_limits<double>::infinity(), high = -low;
+    result.tree_size = (high - low).maxCoeff();
+    low = Vec3::Constant(any), high = -low;
     for (const speedtree::Bone& bone : bones) {
-        low = std::min({low, bone.start.y(), bone.end.y()});
-        high = std::max({high, bone.start.y(), bone.end.y()});
+        low = low.cwiseMin(bone.start).cwiseMin(bone.end);
+        high = high.cwiseMax(bone.start).cwiseMax(bone.end);
     }
-    result.bones_height = high - low;
+    result.bones_size = (high - low).maxCoeff();
     const SegmentBoxes boxes(start, end);
     for (std::size_t b = 0; b < bones.size(); ++b) {
         const Vec3 along = bones[b].end - bones[b].start,
@@ -123,8 +124,8 @@ BoneBodies bodies_of_bones(const std::vector<speedtree::Bone>& bones, const Tree
             if (parent >= 0 && segment_of[parent] >= 0) try_segment(std::size_t(segment_of[parent]));
         }
         result.worst = std::max(result.worst, off);
-        const double radius = std::min(tree.size[std::size_t(body[chosen])][1], 0.05 * result.bones_height);
-        if (off > 0.01 * result.bones_height + radius) {
+        const double radius = std::min(tree.size[std::size_t(body[chosen])][1], 0.05 * result.bones_size);
+        if (off > 0.01 * result.bones_size + radius) {
             ++result.missed;
             continue;
         }

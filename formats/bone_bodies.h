@@ -5,7 +5,7 @@
 // several bones along one body move together. Its start goes where the body takes it that is nearest to it of the
 // leading one and those before it on the same branch: the joint, where there is one.
 // A bone is met where these points are, in the mean, no farther from any body's axis than that body's radius (at most a
-// twentieth of the bones' height) and 1 % of the bones' height.
+// twentieth of the bones' size) and 1 % of that.
 // Reads a checked Tree, its drawn pose. O((bones + bodies) log bodies).
 #pragma once
 #include "lib/model/tree.h"
@@ -16,8 +16,8 @@ namespace bough {
 struct BoneBodies {
     std::vector<std::int32_t> turn, place; // bodies, -1: the bone is not met
     std::size_t missed = 0;
-    double worst = 0;                         // [m] largest distance of a bone, met or not
-    double bones_height = 0, tree_height = 0; // [m]
+    double worst = 0;                     // [m] largest distance of a bone, met or not
+    double bones_size = 0, tree_size = 0; // [m] the largest side of the box of their axes
 };
 
 // Bones in the tree's world [m], Y up; R_wb, x_w: the tree's bodies there.

@@ -10,7 +10,8 @@
 //   id         ID, cyl_ID, p1; else the row's number from 1            any whole numbers, each once
 //   branch     branch, branchID, axis_ID, nbranch; else by geometry
 //
-// A parent below 0 is none; so is 0 where no cylinder has that id. Metres and Z up: all of these
+// A parent below 0 is none; so is 0 where no cylinder has that id, and what R, Python and MATLAB write for a value that
+// is not there: NA, NaN, None, null. Metres and Z up: all of these
 // programs say so of their tables.
 #include "cylinders.h"
 #include "error.h"
@@ -63,6 +64,15 @@ const char* program_of(const Table& t) {
     return "";
 }
 
+// Without case. An empty cell is none of these: it may be a row that was cut off.
+bool is_missing(std::string_view cell) {
+    for (const std::string_view word : {"na", "nan", "none", "null"})
+        if (std::equal(cell.begin(), cell.end(), word.begin(), word.end(),
+                       [](char a, char b) { return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b; }))
+            return true;
+    return false;
+}
+
 Vec3 point(const Table& t, const Triple& c) {
     return {t.number(c[0]), t.number(c[1]), t.number(c[2])};
 }
@@ -103,7 +113,7 @@ Rows read_rows(Table& t, const Columns& c, std::size_t most, const std::string& 
         out.line.push_back(t.line());
         if (c.branch != none) out.branch.push_back(t.integer(c.branch));
         rows.id.push_back(c.id != none ? t.integer(c.id) : std::int64_t(rows.id.size()) + 1);
-        rows.parent.push_back(t.integer(c.parent));
+        rows.parent.push_back(is_missing(t.cell(c.parent)) ? -1 : t.integer(c.parent));
     }
     return rows;
 }

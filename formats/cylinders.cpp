@@ -1,5 +1,6 @@
 #include "cylinders.h"
 #include "error.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
 
@@ -162,9 +163,8 @@ std::vector<ImportedBranch> branches_of(Cylinders&& c, const std::string& name, 
             grouping.begin(i);
     }
     if (grouping.gaps.count > 0)
-        notes.lines.push_back(std::to_string(grouping.gaps.count) +
-                              " gaps between a cylinder and its parent bridged, the "
-                              "widest of " +
+        notes.lines.push_back(counted(grouping.gaps.count, "gap", "gaps") +
+                              " between a cylinder and its parent bridged, the widest of " +
                               shown(grouping.gaps.widest) + " units");
     if (roots > 1) notes.lines.push_back(std::to_string(roots) + " cylinders have no parent: each begins a trunk");
     return grouping.finish();

@@ -1,6 +1,8 @@
 #include "driven_model.h"
 #include "gltf_document.h"
 #include "gltf_nodes.h"
+#include "gltf_prune.h"
+#include "lib/model/counted.h"
 #include "lib/model/drawn_pose.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -46,10 +48,10 @@ DrivenModel::DrivenModel(UserModel model, const Tree& tree, const DrivenOptions&
     }
     const BoneBodies bodies = bodies_of_bones(bones, tree, drawn_R_wb_, drawn_x_w_);
     constexpr const char* expected = "; expected the model that the tree was made from, in its own units and up axis";
-    const double ratio = bodies.tree_height / bodies.bones_height;
+    const double ratio = bodies.tree_size / bodies.bones_size;
     if (!(ratio > 0.5 && ratio < 2))
-        throw InputError(model_.name, "its bones are " + shown(bodies.bones_height) + " m high, the tree is " +
-                                          shown(bodies.tree_height) + " m" + expected);
+        throw InputError(model_.name, "its bones are " + shown(bodies.bones_size) + " m large, the tree is " +
+                                          shown(bodies.tree_size) + " m" + expected);
     if (2 * bodies.missed > bones.size())
         throw InputError(model_.name, std::to_string(bodies.missed) + " of its " + std::to_string(bones.size()) +
                                           " bones lie beside the tree, up to " + shown(bodies.worst) + " m" + expected);
@@ -64,12 +66,15 @@ DrivenModel::DrivenModel(UserModel model, const Tree& tree, const DrivenOptions&
         driven.place = bodies.place[b];
         bone_.push_back(std::move(driven));
     }
-    height_ = bodies.bones_height;
+    size_ = bodies.bones_size;
     try {
         find_nodes(notes);
         leave_out_animations(notes);
     } catch (const Json::exception& error) {
         throw InputError(model_.name, "is no glTF 2.0: " + valid_utf8(error.what()));
+    } catch (const std::out_of_range& error) {
+        throw InputError(model_.name,
+                         std::string("is no glTF 2.0: an index is beyond its list (") + error.what() + ")");
     }
 }
 
@@ -109,10 +114,13 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
     }
     keys_ = std::make_unique<JointKeys>(above, drawn);
     if (unequal > 0)
-        notes.push_back(model_.name + ": " + std::to_string(unequal) +
-                        " bones hang on nodes scaled unequally: their rotations are only near");
+        notes.push_back(model_.name + ": " +
+                        counted(unequal, "bone hangs on a node scaled unequally: its rotation is only near",
+                                "bones hang on nodes scaled unequally: their rotations are only near"));
     if (const std::size_t still = still_meshes(model_.document->json, nodes, is_driven))
-        notes.push_back(model_.name + ": " + std::to_string(still) + " meshes stay still: no bone carries them");
+        notes.push_back(
+            model_.name + ": " +
+            counted(still, "mesh stays still: no bone carries it", "meshes stay still: no bone carries them"));
 }
 
 void DrivenModel::clear_matrix(std::size_t bone) {
@@ -136,6 +144,7 @@ void DrivenModel::leave_out_animations(std::vector<std::string>& notes) {
     std::sort(nodes.begin(), nodes.end());
     Json kept = Json::array();
     std::string left_out;
+    std::vector<std::size_t> arrays; // of what is left out
     for (const Json& animation : model_.document->json["animations"]) {
         bool ours = false;
         for (const Json& channel : animation.at("channels")) {
@@ -143,14 +152,20 @@ void DrivenModel::leave_out_animations(std::vector<std::string>& notes) {
             ours = ours || (target.contains("node") &&
                             std::binary_search(nodes.begin(), nodes.end(), target["node"].get<std::size_t>()));
         }
-        if (!ours)
+        if (!ours) {
             kept.push_back(animation);
-        else
-            left_out += (left_out.empty() ? "" : ", ") + bough::quoted(animation.value("name", std::string()));
+            continue;
+        }
+        left_out += (left_out.empty() ? "" : ", ") + bough::quoted(animation.value("name", std::string()));
+        for (const Json& sampler : animation.at("samplers"))
+            for (const char* array : {"input", "output"}) arrays.push_back(sampler.at(array).get<std::size_t>());
     }
     model_.document->json["animations"] = std::move(kept);
     if (!left_out.empty())
         notes.push_back(model_.name + ": animations of the same bones left out for the new one: " + left_out);
+    if (const std::string unknown = prune(*model_.document, arrays); !unknown.empty())
+        notes.push_back(model_.name + ": the arrays of what was left out stay in the file, as it uses " +
+                        bough::quoted(unknown) + ", which may name them");
 }
 
 void DrivenModel::write(const MotionFrame& frame) {
@@ -209,7 +224,7 @@ std::string DrivenModel::finish(const std::string& output_name) {
             const std::size_t input = input_of(times);
             add(input, add_floats(document, values, "VEC4", false), d.node, "rotation");
         }
-        if (!(d.off > 1e-5 * height_)) continue;
+        if (!(d.off > 1e-5 * size_)) continue;
         times.clear(), values.clear();
         for (std::size_t f = 0; f < d.path.size(); ++f) {
             times.push_back(time_of(f, options_.fps));

@@ -6,7 +6,7 @@
 // turned as bone_bodies.h says and with its start taken along; its own rotation and translation are those of
 // G_p(f)^-1 G_c(f), p its parent node, which moves as the bone above does. Scales stay. Rotations are thinned as
 // joint_keys.h says; a translation has a key in every frame, and none where it never leaves its place by more than 1e-5
-// of the tree's height. Nodes that are no bones of the tree (controls, ends, meshes hung on bones) go with their parents.
+// of the bones' size. Nodes that are no bones of the tree (controls, ends, meshes hung on bones) go with their parents.
 //
 // Everything else of the file stays as it is, but for: animations that turn one of the bones, which are left out with a
 // note; a bone's `matrix`, which an animation may not have, becomes rotation, translation and scale. The new animation
@@ -32,7 +32,7 @@ struct DrivenOptions {
 class DrivenModel {
 public:
     // The tree is drawn where the scene puts it. Throws InputError where most bones lie
-    // beside the tree's bodies, or reach less than half or more than twice as high. Notes: bones that do, animations left out, meshes that nothing moves.
+    // beside the tree's bodies, or are less than half or more than twice as large. Notes: bones that do, animations left out, meshes that nothing moves.
     DrivenModel(UserModel, const Tree&, const DrivenOptions&, std::vector<std::string>& notes);
     void write(const MotionFrame&);
     std::string finish(const std::string& output_name); // the .glb; once. Throws OutputError beyond 4 GiB
@@ -61,7 +61,7 @@ private:
     Eigen::Affine3d file_from_world_;
     std::vector<Mat3> drawn_R_wb_;
     std::vector<Vec3> drawn_x_w_;
-    double height_ = 0;
+    double size_ = 0; // [m] of the bones
     std::vector<Driven> bone_;
     std::unique_ptr<JointKeys> keys_;
 };

@@ -1,4 +1,5 @@
 #include "document_parts.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
 
@@ -43,7 +44,7 @@ void check_length(const Field& field, const Array& array, const std::string& nam
     const std::size_t components = array.components;
     const std::string each = components == 1 ? "one for each " : std::to_string(components) + " for each ";
     const std::string place = name + ": " + pointer(at, field.name);
-    const std::string has = "has " + std::to_string(field.numbers) + " numbers, expected ";
+    const std::string has = "has " + counted(field.numbers, "number", "numbers") + ", expected ";
     if (!array.per.count) {
         if (field.numbers % components != 0)
             throw InputError(place, has + "a multiple of " + std::to_string(components));

@@ -70,7 +70,7 @@ std::string outcome(const std::function<std::string()>& work) {
     } catch (const std::exception& error) {
         bytes += error.what();
     } catch (...) {
-        bytes += "failed";
+        bytes += unnamed_failure;
     }
     return bytes;
 }
@@ -148,7 +148,7 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
     else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         result.failure = "crashed";
     else if (bytes[0] == kFailed)
-        result.failure = bytes.size() > 1 ? bytes.substr(1) : "failed";
+        result.failure = bytes.size() > 1 ? bytes.substr(1) : unnamed_failure;
     else
         result.bytes = bytes.substr(1);
     return result;

@@ -6,6 +6,9 @@
 
 namespace bough {
 
+// The failure of work that threw without a text.
+inline constexpr const char* unnamed_failure = "failed";
+
 struct ChildResult {
     std::string bytes;   // what `work` returned
     std::string failure; // empty, or why there is nothing: what `work` threw, or "crashed (signal 11)"

@@ -200,7 +200,7 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
 
 std::size_t add_floats(GltfDocument& document, const std::vector<float>& numbers, const char* type, bool with_bounds) {
     const std::string_view kind = type;
-    const std::size_t width = kind == "SCALAR" ? 1 : kind == "VEC3" ? 3 : 4;
+    const std::size_t width = kind == "SCALAR" ? 1 : kind == "VEC3" ? 3 : kind == "VEC4" ? 4 : 16;
     std::string bytes;
     bytes.reserve(4 * numbers.size());
     for (const float number : numbers) {

@@ -28,7 +28,7 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
 const char* image_type(std::string_view bytes);
 
 // Appends an array to the binary chunk from a multiple of 4: its view, and an accessor of `count` floats or vectors
-// ("SCALAR", "VEC3", "VEC4"). Returns the accessor's index.
+// ("SCALAR", "VEC3", "VEC4", "MAT4"). Returns the accessor's index.
 std::size_t add_floats(GltfDocument&, const std::vector<float>&, const char* type, bool with_bounds);
 
 // As a .glb; the JSON then says the buffer's size. Throws OutputError beyond its 4 GiB.

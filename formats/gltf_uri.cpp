@@ -62,12 +62,14 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
                                data = std::string_view(uri).substr(comma + 1);
         return head.ends_with(";base64") ? from_base64(data) : unescaped(data);
     }
-    if (uri.find("://") != std::string::npos) throw std::runtime_error(bough::quoted(uri) + " is not on this machine");
+    if (uri.find("://") != std::string::npos || uri.starts_with("/"))
+        throw std::runtime_error(bough::quoted(uri) +
+                                 " is not beside the file, expected a relative path or a data: URI");
     if (folder.empty())
         throw std::runtime_error(bough::quoted(uri) + " cannot be looked for: the file was read from a pipe");
     const std::string file = unescaped(uri);
     try {
-        return read_input(file.starts_with("/") ? file : folder + "/" + file);
+        return read_input(folder + "/" + file);
     } catch (const InputError&) {
         throw std::runtime_error(bough::quoted(uri) + " is not beside the file, or cannot be read");
     }

@@ -4,7 +4,7 @@
 
 namespace bough {
 
-// A relative URI may have %XX escapes. Throws std::runtime_error: not there, no folder, a network address, base64 that
+// A relative URI may have %XX escapes. Throws std::runtime_error: not there, no folder, a path or an address that is not relative, base64 that
 // is none.
 std::string bytes_of_uri(const std::string& uri, const std::string& folder);
 

@@ -1,4 +1,5 @@
 #include "growth_params.h"
+#include "line_ends.h"
 #include "lib/growth/weber_penn.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -63,6 +64,8 @@ GrowthParameters read_growth_parameters(std::string_view content, const std::str
     if (at == content.size()) throw InputError(file, std::string("is empty, expected ") + readable);
     if (content.find('\0') != std::string_view::npos)
         throw InputError(file, std::string("is not text, expected ") + readable);
+    const std::optional<std::string> lines = with_line_feeds(content);
+    if (lines) content = *lines;
     GrowthParameters p = content[at] == '<' ? read_arbaro(content, file, notes) : read_dict(content, file, notes);
     if (p.name.empty() || p.rules != GrowthRules::arbaro) p.name = stem_of(file);
     p.pipe_exponent = 0; // radii are the file's own

@@ -1,5 +1,7 @@
 #include "import.h"
 #include "error.h"
+#include "line_ends.h"
+#include "placed_import.h"
 #include "plain_text.h"
 #include "refused.h"
 #include "splines.h"
@@ -44,8 +46,12 @@ const SplineFormat* format_of(std::string_view content, const std::string& name)
 Splines import_splines(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     if (is_splines(content)) {
         notes.format = "bough-splines";
-        return read_splines(content, options.name);
+        Splines splines = read_splines(content, options.name);
+        refuse_too_far(splines, 0, options.name);
+        return splines;
     }
+    const std::optional<std::string> lines = with_line_feeds(content);
+    if (lines) content = *lines;
     const SplineFormat* format = content.empty() ? nullptr : format_of(content, options.name);
     if (!format) refuse_unread(content, options.name);
     notes.format = format->name;

@@ -1,5 +1,6 @@
 #include "imported_tree.h"
 #include "leaf_hosts.h"
+#include "lib/model/counted.h"
 #include "placed_import.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -112,8 +113,10 @@ Ordered order_branches(std::vector<ImportedBranch>&& branches, ImportNotes& note
         result.index_of[i] = std::int32_t(result.branches.size());
         result.branches.push_back(std::move(b));
     }
-    if (repeated > 0) notes.lines.push_back(std::to_string(repeated) + " points that repeat the one before left out");
-    if (empty > 0) notes.lines.push_back(std::to_string(empty) + " branches without length left out");
+    if (repeated > 0)
+        notes.lines.push_back(counted(repeated, "point that repeats the one before left out",
+                                      "points that repeat the one before left out"));
+    if (empty > 0) notes.lines.push_back(counted(empty, "branch", "branches") + " without length left out");
     return result;
 }
 
@@ -217,13 +220,19 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
         add_branch(s, b, frame);
         if (tree.leaves.empty()) b = {}; // nobody asks again, and all of a large file twice is much
     }
+    double reach = 0; // [m] of the leaves
+    for (const ImportedLeaf& leaf : tree.leaves)
+        reach = std::max({reach, frame.placed(leaf.position).cwiseAbs().maxCoeff(), frame.unit * leaf.length,
+                          frame.unit * leaf.width});
+    refuse_too_far(s, reach, options.name);
+    refuse_too_small(s, options.name);
     for (ImportedLeaf& leaf : tree.leaves)
         if (leaf.branch >= 0) leaf.branch = ordered.index_of[leaf.branch];
     find_hosts(tree.branches, tree.leaves);
     for (const ImportedLeaf& leaf : tree.leaves)
         add_leaf(s, leaf, nearest_on(tree.branches[leaf.branch].point, leaf.position).fraction, frame);
     bring_to_origin(s, notes);
-    if (!options.unit) name_absurd_scale(s, notes);
+    name_absurd_scale(s, options.unit.has_value(), notes);
     if (const auto defect = check(s)) {
         std::string entry;
         if (defect->index >= 0) entry.append("[").append(std::to_string(defect->index)).append("]");

@@ -1,5 +1,6 @@
 #include "line_graph.h"
 #include "attach.h"
+#include "lib/model/counted.h"
 #include "pipe_rule.h"
 #include "plain_text.h"
 #include "release.h"
@@ -13,10 +14,6 @@ namespace bough {
 namespace {
 
 using Edges = std::vector<std::array<std::int32_t, 2>>;
-
-std::string count_of(std::size_t n, const char* what) {
-    return std::to_string(n) + " " + what;
-}
 
 // Sets of indices that are joined one pair after another.
 class Unions {
@@ -50,7 +47,7 @@ void leave_out_unused_points(LineGraph& g, ImportNotes& notes) {
         index[i] = kept++;
     }
     if (std::size_t(kept) == g.point.size()) return;
-    notes.lines.push_back(count_of(g.point.size() - std::size_t(kept), "points without a line left out"));
+    notes.lines.push_back(counted(g.point.size() - std::size_t(kept), "point", "points") + " without a line left out");
     g.point.resize(std::size_t(kept));
     g.radius.resize(std::size_t(kept));
     for (auto& e : g.edge) e = {index[e[0]], index[e[1]]};
@@ -64,7 +61,8 @@ void weld_points(LineGraph& g, ImportNotes& notes) {
     for (std::size_t i = 0; i < before; ++i) radius[index[i]] = std::max(radius[index[i]], g.radius[i]);
     g.radius = std::move(radius);
     for (auto& e : g.edge) e = {index[e[0]], index[e[1]]};
-    notes.lines.push_back(count_of(before - g.point.size(), "points welded to others at their place"));
+    notes.lines.push_back(counted(before - g.point.size(), "point welded to another at its place",
+                                  "points welded to others at their place"));
 }
 
 // By first point, then second: put into order by the first, which leaves a few of each to be sorted.
@@ -91,9 +89,10 @@ void drop_repeated_lines(LineGraph& g, ImportNotes& notes) {
     const std::size_t points = before - g.edge.size();
     sort_lines(g.edge, g.point.size());
     g.edge.erase(std::unique(g.edge.begin(), g.edge.end()), g.edge.end());
-    if (points > 0) notes.lines.push_back(count_of(points, "lines without length left out"));
+    if (points > 0) notes.lines.push_back(counted(points, "line", "lines") + " without length left out");
     if (const std::size_t twice = before - points - g.edge.size())
-        notes.lines.push_back(count_of(twice, "lines that repeat others left out"));
+        notes.lines.push_back(
+            counted(twice, "line that repeats another left out", "lines that repeat others left out"));
 }
 
 // Keeps of each circle all lines but the thinnest, of equally thin ones the longest.
@@ -110,7 +109,8 @@ void cut_circles(LineGraph& g, ImportNotes& notes) {
     });
     Unions kept(g.point.size());
     std::erase_if(g.edge, [&](const auto& e) { return !kept.join(e[0], e[1]); });
-    notes.lines.push_back(count_of(closing, "lines cut that close circles, the thinnest or longest of each"));
+    notes.lines.push_back(counted(closing, "line cut that closes a circle, its thinnest or longest",
+                                  "lines cut that close circles, the thinnest or longest of each"));
 }
 
 // Neighbours of each point: others[first[i]] .. others[first[i + 1] - 1].
@@ -232,8 +232,8 @@ void join_parts(Skeleton& s, const std::vector<Attachment>& joined, ImportNotes&
     }
     insert_joints(s, inserted);
     if (loose > 0)
-        notes.lines.push_back(count_of(loose, "loose parts attached to the nearest branch, over a gap of up to ") +
-                              shown(gap));
+        notes.lines.push_back(counted(loose, "loose part", "loose parts") +
+                              " attached to the nearest branch, over a gap of up to " + shown(gap));
 }
 
 } // namespace

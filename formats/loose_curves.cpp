@@ -1,5 +1,6 @@
 #include "loose_curves.h"
 #include "attach.h"
+#include "lib/model/counted.h"
 #include "lib/model/polyline.h"
 #include "plain_text.h"
 #include "up_axis.h"
@@ -29,7 +30,7 @@ void leave_out_points(LooseCurves& c, const std::string& name, ImportNotes& note
     c.first.resize(kept + 1);
     c.point.resize(std::size_t(points));
     c.radius.resize(std::size_t(points));
-    if (count > 0) notes.lines.push_back(std::to_string(count) + " curves without length left out");
+    if (count > 0) notes.lines.push_back(counted(count, "curve", "curves") + " without length left out");
     if (kept == 0) throw InputError(name, "holds no curve with a length, expected at least one");
 }
 
@@ -170,8 +171,8 @@ JoinedCurves join_curves(LooseCurves&& curves, char up, CurveBase base, const st
         branch.parent_at = std::clamp(turned(std::size_t(to.parent)) ? 1 - fraction : fraction, 0.0, 1.0);
     }
     if (attached > 0)
-        notes.lines.push_back(std::to_string(attached) +
-                              " curves attached to the nearest branch, as the file names no " +
+        notes.lines.push_back(counted(attached, "curve", "curves") +
+                              " attached to the nearest branch, as the file names no " +
                               "parents, over a gap of up to " + shown(gap));
     return result;
 }

@@ -34,6 +34,7 @@ struct Reading {
     std::vector<Matrix> world;
     NodesByName by_name;
     const std::unordered_map<std::string, ColladaJoint>& collada;
+    bool line_radii; // are texture coordinates (model_gltf.h)
     // By which a skin means it: assimp names all COLLADA joints of one sid by the id of the first.
     std::string_view skin_name(const char* name) const {
         const auto found = collada.find(name);
@@ -123,6 +124,7 @@ void read_skinned(Reading& r, const aiMesh& mesh, const Matrix& mesh_world, std:
         if (mesh.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON) && moved[v].allFinite()) {
             r.out.vertex.push_back(moved[v]);
             r.out.vertex_node.push_back(most[v]);
+            r.out.vertex_by_node.push_back(placed(mesh_world, mesh.mVertices[v]));
         }
     }
 }
@@ -148,8 +150,12 @@ void read_mesh(Reading& r, const aiMesh& mesh, const Matrix& world, bool first_t
         lines = true;
     }
     if (!lines) return;
-    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+    const double scale = std::cbrt(std::abs(world.topLeftCorner<3, 3>().determinant()));
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
         r.out.line_point.push_back(moved.empty() ? placed(world, mesh.mVertices[v]) : moved[v]);
+        const bool stated = r.line_radii && mesh.HasTextureCoords(0);
+        r.out.line_radius.push_back(stated ? scale * static_cast<double>(mesh.mTextureCoords[0][v].x) : 0);
+    }
 }
 
 void read_meshes(Reading& r) {
@@ -162,6 +168,12 @@ void read_meshes(Reading& r) {
         }
     };
     for (std::size_t i = 0; i < r.node.size(); ++i) read(*r.node[i], r.world[i]);
+    std::vector<Vec3>& by_node = r.out.vertex_by_node;
+    constexpr double rounding = 1e-5; // of single precision
+    bool apart = false;
+    for (std::size_t v = 0; v < by_node.size(); ++v)
+        apart = apart || (by_node[v] - r.out.vertex[v]).norm() > rounding * (1 + r.out.vertex[v].norm());
+    if (!apart) by_node = {};
 }
 
 // What our own file says of a joint.
@@ -216,11 +228,12 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
         try {
             out.animations =
                 static_cast<std::int64_t>(document.json.value("animations", nlohmann::ordered_json()).size());
-            joints = cut_down(document.json);
+            joints = cut_down(document);
         } catch (const std::exception& error) { // a type that is wrong, an index beyond
             throw InputError(options.name, std::string("is no glTF 2.0: ") + error.what());
         }
         out.mesh_encoded = joints.mesh_encoded;
+        out.other_scenes = static_cast<std::int64_t>(joints.other_scenes);
         glb = glb_of(document, options.name);
         content = glb;
         kind = AssimpKind::glb;
@@ -229,7 +242,7 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
     const aiScene& scene = *load_by_assimp(importer, content, "", kind, options.up != 0);
     const auto collada =
         kind == AssimpKind::dae ? collada_joints(content) : std::unordered_map<std::string, ColladaJoint>();
-    Reading reading{scene, out, {}, {}, {}, collada};
+    Reading reading{scene, out, {}, {}, {}, collada, kind == AssimpKind::glb};
     const ModelFrame frame = stated_frame(scene, kind);
     out.to_y_up = frame.axes;
     out.unit = frame.unit;

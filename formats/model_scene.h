@@ -29,9 +29,11 @@ struct ModelScene {
     // Vertices of skinned meshes in that pose, and the node that moves each most.
     std::vector<Vec3> vertex;
     std::vector<std::int32_t> vertex_node;
+    std::vector<Vec3> vertex_by_node; // the same as the mesh's own node places them; empty: all there already
 
     // Line meshes, in that pose.
     std::vector<Vec3> line_point;
+    std::vector<double> line_radius; // [file unit] of each point; 0: none stated
     std::vector<std::array<std::int32_t, 2>> line;
 
     // Of our own files: the wood that the joints hold, in that pose; leaves, petals and fruit beside it. Joints without
@@ -40,6 +42,7 @@ struct ModelScene {
     std::int64_t own_others = 0;
 
     std::int64_t triangles = 0, skinned_meshes = 0, animations = 0;
+    std::int64_t other_scenes = 0; // of a glTF file, not read
     bool mesh_encoded = false; // glTF with a mesh in a form that is not decoded here: it was left out
     Mat3 to_y_up = Mat3::Identity();
     double unit = 0; // [m] 0: the file states none

@@ -1,3 +1,4 @@
+#include "lib/model/counted.h"
 #include "motion_fields.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -43,10 +44,11 @@ void check_frame(const MotionHeader& header, const MotionFrame& frame, const std
         const bool wanted = header.fields.*array.wanted;
         const std::size_t expected = wanted ? std::size_t(header.bodies) : 0;
         if (array.size(frame) == expected) continue;
-        const std::string has = "has " + std::to_string(array.size(frame) * array.components()) + " numbers, expected ";
+        const std::string has =
+            "has " + counted(array.size(frame) * array.components(), "number", "numbers") + ", expected ";
         throw InputError(place + "/" + array.name, wanted ? has + std::to_string(expected * array.components()) + " (" +
                                                                 std::to_string(array.components()) + " for each of " +
-                                                                std::to_string(expected) + " bodies)"
+                                                                counted(expected, "body", "bodies") + ")"
                                                           : has + "none: /fields does not name it");
     }
 }
@@ -57,8 +59,8 @@ void check_events(const MotionHeader& header, const MotionEvents& events, const 
                                      {"event_on", events.on.size()},
                                      {"event_value", events.value.size()}})
         if (size != count)
-            throw InputError(place + "/" + name, "has " + std::to_string(size) + " numbers, expected one for each of " +
-                                                     std::to_string(count) + " events");
+            throw InputError(place + "/" + name, "has " + counted(size, "number", "numbers") +
+                                                     ", expected one for each of " + counted(count, "event", "events"));
     for (std::size_t k = 0; k < count; ++k) {
         const std::string entry = "/" + std::to_string(k);
         if (std::find(event_words.begin(), event_words.end(), events.what[k]) == event_words.end())

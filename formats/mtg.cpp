@@ -6,6 +6,7 @@
 // 10 to 200 times as high as thick, else the one of m, cm, mm and 0.1 mm that brings it nearest to 50 (on a logarithmic
 // scale). A graph without positions is refused: lengths and diameters alone do
 // not say where branches point.
+#include "lib/model/counted.h"
 #include "mtg_code.h"
 #include "pipe_rule.h"
 #include "plain_text.h"
@@ -124,7 +125,7 @@ void note_what_is_left(const mtg::File& file, const Nodes& nodes, ImportNotes& n
             " entities without a position passed over" +
             (nodes.half > 0 ? ", " + std::to_string(nodes.half) + " of them with a part of one" : ""));
     if (file.dates > 0)
-        notes.lines.push_back(std::to_string(file.dates) + " lines of the same entities at later dates left out");
+        notes.lines.push_back(counted(file.dates, "line", "lines") + " of the same entities at later dates left out");
 }
 
 bool recognizes_mtg(std::string_view content) {

@@ -1,4 +1,5 @@
 #include "obj_lines.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <array>
@@ -97,7 +98,7 @@ private:
         std::array<std::string_view, 5> token;
         std::size_t n = 0;
         while (n < token.size() && !(token[n] = next_token(line, at)).empty() && token[n].front() != '#') ++n;
-        if (n < 3) refuse("v has " + std::to_string(n) + " numbers, expected x y z");
+        if (n < 3) refuse("v has " + counted(n, "number", "numbers") + ", expected x y z");
         std::vector<Vec3>& point = obj_.lines.point;
         point.emplace_back(number(token[0], "a vertex's x"), number(token[1], "a vertex's y"),
                            number(token[2], "a vertex's z"));
@@ -131,7 +132,7 @@ private:
             if (n > 0) obj_.lines.edge.push_back({before, i});
             before = i;
         }
-        if (n < 2) refuse("l has " + std::to_string(n) + " vertices, expected 2 or more");
+        if (n < 2) refuse("l has " + counted(n, "vertex", "vertices") + ", expected 2 or more");
     }
 
     void take_type(std::string_view line, std::size_t at) {

@@ -3,6 +3,7 @@
 // where it does not (Blender writes knots that leave both ends out) or has fewer points than its degree needs, its
 // control points are the line. The format states neither unit nor axis.
 #include "curve_points.h"
+#include "lib/model/counted.h"
 #include "loose_curves.h"
 #include "obj_lines.h"
 #include "pipe_rule.h"
@@ -48,9 +49,11 @@ LooseCurves curves_of(const ObjLines& obj, ImportNotes& notes) {
         curves.end_curve();
     }
     if (by_points > 0)
-        notes.lines.push_back(std::to_string(by_points) +
-                              " curves taken along their control points, as they have too few of them or knots that do "
-                              "not reach their ends");
+        notes.lines.push_back(counted(by_points,
+                                      "curve taken along its control points, as it has too few of them or knots that "
+                                      "do not reach its ends",
+                                      "curves taken along their control points, as they have too few of them or knots "
+                                      "that do not reach their ends"));
     return curves;
 }
 
@@ -92,12 +95,11 @@ JoinedCurves join_bare_curves(LooseCurves&& curves, const ImportOptions& options
 
 [[noreturn]] void refuse(const ObjLines& obj, const std::string& name) {
     if (obj.faces > 0 || obj.surfaces > 0)
-        throw InputError(name,
-                         "is a mesh (" + std::to_string(obj.faces + obj.surfaces) +
-                             " faces) without lines (l) or curves (curv), which is no skeleton; export the tree's "
-                             "curves or edges, or grow a tree in the mesh by treegen --envelope");
-    throw InputError(name, std::to_string(obj.lines.point.size()) +
-                               " points without lines (l) or curves (curv), expected a tree's skeleton");
+        throw InputError(name, "is a mesh (" + counted(obj.faces + obj.surfaces, "face", "faces") +
+                                   ") without lines (l) or curves (curv), which is no skeleton; export the tree's "
+                                   "curves or edges, or grow a tree in the mesh by treegen --envelope");
+    throw InputError(name, counted(obj.lines.point.size(), "point", "points") +
+                               " without lines (l) or curves (curv), expected a tree's skeleton");
 }
 
 Splines read_obj(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
@@ -105,8 +107,9 @@ Splines read_obj(std::string_view content, const ImportOptions& options, ImportN
     options.let_go();
     if (obj.lines.edge.empty() && obj.curves.empty()) refuse(obj, options.name);
     if (obj.faces + obj.surfaces > 0)
-        notes.lines.push_back(std::to_string(obj.faces + obj.surfaces) + " faces not read beside the lines");
-    if (obj.other_points > 0) notes.lines.push_back(std::to_string(obj.other_points) + " point elements not read");
+        notes.lines.push_back(counted(obj.faces + obj.surfaces, "face", "faces") + " not read beside the lines");
+    if (obj.other_points > 0)
+        notes.lines.push_back(counted(obj.other_points, "point element", "point elements") + " not read");
     ImportedTree tree;
     LooseCurves curves = curves_of(obj, notes);
     release(obj.curves, obj.curve_point, obj.curve_knot);

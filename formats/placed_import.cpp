@@ -1,4 +1,5 @@
 #include "placed_import.h"
+#include "error.h"
 #include "plain_text.h"
 #include <algorithm>
 
@@ -7,6 +8,9 @@ namespace {
 
 constexpr double far_aside = 10, far_above = 1; // of the tree's extent
 constexpr double tallest = 120, lowest = 0.1;   // [m]
+constexpr double given_tallest = 10 * tallest;
+constexpr const char* right = "; are its coordinates, or --units, right?";
+constexpr double farthest = 1e30, smallest = 1e-30; // [m]
 
 struct Box {
     Vec3 low, high;
@@ -48,13 +52,28 @@ void bring_to_origin(Splines& s, ImportNotes& notes) {
                           shown(-base.y()) + ", " + shown(-base.z()) + " m (x, y up, z)");
 }
 
-void name_absurd_scale(const Splines& s, ImportNotes& notes) {
+void name_absurd_scale(const Splines& s, bool unit_given, ImportNotes& notes) {
     const Box box = box_of(s);
     const double height = box.high.y() - box.low.y();
-    if (height <= tallest && height >= lowest) return;
+    if (height <= (unit_given ? given_tallest : tallest) && (unit_given || height >= lowest)) return;
     notes.lines.push_back("the tree is " + shown(height) + " m high, " +
                           (height > tallest ? "no tree is: " : "hardly a tree: ") +
-                          "is the unit right? (--units overrides)");
+                          (unit_given ? "is --units right?" : "is the unit right? (--units overrides)"));
+}
+
+void refuse_too_far(const Splines& s, double reach, const std::string& name) {
+    if (s.point.empty()) return;
+    const Box box = box_of(s);
+    reach = std::max({reach, box.high.cwiseAbs().maxCoeff(), box.low.cwiseAbs().maxCoeff()});
+    for (const double r : s.radius) reach = std::max(reach, r);
+    if (reach > farthest)
+        throw InputError(name, "reaches " + shown(reach) + " m, expected at most " + shown(farthest) + " m" + right);
+}
+
+void refuse_too_small(const Splines& s, const std::string& name) {
+    const Box box = box_of(s);
+    if (const double extent = (box.high - box.low).maxCoeff(); extent < smallest)
+        throw InputError(name, "is " + shown(extent) + " m large, expected at least " + shown(smallest) + " m" + right);
 }
 
 } // namespace bough

@@ -9,7 +9,14 @@ namespace bough {
 // given over the ground. One note with the way.
 void bring_to_origin(Splines&, ImportNotes&);
 
-// A note where the tree is higher than any (120 m) or lower than 0.1 m: the unit is then the likely mistake.
-void name_absurd_scale(const Splines&, ImportNotes&);
+// A note where the tree is higher than any (120 m) or lower than 0.1 m: the unit is then the likely mistake. Where the
+// user gave the unit, only above 1200 m: what is small may be meant (a neuron).
+void name_absurd_scale(const Splines&, bool unit_given, ImportNotes&);
+
+// Throw InputError (place `name`) where a coordinate or radius of the branches, or `reach` [m] (of others) is beyond
+// 1e30 m, and where the whole tree is smaller than 1e-30 m: an inertia goes with the fifth power of lengths, products of
+// two of them with the tenth, and doubles end at 1e308.
+void refuse_too_far(const Splines&, double reach, const std::string& name);
+void refuse_too_small(const Splines&, const std::string& name);
 
 } // namespace bough

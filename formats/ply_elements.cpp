@@ -60,7 +60,9 @@ private:
     [[noreturn]] void refuse(const std::string& message) const { throw InputError(file_line(name_, number_), message); }
 
     std::string_view line() {
-        const std::size_t end = std::min(content_.find('\n', at_), content_.size());
+        // Old Mac programs end lines with CR alone; what follows the header may begin with any byte.
+        const char last = content_.size() > 4 && content_[3] == '\r' && content_[4] != '\n' ? '\r' : '\n';
+        const std::size_t end = std::min(content_.find(last, at_), content_.size());
         const std::string_view text = trimmed(content_.substr(at_, end - at_));
         at_ = std::min(end + 1, content_.size());
         ++number_;

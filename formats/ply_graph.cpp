@@ -2,6 +2,7 @@
 // others write them. Edges are a list of indices (two or a whole line of them) or two numbers; points that are repeated
 // for each branch become one. Metres and Z up, as laser scans have it, are what the format's users mean; it states
 // neither, so both are guessed.
+#include "lib/model/counted.h"
 #include "line_graph.h"
 #include "plain_text.h"
 #include "ply_elements.h"
@@ -113,21 +114,20 @@ public:
                     throw InputError(name, "an edge names vertex " + std::to_string(i) + ", expected 0 to " +
                                                std::to_string(graph.point.size() - 1));
         if (!lines_are_faces_ && face_ && face_->count > 0)
-            notes.lines.push_back(std::to_string(face_->count) + " faces not read beside the edges");
+            notes.lines.push_back(counted(face_->count, "face", "faces") + " not read beside the edges");
     }
     LineGraph graph;
 
 private:
     [[noreturn]] void refuse_without_edges() const {
         if (face_ && face_->count > 0) refuse_mesh();
-        throw InputError(name_, "is a cloud of " + std::to_string(vertex_->count) +
-                                    " points without edges, which is no skeleton; reconstruct the tree first (AdTree "
+        throw InputError(name_, "is a cloud of " + counted(vertex_->count, "point", "points") +
+                                    " without edges, which is no skeleton; reconstruct the tree first (AdTree "
                                     "-s, TreeQSM, raycloudtools) and give its skeleton");
     }
     [[noreturn]] void refuse_mesh() const {
-        throw InputError(name_,
-                         "is a mesh of " + std::to_string(face_->count) +
-                             " faces without edges, which is no skeleton; give the tree's skeleton (element edge)");
+        throw InputError(name_, "is a mesh of " + counted(face_->count, "face", "faces") +
+                                    " without edges, which is no skeleton; give the tree's skeleton (element edge)");
     }
 
     static double value(const PlyEntry& entry, int property) {
@@ -172,7 +172,7 @@ private:
 };
 
 bool recognizes_ply(std::string_view content) {
-    return content.substr(0, 4) == "ply\n" || content.substr(0, 5) == "ply\r\n";
+    return content.starts_with("ply\n") || content.starts_with("ply\r");
 }
 
 Splines read_ply(std::string_view content, const ImportOptions& options, ImportNotes& notes) {

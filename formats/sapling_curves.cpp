@@ -5,6 +5,7 @@
 // No parents: loose_curves.h.
 #include "curve_points.h"
 #include "json_pull.h"
+#include "lib/model/counted.h"
 #include "loose_curves.h"
 #include "pipe_rule.h"
 #include "plain_text.h"
@@ -29,7 +30,7 @@ Vec3 vector(JsonPull& json) {
         const double number = json.number(); // a fourth is a weight
         if (n < v.size()) v[n] = number;
     }
-    if (n < v.size()) json.refuse("has " + std::to_string(n) + " numbers, expected x y z");
+    if (n < v.size()) json.refuse("has " + counted(n, "number", "numbers") + ", expected x y z");
     return {v[0], v[1], v[2]};
 }
 
@@ -170,7 +171,7 @@ Splines read_curves(std::string_view content, const ImportOptions& options, Impo
     if (file.up == "Y" || file.up == "y") tree.up = 'y';
     if (file.without_bevel())
         notes.lines.push_back("bevel_depth is 0, so that the curves have no thickness; the points' own radii taken");
-    if (file.closed > 0) notes.lines.push_back(std::to_string(file.closed) + " closed curves opened");
+    if (file.closed > 0) notes.lines.push_back(counted(file.closed, "closed curve", "closed curves") + " opened");
     tree.source = "curves of Blender " + options.name;
     const char up = options.up != 0 ? options.up : tree.up;
     JoinedCurves joined = join_curves(std::move(curves), up, CurveBase::unknown, options.name, notes);

@@ -1,4 +1,5 @@
 #include "scene_fields.h"
+#include "lib/model/counted.h"
 #include <algorithm>
 #include <limits>
 
@@ -92,7 +93,8 @@ void ObjectReader::read(const std::string& key, std::string& to) {
 void ObjectReader::read(const std::string& key, Vec3& to) {
     std::vector<double> numbers(to.data(), to.data() + 3);
     read(key, numbers);
-    if (numbers.size() != 3) fail(key, "has " + std::to_string(numbers.size()) + " numbers, expected 3 (x, y, z)");
+    if (numbers.size() != 3)
+        fail(key, "has " + counted(numbers.size(), "number", "numbers") + ", expected 3 (x, y, z)");
     to = Vec3(numbers[0], numbers[1], numbers[2]);
 }
 
@@ -129,16 +131,16 @@ bool ObjectReader::read_rows(const std::string& key, const std::vector<std::stri
             ObjectReader reader(part, name_, at(key));
             reader.read(place, found);
             if (found.size() != parts.size())
-                reader.fail(place,
-                            "has " + std::to_string(found.size()) + " numbers, expected " + width + " (" + names + ")");
+                reader.fail(place, "has " + counted(found.size(), "number", "numbers") + ", expected " + width + " (" +
+                                       names + ")");
             numbers.insert(numbers.end(), found.begin(), found.end());
         }
         return true;
     }
     read(key, numbers);
     if (numbers.size() % parts.size() != 0)
-        fail(key, "has " + std::to_string(numbers.size()) + " numbers, expected a multiple of " + width + " (" + names +
-                      ")");
+        fail(key, "has " + counted(numbers.size(), "number", "numbers") + ", expected a multiple of " + width + " (" +
+                      names + ")");
     return true;
 }
 

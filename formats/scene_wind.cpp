@@ -1,3 +1,4 @@
+#include "lib/model/counted.h"
 #include "scene_parts.h"
 
 namespace bough {
@@ -37,7 +38,8 @@ void read_each(ObjectReader& object, const std::string& name, const std::string&
 void read_point(ObjectReader& object, const std::string& key, double& x, double& z) {
     std::vector<double> numbers{x, z};
     object.read(key, numbers);
-    if (numbers.size() != 2) object.fail(key, "has " + std::to_string(numbers.size()) + " numbers, expected 2 (x, z)");
+    if (numbers.size() != 2)
+        object.fail(key, "has " + counted(numbers.size(), "number", "numbers") + ", expected 2 (x, z)");
     x = numbers[0];
     z = numbers[1];
 }

@@ -1,4 +1,5 @@
 #include "skeleton.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include "release.h"
 
@@ -163,8 +164,9 @@ std::vector<ImportedBranch> branches_of(Skeleton&& s, const std::string& name, I
         if (parent >= 0) branches[b].parent_at = std::min(1.0, from[b] / length[parent]);
     }
     if (zero_length > 0)
-        notes.lines.push_back(std::to_string(zero_length) + " segments without length joined to their parent");
-    if (lone > 0) notes.lines.push_back(std::to_string(lone) + " roots without a segment left out");
+        notes.lines.push_back(counted(zero_length, "segment without length joined to its parent",
+                                      "segments without length joined to their parent"));
+    if (lone > 0) notes.lines.push_back(counted(lone, "root", "roots") + " without a segment left out");
     return branches;
 }
 

@@ -1,4 +1,5 @@
 #include "speedtree_bones.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
 
@@ -116,8 +117,8 @@ void complete_ends(std::vector<Bone>& bones, ImportNotes& notes) {
             b.end = b.parent >= 0 ? Vec3(b.start + (b.start - bones[b.parent].start)) : b.start;
     }
     if (missing > 0)
-        notes.lines.push_back(std::to_string(missing) +
-                              " bones without End: taken to the start of the bone that goes on, "
+        notes.lines.push_back(counted(missing, "bone", "bones") +
+                              " without End: taken to the start of the bone that goes on, "
                               "at tips as long as the step from the parent");
 }
 
@@ -141,7 +142,7 @@ void complete_radii(std::vector<Bone>& bones, ImportNotes& notes) {
         else
             b.radius = anchor_wood > 0 ? anchor * std::sqrt(wood[i] / anchor_wood) : anchor;
     }
-    notes.lines.push_back(std::to_string(missing) + " bones without Radius: taken from the " +
+    notes.lines.push_back(counted(missing, "bone", "bones") + " without Radius: taken from the " +
                           (known > 0 ? "nearest thicker bone" : "tree's size (height 60 times the diameter)") +
                           " and the length of wood beyond each");
 }

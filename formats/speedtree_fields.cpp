@@ -1,5 +1,6 @@
 #include "speedtree_fields.h"
 #include "error.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
 
@@ -109,8 +110,8 @@ std::vector<Vec3> Fields::points(const pugi::xml_node& parent, const char* prefi
 void Fields::expect_length(const pugi::xml_node& parent, const char* child, std::size_t found,
                            std::size_t expected) const {
     if (found == expected) return;
-    refuse(parent,
-           std::string(child) + " holds " + std::to_string(found) + " values, expected " + std::to_string(expected));
+    refuse(parent, std::string(child) + " holds " + counted(found, "value", "values") + ", expected " +
+                       std::to_string(expected));
 }
 
 } // namespace bough::speedtree

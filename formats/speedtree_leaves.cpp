@@ -1,4 +1,5 @@
 #include "speedtree_leaves.h"
+#include "lib/model/counted.h"
 #include <algorithm>
 #include <array>
 #include <unordered_map>
@@ -64,10 +65,12 @@ std::vector<ImportedLeaf> leaves_of(const File& file, const std::vector<std::int
         leaves.push_back(leaf);
     }
     if (file.leaves_without_size > 0)
-        notes.lines.push_back(std::to_string(file.leaves_without_size) + " leaves of Scale 0 left out");
+        notes.lines.push_back(counted(file.leaves_without_size, "leaf", "leaves") + " of Scale 0 left out");
     if (shapeless > 0)
-        notes.lines.push_back(std::to_string(shapeless) +
-                              " leaves without a mesh of any extent: taken as long as their Scale and half as wide");
+        notes.lines.push_back(counted(shapeless,
+                                      "leaf without a mesh of any extent: taken as long as its Scale and half as wide",
+                                      "leaves without a mesh of any extent: taken as long as their Scale and half as "
+                                      "wide"));
     return leaves;
 }
 

@@ -1,4 +1,5 @@
 #include "speedtree_spines.h"
+#include "lib/model/counted.h"
 #include "pipe_rule.h"
 #include "plain_text.h"
 #include <algorithm>
@@ -159,8 +160,8 @@ void take_radii_of_bones(const File& file, const BoneBranches& bones, SpineBranc
         if (!(tip > 0)) tip = bones.branches[bones.branch_of[i]].radius.back();
     }
     if (taken > 0)
-        notes.lines.push_back(std::to_string(taken) +
-                              " points of spines without radii given the Radius of their bones");
+        notes.lines.push_back(counted(taken, "point", "points") +
+                              " of spines without radii given the Radius of their bones");
 }
 
 double radius_factor(const File& file, const SpineBranches& spines, std::optional<double> unit, ImportNotes& notes) {

@@ -1,4 +1,5 @@
 #include "spline_nodes.h"
+#include "lib/model/counted.h"
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -136,20 +137,27 @@ SplineNodes nodes_of(const Splines& splines) {
 
 std::vector<std::string> losses(const SplineNodes& nodes, const Splines& splines) {
     std::vector<std::string> lines;
-    const auto note = [&](std::size_t count, const char* what) {
-        if (count > 0) lines.push_back(std::to_string(count) + what);
+    const auto note = [&](std::size_t count, const char* one, const char* many) {
+        if (count > 0) lines.push_back(counted(count, one, many));
     };
-    note(splines.leaves(), " leaves and petals left out, which a skeleton does not hold");
-    note(splines.fruits(), " fruit left out, which a skeleton does not hold");
-    note(nodes.off_axis, " branches begin off their parent's axis: a piece from the axis leads to each");
+    note(splines.leaves(), "leaf or petal left out, which a skeleton does not hold",
+         "leaves and petals left out, which a skeleton does not hold");
+    note(splines.fruits(), "fruit left out, which a skeleton does not hold",
+         "fruit left out, which a skeleton does not hold");
+    note(nodes.off_axis, "branch begins off its parent's axis: a piece from the axis leads to it",
+         "branches begin off their parent's axis: a piece from the axis leads to each");
     note(nodes.base_radius,
-         " branches' radius at their base left out, where the parent's node stands: readers take that "
+         "branch's radius at its base left out, where the parent's node stands: readers take that of its first piece",
+         "branches' radius at their base left out, where the parent's node stands: readers take that "
          "of their first piece");
     note(nodes.goes_on,
-         " branches are no thinner than what goes on from where they leave, or nothing does: readers may "
+         "branch is no thinner than what goes on from where it leaves, or nothing does: readers may take it for its "
+         "parent's own",
+         "branches are no thinner than what goes on from where they leave, or nothing does: readers may "
          "take them for their parent's own");
     note(nodes.at_foot,
-         " branches leave their parent at its foot: readers take them for trunks, or for branches of what "
+         "branch leaves its parent at its foot: readers take it for a trunk, or for a branch of what that grows on",
+         "branches leave their parent at its foot: readers take them for trunks, or for branches of what "
          "that grows on");
     if (!splines.material.empty() || !splines.color.empty())
         lines.push_back("wood and colours left out, which a skeleton does not hold");

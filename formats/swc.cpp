@@ -2,6 +2,7 @@
 // at a root. A root of type 1 in a file that has other types is a soma: its radius is not a branch's, and soma nodes
 // that carry nothing but mark its outline are left out. The format states neither unit nor axis; files of our own do, in
 // a comment before the first node.
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include "skeleton.h"
 #include "skeleton_writer.h"
@@ -58,7 +59,8 @@ Node parse_node(std::string_view line, std::size_t number, const std::string& na
     std::array<std::string_view, columns> field;
     std::size_t at = 0, n = 0;
     while (n < columns && !(field[n] = next_token(line, at)).empty()) ++n;
-    if (n < columns) refuse(name, number, std::to_string(n) + " columns, expected 7: id type x y z radius parent");
+    if (n < columns)
+        refuse(name, number, counted(n, "column", "columns") + ", expected 7: id type x y z radius parent");
     more_columns = more_columns || !next_token(line, at).empty();
     const auto integer = [&](std::size_t k, const char* what) {
         const auto value = whole_number(field[k]);
@@ -131,7 +133,7 @@ void leave_out_soma(Skeleton& s, const std::vector<Node>& nodes, ImportNotes& no
         s.point[i] = s.point[p];
         ++outline;
     }
-    if (outline > 0) notes.lines.push_back(std::to_string(outline) + " outline nodes of the soma left out");
+    if (outline > 0) notes.lines.push_back(counted(outline, "outline node", "outline nodes") + " of the soma left out");
 }
 
 bool recognizes_swc(std::string_view content) {

@@ -1,5 +1,6 @@
 #include "table.h"
 #include "error.h"
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <cmath>
@@ -115,7 +116,7 @@ bool Table::next() {
     if (!next_line(line)) return false;
     split(line, delimiter_);
     if (cells_.size() < names_.size())
-        throw InputError(file_line(name_, line_), std::to_string(cells_.size()) + " columns, expected " +
+        throw InputError(file_line(name_, line_), counted(cells_.size(), "column", "columns") + ", expected " +
                                                       std::to_string(names_.size()) + " as the line of names says");
     return true;
 }

@@ -3,6 +3,7 @@
 // "x,y,z,radius" come once, at the start of a tree's line: attributes of the tree, or, where they hold x,y,z,radius
 // themselves, its root. x,y,z is the tip of a segment, parent_id counts the tree's segments from 0, -1 is the root,
 // whose radius has no meaning. Metres and Z up by definition of the format.
+#include "lib/model/counted.h"
 #include "plain_text.h"
 #include "skeleton.h"
 
@@ -87,7 +88,7 @@ void add_node(Skeleton& s, const std::string_view* field, std::int32_t parent, s
 void add_tree(Skeleton& s, std::string_view text, const Fields& f, std::size_t line, const std::string& place) {
     const std::vector<std::string_view> field = split(text);
     if (field.size() < f.tree + f.segment || (field.size() - f.tree) % f.segment != 0)
-        throw InputError(place, std::to_string(field.size()) + " numbers, expected " +
+        throw InputError(place, counted(field.size(), "number", "numbers") + ", expected " +
                                     (f.tree > 0 ? std::to_string(f.tree) + " and " : std::string()) + "a multiple of " +
                                     std::to_string(f.segment) + " as the fields line says");
     const std::int64_t first = std::int64_t(s.parent.size());

@@ -1,3 +1,4 @@
+#include "lib/model/counted.h"
 #include "skeleton_text.h"
 #include "skeleton_writer.h"
 #include <numeric>
@@ -36,8 +37,8 @@ void write_treetools(Output& output, const Splines& splines, std::vector<std::st
     text.hand_on();
     for (const std::string& line : losses(nodes, splines)) notes.push_back(line);
     if (nodes.trees > 0)
-        notes.push_back("radius at the foot of " + std::to_string(nodes.trees) +
-                        " trunks left out: readers take that of their first piece");
+        notes.push_back("radius at the foot of " + counted(nodes.trees, "trunk", "trunks") +
+                        " left out: readers take that of the first piece");
 }
 
 } // namespace bough

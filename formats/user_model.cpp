@@ -41,6 +41,9 @@ UserModel read_user_model(const std::string& path, ImportNotes& notes) {
     model.armature = armature_of(scene, Vec3::UnitY(), of_armature);
     if (model.armature.bones.empty())
         throw InputError(options.name, "has no armature, expected bones that move its mesh");
+    if (model.armature.mesh_beside)
+        notes.lines.push_back(
+            "the skin's bind matrices put the mesh beside its bones: it is shown there, as the file says");
     for (const std::int32_t node : model.armature.node) model.joint.push_back(scene.index[node]);
     for (std::size_t b = 0; b < model.joint.size(); ++b)
         if (model.joint[b] < 0 || !model.armature.bones[b].start.allFinite())

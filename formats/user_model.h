@@ -25,5 +25,7 @@ UserModel read_user_model(const std::string& path, ImportNotes&);
 
 // assimp_glb.cpp: FBX or COLLADA as a .glb. Throws InputError.
 std::string glb_by_assimp(std::string_view content, AssimpKind, const ImportOptions&);
+// What is said where assimp fails, which often gives no reason (an empty text, unnamed_failure), and what to do.
+std::string not_turned(const std::string& why);
 
 } // namespace bough

@@ -238,7 +238,7 @@ TEST_CASE("scenes name the nested place") {
     CHECK(curve("\"radius\": [0, 0.1], \"stiffness\": []") ==
           "s: /wood/curves/0/stiffness: has 0 keys, expected 2 (one for each radius)");
     CHECK(curve("\"radius\": [0, 0.1], \"damping\": [1]") ==
-          "s: /wood/curves/0/damping: has 1 keys, expected 2 (one for each radius)");
+          "s: /wood/curves/0/damping: has 1 key, expected 2 (one for each radius)");
     CHECK(curve("\"radius\": [0.1, 0.1], \"damping\": [1, 1]") ==
           "s: /wood/curves/0/radius/1: is 0.1, expected more than the one before it");
     CHECK(curve("\"radius\": [0.1], \"stiffness\": [-3]") ==
@@ -327,7 +327,7 @@ TEST_CASE("rigid names body and what is expected") {
     CHECK(changed(s, s + ", \"rigid\": [0, 2]") ==
           "t.json: /rigid/1: is 2, expected 0 (its joint moves) or 1 (it is rigid)");
     CHECK(changed(s, s + ", \"rigid\": [1]") ==
-          "t.json: /rigid: has 1 numbers, expected 2 (one for each body in /parent)");
+          "t.json: /rigid: has 1 number, expected 2 (one for each body in /parent)");
     CHECK(changed(s, s + ", \"rigid\": [0, 0.5]") == "t.json: /rigid/1: is 0.5, expected an integer");
 }
 
@@ -339,13 +339,13 @@ TEST_CASE("root motion names the nested place") {
     CHECK(moved(time + "\"rotation\": [[0, 0, 0, 1], [0, 1, 0, 0]]") == "");
     CHECK(moved("\"position\": [[0, 0, 0], [1, 0, 0]]") == "s: /root_motion/0/time: is missing");
     CHECK(moved("\"time\": [0], \"position\": [[0, 0, 0]]") ==
-          "s: /root_motion/0/time: has 1 times, expected at least 2");
+          "s: /root_motion/0/time: has 1 time, expected at least 2");
     CHECK(moved("\"time\": [0, -1], \"position\": [[0, 0, 0], [1, 0, 0]]") ==
           "s: /root_motion/0/time/1: is -1, expected more than 0 (times rise)");
     CHECK(moved("\"time\": [0, 1]") == "s: /root_motion/0: moves nothing, expected position or rotation");
     CHECK(moved(time + "\"position\": []") == "s: /root_motion/0/position: has 0 keys, expected 2 (one for each time)");
     CHECK(moved(time + "\"position\": [[0, 0, 0]]") ==
-          "s: /root_motion/0/position: has 1 keys, expected 2 (one for each time)");
+          "s: /root_motion/0/position: has 1 key, expected 2 (one for each time)");
     CHECK(moved(time + "\"position\": [[0, 0, 0], [1, 0]]") ==
           "s: /root_motion/0/position/1: has 2 numbers, expected 3 (x, y, z)");
     CHECK(moved(time + "\"rotation\": [[0, 0, 0, 1], [1, 0, 0]]") ==
@@ -388,7 +388,7 @@ TEST_CASE("a grid over the ground, a swirl, a shelter say what is wrong with the
     CHECK(grid(", \"frequency\": 0") == "s: /wind/grid/frequency: is 0, expected more than 0");
     CHECK_THAT(grid(", \"speed\": 1"), StartsWith("s: /wind/grid/speed: is an unknown field"));
     CHECK(wind("\"grid\": {\"origin\": [0], \"cell\": 2, \"columns\": 2, \"rows\": 3}") ==
-          "s: /wind/grid/origin: has 1 numbers, expected 2 (x, z)");
+          "s: /wind/grid/origin: has 1 number, expected 2 (x, z)");
     CHECK(wind("\"grid\": {\"origin\": [0, 0], \"cell\": 0, \"columns\": 2, \"rows\": 3}") ==
           "s: /wind/grid/cell: is 0, expected more than 0");
     CHECK(wind("\"grid\": {\"origin\": [0, 0], \"cell\": 1, \"columns\": 0, \"rows\": 3}") ==
@@ -404,7 +404,7 @@ TEST_CASE("a grid over the ground, a swirl, a shelter say what is wrong with the
     CHECK(wind("\"swirl\": {\"angle\": [20, 30]}") ==
           "s: /wind/swirl/angle: has 2 keys, expected 1 (radius names no more)");
     CHECK(wind("\"swirl\": {\"angle\": 20, \"radius\": [0, 4]}") ==
-          "s: /wind/swirl/angle: has 1 keys, expected 2 (one for each radius)");
+          "s: /wind/swirl/angle: has 1 key, expected 2 (one for each radius)");
     CHECK(wind("\"swirl\": {\"angle\": [1, 200], \"radius\": [0, 4]}") ==
           "s: /wind/swirl/angle/1: is 200, expected -180 to 180 degrees");
     CHECK(wind("\"swirl\": {\"angle\": [1, 2], \"radius\": [4, 4]}") ==
@@ -441,7 +441,7 @@ TEST_CASE("motions name the line of the frame") {
     const auto wrong = [](const std::string& text) { return error_of([&] { read_motion(text, "m"); }); };
     CHECK(wrong(head + frame + frame) == "");
     CHECK(wrong(head + frame + replaced(frame, "[0, 0, 0]", "[0, 0, 0, 0, 0, 0]")) ==
-          "m:3: /position: has 6 numbers, expected 3 (3 for each of 1 bodies)");
+          "m:3: /position: has 6 numbers, expected 3 (3 for each of 1 body)");
     CHECK(wrong(head + frame + replaced(frame, "\"time\": 0, ", "")) == "m:3: /time: is missing");
     CHECK(wrong(head + replaced(frame, "position", "positions")) ==
           "m:2: /positions: is an unknown field, did you mean \"position\"?");

@@ -1,10 +1,12 @@
 #include "formats/driven_model.h"
+#include "formats/gltf_prune.h"
 #include "gltf_reader.h"
 #include "import_support.h"
 #include "lib/growth/segment.h"
 #include "lib/model/drawn_pose.h"
 #include "lib/model/wood.h"
 #include <filesystem>
+#include <set>
 #include <unistd.h>
 
 using namespace bough;
@@ -118,13 +120,89 @@ TEST_CASE("what is not the motion stays as it is in the file") {
     const Json before = Json::parse(content_of(twig));
     for (const char* part : {"asset", "scenes", "nodes", "meshes", "materials", "skins", "extensionsUsed"})
         CHECK(glb.json[part] == before[part]);
-    for (std::size_t k = 0; k < before["accessors"].size(); ++k)
-        CHECK(glb.json["accessors"][k] == before["accessors"][k]);
+    // The file's own animation moved the same bones: it goes, with its two arrays (the last) and their 40 bytes.
+    for (std::size_t k = 0; k < 5; ++k) CHECK(glb.json["accessors"][k] == before["accessors"][k]);
     const std::string bytes = content_of(fixtures + "twig_bark.bin");
-    CHECK(glb.binary.compare(0, bytes.size(), bytes) == 0);
-    REQUIRE(glb.json["animations"].size() == 1); // the file's own moved the same bones
+    CHECK(glb.binary.compare(0, bytes.size() - 40, bytes, 0, bytes.size() - 40) == 0);
+    REQUIRE(glb.json["animations"].size() == 1);
+    std::set<std::size_t> named;
+    for (const Json& sampler : glb.json["animations"][0]["samplers"]) {
+        named.insert(sampler["input"].get<std::size_t>());
+        named.insert(sampler["output"].get<std::size_t>());
+    }
+    CHECK(glb.json["accessors"].size() == 5 + named.size());
+    CHECK(glb.json["bufferViews"].size() == glb.json["accessors"].size());
     CHECK(glb.json["animations"][0]["name"] == "motion");
     CHECK(glb.json["animations"][0]["extras"]["source"] == "treesim twig.json");
+}
+
+TEST_CASE("arrays that only a left out animation named go, what anything else has of them stays") {
+    GltfDocument document;
+    for (char c = 0; c < 60; ++c) document.binary += c;
+    document.json = nlohmann::ordered_json::parse(R"({
+        "buffers": [{"byteLength": 60}, {"byteLength": 99}],
+        "bufferViews": [{"buffer": 0, "byteLength": 10}, {"buffer": 0, "byteOffset": 8, "byteLength": 8},
+                        {"buffer": 0, "byteOffset": 16, "byteLength": 8}, {"buffer": 0, "byteOffset": 24, "byteLength": 21},
+                        {"buffer": 0, "byteOffset": 30, "byteLength": 4}, {"buffer": 0, "byteOffset": 44, "byteLength": 8},
+                        {"buffer": 1, "byteOffset": 8, "byteLength": 8}, {"buffer": 0, "byteOffset": 52, "byteLength": 8}],
+        "accessors": [{"bufferView": 0}, {"bufferView": 1}, {"bufferView": 2}, {"bufferView": 3}, {"bufferView": 4},
+                      {"bufferView": 6}, {"sparse": {"indices": {"bufferView": 7}, "values": {"bufferView": 1}}}],
+        "images": [{"bufferView": 5}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 4, "targets": [{"POSITION": 2}]}]}],
+        "nodes": [{"extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"SCALE": 6}}}}],
+        "animations": [{"samplers": [{"input": 2, "output": 5}]}]})");
+    const auto before = document;
+    CHECK(prune(document, {0, 2, 3, 3}).empty());
+    CHECK(document.json["accessors"].size() == 5); // 0 and 3 are gone
+    CHECK(document.json["meshes"][0]["primitives"][0] ==
+          nlohmann::ordered_json::parse(
+              R"({"attributes": {"POSITION": 0}, "indices": 2, "targets": [{"POSITION": 1}]})"));
+    CHECK(document.json["animations"][0]["samplers"][0] ==
+          nlohmann::ordered_json::parse(R"({"input": 1, "output": 3})"));
+    CHECK(document.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] == 4);
+    // Each view that is left has its bytes, at a place as well aligned as before.
+    const std::size_t kept[] = {1, 2, 4, 5, 6, 7};
+    REQUIRE(document.json["bufferViews"].size() == 6);
+    for (std::size_t k = 0; k < 6; ++k) {
+        const auto &now = document.json["bufferViews"][k], &then = before.json["bufferViews"][kept[k]];
+        const std::size_t at = now["byteOffset"], was = then["byteOffset"];
+        if (then["buffer"] == 1) {
+            CHECK(now == then);
+            continue;
+        }
+        CHECK(at % 4 == was % 4);
+        CHECK(document.binary.substr(at, 8).substr(0, now["byteLength"]) ==
+              before.binary.substr(was, 8).substr(0, then["byteLength"]));
+    }
+    CHECK(document.json["images"][0]["bufferView"] == 3);
+    // Of view 0 its first 8 bytes, of view 3 those from 24 to 28 and from 36 to 44: no part of any other.
+    CHECK(document.binary.size() == 60 - 8 - 4 - 8);
+    // What may name arrays in a way that is not known leaves all as it was.
+    GltfDocument strange = before;
+    strange.json["nodes"].push_back({{"extensions", {{"ACME_points", {{"list", 0}}}}}});
+    const auto json = strange.json;
+    CHECK(prune(strange, {0}) == "ACME_points");
+    CHECK(strange.json == json);
+    CHECK(strange.binary == before.binary);
+}
+
+TEST_CASE("why assimp could not turn a model is said, and what to do") {
+    CHECK(not_turned("no memory").find("could not turn it into glTF: no memory; export glTF") != std::string::npos);
+    for (const char* nothing : {"", "failed"})
+        CHECK(not_turned(nothing).find("and does not say why; export glTF (.glb)") != std::string::npos);
+}
+
+TEST_CASE("a tree that lies is as large as its bones") {
+    const std::string folder = std::filesystem::temp_directory_path() / ("bough_lying_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    Json json = Json::parse(content_of(twig));
+    json["nodes"][0]["rotation"] = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}; // all bones in the plane y = 0
+    std::ofstream(folder + "/t.gltf") << json.dump();
+    std::filesystem::copy_file(fixtures + "twig_bark.bin", folder + "/twig_bark.bin",
+                               std::filesystem::copy_options::overwrite_existing);
+    const Tree tree = tree_of(folder + "/t.gltf", 0);
+    CHECK_NOTHROW(driven(folder + "/t.gltf", tree, {drawn(tree)}));
+    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("animations of other nodes stay, those of the bones are named as left out; meshes that nothing moves, too") {
@@ -154,7 +232,7 @@ TEST_CASE("animations of other nodes stay, those of the bones are named as left 
                            [&](const std::string& line) { return line.find(text) != std::string::npos; });
     };
     CHECK(noted("left out for the new one: \"sway\""));
-    CHECK(noted("1 meshes stay still"));
+    CHECK(noted("1 mesh stays still"));
     REQUIRE(read.lines.size() == 1);
     CHECK(read.lines[0].find("\"gone.png\"") != std::string::npos);
     const Json& image = glb.json["images"][0];
@@ -241,7 +319,7 @@ TEST_CASE("a model that is not the tree's is refused") {
     std::vector<std::string> lines;
     const Tree large = tree_of(twig, 0, 3); // as three metres a unit
     CHECK_THROWS_WITH(DrivenModel(read_user_model(twig, notes), large, {}, lines),
-                      Catch::Matchers::Contains("its bones are 2 m high, the tree is 6 m"));
+                      Catch::Matchers::Contains("its bones are 2 m large, the tree is 6 m"));
     Tree beside;
     append(beside, tree_of(twig, 0), Vec3(3, 0, 0), 0);
     CHECK_THROWS_WITH(DrivenModel(read_user_model(twig, notes), beside, {}, lines),

@@ -66,8 +66,8 @@ TEST_CASE("an armature with its mesh: a mark, a bone that begins midway, a contr
     // The four corners of the ring at each bone's start stand this far off; at tips the taper goes on.
     const std::vector<double> radius{0.1, 0.08, 0.06, 0.04, 0.03, 0.0225};
     for (std::size_t k = 0; k < radius.size(); ++k) CHECK(s.radius[k] == Approx(radius[k]).epsilon(1e-6));
-    CHECK(in.notes_hold("1 bones that move no vertex"));
-    CHECK(in.notes_hold("1 bones without an end: they reach as far as their vertices"));
+    CHECK(in.notes_hold("1 bone that moves no vertex"));
+    CHECK(in.notes_hold("1 bone without an end: it reaches as far as its vertices"));
     CHECK(in.notes_hold("radii of 4 of 4 bones measured"));
     CHECK(in.notes.lines.size() == 3); // unit and up axis are the format's
 }
@@ -94,7 +94,7 @@ TEST_CASE("where the file says nothing of joints, a topmost node whose bones beg
         json["nodes"][1]["translation"] = {3, 0, 1};
     });
     const Imported in = imported(bare, "bare.gltf");
-    CHECK(in.notes_hold("1 nodes taken as the armature's frame"));
+    CHECK(in.notes_hold("1 node taken as the armature's frame"));
     CHECK(near(in.splines.point[0], {3, 0, 1}, 1e-6));
     CHECK(in.splines.branches() == 2);
     // Without the mark the last bone of the trunk is as long as the one before it.
@@ -139,6 +139,185 @@ TEST_CASE("of two armatures with bones of the same names each skin has its own")
     CHECK_THROWS_AS(glb_by_assimp(fixture("two_armatures.dae"), AssimpKind::dae, {}), InputError);
 }
 
+// The fixture's armature stands at x = 3; both matrices say so. A ring of 0.1 around bones from y = 0 to 2.
+TEST_CASE("a skin whose bind matrices are not its nodes' is measured where its mesh stands, or not at all") {
+    const std::string good = fixture("moved_armature.dae");
+    const std::string scaled =
+        replaced(replaced(good, "<node id=\"rig\" type=\"NODE\">",
+                          "<node id=\"empty\" type=\"NODE\"><scale>10 10 10</scale><node id=\"rig\" type=\"NODE\">"),
+                 "</visual_scene>", "</node></visual_scene>");
+    const auto with = [](const std::string& file, const std::string& bind, const std::string& inverse) {
+        std::string text =
+            replaced(file, "<bind_shape_matrix>1 0 0 3 0 1 0 0 0 0 1 0 0 0 0 1", "<bind_shape_matrix>" + bind);
+        if (inverse.empty()) return text;
+        text = replaced(text, "1 0 0 -3 0 1 0 0 0 0 1 0 0 0 0 1", inverse);
+        return replaced(text, "1 0 0 -3 0 1 0 -1 0 0 1 0 0 0 0 1", "1 0 0 0 0 1 0 -1 0 0 1 0 0 0 0 1");
+    };
+    const std::string one = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", ten = "10 0 0 30 0 10 0 0 0 0 10 0 0 0 0 1";
+    struct Case {
+        std::string file;
+        double radius;
+        bool elsewhere;
+    };
+    const Case cases[] = {{good, 0.1, false},
+                          {with(good, one, one), 0.1, false}, // bound before it was moved
+                          {with(good, one, ""), 0.1, true},   // the mesh is bound as if it stood at the origin
+                          {replaced(good, "<bind_shape_matrix>1 0 0 3", "<bind_shape_matrix>1 0 0 6"), 0.1, true},
+                          {with(scaled, one, one), 1, false}, // all within what scales it
+                          {with(scaled, ten, one), 1, true},  // scaled twice
+                          {with(scaled, one, ""), 1, true}};  // not at all
+    for (const Case& c : cases) {
+        INFO(&c - cases);
+        const Imported in = imported(c.file, "m.dae");
+        for (const double r : in.splines.radius) CHECK(r == Approx(c.radius));
+        CHECK(in.notes_hold("measured where the mesh's own node stands") == c.elsewhere);
+        CHECK(in.notes_hold("radii of 2 of 2 bones measured"));
+    }
+    // Where the node would put it beside the bones as well, nothing is measured.
+    const std::string beside =
+        replaced(with(good, "1 0 0 40 0 1 0 0 0 0 1 0 0 0 0 1", ""), "<node id=\"mesh\" type=\"NODE\">",
+                 "<node id=\"mesh\" type=\"NODE\"><translate>40 0 0</translate>");
+    const Imported in = imported(beside, "m.dae");
+    CHECK(in.notes_hold("times the armature's size beside its bones: radii are not measured on it"));
+    CHECK(in.notes_hold("by the pipe rule"));
+    for (const double r : in.splines.radius) CHECK(r < 0.05);
+}
+
+TEST_CASE("a second armature that moves no vertex is told from controls") {
+    const auto with = [](int bones) {
+        return changed(fixture("twig_armature.gltf"), [bones](Json& json) {
+            const int first = int(json["nodes"].size());
+            for (int k = 0; k < bones; ++k) {
+                json["nodes"].push_back(Json{{"name", "bare " + std::to_string(k)}, {"translation", {0, 1, 0}}});
+                if (k > 0) json["nodes"][std::size_t(first + k - 1)]["children"] = {first + k};
+            }
+            json["skins"].push_back(Json{{"joints", Json::array()}}); // its matrices are identities
+            for (int k = 0; k < bones; ++k) json["skins"][1]["joints"].push_back(first + k);
+            json["scenes"][0]["nodes"].push_back(first);
+        });
+    };
+    const Imported three = imported(with(3), "t.gltf", beside_fixtures()),
+                   two = imported(with(2), "t.gltf", beside_fixtures());
+    CHECK(three.notes_hold("3 bones of 1 armature that move no vertex left out (\"bare 0\")"));
+    CHECK(three.notes_hold("1 bone that moves no vertex"));
+    CHECK(two.notes_hold("3 bones that move no vertex, nor anything below them, left out (controls)"));
+    CHECK(three.splines.branches() == 2);
+    CHECK(two.splines.branches() == 2);
+}
+
+TEST_CASE("without a mesh, bones that are named as controls are no branches, unless all are") {
+    const std::string bare = changed(fixture("twig_armature.gltf"), [](Json& json) {
+        for (const char* gone : {"skins", "meshes", "animations", "materials", "accessors", "bufferViews", "buffers"})
+            json.erase(gone);
+        json["nodes"][7].erase("mesh"), json["nodes"][7].erase("skin");
+    });
+    const auto add = [&](const std::string& name) {
+        return changed(bare, [&](Json& json) {
+            const int first = int(json["nodes"].size());
+            json["nodes"].push_back(Json{{"name", name}, {"translation", {0.5, 0, 0}}, {"children", {first + 1}}});
+            json["nodes"].push_back(Json{{"name", name + ".001"}, {"translation", {0, 0.5, 0}}});
+            json["nodes"][1]["children"].push_back(first);
+        });
+    };
+    const std::size_t without = imported(bare, "b.gltf").splines.branches();
+    for (const char* name : {"IK_tip", "CTRL-top", "PoleTarget", "branch.ik.L", "mch", "Control_3"}) {
+        INFO(name);
+        const Imported in = imported(add(name), "b.gltf");
+        CHECK(in.splines.branches() == without);
+        CHECK(in.notes_hold("3 bones left out as controls by their names (")); // and the one that is called so
+    }
+    for (const char* name : {"stick", "twig", "Mikado", "controls_not", "polestar"}) {
+        INFO(name);
+        const Imported in = imported(add(name), "b.gltf");
+        CHECK(in.splines.branches() == without + 1);
+        CHECK_FALSE(in.notes_hold("by their names"));
+    }
+    const std::string all = changed(bare, [](Json& json) {
+        for (Json& node : json["nodes"]) node["name"] = "ctrl_" + node["name"].get<std::string>();
+    });
+    CHECK(imported(all, "b.gltf").splines.branches() == without);
+}
+
+TEST_CASE("lines of glTF: radii of a custom attribute, vertices that are not there") {
+    const std::string good = fixture("lines.gltf");
+    const auto with = [&](
+                          const char* name, const std::function<void(Json&)>& also = [](Json&) {}) {
+        return changed(good, [&](Json& json) {
+            // 1/2, 1/4, 1/8, 1/16, 1/32, 1/8, 1/2 as floats.
+            json["buffers"].push_back(
+                Json{{"byteLength", 28}, {"uri", "data:;base64,AAAAPwAAgD4AAAA+AACAPQAAAD0AAAA+AAAAPw=="}});
+            json["bufferViews"].push_back(Json{{"buffer", 1}, {"byteLength", 28}});
+            json["accessors"].push_back(
+                Json{{"bufferView", 3}, {"componentType", 5126}, {"count", 7}, {"type", "SCALAR"}});
+            for (Json& primitive : json["meshes"][0]["primitives"]) primitive["attributes"][name] = 3;
+            also(json);
+        });
+    };
+    // The strip is 2 1 0; pairs are 4 3 and 5 6, of which 3 and 5 stand at 1 and 2: the thicker counts. The node doubles.
+    const Splines s = imported(with("_RADIUS"), "l.gltf").splines;
+    REQUIRE(s.first_point == std::vector<std::int32_t>{0, 4, 6});
+    const std::vector<double> radius{1, 0.5, 0.25, 1, 0.0625, 0.0625};
+    for (std::size_t k = 0; k < radius.size(); ++k) CHECK(s.radius[k] == Approx(radius[k]));
+    const Splines half = imported(with("_diameter"), "l.gltf").splines;
+    for (std::size_t k = 0; k < radius.size(); ++k) CHECK(half.radius[k] == Approx(0.5 * radius[k]));
+    CHECK(imported(with("_AGE"), "l.gltf").notes_hold("by the pipe rule"));
+    // Bytes that stand for 0 to 1: 63 of 255.
+    const Splines bytes = imported(with("_RADIUS",
+                                        [](Json& json) {
+                                            json["accessors"][3]["componentType"] = 5121;
+                                            json["accessors"][3]["normalized"] = true;
+                                            json["bufferViews"][3]["byteStride"] = 4;
+                                            json["bufferViews"][3]["byteOffset"] =
+                                                3; // the last byte of the first: 0x3f
+                                            json["bufferViews"][3]["byteLength"] = 25;
+                                        }),
+                                   "l.gltf")
+                              .splines;
+    CHECK(bytes.radius[0] == Approx(2 * 63 / 255.0));
+    // Nothing but two numbers that are put in their places.
+    const Splines sparse = imported(with("_RADIUS",
+                                         [](Json& json) {
+                                             json["accessors"][3].erase("bufferView");
+                                             json["accessors"][3]["sparse"] = Json::parse(
+                                                 R"({"count": 2, "indices": {"bufferView": 1, "componentType": 5123},
+                                                     "values": {"bufferView": 3}})");
+                                         }),
+                                    "l.gltf")
+                               .splines;
+    CHECK(sparse.radius[2] == Approx(1)); // the strip is 2 1 0: number 2 becomes 1/2, number 1 becomes 1/4
+    CHECK(sparse.radius[1] == Approx(0.5));
+    const auto says = [&](const std::string& file, const std::string& text) {
+        const std::string error = error_of(file, "l.gltf");
+        INFO(error);
+        CHECK(error.find(text) != std::string::npos);
+    };
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 6; }),
+         "mesh 0, primitive 0: _RADIUS has 6 numbers, expected one for each of 7 vertices");
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 8; }), "8 numbers ends beyond its view");
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["type"] = "VEC2"; }), "is VEC2, expected SCALAR");
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["componentType"] = 1; }), "componentType is 1");
+    says(changed(good, [](Json& json) { json["accessors"][0]["count"] = 6; }),
+         "mesh 0, primitive 1: a line names vertex 6, expected 0 to 5");
+}
+
+TEST_CASE("scenes: the default one is read, others are told of, without any all nodes are") {
+    const std::string good = fixture("twig_armature.gltf");
+    const auto with_other = [&](int shown) {
+        return changed(good, [shown](Json& json) {
+            json["scenes"].push_back(Json{{"nodes", {int(json["nodes"].size())}}});
+            json["nodes"].push_back(Json{{"name", "pot"}, {"mesh", 0}});
+            json["scene"] = shown;
+        });
+    };
+    const Imported first = imported(with_other(0), "s.gltf", beside_fixtures());
+    CHECK(first.splines.branches() == 2);
+    CHECK(first.notes_hold("1 scene beside the default one not read"));
+    CHECK(error_beside(with_other(1), "s.gltf").find("(its default scene; 1 other is not read)") != std::string::npos);
+    const std::string none = changed(good, [](Json& json) { json.erase("scenes"), json.erase("scene"); });
+    CHECK(imported(none, "s.gltf", beside_fixtures()).splines.point ==
+          imported(good, "s.gltf", beside_fixtures()).splines.point);
+}
+
 TEST_CASE("nodes in a row that no skin names are told of") {
     const std::string beside = changed(fixture("twig_armature.gltf"), [](Json& json) {
         const int first = int(json["nodes"].size());
@@ -175,7 +354,8 @@ TEST_CASE("damaged glTF is refused in one line") {
         CHECK(error.find(text) != std::string::npos);
     };
     says([](Json& j) { j["buffers"][0]["uri"] = "gone.bin"; }, "\"gone.bin\" is not beside the file");
-    says([](Json& j) { j["buffers"][0]["uri"] = "https://example.org/a.bin"; }, "not on this machine");
+    says([](Json& j) { j["buffers"][0]["uri"] = "https://example.org/a.bin"; }, "expected a relative path");
+    says([](Json& j) { j["buffers"][0]["uri"] = "/etc/passwd"; }, "expected a relative path");
     says([](Json& j) { j["buffers"][0]["uri"] = "data:;base64,A*"; }, "expected base64");
     says([](Json& j) { j["buffers"][0]["byteLength"] = 99999; }, "has 1576 bytes, expected 99999");
     says([](Json& j) { j["bufferViews"][0]["byteLength"] = 9999; }, "of a buffer of 1576");

@@ -95,7 +95,7 @@ TEST_CASE("Blender's curves as JSON: Bezier pieces evaluated, radius times bevel
     CHECK_FALSE(in.notes_hold("unit"));
     CHECK_FALSE(in.notes_hold("up axis"));
     CHECK(imported(replaced(curves(), "\"BEZIER\",\"cyclic\":false", "\"POLY\",\"cyclic\":true"), "x.json")
-              .notes_hold("1 closed curves opened"));
+              .notes_hold("1 closed curve opened"));
     CHECK(imported(replaced(curves(), "0.5,\"res", "0,\"res"), "x.json").notes_hold("bevel_depth is 0"));
 }
 

@@ -105,6 +105,10 @@ TEST_CASE("the same table in another dress is the same tree") {
     for (int row = 0; std::getline(lines, line); ++row)
         numbered += (row == 0 ? "" : "\"" + std::to_string(row) + "\",") + line + "\r\n";
     CHECK(same(imported(numbered, "a.csv").splines, expected));
+    // What R, Python and MATLAB write for no parent.
+    for (const char* none : {"NA", "nan", "NaN", "None"})
+        CHECK(same(imported(replaced(plain, "\n0,0.05,", "\n" + std::string(none) + ",0.05,"), "a.csv").splines,
+                   expected));
     // Without radii there are some, thinner outward.
     const Imported bare = imported(replaced(plain, "radius_cyl", "something"), "a.csv");
     CHECK(bare.notes_hold("radii"));

@@ -14,7 +14,7 @@ TEST_CASE("OBJ lines: forks, negative and texture indices, continued lines, face
     CHECK(total_length(in.splines) == Approx(3 + std::sqrt(1.25)));
     CHECK(top_of(in.splines) == 3);
     CHECK(in.splines.parent_at[1] == Approx(2.0 / 3).epsilon(0.35)); // which of the two goes on is the longer's matter
-    CHECK(in.notes_hold("1 faces not read"));
+    CHECK(in.notes_hold("1 face not read"));
     CHECK(in.notes_hold("taken as Y"));
     CHECK(in.notes_hold("filled by the pipe rule"));
 }
@@ -28,7 +28,7 @@ TEST_CASE("OBJ curves with clamped knots are evaluated, others follow their cont
     for (const Vec3& p : arc.point) CHECK((p - Vec3(1, 0, 0)).norm() == Approx(1));
     const Imported loose = imported(replaced(clamped, "0 0 0 1 1 1", "0 1 2 3 4 5"), "x.obj");
     CHECK(loose.splines.points() == 3);
-    CHECK(loose.notes_hold("1 curves taken along their control points"));
+    CHECK(loose.notes_hold("1 curve taken along its control points"));
     CHECK(imported(replaced(clamped, "deg 2", "deg 3"), "x.obj").splines.points() == 3);
     const std::string bezier = "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 2 0\ncstype bezier\ndeg 3\ncurv 0 1 -4 -3 -2 -1\nend\n";
     const Splines s = imported(bezier, "x.obj").splines;
@@ -53,14 +53,14 @@ TEST_CASE("curves from tip to base are turned, and joined where they begin") {
 }
 
 TEST_CASE("OBJ files without a skeleton are refused with advice, wrong ones with their line") {
-    CHECK(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "x.obj").find("x.obj: is a mesh (1 faces)") == 0);
+    CHECK(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "x.obj").find("x.obj: is a mesh (1 face)") == 0);
     CHECK(error_of("v 0 0 0\nv 1 0 0\n", "x.obj").find("x.obj: 2 points without lines") == 0);
     CHECK(error_of("v 0 0 0\nv 0 1 0\nl 1 3\n", "x.obj") == "x.obj:3: vertex 3 does not exist, expected 1 to 2");
     CHECK(error_of("v 0 0 0\nl 1 0\nv 0 1 0\n", "x.obj").find("x.obj:2: vertex 0 does not exist") == 0);
     CHECK(error_of("v 0 0 0\nl 1 -2\nv 0 1 0\n", "x.obj").find("x.obj:2: vertex -2 does not exist") == 0);
     CHECK(error_of("v 0 0\n", "x.obj") == "x.obj:1: v has 2 numbers, expected x y z");
     CHECK(error_of("v 0 0 0\nv 0 nan 0\n", "x.obj").find("x.obj:2: \"nan\" is not a vertex's y") == 0);
-    CHECK(error_of("v 0 0 0\nv 0 1 0\nl 1\n", "x.obj").find("x.obj:3: l has 1 vertices") == 0);
+    CHECK(error_of("v 0 0 0\nv 0 1 0\nl 1\n", "x.obj").find("x.obj:3: l has 1 vertex,") == 0);
     CHECK(error_of("v 0 0 0\nl 1 one\n", "x.obj").find("x.obj:2: \"one\" is not a vertex's index") == 0);
     CHECK(error_of("v 0 0 0\nv 0 0 0\nl 1 2\n", "x.obj").find("no line with a length") != std::string::npos);
     CHECK(

@@ -99,7 +99,7 @@ TEST_CASE("bones alone are grouped into branches") {
     CHECK(s.leaf_at[0] == Approx(4.5 / 9.5));
     CHECK(s.leaf_length[0] == Approx(0.5 * ft));
     CHECK(s.leaf_width[0] == Approx(0.25 * ft));
-    CHECK(in.notes_hold("1 leaves without a mesh"));
+    CHECK(in.notes_hold("1 leaf without a mesh"));
     CHECK(in.notes.lines.size() == 1); // unit and up axis are stated
 }
 
@@ -127,14 +127,14 @@ TEST_CASE("a branch without length is left out and what it carries moves to its 
     REQUIRE(in.splines.branches() == 2);
     CHECK(in.splines.leaf_branch == std::vector<std::int32_t>{0, 1});
     CHECK(in.splines.leaf_at[0] == Approx(0.375));
-    CHECK(in.notes_hold("1 branches without length"));
+    CHECK(in.notes_hold("1 branch without length"));
 }
 
 TEST_CASE("a leaf of Scale 0 is left out, spines without radii have those of their bones") {
     const std::string good = fixture("two_trunks_spines.xml");
     const Imported bare = imported(replaced(good, "<Scale>12. </Scale>", "<Scale>0 </Scale>"), "s.xml");
     CHECK(bare.splines.leaves() == 1);
-    CHECK(bare.notes_hold("1 leaves of Scale 0 left out"));
+    CHECK(bare.notes_hold("1 leaf of Scale 0 left out"));
     std::string thin = good;
     for (int spine = 0; spine < 3; ++spine)
         thin = replaced(replaced(thin, "<Radius>", "<Girth>"), "</Radius>", "</Girth>");

@@ -18,7 +18,7 @@ TEST_CASE("an SWC skeleton with shuffled ids, a soma, two roots and a segment wi
     CHECK(s.radius[0] == 0.5);
     CHECK(s.radius[s.first_point[2]] == 0.25);
     CHECK(s.radius.back() == 0.1);
-    CHECK(in.notes_hold("1 outline nodes"));
+    CHECK(in.notes_hold("1 outline node"));
     CHECK(in.notes_hold("taken as Z"));
     CHECK(in.notes_hold("taken as m, because the tree is 7 units high"));
 }
@@ -65,6 +65,51 @@ TEST_CASE("wrong SWC files are refused with their line") {
     CHECK(error_of("# nothing\n", "s.swc").find("s.swc: holds no node") == 0);
     CHECK(error_of("1 1 0 0 0 1 -1\n", "s.swc").find("no branch with a length") != std::string::npos);
     CHECK(error_of("1 1 zero 0 0 1 -1\n", "s.swc").find("s.swc:1: \"zero\" is not a node's x") == 0);
+}
+
+TEST_CASE("lines that end with CR alone, as old Mac programs wrote them") {
+    for (const char* name : {"shuffled.swc", "lines.obj", "tip_to_base.obj", "cylinder_small.txt", "archi_small.csv",
+                             "shrub.mtg", "two_trees.txt", "eztree_list.json", "two_trunks_spines.xml"}) {
+        INFO(name);
+        std::string lf, cr;
+        for (const char c : fixture(name))
+            if (c != '\r') lf += c, cr += c == '\n' ? '\r' : c;
+        for (const std::string& text : {cr, cr + "\n"}) {
+            const Splines a = imported(lf, name).splines, b = imported(text, name).splines;
+            CHECK(a.point == b.point);
+            CHECK(a.parent == b.parent);
+            CHECK(a.radius == b.radius);
+        }
+    }
+    std::string wrong = replaced(fixture("shuffled.swc"), "0 7  0.5", "0 7,5 0.5");
+    std::replace(wrong.begin(), wrong.end(), '\n', '\r');
+    CHECK(error_of(wrong, "s.swc").find("s.swc:9: \"7,5\" is not a node's z") == 0);
+}
+
+TEST_CASE("sizes that nothing can be reckoned with are refused, absurd ones named") {
+    const std::string good = "1 3 0 0 0 1 -1\n2 3 0 0 7 1 1\n";
+    const auto given = [&](double unit) {
+        ImportOptions options;
+        options.unit = unit;
+        options.up = 'z';
+        options.name = "s.swc";
+        ImportNotes notes;
+        import_splines(good, options, notes);
+        return notes.lines.empty() ? std::string() : notes.lines.back();
+    };
+    CHECK_THROWS_WITH(given(1e300), Catch::Matchers::Contains("s.swc: reaches 7e+300 m, expected at most 1e+30 m"));
+    CHECK_THROWS_WITH(given(1e308), Catch::Matchers::Contains("reaches inf m"));
+    CHECK_THROWS_WITH(given(1e-300), Catch::Matchers::Contains("is 7e-300 m large, expected at least 1e-30 m"));
+    CHECK(given(1e29).find("the tree is 7e+29 m high, no tree is: is --units right?") == 0);
+    CHECK(given(200).find("the tree is 1400 m high") == 0);
+    CHECK(given(100).empty());
+    CHECK(error_of("1 3 0 0 -1e308 1 -1\n2 3 0 0 1e308 1 1\n", "s.swc").find("reaches 1e+305 m") != std::string::npos);
+    CHECK(
+        error_of(
+            R"({"format": "bough-splines", "version": 1, "name": "far", "parent": [-1], "parent_at": [0], "level": [0],
+                       "first_point": [0, 2], "point": [0, -1e308, 0, 0, 1e308, 0], "radius": [1, 1]})",
+            "s.json")
+            .find("s.json: reaches 1e+308 m") == 0);
 }
 
 TEST_CASE("damaged SWC files are read or refused in one line") {

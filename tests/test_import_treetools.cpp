@@ -23,7 +23,7 @@ TEST_CASE("a tree file with fields of the tree and two trees becomes two trunks 
     CHECK(near(s.point[s.first_point[3]], {-5, 1, 0}));
     CHECK(std::vector<double>(s.radius.begin(), s.radius.begin() + 4) == std::vector<double>{0.2, 0.2, 0.15, 0.1});
     CHECK(s.radius[s.first_point[1]] == 0.1);
-    CHECK(in.notes_hold("1 segments without length"));
+    CHECK(in.notes_hold("1 segment without length"));
 }
 
 TEST_CASE("a tree file whose root has fields of its own") {

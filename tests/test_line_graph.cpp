@@ -92,10 +92,10 @@ TEST_CASE("circles are opened at their thinnest line, repeated lines and bare po
     ImportNotes notes;
     const RootedLines tree = root_lines(std::move(g), 'z', "x", notes);
     CHECK(length_of(tree.branches) == Approx(1 + 2 * std::sqrt(2.0)));
-    CHECK(holds(notes, "1 lines cut that close circles"));
-    CHECK(holds(notes, "1 lines that repeat others"));
-    CHECK(holds(notes, "1 lines without length"));
-    CHECK(holds(notes, "1 points without a line"));
+    CHECK(holds(notes, "1 line cut that closes a circle"));
+    CHECK(holds(notes, "1 line that repeats another"));
+    CHECK(holds(notes, "1 line without length"));
+    CHECK(holds(notes, "1 point without a line"));
 }
 
 TEST_CASE("a loose part keeps its place beside the line that it is attached to") {
@@ -111,7 +111,7 @@ TEST_CASE("a loose part keeps its place beside the line that it is attached to")
     CHECK(loose->parent == 0);
     CHECK(loose->parent_at == Approx(0.5));
     CHECK(loose->point.size() == 3);
-    CHECK(holds(notes, "1 loose parts attached to the nearest branch, over a gap of up to 0.05"));
+    CHECK(holds(notes, "1 loose part attached to the nearest branch, over a gap of up to 0.05"));
 }
 
 TEST_CASE("two trees side by side stay two, a broken twig on the ground does not become a third") {
@@ -122,7 +122,7 @@ TEST_CASE("two trees side by side stay two, a broken twig on the ground does not
     const RootedLines forest = root_lines(scattered(lines), 'z', "x", notes);
     CHECK(std::count_if(forest.branches.begin(), forest.branches.end(),
                         [](const ImportedBranch& b) { return b.parent < 0; }) == 2);
-    CHECK(holds(notes, "1 loose parts"));
+    CHECK(holds(notes, "1 loose part"));
 }
 
 TEST_CASE("a chain of a hundred thousand loose lines is attached one to the next") {

@@ -102,8 +102,8 @@ TEST_CASE("an SWC of a small tree, worked out by hand") {
                                         "10 0 1 0 1 0.02 9\n"
                                         "11 0 5 -1 0 0.2 -1\n"
                                         "12 0 5 -1 1 0.1 11\n");
-    CHECK(swc.notes_hold("1 branches begin off their parent's axis"));
-    CHECK(swc.notes_hold("1 branches' radius at their base"));
+    CHECK(swc.notes_hold("1 branch begins off its parent's axis"));
+    CHECK(swc.notes_hold("1 branch's radius at its base"));
     CHECK_FALSE(swc.notes_hold("no thinner"));
 }
 
@@ -143,8 +143,8 @@ TEST_CASE("what readers will see otherwise is counted") {
     s.color = default_colors();
     const Text swc = written(write_swc, s);
     CHECK(swc.notes_hold("2 branches are no thinner"));
-    CHECK(swc.notes_hold("1 branches leave their parent at its foot"));
-    CHECK(swc.notes_hold("1 leaves"));
+    CHECK(swc.notes_hold("1 branch leaves its parent at its foot"));
+    CHECK(swc.notes_hold("1 leaf or petal"));
     CHECK(swc.notes_hold("colours"));
     same_tree(s, imported(swc.text, "s.swc").splines, 0, 1e-12);
 }

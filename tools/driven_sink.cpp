@@ -1,4 +1,5 @@
 #include "frame_sink.h"
+#include "lib/model/counted.h"
 
 namespace bough {
 namespace {
@@ -13,7 +14,7 @@ public:
         output_.write(model_.finish(output_.name()));
         output_.finish();
         const std::size_t all = model_.keys().joints() * model_.keys().frames(), kept = model_.keys().count();
-        notes_.push_back(std::to_string(model_.bones()) + " bones of the model moved");
+        notes_.push_back(counted(model_.bones(), "bone", "bones") + " of the model moved");
         if (kept < all)
             notes_.push_back(std::to_string(kept) + " of " + std::to_string(all) + " keys written (--key-tolerance)");
     }

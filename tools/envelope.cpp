@@ -2,6 +2,7 @@
 #include "formats/envelope_mesh.h"
 #include "formats/plain_text.h"
 #include "lib/growth/colonize.h"
+#include "lib/model/counted.h"
 #include <algorithm>
 
 namespace bough {
@@ -67,8 +68,8 @@ Envelope mesh_envelope(const EnvelopeOptions& o, const ImportChoice& choice, Com
     if (!(volume(e) > 0)) throw InputError(options.name, "encloses no volume, expected a closed mesh");
     const MeshClosure& c = e.mesh->closure();
     if (c.open_edges > 0)
-        notes.lines.push_back("warning: the mesh is not closed (" + std::to_string(c.open_edges) +
-                              " open edges); a point counts as inside where four of six rays along the axes cross it "
+        notes.lines.push_back("warning: the mesh is not closed (" + counted(c.open_edges, "open edge", "open edges") +
+                              "); a point counts as inside where four of six rays along the axes cross it "
                               "an odd number of times");
     else if (!c.alike)
         notes.lines.push_back("warning: the mesh's faces do not all face alike; a point counts as inside where rays "

@@ -2,6 +2,7 @@
 #include "formats/motion.h"
 #include "formats/obj.h"
 #include "lib/growth/skin.h"
+#include "lib/model/counted.h"
 #include <filesystem>
 
 namespace bough {
@@ -40,7 +41,7 @@ public:
             write_obj(output, skin_, position_, normal_, mtl_);
             output.finish();
         } catch (const OutputError& error) {
-            throw OutputError(pattern_, "stopped after " + std::to_string(written_) + " frames: " + error.what());
+            throw OutputError(pattern_, "stopped after " + counted(written_, "frame", "frames") + ": " + error.what());
         }
         ++written_;
     }

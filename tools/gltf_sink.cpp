@@ -1,5 +1,6 @@
 #include "frame_sink.h"
 #include "lib/growth/skin.h"
+#include "lib/model/counted.h"
 #include <algorithm>
 #include <numbers>
 #include <sstream>
@@ -141,8 +142,11 @@ Skin chosen_skin(const Tree& tree, int sides, const GltfChoice& choice) {
 std::string leaves_note(const Tree& tree, const GltfChoice& choice) {
     const std::size_t leaves = choice.instances() ? joined_leaves(tree) : 0;
     if (leaves == 0) return choice.instances() ? "--leaves-as instances: the tree has no leaves" : "";
-    return std::to_string(leaves) + " leaves and petals are instances, fixed to the joints that bear them: their own "
-                                    "motion is left out (--leaves-as skin keeps it)";
+    return counted(leaves,
+                   "leaf or petal is an instance, fixed to the joint that bears it: its own motion is left out "
+                   "(--leaves-as skin keeps it)",
+                   "leaves and petals are instances, fixed to the joints that bear them: their own motion is left out "
+                   "(--leaves-as skin keeps it)");
 }
 
 std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree& tree, int sides, double fps,

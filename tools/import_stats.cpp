@@ -1,4 +1,5 @@
 #include "import_stats.h"
+#include "lib/model/counted.h"
 #include "lib/model/polyline.h"
 #include <algorithm>
 #include <array>
@@ -44,8 +45,9 @@ std::string import_statistics(const Splines& s, const ImportNotes& notes) {
     const auto roots = std::count(s.parent.begin(), s.parent.end(), -1);
     const int levels = s.level.empty() ? 0 : 1 + *std::max_element(s.level.begin(), s.level.end());
     std::ostringstream text;
-    text << "read        " << notes.format << ": " << s.branches() << " branches on " << levels << " levels, "
-         << s.points() << " points, " << s.leaves() << " leaves, " << s.fruits() << " fruit\n"
+    text << "read        " << notes.format << ": " << counted(s.branches(), "branch", "branches") << " on "
+         << counted(levels, "level", "levels") << ", " << counted(s.points(), "point", "points") << ", "
+         << counted(s.leaves(), "leaf", "leaves") << ", " << s.fruits() << " fruit\n"
          << "units       " << unit_name(notes.unit) << " (" << notes.unit_from << ")\n"
          << "up axis     " << (notes.up == 'z' ? "Z" : "Y") << " (" << notes.up_from << ")\n"
          << "roots       " << roots << "\n";

@@ -2,6 +2,7 @@
 #include "formats/mapped.h"
 #include "formats/motion.h"
 #include "frame_sink.h"
+#include "lib/model/counted.h"
 #include "lib/model/shortest_text.h"
 #include "lib/stages/state.h"
 #include "simulation.h"
@@ -104,7 +105,7 @@ void join_motions(std::deque<MotionPart>& read, const CommonOptions& common, con
     const std::unique_ptr<FrameSink> sink = motion_sink(common.output, format, joined_header(parts, common));
     const std::string& first = parts.front()->name;
     for (std::int64_t count = 0;; ++count) {
-        if (interrupted()) throw Interrupted("interrupted after " + std::to_string(count) + " frames");
+        if (interrupted()) throw Interrupted("interrupted after " + counted(count, "frame", "frames"));
         const bool more = parts.front()->frames.next(parts.front()->frame);
         MotionFrame whole;
         if (more) {

@@ -1,5 +1,6 @@
 #include "notes.h"
 #include "lib/fast/shared_constants.h"
+#include "lib/model/counted.h"
 #include <array>
 #include <iomanip>
 #include <sstream>
@@ -44,20 +45,20 @@ std::string explanation(const Plan<T>& plan, const std::vector<std::string>& cha
 template <class T>
 void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps, std::vector<std::string>& notes) {
     if (flags.buckling > 0)
-        notes.push_back(std::to_string(flags.buckling) +
-                        " times a joint was softer than gravity's pull on it (buckling)");
+        notes.push_back(counted(flags.buckling, "time", "times") +
+                        " a joint was softer than gravity's pull on it (buckling)");
     if (flags.bounded_lambda > 0)
-        notes.push_back(std::to_string(flags.bounded_lambda) + " times a joint's growth in a step was bounded");
+        notes.push_back(counted(flags.bounded_lambda, "time", "times") + " a joint's growth in a step was bounded");
     if (flags.half_turns > 0)
-        notes.push_back(std::to_string(flags.half_turns) +
-                        " times a joint turned past half a turn: the small angles that the method assumes are left");
+        notes.push_back(counted(flags.half_turns, "time", "times") +
+                        " a joint turned past half a turn: the small angles that the method assumes are left");
     if (flags.energy_guard > 0)
-        notes.push_back(std::to_string(flags.energy_guard) +
-                        " times a joint was kept from gaining energy in a turn of more than 0.3 rad in a step");
+        notes.push_back(counted(flags.energy_guard, "time", "times") +
+                        " a joint was kept from gaining energy in a turn of more than 0.3 rad in a step");
     if (flags.limited > 0)
-        notes.push_back(std::to_string(flags.limited) + " times a joint was stopped at its limit, as asked");
+        notes.push_back(counted(flags.limited, "time", "times") + " a joint was stopped at its limit, as asked");
     if (flags.fast_turns > 0)
-        notes.push_back(std::to_string(flags.fast_turns) + " times a body turned by more than a radian in a step");
+        notes.push_back(counted(flags.fast_turns, "time", "times") + " a body turned by more than a radian in a step");
     if (flags.refreshed > 0) {
         std::ostringstream share;
         share << std::setprecision(3) << 100 * double(flags.refreshed) / (double(steps) * double(plan.bodies));
@@ -76,19 +77,21 @@ template <class T> void note_world(const World<T>& world, std::vector<std::strin
     if (!world.on() || (!world.remaining.gone.size() && world.free.empty())) return;
     const WorldCounts& counts = world.counts;
     std::string broke;
-    constexpr std::array<const char*, 4> kinds{"branches", "leaves", "fruit", "petals"};
+    constexpr std::array<std::array<const char*, 2>, 4> kinds{
+        {{"branch", "branches"}, {"leaf", "leaves"}, {"fruit", "fruit"}, {"petal", "petals"}}};
     static_assert(std::size_t(Kind::branch) == 0 && std::size_t(Kind::leaf) == 1 && std::size_t(Kind::fruit) == 2 &&
                   std::size_t(Kind::petal) == 3);
     std::uint64_t all = 0;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
         all += counts.broke[k];
         if (counts.broke[k] > 0)
-            broke += (broke.empty() ? "" : ", ") + std::to_string(counts.broke[k]) + " " + kinds[k];
+            broke += (broke.empty() ? "" : ", ") + counted(counts.broke[k], kinds[k][0], kinds[k][1]);
     }
     std::ostringstream text;
     text.precision(3);
-    text << all << " joints broke" << (broke.empty() ? "" : " (" + broke + ")") << ", " << counts.landed
-         << " leaves and petals landed, " << counts.hits << " hits";
+    text << counted(all, "joint", "joints") << " broke" << (broke.empty() ? "" : " (" + broke + ")") << ", "
+         << counted(counts.landed, "leaf or petal", "leaves and petals") << " landed, "
+         << counted(counts.hits, "hit", "hits");
     notes.push_back(text.str());
     if (world.contact.model != ContactModel::penalty) return;
     text.str("");

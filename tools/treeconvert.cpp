@@ -12,6 +12,7 @@
 #include "import_stats.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
+#include "lib/model/counted.h"
 #include "lib/model/drawn_pose.h"
 #include "lib/model/split.h"
 #include "lib/model/sway.h"
@@ -100,6 +101,8 @@ void refuse_contradictions(const Options& o) {
             throw UsageError("--wind-groups and " + std::string(other == &o.mesh ? "--mesh" : "-o") +
                              " name the same file");
     if (!o.mesh.empty() && same_file(o.mesh, o.common.output)) throw UsageError("--mesh and -o name the same file");
+    refuse_overwriting({{"INPUT", o.input}, {"--material", o.material}},
+                       {{"-o", o.common.output}, {"--mesh", o.mesh}, {"--wind-groups", o.wind_groups}});
     if (!o.split) return;
     for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh),
                                      std::pair("--wind-groups", &o.wind_groups)}) {
@@ -155,12 +158,13 @@ SegmentOptions segment_options(const Options& o) {
 }
 
 void note_repairs(const SegmentReport& report, std::vector<std::string>& notes) {
-    const auto note = [&](std::int64_t count, const char* what) {
-        if (count > 0) notes.push_back(std::to_string(count) + what);
+    const auto note = [&](std::int64_t count, const char* one, const char* many) {
+        if (count > 0) notes.push_back(counted(count, one, many));
     };
-    note(report.merged_points, " near-coincident points merged");
-    note(report.dropped_branches, " branches without length left out, what grows on them moved to their parent");
-    note(report.thin_points, " radii raised to the least that has a mass");
+    note(report.merged_points, "near-coincident point merged", "near-coincident points merged");
+    note(report.dropped_branches, "branch without length left out, what grows on it moved to its parent",
+         "branches without length left out, what grows on them moved to their parent");
+    note(report.thin_points, "radius raised to the least that has a mass", "radii raised to the least that has a mass");
 }
 
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {

@@ -7,6 +7,7 @@
 #include "formats/splines.h"
 #include "growth.h"
 #include "import_stats.h"
+#include "lib/model/counted.h"
 #include <iostream>
 
 namespace {
@@ -54,6 +55,8 @@ void refuse_contradictions(const Options& o) {
     bough::refuse_contradictions(o.growth, !o.import.empty());
     if (o.strict && o.import.empty()) throw UsageError("--strict: only with --import");
     if (o.stats && o.import.empty()) throw UsageError("--stats: only with --import");
+    refuse_overwriting({{"--params", o.growth.params}, {"--envelope", o.growth.envelope.envelope}},
+                       {{"-o", o.common.output}});
     if (!o.import.empty() || !o.growth.envelope.envelope.empty()) return;
     if (!o.choice.units.empty() && o.growth.params.empty())
         throw UsageError("--units: only with --import, --envelope FILE or the preset of ez-tree, which has none");
@@ -63,7 +66,7 @@ void refuse_contradictions(const Options& o) {
 // Leaves and fruit come only when asked for, from a file as from growth; what was left out is said.
 void leave_out(Splines& splines, const GrowthOptions& o, std::vector<std::string>& notes) {
     if (!o.leaves && splines.leaves() > 0) {
-        notes.push_back(std::to_string(splines.leaves()) + " leaves left out (--leaves keeps them)");
+        notes.push_back(counted(splines.leaves(), "leaf", "leaves") + " left out (--leaves keeps them)");
         splines.leaf_branch.clear();
         splines.leaf_at.clear();
         splines.leaf_position.clear();
@@ -82,12 +85,20 @@ void leave_out(Splines& splines, const GrowthOptions& o, std::vector<std::string
     }
 }
 
+std::string chosen_skeleton(const CommonOptions& common) {
+    if (!common.format.empty()) return common.format == "swc" || common.format == "treetools" ? common.format : "";
+    const std::string kind = ending(common.output);
+    return kind == ".swc" ? "swc" : kind == ".txt" ? "treetools" : "";
+}
+
 Splines imported(Options& o) {
     const MappedInput file(o.import);
     const std::string_view content = file.content();
     if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
         throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + input_name(o.import) +
                          " is a bough document, which is in metres and Y up");
+    if (!is_splines(content) || !chosen_skeleton(o.common).empty()) // splines may be written in their own place
+        refuse_overwriting({{"--import", o.import}}, {{"-o", o.common.output}});
     ImportOptions options;
     options.unit = unit_in_metres(o.choice.units);
     if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
@@ -101,12 +112,6 @@ Splines imported(Options& o) {
     for (const std::string& line : notes.lines) o.common.notes.push_back(options.name + ": " + line);
     leave_out(splines, o.growth, o.common.notes);
     return splines;
-}
-
-std::string chosen_skeleton(const CommonOptions& common) {
-    if (!common.format.empty()) return common.format == "swc" || common.format == "treetools" ? common.format : "";
-    const std::string kind = ending(common.output);
-    return kind == ".swc" ? "swc" : kind == ".txt" ? "treetools" : "";
 }
 
 void write(const Splines& splines, CommonOptions& common) {

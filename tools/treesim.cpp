@@ -3,6 +3,7 @@
 #include "formats/motion.h"
 #include "frame_queue.h"
 #include "lib/free/shown_tree.h"
+#include "lib/model/counted.h"
 #include "notes.h"
 #include "rigid_parts.h"
 #include "saved_run.h"
@@ -149,9 +150,9 @@ void refuse_broken_cache(const TreesimOptions& o, std::size_t broken) {
 
 void note_cache(TreesimOptions& o, const Setting& setting, std::size_t balls) {
     if (balls == 0 && setting.ranges.size() == 1) return;
-    o.common.notes.push_back("the vertices are those of " + std::to_string(setting.ranges.size()) + " trees and " +
-                             std::to_string(balls) +
-                             " balls: the mesh that they move is the first frame of an OBJ sequence (the same run with "
+    o.common.notes.push_back("the vertices are those of " + counted(setting.ranges.size(), "tree", "trees") + " and " +
+                             counted(balls, "ball", "balls") +
+                             ": the mesh that they move is the first frame of an OBJ sequence (the same run with "
                              "--frames 1 -o rest_%d.obj)");
 }
 

@@ -131,7 +131,6 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (!o.gltf.leaves_as.empty()) throw UsageError("--leaves-as: not with --skin, whose leaves are its own");
         if (o.skin == "-" && o.run.input == "-") throw UsageError("--skin -: the input is read from stdin already");
         if (o.skin == "-" && o.watch) throw UsageError("--watch: not with --skin -, which cannot be read again");
-        if (same_file(o.skin, o.common.output)) throw UsageError("--skin and -o name the same file");
     }
     if (const char* given = o.gltf.given(); given && format != "glb")
         throw UsageError(std::string(given) + ": only with .glb");
@@ -150,6 +149,11 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
                                                     {"--save-tree", o.save_tree, "--save-state", o.save_state}})
         if (!file.empty() && file != "-" && file == same)
             throw UsageError(std::string(option) + ": is '" + file + "', which " + other + " writes already");
+    // --save-tree INPUT and --save-state of what is resumed are another state of the same thing.
+    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", o.run.wind}, {"--skin", o.skin}},
+                       {{"-o", o.common.output}, {"--save-state", o.save_state}});
+    refuse_overwriting({{"--resume", o.resume}}, {{"-o", o.common.output}, {"--save-tree", o.save_tree}});
+    refuse_overwriting({{"--wind", o.run.wind}, {"--skin", o.skin}}, {{"--save-tree", o.save_tree}});
     refuse_contradictions(o.loop, o.run);
     if (o.loop.seconds) {
         const std::pair<bool, const char*> others[] = {

@@ -1,4 +1,5 @@
 #include "check_parts.h"
+#include "counted.h"
 
 namespace bough {
 
@@ -39,7 +40,7 @@ std::optional<Defect> check(const Pull& pull, const std::string& at, std::size_t
     if (pull.time.empty()) return Defect{at + "/time", -1, "is empty, expected at least one time"};
     if (pull.force.size() != pull.time.size())
         return Defect{at + "/force", -1,
-                      "has " + std::to_string(pull.force.size()) + " forces, expected " + count +
+                      "has " + counted(pull.force.size(), "force", "forces") + ", expected " + count +
                           " (one for each time)"};
     for (std::size_t i = 0; i < pull.time.size(); ++i) {
         const std::int64_t entry = std::int64_t(i);
@@ -54,7 +55,8 @@ std::optional<Defect> check(const Pull& pull, const std::string& at, std::size_t
 }
 
 std::optional<Defect> check_keys(const std::vector<double>& time, const std::string& at) {
-    if (time.size() < 2) return Defect{at, -1, "has " + std::to_string(time.size()) + " times, expected at least 2"};
+    if (time.size() < 2)
+        return Defect{at, -1, "has " + counted(time.size(), "time", "times") + ", expected at least 2"};
     for (std::size_t i = 0; i < time.size(); ++i) {
         if (!std::isfinite(time[i])) return Defect{at, std::int64_t(i), "is not finite, expected seconds"};
         if (i > 0 && !(time[i] > time[i - 1]))
@@ -85,7 +87,7 @@ std::optional<Defect> check(const std::vector<RootMotion>& motions, std::size_t 
     const auto count_defect = [&](const char* field, std::size_t found) -> std::optional<Defect> {
         if (found == 0 || found == motion.time.size()) return std::nullopt;
         return Defect{at + "/" + field, -1,
-                      "has " + std::to_string(found) + " keys, expected " + std::to_string(motion.time.size()) +
+                      "has " + counted(found, "key", "keys") + ", expected " + std::to_string(motion.time.size()) +
                           " (one for each time)"};
     };
     if (auto defect = count_defect("position", motion.position.size())) return defect;

@@ -1,4 +1,5 @@
 #include "check_parts.h"
+#include "counted.h"
 
 namespace bough {
 
@@ -7,7 +8,8 @@ std::optional<Defect> check(const Walker& walker, const std::string& at, std::si
     if (auto defect = above_zero(at + "/radius", walker.radius)) return defect;
     if (auto defect = at_least(at + "/push", walker.push, 0)) return defect;
     if (walker.stops.size() < 2)
-        return Defect{at + "/stops", -1, "has " + std::to_string(walker.stops.size()) + " stops, expected at least 2"};
+        return Defect{at + "/stops", -1,
+                      "has " + counted(walker.stops.size(), "stop", "stops") + ", expected at least 2"};
     for (std::size_t k = 0; k < walker.stops.size(); ++k) {
         const Walker::Stop& stop = walker.stops[k];
         const std::string stop_at = at + "/stops/" + std::to_string(k);

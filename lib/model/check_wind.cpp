@@ -1,4 +1,5 @@
 #include "check_parts.h"
+#include "counted.h"
 
 namespace bough {
 namespace {
@@ -11,7 +12,7 @@ template <class A, class Check>
 std::optional<Defect> check_cells(const std::string& at, const A& list, std::int64_t cells, Check&& passes) {
     if (list.size() != 1 && std::int64_t(list.size()) != cells)
         return Defect{at, -1,
-                      "has " + std::to_string(list.size()) + " values, expected 1 or " + std::to_string(cells) +
+                      "has " + counted(list.size(), "value", "values") + ", expected 1 or " + std::to_string(cells) +
                           " (one for each cell)"};
     for (std::size_t k = 0; k < list.size(); ++k)
         if (auto defect = passes(list.size() == 1 ? at : at + "/" + std::to_string(k), list[k])) return defect;
@@ -55,7 +56,7 @@ std::optional<Defect> check(const WindSwirl& swirl) {
     const std::size_t keys = swirl.radius.empty() ? 1 : swirl.radius.size();
     if (swirl.angle.size() != keys)
         return Defect{at + "angle", -1,
-                      "has " + std::to_string(swirl.angle.size()) + " keys, expected " + std::to_string(keys) +
+                      "has " + counted(swirl.angle.size(), "key", "keys") + ", expected " + std::to_string(keys) +
                           (swirl.radius.empty() ? " (radius names no more)" : " (one for each radius)")};
     for (std::size_t k = 0; k < swirl.radius.size(); ++k) {
         const std::string field = at + "radius/" + std::to_string(k);

@@ -1,4 +1,5 @@
 #include "check_parts.h"
+#include "counted.h"
 
 namespace bough {
 namespace {
@@ -24,7 +25,7 @@ std::optional<Defect> check(const WoodCurve& curve, const std::string& at, std::
     for (const auto& [key, values] : {std::pair{"/stiffness", &curve.stiffness}, {"/damping", &curve.damping}}) {
         if (!values->empty() && values->size() != curve.radius.size())
             return Defect{at + key, -1,
-                          "has " + std::to_string(values->size()) + " keys, expected " +
+                          "has " + counted(values->size(), "key", "keys") + ", expected " +
                               std::to_string(curve.radius.size()) + " (one for each radius)"};
         for (std::size_t k = 0; k < values->size(); ++k)
             if (auto defect = at_least(at + key + "/" + std::to_string(k), (*values)[k], 0)) return defect;

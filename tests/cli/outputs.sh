@@ -105,3 +105,39 @@ same again.txt tree.txt
 closed_stdout treegen --import splines.json -q --format swc
 refused 4 "No such file" treegen --import splines.json -o missing/x.swc
 absent
+
+# No output replaces what it was made from, under whatever name; splines may be written anew in their own place.
+cp tree.json kept.json
+cp tree.json in.json
+ln -s in.json link.json
+echo '{"format": "bough-wind", "version": 1, "velocity": [3, 0, 0]}' >wind.json
+cp wind.json wind_kept.json
+for name in in.json ./in.json link.json "$PWD/in.json"; do
+    for form in jsonl json safetensors glb mdd pc2; do
+        refused 1 "which INPUT reads" treesim in.json --frames 2 -o "$name" --format $form
+    done
+    refused 1 "which INPUT reads" treesim in.json --frames 2 --no-output --save-state "$name"
+done
+refused 1 "which --wind reads" treesim in.json --frames 2 --wind wind.json -o wind.json
+refused 1 "which --wind reads" treesim in.json --frames 2 --wind wind.json --no-output --save-tree wind.json
+treesim in.json --frames 2 --no-output --save-state state.json
+refused 1 "which --resume reads" treesim in.json --frames 2 --resume state.json -o ./state.json
+expect 0 treesim in.json --frames 2 --resume state.json --no-output --save-state state.json
+same in.json kept.json
+same wind.json wind_kept.json
+cp splines.json in.json
+refused 1 "which INPUT reads" treeconvert in.json -o in.json
+cp "$top/data/fixtures/shuffled.swc" in.swc
+refused 1 "which --import reads" treegen --import in.swc -o in.swc
+refused 1 "which --import reads" treegen --import in.json -o link.json --format swc
+same in.json splines.json
+cp rest.obj in.obj
+refused 1 "which INPUT reads" treeconvert in.obj -o x.json --mesh in.obj
+same in.obj rest.obj
+cp "$top/data/eztree_sprig.json" params.json
+refused 1 "which --params reads" treegen --params params.json -o params.json
+same params.json "$top/data/eztree_sprig.json"
+# Both through pipes: the same name -, not the same file.
+treesim tree.json --frames 2 -q -o own.glb --max-joints all
+cat own.glb | treesim tree.json --frames 2 -q --skin - --format glb >piped.glb || fail "--skin - to stdout"
+absent x.json

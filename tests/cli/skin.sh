@@ -4,7 +4,7 @@
 twig=$top/data/fixtures/twig_armature.gltf
 expect 0 treeconvert "$twig" -o twig.json --stats
 grep -q "^splines     2 branches, 6 points" err || fail "--stats of an armature: $(cat err)"
-grep -q "controls" err || fail "a bone left out is not noted: $(cat err)"
+grep -q "(control)" err || fail "a bone left out is not noted: $(cat err)"
 refused 2 "(--strict)" treeconvert "$twig" -o strict.json --strict
 run=(treesim twig.json --wind storm --seconds 1)
 expect 0 "${run[@]}" --skin "$twig" -o a.glb
@@ -30,7 +30,7 @@ refused 1 "--skin: only with -o FILE.glb" "${run[@]}" --skin "$twig" -o x.jsonl
 refused 1 "--sides: not with --skin" "${run[@]}" --skin "$twig" --sides 8 -o x.glb
 refused 1 "--max-joints: not with --skin" "${run[@]}" --skin "$twig" --max-joints 8 -o x.glb
 cp a.glb own.glb
-refused 1 "name the same file" "${run[@]}" --skin own.glb -o ./own.glb
+refused 1 "which --skin reads" "${run[@]}" --skin own.glb -o ./own.glb
 refused 2 "is no model that can be moved" "${run[@]}" --skin "$maple" -o x.glb
 refused 2 "has no armature" "${run[@]}" --skin "$top/data/fixtures/lines.gltf" -o x.glb
 refused 2 "none.glb" "${run[@]}" --skin none.glb -o x.glb

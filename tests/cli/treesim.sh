@@ -238,7 +238,7 @@ import json, math, sys
 frames = [json.loads(line) for line in list(sys.stdin)[1:]]
 most = max(abs(a) for f in frames for a in f["theta"])
 assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "--joint-limit is not kept, $limits_of"
-    grep -q 'times a joint was stopped at its limit' err || fail "stops at a limit are not noted, $limits_of"
+    grep -q 'times\? a joint was stopped at its limit' err || fail "stops at a limit are not noted, $limits_of"
 done
 limited --joint-limit 3 --no-output -q --save-state limited.state
 refused 2 "limited.state" treesim tree.json --solver analytic --pose rest --wind storm --frames 20 --resume limited.state

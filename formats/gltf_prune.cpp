@@ -1,0 +1,196 @@
+#include "gltf_prune.h"
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Known: those whose references are followed below, and those that have none to accessors, views or bytes.
+bool is_known(std::string_view name) {
+    constexpr std::array<std::string_view, 4> begins{"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_"};
+    constexpr std::array<std::string_view, 9> whole{
+        "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "KHR_animation_pointer",
+        "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_mesh_quantization",
+        "KHR_node_visibility",        "KHR_xmp_json_ld",         "EXT_lights_image_based"};
+    return std::any_of(begins.begin(), begins.end(), [&](std::string_view b) { return name.starts_with(b); }) ||
+           std::find(whole.begin(), whole.end(), name) != whole.end();
+}
+
+std::string unknown_extension(const Json& json) {
+    if (!json.is_structured()) return "";
+    if (json.is_object() && json.contains("extensions"))
+        for (const auto& [name, content] : json["extensions"].items())
+            if (!is_known(name)) return name;
+    for (const auto& [key, value] : json.items()) {
+        if (key == "extras") continue;
+        if (std::string found = unknown_extension(value); !found.empty()) return found;
+    }
+    return "";
+}
+
+template <class Use> void each_of(Json& json, const char* list, Use&& use) {
+    if (!json.contains(list)) return;
+    for (Json& item : json[list]) use(item);
+}
+
+Json* extension(Json& of, const char* name) {
+    return of.contains("extensions") && of["extensions"].contains(name) ? &of["extensions"][name] : nullptr;
+}
+
+// use(number) for each place that holds the index of an accessor.
+template <class Use> void each_accessor_index(Json& json, Use&& use) {
+    const auto each_value = [&](Json& object) {
+        for (Json& index : object) use(index);
+    };
+    each_of(json, "meshes", [&](Json& mesh) {
+        each_of(mesh, "primitives", [&](Json& primitive) {
+            each_value(primitive.at("attributes"));
+            if (primitive.contains("indices")) use(primitive["indices"]);
+            each_of(primitive, "targets", each_value);
+        });
+    });
+    each_of(json, "skins", [&](Json& skin) {
+        if (skin.contains("inverseBindMatrices")) use(skin["inverseBindMatrices"]);
+    });
+    each_of(json, "animations", [&](Json& animation) {
+        each_of(animation, "samplers", [&](Json& sampler) {
+            use(sampler.at("input"));
+            use(sampler.at("output"));
+        });
+    });
+    each_of(json, "nodes", [&](Json& node) {
+        if (Json* instances = extension(node, "EXT_mesh_gpu_instancing")) each_value(instances->at("attributes"));
+    });
+}
+
+// ... of a view.
+template <class Use> void each_view_index(Json& json, Use&& use) {
+    const auto of = [&](Json& object) {
+        if (object.contains("bufferView")) use(object["bufferView"]);
+    };
+    each_of(json, "accessors", [&](Json& accessor) {
+        of(accessor);
+        if (!accessor.contains("sparse")) return;
+        of(accessor["sparse"].at("indices"));
+        of(accessor["sparse"].at("values"));
+    });
+    each_of(json, "images", of);
+    each_of(json, "meshes", [&](Json& mesh) {
+        each_of(mesh, "primitives", [&](Json& primitive) {
+            if (Json* draco = extension(primitive, "KHR_draco_mesh_compression")) of(*draco);
+        });
+    });
+}
+
+// use(object) for each object that names bytes of buffer 0.
+template <class Use> void each_place(Json& json, Use&& use) {
+    const auto of = [&](Json& object) {
+        if (object.at("buffer").get<std::size_t>() == 0) use(object);
+    };
+    each_of(json, "bufferViews", [&](Json& view) {
+        of(view);
+        if (Json* packed = extension(view, "EXT_meshopt_compression")) of(*packed);
+    });
+}
+
+struct Range {
+    std::size_t begin, end;
+};
+
+Range range_of(const Json& place) {
+    const std::size_t begin = place.value("byteOffset", std::size_t(0));
+    return {begin, begin + place.at("byteLength").get<std::size_t>()};
+}
+
+// The entries of a list that are left, and of each its new index.
+std::vector<std::size_t> leave_out(Json& list, const std::vector<char>& gone) {
+    std::vector<std::size_t> index(gone.size());
+    Json kept = Json::array();
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+        if (gone[i]) continue;
+        index[i] = kept.size();
+        kept.push_back(std::move(list[i]));
+    }
+    list = std::move(kept);
+    return index;
+}
+
+// Takes the ranges out of the binary, each from a multiple of 4 to one, but for what other views have of them.
+void cut_bytes(GltfDocument& document, std::vector<Range> gone) {
+    std::vector<Range> kept;
+    each_place(document.json, [&](Json& place) { kept.push_back(range_of(place)); });
+    const auto by_begin = [](const Range& a, const Range& b) { return a.begin < b.begin; };
+    std::sort(kept.begin(), kept.end(), by_begin);
+    std::sort(gone.begin(), gone.end(), by_begin);
+    std::vector<Range> cut;
+    std::size_t from = 0; // no range before this is cut
+    std::size_t k = 0;
+    for (const Range& range : gone) {
+        std::size_t at = std::max(range.begin, from);
+        const auto take = [&](std::size_t end) {
+            const std::size_t first = (at + 3) / 4 * 4, last = end / 4 * 4;
+            if (first < last) cut.push_back({first, last});
+        };
+        for (; k < kept.size() && kept[k].begin < range.end; ++k) {
+            if (at < kept[k].begin) take(kept[k].begin);
+            at = std::max(at, kept[k].end);
+        }
+        if (at < range.end) take(range.end), at = range.end;
+        from = at;
+    }
+    std::string left;
+    std::size_t copied = 0;
+    for (const Range& range : cut) {
+        left.append(document.binary, copied, range.begin - copied);
+        copied = range.end;
+    }
+    if (cut.empty()) return;
+    left.append(document.binary, copied);
+    document.binary = std::move(left);
+    std::vector<std::size_t> before{0}; // bytes cut before each of them, in all
+    for (const Range& range : cut) before.push_back(before.back() + range.end - range.begin);
+    each_place(document.json, [&](Json& place) {
+        const std::size_t begin = range_of(place).begin;
+        const auto next = std::partition_point(cut.begin(), cut.end(), [&](const Range& r) { return r.begin < begin; });
+        if (const std::size_t less = before[std::size_t(next - cut.begin())]; less > 0)
+            place["byteOffset"] = begin - less;
+    });
+}
+
+} // namespace
+
+std::string prune(GltfDocument& document, const std::vector<std::size_t>& accessors) {
+    Json& json = document.json;
+    if (accessors.empty()) return "";
+    if (std::string unknown = unknown_extension(json); !unknown.empty()) return unknown;
+    std::vector<char> gone(json.at("accessors").size(), false);
+    for (const std::size_t i : accessors) gone.at(i) = true;
+    each_accessor_index(json, [&](Json& index) { gone.at(index.get<std::size_t>()) = false; });
+    const std::size_t views = json.contains("bufferViews") ? json["bufferViews"].size() : 0;
+    std::vector<char> before(views, false), gone_view(views, false);
+    each_view_index(json, [&](Json& index) { before.at(index.get<std::size_t>()) = true; });
+    const std::vector<std::size_t> accessor = leave_out(json["accessors"], gone);
+    each_accessor_index(json, [&](Json& index) { index = accessor[index.get<std::size_t>()]; });
+    gone_view = before; // that were named, and are not any more
+    each_view_index(json, [&](Json& index) { gone_view.at(index.get<std::size_t>()) = false; });
+    std::vector<Range> bytes;
+    for (std::size_t v = 0; v < views; ++v) {
+        if (!gone_view[v]) continue;
+        Json& view = json["bufferViews"][v];
+        if (view.at("buffer").get<std::size_t>() == 0) bytes.push_back(range_of(view));
+        if (Json* packed = extension(view, "EXT_meshopt_compression");
+            packed && packed->at("buffer").get<std::size_t>() == 0)
+            bytes.push_back(range_of(*packed));
+    }
+    if (views > 0) {
+        const std::vector<std::size_t> view = leave_out(json["bufferViews"], gone_view);
+        each_view_index(json, [&](Json& index) { index = view[index.get<std::size_t>()]; });
+    }
+    cut_bytes(document, std::move(bytes));
+    return "";
+}
+
+} // namespace bough
