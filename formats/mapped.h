@@ -4,7 +4,8 @@
 
 namespace bough {
 
-// Of a regular file its pages; of anything else ("-", pipes) all of it, as read_input. A file must not become shorter while it is looked at.
+// Of a regular file its pages; of anything else ("-", pipes) all of it, as read_input. A file that becomes shorter while it is looked
+// at raises SIGBUS, of which tools say in a line what it means (tools/common.cpp).
 class MappedInput {
 public:
     explicit MappedInput(const std::string& path); // throws as read_input

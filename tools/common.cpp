@@ -36,6 +36,18 @@ extern "C" void on_signal(int signal) {
     _exit(128 + signal);
 }
 
+const char* running_tool = "";
+
+// A page of an input that is looked at where it lies (mapped.h) is there no more.
+extern "C" void on_missing_page(int) {
+    remove_unfinished_outputs();
+    constexpr std::string_view text =
+        ": an input became shorter while it was read, expected one that is not being written\n";
+    (void)!::write(STDERR_FILENO, running_tool, std::string_view(running_tool).size());
+    (void)!::write(STDERR_FILENO, text.data(), text.size());
+    _exit(exit_input);
+}
+
 // A standard stream that the caller closed must not become the next file we open: it is held by a descriptor on which
 // the use that would be made of it fails.
 void hold_standard_streams() {
@@ -43,10 +55,12 @@ void hold_standard_streams() {
         if (::fcntl(fd, F_GETFD) < 0) (void)!::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
 }
 
-void prepare_process() {
+void prepare_process(const ToolInfo& info) {
+    running_tool = info.name;
     hold_standard_streams();
     std::setlocale(LC_ALL, "C");
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGBUS, on_missing_page);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before;
         if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) std::signal(signal, on_signal);
@@ -206,7 +220,7 @@ std::optional<double> parse_number(const std::string& text) {
 
 int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
              const std::function<void(CLI::App&)>& declare, const std::function<void()>& work) {
-    prepare_process();
+    prepare_process(info);
     int code = parse_and_work(info, argc, argv, common, declare, work);
     if (code == exit_done && !common.quiet)
         for (const std::string& note : common.notes) say(info.name, note);
