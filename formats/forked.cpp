@@ -143,6 +143,8 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
     ChildResult result;
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         result.failure = "took longer than " + std::to_string(limits.seconds) + " s";
+    else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGBUS) // as an input does that is mapped (mapped.h)
+        result.failure = "found the file cut short while it was read";
     else if (WIFSIGNALED(status))
         result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
     else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)

@@ -6,19 +6,27 @@
 
 namespace bough {
 
-MappedInput::MappedInput(const std::string& path) {
+MappedInput::Version MappedInput::version(int file) {
+    struct stat known {};
+    if (::fstat(file, &known) != 0) return {};
+    return {known.st_size, known.st_mtim.tv_sec, known.st_mtim.tv_nsec};
+}
+
+MappedInput::MappedInput(const std::string& path) : name_(input_name(path)) {
     struct stat known {}; // asked before it is opened: a pipe is read once
     const bool regular = path != "-" && ::stat(path.c_str(), &known) == 0 && S_ISREG(known.st_mode);
-    const int file = regular ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : -1;
-    if (file >= 0 && ::fstat(file, &known) == 0 && S_ISREG(known.st_mode) && known.st_size > 0) {
-        void* pages = ::mmap(nullptr, std::size_t(known.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+    file_ = regular ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : -1;
+    if (file_ >= 0 && ::fstat(file_, &known) == 0 && S_ISREG(known.st_mode) && known.st_size > 0) {
+        void* pages = ::mmap(nullptr, std::size_t(known.st_size), PROT_READ, MAP_PRIVATE, file_, 0);
         if (pages != MAP_FAILED) {
             pages_ = static_cast<const char*>(pages);
             size_ = std::size_t(known.st_size);
+            opened_ = version(file_);
         }
     }
-    if (file >= 0) ::close(file);
-    if (!pages_) content_ = read_input(path); // and what is wrong with it
+    if (pages_) return;
+    if (file_ >= 0) ::close(file_);
+    content_ = read_input(path); // and what is wrong with it
 }
 
 void MappedInput::give_back() const {
@@ -26,8 +34,15 @@ void MappedInput::give_back() const {
     if (pages_) ::madvise(const_cast<char*>(pages_), size_, MADV_DONTNEED);
 }
 
+void MappedInput::check() const {
+    if (pages_ && version(file_) != opened_)
+        throw InputError(name_, "was written to while it was read, expected a finished file");
+}
+
 MappedInput::~MappedInput() {
-    if (pages_) ::munmap(const_cast<char*>(pages_), size_);
+    if (!pages_) return;
+    ::munmap(const_cast<char*>(pages_), size_);
+    ::close(file_);
 }
 
 } // namespace bough

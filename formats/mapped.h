@@ -4,8 +4,8 @@
 
 namespace bough {
 
-// Of a regular file its pages; of anything else ("-", pipes) all of it, as read_input. A file that becomes shorter while it is looked
-// at raises SIGBUS, of which tools say in a line what it means (tools/common.cpp).
+// Of a regular file its pages; of anything else ("-", pipes) all of it, as read_input. A file that becomes shorter by a page while it is
+// looked at raises SIGBUS, of which tools say in a line what it means (tools/common.cpp).
 class MappedInput {
 public:
     explicit MappedInput(const std::string& path); // throws as read_input
@@ -15,9 +15,18 @@ public:
     std::string_view content() const { return pages_ ? std::string_view(pages_, size_) : content_; }
     // Pages leave the memory until they are looked at again, when the file is asked once more. What came from a pipe stays.
     void give_back() const;
+    // Once all has been read: throws InputError if the file was written to since it was opened.
+    void check() const;
 
 private:
-    std::string content_;
+    std::string name_, content_;
+    int file_ = -1; // of pages_
+    struct Version {
+        std::int64_t size = 0, seconds = 0, nanoseconds = 0;
+        bool operator==(const Version&) const = default;
+    };
+    static Version version(int file); // as written last
+    Version opened_{};
     const char* pages_ = nullptr;
     std::size_t size_ = 0;
 };

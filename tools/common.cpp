@@ -38,11 +38,12 @@ extern "C" void on_signal(int signal) {
 
 const char* running_tool = "";
 
-// A page of an input that is looked at where it lies (mapped.h) is there no more.
+// A page of an input that is looked at where it lies (mapped.h) is there no more, or cannot be read from its disk.
 extern "C" void on_missing_page(int) {
     remove_unfinished_outputs();
     constexpr std::string_view text =
-        ": an input became shorter while it was read, expected one that is not being written\n";
+        ": an input became shorter while it was read, or its disk failed; expected a finished file\n";
+    if (bar_on_screen) (void)!::write(STDERR_FILENO, "\r\033[K", 4);
     (void)!::write(STDERR_FILENO, running_tool, std::string_view(running_tool).size());
     (void)!::write(STDERR_FILENO, text.data(), text.size());
     _exit(exit_input);

@@ -107,6 +107,7 @@ Splines imported(Options& o) {
     options.taken_in = [&file] { file.give_back(); };
     ImportNotes notes;
     Splines splines = import_splines(content, options, notes);
+    file.check();
     if (o.stats) std::cerr << import_statistics(splines, notes);
     if (o.strict && !notes.lines.empty()) throw InputError(options.name, notes.lines.front() + " (--strict)");
     for (const std::string& line : notes.lines) o.common.notes.push_back(options.name + ": " + line);
