@@ -106,6 +106,8 @@ void work(ErrorCommand& o) {
         throw UsageError("--solver articulated-reference is what the others are held against");
     if (!o.report.empty() && same_file(o.report, o.common.output))
         throw UsageError("--report and -o name the same file");
+    const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
+    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
     require_report(o.report);
     ErrorOptions options;
     options.steps_per_frame = chosen_steps(o.steps);
@@ -117,6 +119,7 @@ void work(ErrorCommand& o) {
     reading.scheme.clear();
     reading.refresh.clear();
     Setting setting = read_setting(reading);
+    refuse_overwriting_trees(setting, written);
     if (has_free_bodies(setting.scene))
         throw InputError(input_name(o.run.input),
                          free_part(setting.scene) + std::string(": treeprofile error has no reference "

@@ -28,8 +28,11 @@ void declare(CLI::App& app, StabilityCommand& o) {
 void work(StabilityCommand& o) {
     if (!o.report.empty() && same_file(o.report, o.common.output))
         throw UsageError("--report and -o name the same file");
+    const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
+    refuse_overwriting({{"INPUT", o.run.input}}, written);
     require_report(o.report);
     const Setting setting = read_setting(o.run);
+    refuse_overwriting_trees(setting, written);
     StabilityOptions options;
     options.frames = o.frames;
     options.only = o.only;

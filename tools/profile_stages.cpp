@@ -103,7 +103,10 @@ void work_stages(StagesOptions& o) {
     if (frames < 3) throw UsageError("--frames: at least 3 (the start, a warm-up, and one to measure)");
     if (!o.report.empty() && same_file(o.report, o.common.output))
         throw UsageError("--report and -o name the same file");
+    const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
+    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
     Setting setting = read_setting(o.run);
+    refuse_overwriting_trees(setting, written);
     Report report = o.run.precision == "float" ? fastest<float>(o, std::move(setting), frames)
                                                : fastest<double>(o, std::move(setting), frames);
     report.tool = profile_name;

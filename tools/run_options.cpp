@@ -32,6 +32,10 @@ Solver chosen_solver(const RunOptions& o) {
     throw UsageError("--solver is '" + o.solver + "', which is unknown");
 }
 
+std::string wind_file(const std::string& wind) {
+    return wind_preset(wind) ? std::string() : wind;
+}
+
 std::string rate_text(double rate) {
     std::ostringstream text;
     text << rate;

@@ -37,6 +37,9 @@ void add_sleep_option(CLI::App&, RunOptions&); // with sleep_default as it stand
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
 std::int64_t frames_of(const RunOptions&, double seconds_default);
 
+// The file that --wind names; empty for a preset and where no wind is named.
+std::string wind_file(const std::string& wind);
+
 // Throws UsageError for a name that is unknown.
 Solver chosen_solver(const RunOptions&);
 

@@ -7,6 +7,7 @@
 #include "scene_trees.h"
 #include "set_option.h"
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace bough {
@@ -87,6 +88,15 @@ void change_trees(Setting& setting, const std::string& scene_file) {
     }
 }
 
+// A park has many trees of few files.
+std::vector<std::string> tree_files(const std::string& scene_file, const Scene& scene) {
+    std::vector<std::string> files;
+    std::set<std::string> known;
+    for (const Placement& place : scene.trees)
+        if (known.insert(place.file).second) files.push_back(tree_file(scene_file, place));
+    return files;
+}
+
 } // namespace
 
 Setting read_setting(const RunOptions& o) {
@@ -108,6 +118,7 @@ Setting read_setting(const RunOptions& o) {
         scene ? chosen_document(o, input.all(), input.name()) : chosen_document(o, empty_scene, "the scene");
     setting.scene = std::move(document.scene);
     if (scene) {
+        setting.tree_files = tree_files(o.input, setting.scene);
         stand_trees(setting, o.input, o.shard, document.material);
     } else {
         if (!o.shard.empty()) throw UsageError("--shard: only with a scene, whose trees it parts");
@@ -124,12 +135,18 @@ Setting read_setting(const RunOptions& o) {
 
 std::vector<std::string> files_read(const RunOptions& o) {
     std::vector<std::string> files{o.input};
-    if (!o.wind.empty() && !wind_preset(o.wind)) files.push_back(o.wind);
+    if (const std::string wind = wind_file(o.wind); !wind.empty()) files.push_back(wind);
     const Input input(o.input);
     if (is_scene(input.content()))
-        for (const Placement& place : chosen_document(o, input.all(), input.name()).scene.trees)
-            files.push_back(tree_file(o.input, place));
+        for (const std::string& file : tree_files(o.input, chosen_document(o, input.all(), input.name()).scene))
+            files.push_back(file);
     return files;
+}
+
+void refuse_overwriting_trees(const Setting& setting, const std::vector<NamedFile>& written) {
+    std::vector<NamedFile> read;
+    for (const std::string& file : setting.tree_files) read.push_back({"the scene", file});
+    refuse_overwriting(read, written);
 }
 
 Scene chosen_scene(const RunOptions& o) {

@@ -35,14 +35,19 @@ struct Setting {
         changes{}; // what of the scene is in the tree by now, and no longer in the scene: a line each, for --explain
     std::uint64_t fingerprint =
         0; // fingerprint(), where a state is saved or resumed: of the tree before it is handed over
-    std::shared_ptr<const Whole> whole{}; // where joints are held; tree, ranges and scene are then of what moves
+    std::vector<std::string> tree_files{}; // of a scene: where its trees are read from, each once, of other parts too
+    std::shared_ptr<const Whole> whole{};  // where joints are held; tree, ranges and scene are then of what moves
 };
 // Reads a tree, or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (rigid_parts.h). Throws UsageError,
 // InputError.
 Setting read_setting(const RunOptions&);
 
-// The files that read_setting reads: INPUT, the trees of a scene, the wind's. Throws as it does where the scene cannot be read.
+// The files that read_setting reads: INPUT, the trees of a scene, each once, the wind's. Throws as it does where the scene cannot be read.
 std::vector<std::string> files_read(const RunOptions&);
+
+// Throws UsageError where an output is a file that a tree of the scene was read from. What the options name is compared before anything
+// is read (refuse_overwriting).
+void refuse_overwriting_trees(const Setting&, const std::vector<NamedFile>& written);
 
 // What the options make of an empty scene, without trees. Throws UsageError, InputError.
 Scene chosen_scene(const RunOptions&);

@@ -17,6 +17,7 @@
 #include "lib/model/split.h"
 #include "lib/model/sway.h"
 #include "merge_trial.h"
+#include "run_options.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -86,6 +87,12 @@ void declare(CLI::App& app, Options& o) {
     add_import_options(app, o.choice);
 }
 
+void refuse_own_inputs(const Options& o, const std::string& output, const std::string& mesh,
+                       const std::string& wind_groups) {
+    refuse_overwriting({{"INPUT", o.input}, {"--material", o.material}, {"--wind", wind_file(o.merge.wind)}},
+                       {{"-o", output}, {"--mesh", mesh}, {"--wind-groups", wind_groups}});
+}
+
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
     refuse_merge_contradictions(o.merge);
@@ -101,8 +108,7 @@ void refuse_contradictions(const Options& o) {
             throw UsageError("--wind-groups and " + std::string(other == &o.mesh ? "--mesh" : "-o") +
                              " name the same file");
     if (!o.mesh.empty() && same_file(o.mesh, o.common.output)) throw UsageError("--mesh and -o name the same file");
-    refuse_overwriting({{"INPUT", o.input}, {"--material", o.material}},
-                       {{"-o", o.common.output}, {"--mesh", o.mesh}, {"--wind-groups", o.wind_groups}});
+    refuse_own_inputs(o, o.common.output, o.mesh, o.wind_groups);
     if (!o.split) return;
     for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh),
                                      std::pair("--wind-groups", &o.wind_groups)}) {
@@ -146,7 +152,9 @@ Splines read_splines_of(const Options& o, ImportNotes& notes) {
                          " is a bough document, which is in metres and Y up");
     options.unit = unit_in_metres(o.choice.units);
     if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
-    return import_splines(content, options, notes);
+    Splines splines = import_splines(content, options, notes);
+    file.check();
+    return splines;
 }
 
 SegmentOptions segment_options(const Options& o) {

@@ -243,6 +243,10 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
         for (const std::string& line : notes.lines) o.common.notes.push_back(model->name + ": " + line);
     }
     Setting setting = read_setting(o.run);
+    std::vector<NamedFile> written{{"-o", o.common.output}, {"--save-state", o.save_state}};
+    // A scene's only tree may be saved in its own place, as INPUT may; one of several is not all that its file holds.
+    if (setting.part.parts > 1) written.push_back({"--save-tree", o.save_tree});
+    refuse_overwriting_trees(setting, written);
     if (model && setting.ranges.size() != 1)
         throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +
                          " trees, expected one, which the model is of");
@@ -260,6 +264,9 @@ void put_together(const TreesimOptions& o) {
             throw UsageError(option->get_name() + ": not with --join");
     const std::string format = o.no_output ? "" : chosen_format(o.common);
     if (is_mesh(format)) throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
+    std::vector<NamedFile> parts;
+    for (const std::string& part : o.join.parts) parts.push_back({"--join", part});
+    refuse_overwriting(parts, {{"-o", o.common.output}});
     interrupt_at_boundary();
     JoinOptions join = o.join;
     join.hash = o.hash;

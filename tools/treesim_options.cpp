@@ -150,10 +150,11 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (!file.empty() && file != "-" && file == same)
             throw UsageError(std::string(option) + ": is '" + file + "', which " + other + " writes already");
     // --save-tree INPUT and --save-state of what is resumed are another state of the same thing.
-    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", o.run.wind}, {"--skin", o.skin}},
+    const std::string wind = wind_file(o.run.wind);
+    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind}, {"--skin", o.skin}},
                        {{"-o", o.common.output}, {"--save-state", o.save_state}});
     refuse_overwriting({{"--resume", o.resume}}, {{"-o", o.common.output}, {"--save-tree", o.save_tree}});
-    refuse_overwriting({{"--wind", o.run.wind}, {"--skin", o.skin}}, {{"--save-tree", o.save_tree}});
+    refuse_overwriting({{"--wind", wind}, {"--skin", o.skin}}, {{"--save-tree", o.save_tree}});
     refuse_contradictions(o.loop, o.run);
     if (o.loop.seconds) {
         const std::pair<bool, const char*> others[] = {

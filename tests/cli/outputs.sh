@@ -137,6 +137,41 @@ same in.obj rest.obj
 cp "$top/data/eztree_sprig.json" params.json
 refused 1 "which --params reads" treegen --params params.json -o params.json
 same params.json "$top/data/eztree_sprig.json"
+cp wind_kept.json wind.json
+refused 1 "which --wind reads" treeconvert splines.json --merge-below 0.1 --wind wind.json -o wind.json
+# A scene's trees, each of its places, and those that a part of it leaves out.
+cp kept.json in.json
+cp kept.json other.json
+cat >scene.json <<'END'
+{"format": "bough-scene", "version": 1,
+ "trees": [{"file": "in.json"}, {"file": "other.json", "position": [9, 0, 0]}]}
+END
+cp scene.json scene_kept.json
+for name in scene.json in.json ./other.json link.json; do
+    refused 1 "reads" treesim scene.json --frames 2 -o "$name" --format json
+    refused 1 "reads" treesim scene.json --frames 2 --no-output --save-state "$name"
+    refused 1 "reads" treesim scene.json --frames 2 --shard 1/2 -o "$name" --format json
+    for command in stages error stability; do
+        refused 1 "reads" treeprofile $command scene.json --report "$name"
+        refused 1 "reads" treeprofile $command scene.json -o "$name"
+    done
+done
+refused 1 "reads" treesim scene.json --frames 2 --shard 2/2 --no-output --save-tree other.json
+same in.json kept.json
+same other.json kept.json
+same scene.json scene_kept.json
+for command in stages error; do
+    refused 1 "which --wind reads" treeprofile $command kept.json --wind wind.json --report wind.json
+done
+refused 1 "which --tree reads" treeprofile scaling --tree in.json --report ./in.json
+refused 1 "which --tree reads" treeprofile scaling --tree in.json -o link.json
+same in.json kept.json
+same wind.json wind_kept.json
+for part in 1 2; do treesim scene.json --frames 2 -q --shard $part/2 -o part$part.json; done
+cp part1.json part_kept.json
+refused 1 "which --join reads" treesim --join part1.json part2.json -o part1.json
+same part1.json part_kept.json
+expect 0 treesim --join part1.json part2.json -o joined.json
 # Both through pipes: the same name -, not the same file.
 treesim tree.json --frames 2 -q -o own.glb --max-joints all
 cat own.glb | treesim tree.json --frames 2 -q --skin - --format glb >piped.glb || fail "--skin - to stdout"
