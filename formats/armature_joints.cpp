@@ -7,16 +7,10 @@
 namespace bough {
 namespace {
 
-bool ends_without_case(std::string_view text, std::string_view ending) {
-    if (text.size() < ending.size()) return false;
-    text.remove_prefix(text.size() - ending.size());
-    return std::equal(text.begin(), text.end(), ending.begin(),
-                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b; });
-}
-
 bool named_as_end(std::string_view name) {
+    const std::string small = lower_case(name);
     for (const char* ending : {"_end", ".end", "end site", "nub"})
-        if (ends_without_case(name, ending)) return true;
+        if (small.ends_with(ending)) return true;
     return false;
 }
 
@@ -162,7 +156,7 @@ bool named_as_control(std::string_view name) {
             if (known()) return true;
             word.clear();
         }
-        if (upper || lower) word += upper ? char(name[i] - 'A' + 'a') : name[i];
+        if (upper || lower) word += lower_case(name[i]);
     }
     return known();
 }
@@ -223,12 +217,13 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
     for (std::size_t i = 0; i < n; ++i) {
         if (!c.candidate[i] || !c.leaf[i]) continue;
         mark[i] = c.above[i] >= 0 && c.own[i] == 0 && named_as_end(scene.name[i]);
-        if (c.above[i] < 0 && ends_without_case(scene.name[i], "neutral_bone")) c.candidate[i] = false, ++neutral;
+        if (c.above[i] < 0 && lower_case(scene.name[i]).ends_with("neutral_bone")) c.candidate[i] = false, ++neutral;
     }
-    const Bare bare = scene.vertex.empty() ? Bare() : leave_out_bare_armatures(c);
-    const auto [controls, control] =
-        scene.vertex.empty() ? leave_out_named_controls(c) : std::pair<std::size_t, std::string>();
-    const std::size_t idle = scene.vertex.empty() ? 0 : leave_out_idle(c, mark);
+    bool moves = false; // a bone of them, some vertex: else the mesh says nothing of any
+    for (std::size_t i = 0; i < n; ++i) moves = moves || (c.candidate[i] && c.own[i] > 0);
+    const Bare bare = moves ? leave_out_bare_armatures(c) : Bare();
+    const auto [controls, control] = moves ? std::pair<std::size_t, std::string>() : leave_out_named_controls(c);
+    const std::size_t idle = moves ? leave_out_idle(c, mark) : 0;
     // Where nothing says how long a bone is.
     sum_below(c);
     std::size_t alone = 0;
@@ -266,6 +261,7 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
                               quoted(control) + (controls > 1 ? " ..." : "") + "): rename what is wood");
     note(unnamed, "node that no skin names left out: a bone of an armature without a mesh?",
          "nodes in a row that no skin names left out: bones of an armature without a mesh?", notes);
+    if (!moves && !scene.vertex.empty()) notes.lines.push_back("the mesh is moved by no bone of the armature");
     note(neutral + alone, "bone that stands alone left out", "bones that stand alone left out", notes);
     return chosen;
 }
