@@ -1,6 +1,7 @@
 #include "attach.h"
 #include "release.h"
 #include <algorithm>
+#include <array>
 #include <optional>
 
 namespace bough {
@@ -80,25 +81,31 @@ private:
         const auto pieces = std::ptrdiff_t(pieces_.size());
 #pragma omp parallel for schedule(dynamic, 1) if (pieces > run)
         for (std::ptrdiff_t first = 0; first < pieces; first += run) {
-            std::vector<Segment> likely;
+            Likely likely;
             for (std::ptrdiff_t p = first; p < std::min(first + run, pieces); ++p) {
-                const Choice& choice = choice_[std::size_t(p)] = best_of(std::size_t(p), std::int32_t(p), likely);
+                const Choice& choice = choice_[std::size_t(p)] = best_of(std::size_t(p), std::int32_t(p), likely.all());
                 set_likely(choice.place.segment, likely);
             }
         }
     }
 
+    static constexpr std::int32_t window = 8; // segments to either side
+    struct Likely {                           // no container: what memory it lacked, a thread could tell nobody
+        std::array<Segment, 2 + 2 * window + window> segment;
+        std::size_t count = 0;
+        std::span<const Segment> all() const { return {segment.data(), count}; }
+    };
+
     // Segments near to where a piece was joined, and those of the next piece.
-    void set_likely(const Segment& found, std::vector<Segment>& likely) const {
-        constexpr std::int32_t window = 8; // segments to either side
-        likely.clear();
+    void set_likely(const Segment& found, Likely& likely) const {
+        likely.count = 0;
         if (found.a < 0) return;
-        likely.push_back(found);
+        likely.segment[likely.count++] = found;
         if (!pieces_.curves) return;
         const auto add = [&](std::int32_t piece, std::int32_t from, std::int32_t to) {
             from = std::max(from, begin(std::size_t(piece))[0]);
             to = std::min(to, begin(std::size_t(piece))[1]);
-            for (std::int32_t k = from; k < to; ++k) likely.push_back({k, k + 1, piece});
+            for (std::int32_t k = from; k < to; ++k) likely.segment[likely.count++] = {k, k + 1, piece};
         };
         add(found.piece, found.a - window, found.b + window);
         if (std::size_t(found.piece) + 1 < pieces_.size()) {

@@ -66,11 +66,8 @@ const char* program_of(const Table& t) {
 
 // Without case. An empty cell is none of these: it may be a row that was cut off.
 bool is_missing(std::string_view cell) {
-    for (const std::string_view word : {"na", "nan", "none", "null"})
-        if (std::equal(cell.begin(), cell.end(), word.begin(), word.end(),
-                       [](char a, char b) { return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b; }))
-            return true;
-    return false;
+    const std::string word = lower_case(cell);
+    return word == "na" || word == "nan" || word == "none" || word == "null";
 }
 
 Vec3 point(const Table& t, const Triple& c) {

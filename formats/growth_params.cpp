@@ -1,6 +1,6 @@
 #include "growth_params.h"
-#include "line_ends.h"
 #include "lib/growth/weber_penn.h"
+#include "line_ends.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <filesystem>

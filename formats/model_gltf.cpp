@@ -45,11 +45,10 @@ void keep_geometry(Json& primitive) {
 }
 
 // What times the attribute is a radius; 0: it is none.
-double radius_factor(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
-    if (name == "_RADIUS") return 1;
-    return name == "_DIAMETER" || name == "_WIDTH" || name == "_THICKNESS" ? 0.5 : 0;
+double radius_factor(std::string_view attribute) {
+    const std::string name = lower_case(attribute);
+    if (name == "_radius") return 1;
+    return name == "_diameter" || name == "_width" || name == "_thickness" ? 0.5 : 0;
 }
 
 void prepare_lines(GltfDocument& document, std::size_t mesh, std::size_t number) {

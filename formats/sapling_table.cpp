@@ -15,10 +15,7 @@ namespace {
 std::string column_name(std::string_view field) {
     field = trimmed(field);
     if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
-    std::string name(trimmed(field));
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return name;
+    return lower_case(trimmed(field));
 }
 
 enum Column : std::size_t { spline, knot, x, y, z, radius, bevel, columns };

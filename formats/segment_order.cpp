@@ -92,7 +92,8 @@ void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& ra
     }
     const std::vector<std::uint32_t> order = radix_order(std::move(key));
     std::vector<Segment> sorted;
-    sorted.reserve(segments.size());
+    const auto ranks = std::size_t(rank.empty() ? 0 : *std::max_element(rank.begin(), rank.end()));
+    sorted.reserve(segments.size() + ranks * aligned); // what is left free where one ends
     std::int32_t before = 0;
     for (const std::uint32_t i : order) {
         const std::int32_t large = rank[segments[i].piece];

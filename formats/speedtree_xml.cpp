@@ -171,18 +171,10 @@ void parse_meshes(const Elements& elements, File& file) {
     });
 }
 
-// In lower case, without what goes before and after the word: " Z-Up" -> "z-up".
-std::string lower_of(std::string_view text) {
-    std::string out(trimmed(text));
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return out;
-}
-
 std::optional<double> stated_unit(const pugi::xml_node& root, const Fields& f) {
     const pugi::xml_attribute units = root.attribute("units");
     if (!units) return {};
-    const std::string u = lower_of(units.value());
+    const std::string u = lower_case(trimmed(units.value()));
     const auto is = [&u](std::initializer_list<const char*> names) {
         return std::any_of(names.begin(), names.end(),
                            [&u](const char* n) { return u == n || u == n + std::string("s"); });
@@ -198,7 +190,7 @@ std::optional<double> stated_unit(const pugi::xml_node& root, const Fields& f) {
 char stated_up(const pugi::xml_node& root, const Fields& f) {
     const pugi::xml_attribute up = root.attribute("upAxis");
     if (!up) return 0;
-    const std::string axis = lower_of(up.value());
+    const std::string axis = lower_case(trimmed(up.value()));
     for (const char c : {'y', 'z'}) {
         const std::string letter(1, c);
         for (const std::string& name :

@@ -25,8 +25,8 @@ std::string compared(std::string_view name) {
     int depth = 0;
     for (const char c : name) {
         depth += c == '(' || c == '[';
-        if (depth == 0 && c >= 'A' && c <= 'Z') out += char(c - 'A' + 'a');
-        if (depth == 0 && ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))) out += c;
+        const char small = lower_case(c);
+        if (depth == 0 && ((small >= 'a' && small <= 'z') || (c >= '0' && c <= '9'))) out += small;
         depth -= depth > 0 && (c == ')' || c == ']');
     }
     return out;

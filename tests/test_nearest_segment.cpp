@@ -118,7 +118,6 @@ TEST_CASE("places in large pieces, asked one by one and many at once") {
     std::vector<std::int32_t> group(w.base.size()), piece_of(w.point.size());
     std::iota(group.begin(), group.end(), 0);
     for (const Segment& s : w.segment) piece_of[s.a] = piece_of[s.b] = s.piece;
-    std::vector<double> cost;
     for (std::int32_t end = 0; end < std::int32_t(w.point.size()); end += 3) {
         const SegmentPlace truth = nearest_of_all(w, group, end, piece_of[end]);
         const SegmentPlace found = search.nearest(end, piece_of[end]);
@@ -189,17 +188,18 @@ TEST_CASE("an order by digits is the stable order by comparison") {
         }
 }
 
-TEST_CASE("pieces are joined alike by any number of threads") {
+TEST_CASE("pieces are joined alike by any number of threads, and whatever places are looked at first") {
     const Wood w = random_wood(5, 5000);
     std::vector<std::vector<double>> results;
 #ifdef _OPENMP
     const int before = omp_get_max_threads();
 #endif
-    for (const int threads : {1, 2, 3, 8}) {
+    for (const auto& [threads, curves] :
+         {std::pair(1, false), {2, false}, {3, false}, {8, false}, {1, true}, {2, true}, {8, true}}) {
 #ifdef _OPENMP
         omp_set_num_threads(threads);
 #endif
-        Pieces pieces{w.point, w.radius, w.segment, {}, {}, w.base, false};
+        Pieces pieces{w.point, w.radius, w.segment, {}, {}, w.base, curves};
         for (std::int32_t c = 0; c < std::int32_t(w.base.size()); ++c) {
             pieces.first.push_back(pieces.end.size());
             pieces.end.insert(pieces.end.end(), {3 * c, 3 * c + 2});
