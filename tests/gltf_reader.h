@@ -135,7 +135,8 @@ inline std::vector<Matrix4d> node_matrices(const Glb& glb, double time) {
     std::vector<std::size_t> open;
     for (const Json& root : glb.json["scenes"][0]["nodes"]) open.push_back(root);
     std::vector<int> seen(nodes.size(), 0);
-    for (const std::size_t root : open) world[root] = (Eigen::Translation3d(place[root]) * turn[root]).matrix() * scale[root];
+    for (const std::size_t root : open)
+        world[root] = (Eigen::Translation3d(place[root]) * turn[root]).matrix() * scale[root];
     while (!open.empty()) {
         const std::size_t i = open.back();
         open.pop_back();
