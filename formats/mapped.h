@@ -5,7 +5,7 @@
 namespace bough {
 
 // Of a regular file its pages; of anything else ("-", pipes) all of it, as read_input. A file that becomes shorter by a page while it is
-// looked at raises SIGBUS, of which tools say in a line what it means (tools/common.cpp).
+// looked at raises SIGBUS, of which tools say in a line what it means (tools/signals.cpp).
 class MappedInput {
 public:
     explicit MappedInput(const std::string& path); // throws as read_input

@@ -1,14 +1,11 @@
 #include "common.h"
 #include "formats/plain_text.h"
 #include "lib/fast/targets.h"
+#include "progress.h"
+#include "signals.h"
 #include <algorithm>
-#include <atomic>
-#include <charconv>
-#include <chrono>
 #include <clocale>
-#include <cmath>
-#include <csignal>
-#include <cstdlib>
+#include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
 #include <iostream>
@@ -22,33 +19,6 @@
 namespace bough {
 namespace {
 
-volatile std::sig_atomic_t caught_signal = 0;
-volatile std::sig_atomic_t at_boundary = 0;
-std::atomic<bool> bar_on_screen{false};
-
-extern "C" void on_signal(int signal) {
-    caught_signal = signal;
-    if (at_boundary) {
-        std::signal(signal, SIG_DFL); // a second one ends the program at once
-        return;
-    }
-    remove_unfinished_outputs();
-    _exit(128 + signal);
-}
-
-const char* running_tool = "";
-
-// A page of an input that is looked at where it lies (mapped.h) is there no more, or cannot be read from its disk.
-extern "C" void on_missing_page(int) {
-    remove_unfinished_outputs();
-    constexpr std::string_view text =
-        ": an input became shorter while it was read, or its disk failed; expected a finished file\n";
-    if (bar_on_screen) (void)!::write(STDERR_FILENO, "\r\033[K", 4);
-    (void)!::write(STDERR_FILENO, running_tool, std::string_view(running_tool).size());
-    (void)!::write(STDERR_FILENO, text.data(), text.size());
-    _exit(exit_input);
-}
-
 // A standard stream that the caller closed must not become the next file we open: it is held by a descriptor on which
 // the use that would be made of it fails.
 void hold_standard_streams() {
@@ -57,15 +27,9 @@ void hold_standard_streams() {
 }
 
 void prepare_process(const ToolInfo& info) {
-    running_tool = info.name;
     hold_standard_streams();
     std::setlocale(LC_ALL, "C");
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGBUS, on_missing_page);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction before;
-        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) std::signal(signal, on_signal);
-    }
+    catch_signals(info.name);
 }
 
 std::string quoted(const std::string& argument) {
@@ -93,7 +57,7 @@ std::string one_line(std::string text) {
 
 void say(const char* tool, const std::string& text) {
     const std::string line = std::string(tool) + ": " + one_line(text) + "\n";
-    if (bar_on_screen.exchange(false)) (void)!::write(STDERR_FILENO, "\r\033[K", 4);
+    clear_progress();
     (void)!::write(STDERR_FILENO, line.data(), line.size());
 }
 
@@ -154,7 +118,7 @@ int work_and_report(const ToolInfo& info, const std::function<void()>& work) {
         return exit_output;
     } catch (const Interrupted& error) {
         say(info.name, error.what());
-        return 128 + (caught_signal ? int(caught_signal) : SIGINT);
+        return interrupted_exit();
     } catch (const std::bad_alloc&) {
         say(info.name, "out of memory");
         return exit_input;
@@ -194,30 +158,7 @@ int parse_and_work(const ToolInfo& info, int argc, char** argv, CommonOptions& c
     return work_and_report(info, work);
 }
 
-CLI::Validator number_check(const char* expected, bool (*accepts)(double)) {
-    return CLI::Validator(
-        [=](const std::string& text) {
-            const std::optional<double> value = parse_number(text);
-            return value && accepts(*value) ? std::string() : "is '" + text + "', expected " + expected;
-        },
-        "", "");
-}
-
-std::int64_t now_ms() {
-    using namespace std::chrono;
-    return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
 } // namespace
-
-std::optional<double> parse_number(const std::string& text) {
-    double value = 0;
-    const char* first = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
-    const char* last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
 
 int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
              const std::function<void(CLI::App&)>& declare, const std::function<void()>& work) {
@@ -233,72 +174,6 @@ int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
     return code;
 }
 
-CLI::Validator positive_number() {
-    return number_check("a number above 0", [](double v) { return v > 0; });
-}
-
-CLI::Validator not_negative_number() {
-    return number_check("a number, 0 or more", [](double v) { return v >= 0; });
-}
-
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-    return CLI::Validator(
-        [=](const std::string& text) {
-            std::int64_t value = 0;
-            const char* last = text.data() + text.size();
-            const auto [end, error] = std::from_chars(text.data(), last, value);
-            if (error == std::errc() && end == last && value >= least && value <= most) return std::string();
-            return "is '" + text + "', expected a whole number from " + std::to_string(least) +
-                   (most == INT64_MAX ? "" : " to " + std::to_string(most));
-        },
-        "", "");
-}
-
-CLI::Validator file_name() {
-    return CLI::Validator(
-        [](const std::string& text) -> std::string {
-            if (text.empty()) return "is empty, expected a file name";
-            if (text.size() > 1 && text[0] == '-')
-                return "is '" + text + "', which looks like an option (write ./" + text + " for a file of that name)";
-            return {};
-        },
-        "", "");
-}
-
-void add_import_options(CLI::App& app, ImportChoice& choice) {
-    app.add_option("--units", choice.units, "Unit of the imported file: m, cm, mm, ft, in or its length in metres")
-        ->option_text("UNIT")
-        ->check(CLI::Validator(
-            [](const std::string& text) {
-                return unit_in_metres(text) ? std::string()
-                                            : "is '" + text + "', expected m, cm, mm, ft, in or a number above 0";
-            },
-            "", ""));
-    app.add_option("--up", choice.up, "Up axis of the imported file: y or z")
-        ->option_text("AXIS")
-        ->check(CLI::IsMember({"y", "z"}, CLI::ignore_case));
-}
-
-std::optional<double> unit_in_metres(const std::string& units) {
-    if (units == "m") return 1.0;
-    if (units == "cm") return 0.01;
-    if (units == "mm") return 0.001;
-    if (units == "ft") return 0.3048;
-    if (units == "in") return 0.0254;
-    const std::optional<double> value = parse_number(units);
-    return value && *value > 0 ? value : std::nullopt;
-}
-
-std::vector<std::string> split_list(const std::string& text) {
-    std::vector<std::string> parts(1);
-    for (const char c : text)
-        if (c == ',')
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
 bool same_file(const std::string& one, const std::string& other) {
     std::error_code none;
     return one != "-" && other != "-" && !one.empty() && !other.empty() &&
@@ -312,19 +187,6 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
             if (same_file(input.file, output.file))
                 throw UsageError(output.option + ": is '" + output.file + "', which " + input.option +
                                  " reads and the output would replace");
-}
-
-std::vector<double> number_list(const std::string& option, const std::string& text, std::size_t count) {
-    std::vector<double> values;
-    for (const std::string& part : split_list(text)) {
-        const std::optional<double> value = parse_number(part);
-        if (!value) break;
-        values.push_back(*value);
-    }
-    if (values.size() != count || split_list(text).size() != count)
-        throw UsageError(option + " is '" + text + "', expected " +
-                         (count == 1 ? "a number" : std::to_string(count) + " numbers parted by commas"));
-    return values;
 }
 
 std::string ending(const std::string& path) {
@@ -345,32 +207,6 @@ Form chosen_form(const CommonOptions& common) {
 std::string with_command_line(const std::string& before, const CommonOptions& common) {
     if (!common.source) return before;
     return before.empty() ? common.command_line : before + "\n" + common.command_line;
-}
-
-void interrupt_at_boundary() {
-    at_boundary = 1;
-}
-
-bool interrupted() {
-    return caught_signal != 0;
-}
-
-Progress::Progress(const CommonOptions& common, std::string what, std::int64_t total)
-    : what_(std::move(what)), total_(total), wanted_(!common.quiet && ::isatty(STDERR_FILENO) == 1),
-      last_ms_(now_ms() + 400) {}
-
-Progress::~Progress() {
-    if (shown_ && bar_on_screen.exchange(false)) (void)!::write(STDERR_FILENO, "\r\033[K", 4);
-}
-
-void Progress::at(std::int64_t done) {
-    if (!wanted_ || now_ms() < last_ms_ + 100) return;
-    last_ms_ = now_ms();
-    const int filled = int(30 * done / std::max<std::int64_t>(total_, 1));
-    const std::string text = "\r" + what_ + " [" + std::string(filled, '#') + std::string(30 - filled, '.') + "] " +
-                             std::to_string(done) + "/" + std::to_string(total_) + "\033[K";
-    (void)!::write(STDERR_FILENO, text.data(), text.size());
-    bar_on_screen = shown_ = true;
 }
 
 const char* bough_version() {

@@ -1,39 +1,16 @@
 // common.h: what all tools share, declared, parsed and documented once: help, version, threads, output, notes, exit
 // codes, signals. A tool is one Options struct, a function that declares its options, and a function that works.
 #pragma once
+#include "exits.h"
 #include "formats/open.h"
+#include "option_values.h"
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace bough {
-
-// Exit codes of every tool. A signal gives 128 + its number, so Ctrl-C gives 130.
-enum Exit : int {
-    exit_done = 0,         // the output is complete
-    exit_usage = 1,        // wrong options
-    exit_input = 2,        // an input is missing, broken or refused
-    exit_promise = 3,      // the simulation became non-finite, or a checked promise does not hold
-    exit_output = 4,       // an output could not be written
-    exit_interrupted = 130 // SIGINT
-};
-
-// Wrong use of the tool (exit 1). The text names the option.
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-// A promise does not hold (exit 3). What was written before it stays.
-struct PromiseError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-// A signal ended the run at a frame boundary (exit 128 + signal).
-struct Interrupted : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 // Options that every tool has.
 struct CommonOptions {
@@ -61,24 +38,6 @@ struct ToolInfo {
 int run_tool(const ToolInfo&, int argc, char** argv, CommonOptions&, const std::function<void(CLI::App&)>& declare,
              const std::function<void()>& work);
 
-// Validators for options: the value is refused with the option's name.
-CLI::Validator positive_number();     // finite, > 0
-CLI::Validator not_negative_number(); // finite, >= 0
-CLI::Validator whole_number(std::int64_t least, std::int64_t most = INT64_MAX);
-CLI::Validator file_name(); // not empty, not an option by mistake
-
-// --units and --up of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
-struct ImportChoice {
-    std::string units, up;
-};
-void add_import_options(CLI::App&, ImportChoice&);
-std::optional<double> unit_in_metres(const std::string& units);
-
-// "a,b,c" to numbers, for an option; throws UsageError that names it.
-std::vector<double> number_list(const std::string& option, const std::string& text, std::size_t count);
-std::vector<std::string> split_list(const std::string& text);
-
-std::optional<double> parse_number(const std::string& text);      // the whole text, finite
 bool same_file(const std::string& one, const std::string& other); // two names of one file; - is none
 
 // Throws UsageError where an output is one of the inputs, another kind of file that would be lost. Empty names and - are
@@ -97,25 +56,6 @@ Form chosen_form(const CommonOptions&);
 
 // `before` with this run's command line as one more line, or unchanged with --no-source.
 std::string with_command_line(const std::string& before, const CommonOptions&);
-
-// From now on Ctrl-C only sets a flag: the caller looks at interrupted() at each frame and ends there. Before, and in
-// tools that never call it, Ctrl-C ends the program at once; unfinished outputs are removed.
-void interrupt_at_boundary();
-bool interrupted();
-
-// A bar on stderr for work that takes long: only on a terminal, never with -q, first shown after half a second.
-class Progress {
-public:
-    Progress(const CommonOptions&, std::string what, std::int64_t total);
-    ~Progress();
-    void at(std::int64_t done);
-
-private:
-    std::string what_;
-    std::int64_t total_;
-    bool wanted_, shown_ = false;
-    std::int64_t last_ms_;
-};
 
 // What a timing or a result was made with.
 const char* bough_version();

@@ -1,6 +1,7 @@
 // envelope.h: treegen --envelope: its options, and the tree that they grow (lib/growth/colonize.h).
 #pragma once
 #include "common.h"
+#include "import_file.h"
 #include "lib/model/splines.h"
 
 namespace bough {

@@ -2,6 +2,7 @@
 #pragma once
 #include "common.h"
 #include "envelope.h"
+#include "import_file.h"
 #include "lib/model/splines.h"
 
 namespace bough {

@@ -5,6 +5,7 @@
 #include "lib/model/counted.h"
 #include "lib/model/shortest_text.h"
 #include "lib/stages/state.h"
+#include "signals.h"
 #include "simulation.h"
 #include <deque>
 #include <map>

@@ -1,6 +1,8 @@
 #include "loop.h"
 #include "formatted.h"
 #include "lib/reference/trajectory.h"
+#include "progress.h"
+#include "signals.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,8 @@
 #include "lib/reference/work_precision.h"
 #include "profile.h"
+#include "progress.h"
 #include "report_file.h"
+#include "signals.h"
 #include "simulation.h"
 #include <algorithm>
 #include <cmath>

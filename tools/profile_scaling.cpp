@@ -1,10 +1,13 @@
 #include "formats/tree.h"
+#include "lib/fast/operations.h"
 #include "lib/stages/frozen_rule.h"
 #include "machine_limits.h"
 #include "profile.h"
+#include "progress.h"
 #include "report_file.h"
 #include "rigid_parts.h"
 #include "scaling.h"
+#include "signals.h"
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -158,6 +161,8 @@ void work(ScalingCommand& o) {
     for (const std::string& tree : o.trees) read.push_back({"--tree", tree});
     refuse_overwriting(read, {{"--report", o.report}, {"-o", o.common.output}});
     require_report(o.report);
+    if (!fast::available(fast::counted_target))
+        throw UsageError("scaling: this build cannot count what a step computes (it was made with BOUGH_COUNTING=OFF)");
     ScalingChoice choice;
     choice.ways = chosen_ways(o);
     const std::string machine = machine_threads() > 1 ? "1," + std::to_string(machine_threads()) : "1";

@@ -1,6 +1,7 @@
 #include "formats/report.h"
 #include "formatted.h"
 #include "profile.h"
+#include "progress.h"
 #include "simulation.h"
 #include <algorithm>
 #include <chrono>

@@ -1,14 +1,12 @@
 // treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
 #include "common.h"
 #include "formats/dynamic_wind.h"
-#include "formats/import.h"
-#include "formats/mapped.h"
 #include "formats/material.h"
 #include "formats/obj.h"
-#include "formats/plain_text.h"
 #include "formats/splines.h"
 #include "formats/tree.h"
 #include "frame_sink.h"
+#include "import_file.h"
 #include "import_stats.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
@@ -140,23 +138,6 @@ void list_materials() {
                   << m.damping_ratio << "\t" << m.source << "\n";
 }
 
-Splines read_splines_of(const Options& o, ImportNotes& notes) {
-    const MappedInput file(o.input);
-    const std::string_view content = file.content();
-    ImportOptions options;
-    options.name = input_name(o.input);
-    options.folder = folder_of(o.input);
-    options.taken_in = [&file] { file.give_back(); };
-    if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
-        throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + options.name +
-                         " is a bough document, which is in metres and Y up");
-    options.unit = unit_in_metres(o.choice.units);
-    if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
-    Splines splines = import_splines(content, options, notes);
-    file.check();
-    return splines;
-}
-
 SegmentOptions segment_options(const Options& o) {
     SegmentOptions options;
     if (o.segment_length) options.segment_length = *o.segment_length;
@@ -263,7 +244,7 @@ void work(Options& o) {
     refuse_contradictions(o);
     const std::string name = input_name(o.input);
     ImportNotes found;
-    Splines splines = read_splines_of(o, found);
+    Splines splines = read_import(o.input, o.choice, found);
     if (o.stats) std::cerr << import_statistics(splines, found);
     std::vector<std::string> notes = std::move(found.lines);
     const Material material = chosen_material(o, splines);

@@ -1,11 +1,9 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
-#include "formats/import.h"
-#include "formats/mapped.h"
-#include "formats/plain_text.h"
 #include "formats/skeleton_writer.h"
 #include "formats/splines.h"
 #include "growth.h"
+#include "import_file.h"
 #include "import_stats.h"
 #include "lib/model/counted.h"
 #include <iostream>
@@ -92,25 +90,15 @@ std::string chosen_skeleton(const CommonOptions& common) {
 }
 
 Splines imported(Options& o) {
-    const MappedInput file(o.import);
-    const std::string_view content = file.content();
-    if (is_splines(content) && !(o.choice.units.empty() && o.choice.up.empty()))
-        throw UsageError(std::string(o.choice.units.empty() ? "--up" : "--units") + ": " + input_name(o.import) +
-                         " is a bough document, which is in metres and Y up");
-    if (!is_splines(content) || !chosen_skeleton(o.common).empty()) // splines may be written in their own place
-        refuse_overwriting({{"--import", o.import}}, {{"-o", o.common.output}});
-    ImportOptions options;
-    options.unit = unit_in_metres(o.choice.units);
-    if (!o.choice.up.empty()) options.up = lower_case(o.choice.up[0]);
-    options.name = input_name(o.import);
-    options.folder = folder_of(o.import);
-    options.taken_in = [&file] { file.give_back(); };
     ImportNotes notes;
-    Splines splines = import_splines(content, options, notes);
-    file.check();
+    Splines splines = read_import(o.import, o.choice, notes, [&o](bool own) {
+        if (!own || !chosen_skeleton(o.common).empty()) // splines may be written in their own place
+            refuse_overwriting({{"--import", o.import}}, {{"-o", o.common.output}});
+    });
+    const std::string name = input_name(o.import);
     if (o.stats) std::cerr << import_statistics(splines, notes);
-    if (o.strict && !notes.lines.empty()) throw InputError(options.name, notes.lines.front() + " (--strict)");
-    for (const std::string& line : notes.lines) o.common.notes.push_back(options.name + ": " + line);
+    if (o.strict && !notes.lines.empty()) throw InputError(name, notes.lines.front() + " (--strict)");
+    for (const std::string& line : notes.lines) o.common.notes.push_back(name + ": " + line);
     leave_out(splines, o.growth, o.common.notes);
     return splines;
 }

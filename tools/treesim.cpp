@@ -5,9 +5,11 @@
 #include "lib/free/shown_tree.h"
 #include "lib/model/counted.h"
 #include "notes.h"
+#include "progress.h"
 #include "rigid_parts.h"
 #include "saved_run.h"
 #include "saved_tree.h"
+#include "signals.h"
 #include "watch.h"
 #include <algorithm>
 #include <chrono>

@@ -1,0 +1,55 @@
+#include "import_file.h"
+#include "exits.h"
+#include "formats/mapped.h"
+#include "formats/open.h"
+#include "formats/plain_text.h"
+#include "formats/splines.h"
+#include "option_values.h"
+
+namespace bough {
+
+void add_import_options(CLI::App& app, ImportChoice& choice) {
+    app.add_option("--units", choice.units, "Unit of the imported file: m, cm, mm, ft, in or its length in metres")
+        ->option_text("UNIT")
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                return unit_in_metres(text) ? std::string()
+                                            : "is '" + text + "', expected m, cm, mm, ft, in or a number above 0";
+            },
+            "", ""));
+    app.add_option("--up", choice.up, "Up axis of the imported file: y or z")
+        ->option_text("AXIS")
+        ->check(CLI::IsMember({"y", "z"}, CLI::ignore_case));
+}
+
+std::optional<double> unit_in_metres(const std::string& units) {
+    if (units == "m") return 1.0;
+    if (units == "cm") return 0.01;
+    if (units == "mm") return 0.001;
+    if (units == "ft") return 0.3048;
+    if (units == "in") return 0.0254;
+    const std::optional<double> value = parse_number(units);
+    return value && *value > 0 ? value : std::nullopt;
+}
+
+Splines read_import(const std::string& name, const ImportChoice& choice, ImportNotes& notes,
+                    const std::function<void(bool own)>& before) {
+    const MappedInput file(name);
+    const std::string_view content = file.content();
+    const bool own = is_splines(content);
+    ImportOptions options;
+    options.name = input_name(name);
+    options.folder = folder_of(name);
+    options.taken_in = [&file] { file.give_back(); };
+    options.unit = unit_in_metres(choice.units);
+    if (!choice.up.empty()) options.up = lower_case(choice.up[0]);
+    if (own && (options.unit || options.up))
+        throw UsageError(std::string(choice.units.empty() ? "--up" : "--units") + ": " + options.name +
+                         " is a bough document, which is in metres and Y up");
+    if (before) before(own);
+    Splines splines = import_splines(content, options, notes);
+    file.check();
+    return splines;
+}
+
+} // namespace bough

@@ -1,0 +1,24 @@
+// import_file.h: a tree's file of any kind that is known, as --import and INPUT name it.
+#pragma once
+#include "formats/import.h"
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace bough {
+
+// --units and --up of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
+struct ImportChoice {
+    std::string units, up;
+};
+void add_import_options(CLI::App&, ImportChoice&);
+std::optional<double> unit_in_metres(const std::string& units);
+
+// The splines of a file ("-": of stdin). `before` is called when it is known whether the file is bough's own splines, before it is read
+// any further. Throws UsageError where ImportChoice says what such a document says itself, InputError as import_splines, and where the
+// file was written to while it was read.
+Splines read_import(const std::string& file, const ImportChoice&, ImportNotes&,
+                    const std::function<void(bool own)>& before = {});
+
+} // namespace bough

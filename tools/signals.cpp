@@ -1,0 +1,62 @@
+#include "signals.h"
+#include "exits.h"
+#include "formats/open.h"
+#include "progress.h"
+#include <csignal>
+#include <string_view>
+#include <unistd.h>
+
+namespace bough {
+namespace {
+
+volatile std::sig_atomic_t caught_signal = 0;
+volatile std::sig_atomic_t at_boundary = 0;
+
+extern "C" void on_signal(int signal) {
+    caught_signal = signal;
+    if (at_boundary) {
+        std::signal(signal, SIG_DFL); // a second one ends the program at once
+        return;
+    }
+    remove_unfinished_outputs();
+    _exit(128 + signal);
+}
+
+const char* running_tool = "";
+
+// A page of an input that is looked at where it lies (mapped.h) is there no more, or cannot be read from its disk.
+extern "C" void on_missing_page(int) {
+    remove_unfinished_outputs();
+    constexpr std::string_view text =
+        ": an input became shorter while it was read, or its disk failed; expected a finished file\n";
+    clear_progress();
+    (void)!::write(STDERR_FILENO, running_tool, std::string_view(running_tool).size());
+    (void)!::write(STDERR_FILENO, text.data(), text.size());
+    _exit(exit_input);
+}
+
+} // namespace
+
+void catch_signals(const char* tool) {
+    running_tool = tool;
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGBUS, on_missing_page);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before;
+        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) std::signal(signal, on_signal);
+    }
+}
+
+void interrupt_at_boundary() {
+    at_boundary = 1;
+}
+
+bool interrupted() {
+    return caught_signal != 0;
+}
+
+int interrupted_exit() {
+    return 128 + (caught_signal ? int(caught_signal) : SIGINT);
+}
+
+} // namespace bough

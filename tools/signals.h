@@ -1,0 +1,19 @@
+// signals.h: what a tool does when it is interrupted, and when an input is cut short under it.
+#pragma once
+
+namespace bough {
+
+// Interrupts (SIGINT, SIGTERM, SIGHUP; not those that the caller has ignored) remove unfinished outputs and end the tool with 128 + the
+// signal. An input that becomes shorter while it is looked at where it lies (formats/mapped.h) ends it in one line with exit_input. A
+// closed pipe is an error of the output that is written to it. `tool` is kept.
+void catch_signals(const char* tool);
+
+// From now on Ctrl-C only sets a flag: the caller looks at interrupted() at each frame and ends there. Before, and in
+// tools that never call it, Ctrl-C ends the program at once; unfinished outputs are removed.
+void interrupt_at_boundary();
+bool interrupted();
+
+// What the tool ends with when it was interrupted: 128 + the signal.
+int interrupted_exit();
+
+} // namespace bough
