@@ -12,7 +12,7 @@
 namespace bough::fast {
 
 // Takes the place of a machine's target in Plan::target. Not among all_targets: no machine is it, and --simd does not name it. It steps as
-// baseline does, bit for bit, far more slowly.
+// baseline does, bit for bit, far more slowly. Available where bough was built with BOUGH_COUNTING.
 constexpr Target counted_target = Target(all_targets.size());
 
 struct Operations {

@@ -13,12 +13,14 @@ template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace baseline
+#ifdef BOUGH_HAS_COUNTED
 namespace counted {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
 template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace counted
+#endif
 #ifdef BOUGH_HAS_AVX2
 namespace avx2 {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field);
@@ -52,6 +54,9 @@ std::optional<Target> target_named(const std::string& name) {
 }
 
 bool available(Target target) {
+#ifndef BOUGH_HAS_COUNTED
+    if (target == counted_target) return false;
+#endif
     switch (target) {
     case Target::avx512:
 #ifdef BOUGH_HAS_AVX512
@@ -92,7 +97,9 @@ void require(Target target) {
 
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind, bool gravity, bool field) {
     require(target);
+#ifdef BOUGH_HAS_COUNTED
     if (target == counted_target) return counted::coupled_sweeps<T>(wind, gravity, field);
+#endif
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::coupled_sweeps<T>(wind, gravity, field);
 #endif
@@ -104,7 +111,9 @@ template <class T> CoupledSweeps<T> coupled_sweeps_for(Target target, bool wind,
 
 template <class T> EnergySweepOf<T> energy_sweep_for(Target target, bool wind, bool field) {
     require(target);
+#ifdef BOUGH_HAS_COUNTED
     if (target == counted_target) return counted::energy_sweep<T>(wind, field);
+#endif
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::energy_sweep<T>(wind, field);
 #endif
@@ -138,7 +147,9 @@ template <class T> ArithmeticKernel<T> arithmetic_kernel_for(Target target) {
 
 template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target target, AnalyticLoads loads) {
     require(target);
+#ifdef BOUGH_HAS_COUNTED
     if (target == counted_target) return counted::analytic_sweeps<T>(loads);
+#endif
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::analytic_sweeps<T>(loads);
 #endif
@@ -150,7 +161,9 @@ template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target target, Analytic
 
 template <class T> AnalyticSweeps<T> frozen_sweeps_for(Target target, AnalyticLoads loads) {
     require(target);
+#ifdef BOUGH_HAS_COUNTED
     if (target == counted_target) return counted::frozen_sweeps<T>(loads);
+#endif
 #ifdef BOUGH_HAS_AVX512
     if (target == Target::avx512) return avx512::frozen_sweeps<T>(loads);
 #endif
