@@ -293,8 +293,8 @@ TEST_CASE("lines of glTF: radii of a custom attribute, vertices that are not the
     };
     says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 6; }),
          "mesh 0, primitive 0: _RADIUS has 6 numbers, expected one for each of 7 vertices");
-    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 8; }), "8 numbers ends beyond its view");
-    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["type"] = "VEC2"; }), "is VEC2, expected SCALAR");
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 8; }), "_RADIUS (accessor 3) ends beyond its view: 8 elements");
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["type"] = "VEC2"; }), "is \"VEC2\" of floats, expected SCALAR");
     says(with("_RADIUS", [](Json& json) { json["accessors"][3]["componentType"] = 1; }), "componentType is 1");
     says(changed(good, [](Json& json) { json["accessors"][0]["count"] = 6; }),
          "mesh 0, primitive 1: a line names vertex 6, expected 0 to 5");
