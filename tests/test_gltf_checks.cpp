@@ -1,10 +1,12 @@
 // Each refusal beside a neighbour that is read. Files are written here byte by byte, and what they must give follows from
 // the format: a vertex is moved by its joints' world matrices, weighted.
+#include "formats/forked.h"
 #include "formats/gltf_complete.h"
 #include "formats/gltf_document.h"
 #include "formats/gltf_prune.h"
 #include "formats/model_scene.h"
 #include "import_support.h"
+#include "sanitized.h"
 #include <functional>
 
 using namespace bough;
@@ -380,4 +382,33 @@ TEST_CASE("arrays are only left out of a document whose indices are right") {
     CHECK_THROWS_WITH(prune(beyond, {weights}), "an accessor is 4, expected less than 4");
     GltfDocument part = document([](Json& j) { accessor(j, joints)["bufferView"] = 1.5; });
     CHECK_THROWS_WITH(prune(part, {weights}), "a bufferView is 1.5, expected a whole number");
+}
+
+TEST_CASE("memory that runs out while what was read is taken over is told of in one line") {
+    if (sanitized) return; // keeps no limits
+    // Some 130 bytes for each of these nodes, more than what lies free here.
+    std::string nodes = R"({"asset": {"version": "2.0"}, "nodes": [{})";
+    for (int k = 1; k < 50000; ++k) nodes += ",{}";
+    nodes += "]}";
+    CHECK(scene_of(nodes).parent.size() == 50000);
+    ChildLimits little;
+    little.bytes = std::size_t(1) << 20;
+    const auto read = [&]() -> std::string {
+        scene_of(nodes);
+        return "read";
+    };
+    CHECK(run_forked(read, little).failure == "s.gltf: what is in it needs more memory than there is");
+}
+
+TEST_CASE("memory that runs out while a file is read is not told of as a fault in its form") {
+    if (sanitized) return;
+    // Six million joints without matrices, of 64 bytes each in several places.
+    std::string joints_text = "0";
+    for (int k = 1; k < 6000000; ++k) joints_text += ",0";
+    const std::string content =
+        R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": []}], "skins": [{"joints": [)" +
+        joints_text + "]}]}";
+    CHECK_THROWS_WITH(scene_of(content), Catch::Contains("s.gltf: ") &&
+                                             Catch::Contains("needs more memory than there is") &&
+                                             !Catch::Contains("glTF 2.0:") && !Catch::Contains("\n"));
 }
