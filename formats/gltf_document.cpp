@@ -59,6 +59,8 @@ Json parsed(std::string_view text, const std::string& name) {
     } catch (const Json::parse_error& error) {
         const std::size_t at = std::min(error.byte, text.size());
         throw InputError(file_line(name, line_of(text, at)), "JSON is broken, expected glTF 2.0");
+    } catch (const Json::out_of_range&) {
+        throw InputError(name, "JSON holds a number too large for double precision, expected glTF 2.0");
     } catch (const std::runtime_error& error) {
         throw InputError(name, std::string("JSON is ") + error.what() + ", expected glTF 2.0");
     }
