@@ -1,6 +1,9 @@
 #include "gltf_accessor.h"
+#include "lib/model/counted.h"
+#include "plain_text.h"
+#include <algorithm>
+#include <array>
 #include <bit>
-#include <limits>
 #include <stdexcept>
 
 namespace bough {
@@ -9,95 +12,189 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Component {
-    std::size_t bytes = 0;
-    double most = 0;   // that a normalized one stands for 1 at
-    bool sign = false; // two's complement
-    bool real = false;
+    std::size_t type, bytes;
+    double most; // that a normalized one stands for 1 at
+    bool sign;   // two's complement
+    const char* name;
 };
+constexpr std::size_t u8 = 5121, u16 = 5123, u32 = 5125, f32 = 5126;
+constexpr std::array<Component, 6> components{{{5120, 1, 127, true, "bytes"},
+                                               {u8, 1, 255, false, "unsigned bytes"},
+                                               {5122, 2, 32767, true, "shorts"},
+                                               {u16, 2, 65535, false, "unsigned shorts"},
+                                               {u32, 4, 4294967295.0, false, "unsigned ints"},
+                                               {f32, 4, 1, false, "floats"}}};
 
-Component component_of(std::int64_t type) {
-    switch (type) {
-    case 5120:
-        return {1, 127, true, false};
-    case 5121:
-        return {1, 255, false, false};
-    case 5122:
-        return {2, 32767, true, false};
-    case 5123:
-        return {2, 65535, false, false};
-    case 5125:
-        return {4, 4294967295.0, false, false};
-    case 5126:
-        return {4, 1, false, true};
-    default:
-        throw std::out_of_range("componentType is " + std::to_string(type) + ", expected 5120 to 5123, 5125 or 5126");
-    }
+const Component& component_of(const Json& of, const std::string& place) {
+    const std::size_t type = whole_number(of, "componentType", place);
+    for (const Component& component : components)
+        if (component.type == type) return component;
+    throw std::out_of_range(place + ": componentType is " + std::to_string(type) +
+                            ", expected 5120 to 5123, 5125 or 5126");
 }
 
-// `count` values from `offset` of a view on.
-std::vector<double> values_in(const GltfDocument& document, const Json& of, std::size_t count,
-                              const Component& component) {
-    const Json& view = document.json.at("bufferViews").at(of.at("bufferView").get<std::size_t>());
-    if (view.contains("extensions") && view["extensions"].contains("EXT_meshopt_compression"))
-        throw std::out_of_range("an array is compressed (EXT_meshopt_compression), expected plain numbers");
-    const std::size_t in_view = of.value("byteOffset", std::size_t(0)),
-                      length = view.at("byteLength").get<std::size_t>(),
-                      start = view.value("byteOffset", std::size_t(0)),
-                      stride = view.value("byteStride", component.bytes);
-    const std::size_t last = std::numeric_limits<std::uint32_t>::max(); // sums and products below stay exact
-    const bool fits = in_view <= length && count <= last && stride <= 252 &&
-                      (count == 0 || (count - 1) * stride + component.bytes <= length - in_view);
-    const bool there = view.at("buffer").get<std::size_t>() == 0 && start <= document.binary.size() &&
-                       length <= document.binary.size() - start;
-    if (!fits || !there)
-        throw std::out_of_range("an array of " + std::to_string(count) + " numbers ends beyond its view");
-    std::vector<double> values;
-    values.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const char* const bytes = document.binary.data() + start + in_view + i * stride;
-        std::uint32_t bits = 0;
-        for (std::size_t k = component.bytes; k-- > 0;) bits = bits << 8 | static_cast<unsigned char>(bytes[k]);
-        if (component.real)
-            values.push_back(double(std::bit_cast<float>(bits)));
-        else if (component.sign && bits >> (8 * component.bytes - 1) != 0)
-            values.push_back(double(bits) - double(std::uint64_t(1) << (8 * component.bytes)));
-        else
-            values.push_back(double(bits));
+// 0: of no type that is read here.
+std::size_t width_of(std::string_view type) {
+    constexpr std::array<std::pair<std::string_view, std::size_t>, 5> widths{
+        {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}};
+    const auto found = std::find_if(widths.begin(), widths.end(), [&](const auto& w) { return w.first == type; });
+    return found == widths.end() ? 0 : found->second;
+}
+
+bool allows(GltfNumbers numbers, const Component& component, bool normalized) {
+    const bool small = component.type == u8 || component.type == u16;
+    switch (numbers) {
+    case GltfNumbers::any:
+        return true;
+    case GltfNumbers::floats:
+        return component.type == f32;
+    case GltfNumbers::indices:
+        return (small || component.type == u32) && !normalized;
+    case GltfNumbers::joints:
+        return small && !normalized;
+    case GltfNumbers::weights:
+        return component.type == f32 || (small && normalized);
     }
+    return false;
+}
+
+const char* name_of(GltfNumbers numbers) {
+    switch (numbers) {
+    case GltfNumbers::any:
+        return "any numbers";
+    case GltfNumbers::floats:
+        return "floats";
+    case GltfNumbers::indices:
+        return "unsigned bytes, shorts or ints";
+    case GltfNumbers::joints:
+        return "unsigned bytes or shorts";
+    case GltfNumbers::weights:
+        return "floats or normalized unsigned bytes or shorts";
+    }
+    return "";
+}
+
+// Where elements lie in the binary chunk.
+struct Elements {
+    std::size_t count = 0, width = 0, start = 0, stride = 0; // the last two in bytes
+    const Component* component = nullptr;
+};
+
+// `place` and what is checked of `of`: an accessor, or a part of a sparse one.
+Elements elements_in(const GltfDocument& document, const Json& of, std::size_t count, std::size_t width,
+                     const Component& component, const std::string& place) {
+    const std::size_t views = entries_of(document.json, "bufferViews"),
+                      number = index_of(of, "bufferView", place, views);
+    const Json& view = document.json["bufferViews"][number];
+    if (view.contains("extensions") && view["extensions"].contains("EXT_meshopt_compression"))
+        throw std::out_of_range(place + " is compressed (EXT_meshopt_compression), expected plain numbers");
+    const std::string in_view = place + ", view " + std::to_string(number);
+    const std::size_t size = width * component.bytes, offset = whole_number(of, "byteOffset", place, 0),
+                      length = whole_number(view, "byteLength", in_view),
+                      start = whole_number(view, "byteOffset", in_view, 0),
+                      stated = whole_number(view, "byteStride", in_view, 0), stride = stated > 0 ? stated : size;
+    if (stride < size)
+        throw std::out_of_range(in_view + ": byteStride is " + std::to_string(stride) + ", expected at least the " +
+                                counted(size, "byte", "bytes") + " of an element");
+    const bool fits = offset <= length && // by division: the products may be too large for any number
+                      (count == 0 || (size <= length - offset && count - 1 <= (length - offset - size) / stride));
+    if (!fits)
+        throw std::out_of_range(place + " ends beyond its view: " + counted(count, "element", "elements") + " of " +
+                                counted(size, "byte", "bytes") + ", " + std::to_string(stride) + " apart, from byte " +
+                                std::to_string(offset) + " of " + std::to_string(length));
+    if (whole_number(view, "buffer", in_view) != 0 || start > document.binary.size() ||
+        length > document.binary.size() - start)
+        throw std::out_of_range(in_view + " names bytes that the file does not hold");
+    return {count, width, start + offset, stride, &component};
+}
+
+std::vector<double> read(const GltfDocument& document, const Elements& elements) {
+    const Component& component = *elements.component;
+    std::vector<double> values;
+    values.reserve(elements.count * elements.width);
+    for (std::size_t i = 0; i < elements.count; ++i)
+        for (std::size_t w = 0; w < elements.width; ++w) {
+            const char* const bytes =
+                document.binary.data() + elements.start + i * elements.stride + w * component.bytes;
+            std::uint32_t bits = 0;
+            for (std::size_t k = component.bytes; k-- > 0;) bits = bits << 8 | static_cast<unsigned char>(bytes[k]);
+            if (component.type == f32)
+                values.push_back(double(std::bit_cast<float>(bits)));
+            else if (component.sign && bits >> (8 * component.bytes - 1) != 0)
+                values.push_back(double(bits) - double(std::uint64_t(1) << (8 * component.bytes)));
+            else
+                values.push_back(double(bits));
+        }
     return values;
+}
+
+struct Array {
+    Elements all;             // without a view: no component
+    Elements places, changes; // of a sparse one
+    const Component* component = nullptr;
+    bool normalized = false;
+};
+
+Array checked(const GltfDocument& document, const Json& named, const GltfUse& use) {
+    const std::size_t index = checked_index(named, use.place, entries_of(document.json, "accessors"));
+    const Json& accessor = document.json["accessors"][index];
+    const std::string place = use.place + " (accessor " + std::to_string(index) + ")";
+    Array array;
+    array.component = &component_of(accessor, place);
+    array.normalized = accessor.value("normalized", false);
+    const std::string type = accessor.at("type").get<std::string>();
+    if (type != use.type || !allows(use.numbers, *array.component, array.normalized))
+        throw std::out_of_range(place + " is " + bough::quoted(type) + " of " +
+                                (array.normalized ? "normalized " : "") + array.component->name + ", expected " +
+                                use.type + " of " + name_of(use.numbers));
+    const std::size_t count = whole_number(accessor, "count", place), width = width_of(type);
+    if (accessor.contains("bufferView"))
+        array.all = elements_in(document, accessor, count, width, *array.component, place);
+    else if (count <= document.binary.size()) // nothing but zeros: not to be asked for without end
+        array.all.count = count, array.all.width = width;
+    else
+        throw std::out_of_range(place + " names " + std::to_string(count) + " zeros, more than the file has bytes");
+    if (!accessor.contains("sparse")) return array;
+    const Json& sparse = accessor["sparse"];
+    const Json& places = sparse.at("indices");
+    const std::size_t changed = whole_number(sparse, "count", place + ", sparse");
+    const Component& of_places = component_of(places, place + ", the array of sparse indices");
+    if (!allows(GltfNumbers::indices, of_places, false))
+        throw std::out_of_range(place + ": its sparse indices are " + of_places.name + ", expected " +
+                                name_of(GltfNumbers::indices));
+    array.places = elements_in(document, places, changed, 1, of_places, place + ", the array of sparse indices");
+    array.changes = elements_in(document, sparse.at("values"), changed, width, *array.component,
+                                place + ", the array of sparse values");
+    return array;
 }
 
 } // namespace
 
-std::vector<double> scalars_of(const GltfDocument& document, std::size_t index) {
-    const Json& accessor = document.json.at("accessors").at(index);
-    if (const std::string type = accessor.at("type").get<std::string>(); type != "SCALAR")
-        throw std::out_of_range("accessor " + std::to_string(index) + " is " + type.substr(0, 8) + ", expected SCALAR");
-    const Component component = component_of(accessor.at("componentType").get<std::int64_t>());
-    const std::size_t count = accessor.at("count").get<std::size_t>();
-    std::vector<double> values;
-    if (accessor.contains("bufferView"))
-        values = values_in(document, accessor, count, component);
-    else if (count <= document.binary.size()) // nothing but zeros: not to be asked for without end
-        values.assign(count, 0);
-    else
-        throw std::out_of_range("accessor " + std::to_string(index) + " names " + std::to_string(count) +
-                                " zeros, more than the file has bytes");
-    if (accessor.contains("sparse")) {
-        const Json& sparse = accessor["sparse"];
-        const std::size_t changed = sparse.at("count").get<std::size_t>();
-        const Json& places = sparse.at("indices");
-        const std::vector<double> at = values_in(document, places, changed,
-                                                 component_of(places.at("componentType").get<std::int64_t>())),
-                                  to = values_in(document, sparse.at("values"), changed, component);
-        for (std::size_t k = 0; k < changed; ++k) {
-            if (!(at[k] >= 0 && at[k] < double(count)))
-                throw std::out_of_range("a sparse array changes a number that is not there");
-            values[std::size_t(at[k])] = to[k];
+std::string primitive_place(std::size_t mesh, std::size_t primitive) {
+    return "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(primitive);
+}
+
+std::size_t count_of(const GltfDocument& document, const Json& accessor, const GltfUse& use) {
+    return checked(document, accessor, use).all.count;
+}
+
+std::vector<double> values_of(const GltfDocument& document, const Json& accessor, const GltfUse& use) {
+    const Array array = checked(document, accessor, use);
+    const std::size_t count = array.all.count, width = array.all.width;
+    std::vector<double> values =
+        array.all.component ? read(document, array.all) : std::vector<double>(count * width, 0);
+    if (array.places.component) {
+        const std::vector<double> at = read(document, array.places), to = read(document, array.changes);
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            const std::size_t place = std::size_t(at[k]); // of an unsigned int, so exact
+            if (place >= count)
+                throw std::out_of_range(use.place + ": a sparse array changes element " + std::to_string(place) +
+                                        " of " + std::to_string(count));
+            std::copy_n(to.begin() + std::ptrdiff_t(k * width), width, values.begin() + std::ptrdiff_t(place * width));
         }
     }
-    if (accessor.value("normalized", false) && !component.real)
-        for (double& value : values) value = std::max(-1.0, value / component.most);
+    if (array.normalized && array.component->type != f32)
+        for (double& value : values) value = std::max(-1.0, value / array.component->most);
     return values;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <new>
 
 namespace bough {
 namespace {
@@ -58,16 +59,19 @@ Json parsed(std::string_view text, const std::string& name) {
     } catch (const Json::parse_error& error) {
         const std::size_t at = std::min(error.byte, text.size());
         throw InputError(file_line(name, line_of(text, at)), "JSON is broken, expected glTF 2.0");
+    } catch (const Json::out_of_range&) {
+        throw InputError(name, "JSON holds a number too large for double precision, expected glTF 2.0");
     } catch (const std::runtime_error& error) {
         throw InputError(name, std::string("JSON is ") + error.what() + ", expected glTF 2.0");
     }
 }
 
-std::size_t index_of(const Json& object, const char* key, std::size_t end) {
-    const Json& value = object.at(key);
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= end)
-        throw std::out_of_range(std::string(key) + " is " + value.dump().substr(0, 40) + ", expected less than " +
-                                std::to_string(end));
+std::size_t whole_value(const Json& value, const std::string& what) {
+    const bool whole = value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
+    if (!whole)
+        throw std::out_of_range(what + " is " +
+                                value.dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 40) +
+                                ", expected a whole number");
     return value.get<std::size_t>();
 }
 
@@ -83,7 +87,7 @@ Layout merge_buffers(GltfDocument& document, const Chunks& chunks, const std::st
     const Json buffers = json.value("buffers", Json::array());
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const Json& buffer = buffers[i];
-        const std::size_t length = buffer.at("byteLength").get<std::size_t>();
+        const std::size_t length = whole_number(buffer, "byteLength", "buffer " + std::to_string(i));
         std::string bytes;
         if (buffer.contains("uri")) {
             bytes = bytes_of_uri(buffer["uri"].get<std::string>(), folder);
@@ -111,23 +115,25 @@ Layout merge_buffers(GltfDocument& document, const Chunks& chunks, const std::st
     return layout;
 }
 
-void move_view(Json& view, const Layout& layout) {
-    const std::size_t buffer = index_of(view, "buffer", layout.buffer.size());
-    const std::size_t offset = view.value("byteOffset", std::size_t(0)),
-                      length = view.at("byteLength").get<std::size_t>();
+// `place`: what a message calls the view.
+void move_view(Json& view, const Layout& layout, const std::string& place) {
+    const std::size_t buffer = index_of(view, "buffer", place, layout.buffer.size()),
+                      offset = whole_number(view, "byteOffset", place, 0),
+                      length = whole_number(view, "byteLength", place);
     if (offset > layout.size[buffer] || length > layout.size[buffer] - offset)
-        throw std::out_of_range("a view ends at byte " + std::to_string(offset + length) + " of a buffer of " +
-                                std::to_string(layout.size[buffer]));
+        throw std::out_of_range(place + " has " + std::to_string(length) + " bytes from byte " +
+                                std::to_string(offset) + " on, of a buffer of " + std::to_string(layout.size[buffer]));
     view["buffer"] = layout.buffer[buffer];
     if (layout.offset[buffer] > 0) view["byteOffset"] = offset + layout.offset[buffer];
 }
 
 void move_views(Json& json, const Layout& layout) {
-    if (!json.contains("bufferViews")) return;
-    for (Json& view : json["bufferViews"]) {
-        move_view(view, layout);
+    for (std::size_t v = 0; v < entries_of(json, "bufferViews"); ++v) {
+        Json& view = json["bufferViews"][v];
+        const std::string place = "view " + std::to_string(v);
+        move_view(view, layout, place);
         if (view.contains("extensions") && view["extensions"].contains("EXT_meshopt_compression"))
-            move_view(view["extensions"]["EXT_meshopt_compression"], layout);
+            move_view(view["extensions"]["EXT_meshopt_compression"], layout, place + " (EXT_meshopt_compression)");
     }
 }
 
@@ -172,6 +178,30 @@ void embed_images(GltfDocument& document, const std::string& folder, ImportNotes
 
 } // namespace
 
+std::size_t whole_number(const Json& object, const char* key, const std::string& place) {
+    return whole_value(object.at(key), place + ": " + key);
+}
+
+std::size_t whole_number(const Json& object, const char* key, const std::string& place, std::size_t otherwise) {
+    return object.contains(key) ? whole_number(object, key, place) : otherwise;
+}
+
+std::size_t checked_index(const Json& value, const std::string& what, std::size_t end) {
+    const std::size_t index = whole_value(value, what);
+    if (index >= end)
+        throw std::out_of_range(what + " is " + std::to_string(index) +
+                                (end > 0 ? ", expected less than " + std::to_string(end) : ", but there is none"));
+    return index;
+}
+
+std::size_t index_of(const Json& object, const char* key, const std::string& place, std::size_t end) {
+    return checked_index(object.at(key), place + ": " + key, end);
+}
+
+std::size_t entries_of(const Json& document, const char* list) {
+    return document.contains(list) ? document[list].size() : 0;
+}
+
 const char* image_type(std::string_view bytes) {
     if (bytes.starts_with("\x89PNG")) return "image/png";
     if (bytes.starts_with("\xFF\xD8")) return "image/jpeg";
@@ -190,6 +220,8 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
         if (!version.starts_with("2.")) throw std::out_of_range("asset version is " + bough::quoted(version));
         move_views(document.json, merge_buffers(document, chunks, folder));
         if (images == GltfImages::embed) embed_images(document, folder, notes);
+    } catch (const std::bad_alloc&) {
+        throw; // not the file's fault
     } catch (const Json::exception& error) {
         throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
     } catch (const std::exception& error) {

@@ -1,7 +1,9 @@
 #include "gltf_nodes.h"
 #include "error.h"
+#include "gltf_document.h"
 #include "imported_tree.h"
 #include "plain_text.h"
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -79,7 +81,7 @@ GltfNodes nodes_of(const Json& json, const std::string& name) {
             read_place(nodes[i], result.local[i], result.turned[i], result.unequal[i]);
             if (!nodes[i].contains("children")) continue;
             for (const Json& child : nodes[i]["children"]) {
-                std::int32_t& parent = result.parent.at(child.get<std::size_t>());
+                std::int32_t& parent = result.parent[checked_index(child, "a child of node " + std::to_string(i), n)];
                 if (parent >= 0) throw std::out_of_range("node " + child.dump() + " has two parents");
                 parent = std::int32_t(i);
             }
@@ -91,6 +93,8 @@ GltfNodes nodes_of(const Json& json, const std::string& name) {
             result.world[i] = p < 0 ? result.local[i] : result.world[p] * result.local[i];
             if (p >= 0) result.turned[i] = (result.turned[p] * result.turned[i]).normalized();
         }
+    } catch (const std::bad_alloc&) {
+        throw; // not the file's fault
     } catch (const std::exception& error) {
         throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
     }

@@ -88,7 +88,7 @@ template <class Use> void each_view_index(Json& json, Use&& use) {
 // use(object) for each object that names bytes of buffer 0.
 template <class Use> void each_place(Json& json, Use&& use) {
     const auto of = [&](Json& object) {
-        if (object.at("buffer").get<std::size_t>() == 0) use(object);
+        if (whole_number(object, "buffer", "a view") == 0) use(object);
     };
     each_of(json, "bufferViews", [&](Json& view) {
         of(view);
@@ -101,8 +101,8 @@ struct Range {
 };
 
 Range range_of(const Json& place) {
-    const std::size_t begin = place.value("byteOffset", std::size_t(0));
-    return {begin, begin + place.at("byteLength").get<std::size_t>()};
+    const std::size_t begin = whole_number(place, "byteOffset", "a view", 0);
+    return {begin, begin + whole_number(place, "byteLength", "a view")};
 }
 
 // The entries of a list that are left, and of each its new index.
@@ -167,27 +167,29 @@ std::string prune(GltfDocument& document, const std::vector<std::size_t>& access
     if (accessors.empty()) return "";
     if (std::string unknown = unknown_extension(json); !unknown.empty()) return unknown;
     std::vector<char> gone(json.at("accessors").size(), false);
+    const auto accessor_of = [&](const Json& index) { return checked_index(index, "an accessor", gone.size()); };
     for (const std::size_t i : accessors) gone.at(i) = true;
-    each_accessor_index(json, [&](Json& index) { gone.at(index.get<std::size_t>()) = false; });
-    const std::size_t views = json.contains("bufferViews") ? json["bufferViews"].size() : 0;
+    each_accessor_index(json, [&](Json& index) { gone[accessor_of(index)] = false; });
+    const std::size_t views = entries_of(json, "bufferViews");
+    const auto view_of = [&](const Json& index) { return checked_index(index, "a bufferView", views); };
     std::vector<char> before(views, false), gone_view(views, false);
-    each_view_index(json, [&](Json& index) { before.at(index.get<std::size_t>()) = true; });
+    each_view_index(json, [&](Json& index) { before[view_of(index)] = true; });
     const std::vector<std::size_t> accessor = leave_out(json["accessors"], gone);
-    each_accessor_index(json, [&](Json& index) { index = accessor[index.get<std::size_t>()]; });
+    each_accessor_index(json, [&](Json& index) { index = accessor[accessor_of(index)]; });
     gone_view = before; // that were named, and are not any more
-    each_view_index(json, [&](Json& index) { gone_view.at(index.get<std::size_t>()) = false; });
+    each_view_index(json, [&](Json& index) { gone_view[view_of(index)] = false; });
     std::vector<Range> bytes;
     for (std::size_t v = 0; v < views; ++v) {
         if (!gone_view[v]) continue;
         Json& view = json["bufferViews"][v];
-        if (view.at("buffer").get<std::size_t>() == 0) bytes.push_back(range_of(view));
+        if (whole_number(view, "buffer", "a view") == 0) bytes.push_back(range_of(view));
         if (Json* packed = extension(view, "EXT_meshopt_compression");
-            packed && packed->at("buffer").get<std::size_t>() == 0)
+            packed && whole_number(*packed, "buffer", "a view") == 0)
             bytes.push_back(range_of(*packed));
     }
     if (views > 0) {
         const std::vector<std::size_t> view = leave_out(json["bufferViews"], gone_view);
-        each_view_index(json, [&](Json& index) { index = view[index.get<std::size_t>()]; });
+        each_view_index(json, [&](Json& index) { index = view[view_of(index)]; });
     }
     cut_bytes(document, std::move(bytes));
     return "";

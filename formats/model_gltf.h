@@ -17,9 +17,10 @@ struct GltfJoints {
 // Leaves nodes, meshes, skins and their arrays; names each node "#" and its index, because assimp knows joints by name
 // and names need not differ. Meshes in a form that assimp does not decode (Draco, meshopt, quantized positions) go too.
 // Radii of lines (a custom attribute _RADIUS, or _DIAMETER, _WIDTH, _THICKNESS of twice that, in upper or lower case),
-// which assimp does not know, become x of TEXCOORD_0. Indices of lines are looked at, as assimp passes over wrong ones;
-// matrices of skins that leave them out become identities, as the format has it. Without scenes all nodes are one.
-// Throws Json exceptions for types that are wrong, std::out_of_range for indices.
+// which assimp does not know, become x of TEXCOORD_0. What stays is looked at (gltf_check.h), and what the file leaves out
+// is put in (gltf_complete.h). O(JSON + numbers of the arrays that stay).
+// Throws Json exceptions for types that are wrong; std::out_of_range for indices, for what check_arrays refuses, and for
+// radii that are not one for each vertex.
 GltfJoints cut_down(GltfDocument&);
 
 } // namespace bough

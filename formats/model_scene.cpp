@@ -9,6 +9,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <limits>
+#include <new>
 #include <unordered_map>
 
 namespace bough {
@@ -229,7 +230,10 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
             out.animations =
                 static_cast<std::int64_t>(document.json.value("animations", nlohmann::ordered_json()).size());
             joints = cut_down(document);
-        } catch (const std::exception& error) { // a type that is wrong, an index beyond
+        } catch (const std::bad_alloc&) {
+            throw; // which run_forked tells as what it is
+        } catch (const std::exception& error) {
+            // A type that is wrong, an index beyond.
             throw InputError(options.name, std::string("is no glTF 2.0: ") + error.what());
         }
         out.mesh_encoded = joints.mesh_encoded;
@@ -259,9 +263,13 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
 } // namespace
 
 ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOptions& options) {
-    const ChildResult child =
-        run_forked([&] { return bytes_of(read_in_child(content, kind, options)); }, reader_limits);
-    if (child.failure.empty()) return model_scene_of(child.bytes);
+    ChildResult child;
+    try {
+        child = run_forked([&] { return bytes_of(read_in_child(content, kind, options)); }, reader_limits);
+        if (child.failure.empty()) return model_scene_of(child.bytes);
+    } catch (const std::bad_alloc&) { // here, of what the child could read
+        throw InputError(options.name, "what is in it needs more memory than there is");
+    }
     const std::string own = options.name + ":"; // of an InputError in the child, with a line or without
     const std::size_t place = child.failure.find(": ", options.name.size());
     if (child.failure.starts_with(own) && place != std::string::npos)

@@ -43,12 +43,13 @@ struct ModelScene {
 
     std::int64_t triangles = 0, skinned_meshes = 0, animations = 0;
     std::int64_t other_scenes = 0; // of a glTF file, not read
-    bool mesh_encoded = false; // glTF with a mesh in a form that is not decoded here: it was left out
+    bool mesh_encoded = false;     // glTF with a mesh in a form that is not decoded here: it was left out
     Mat3 to_y_up = Mat3::Identity();
     double unit = 0; // [m] 0: the file states none
 };
 
-// O(size of the file). Throws InputError: what assimp says, that it crashed or took too much, what read_gltf throws.
+// O(size of the file). Throws InputError: what assimp says, that it crashed or took too much, what read_gltf and cut_down
+// (model_gltf.h) throw, what is read needs more memory than there is.
 ModelScene read_model(std::string_view content, AssimpKind, const ImportOptions&);
 
 // ---- model_scene_bytes.cpp ---- as bytes, and back.

@@ -293,8 +293,10 @@ TEST_CASE("lines of glTF: radii of a custom attribute, vertices that are not the
     };
     says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 6; }),
          "mesh 0, primitive 0: _RADIUS has 6 numbers, expected one for each of 7 vertices");
-    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 8; }), "8 numbers ends beyond its view");
-    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["type"] = "VEC2"; }), "is VEC2, expected SCALAR");
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["count"] = 8; }),
+         "_RADIUS (accessor 3) ends beyond its view: 8 elements");
+    says(with("_RADIUS", [](Json& json) { json["accessors"][3]["type"] = "VEC2"; }),
+         "is \"VEC2\" of floats, expected SCALAR");
     says(with("_RADIUS", [](Json& json) { json["accessors"][3]["componentType"] = 1; }), "componentType is 1");
     says(changed(good, [](Json& json) { json["accessors"][0]["count"] = 6; }),
          "mesh 0, primitive 1: a line names vertex 6, expected 0 to 5");
@@ -369,6 +371,12 @@ TEST_CASE("damaged glTF is refused in one line") {
     const std::string deep(100000, '[');
     CHECK(error_beside("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep, "d.gltf").find("nested deeper") !=
           std::string::npos);
+    const auto with_large = [&](const char* number) {
+        return error_beside(replaced(good, "\"asset\": {", std::string("\"asset\": {\"x\": ") + number + ", "),
+                            "d.gltf");
+    };
+    CHECK(with_large("1e308").empty());
+    CHECK(with_large("1e309") == "d.gltf: JSON holds a number too large for double precision, expected glTF 2.0");
     CHECK(error_beside(good, "d.gltf").empty());
     ImportOptions pipe; // without a folder
     ImportNotes none;

@@ -1,0 +1,108 @@
+#include "gltf_check.h"
+#include "gltf_accessor.h"
+#include "lib/model/counted.h"
+#include <algorithm>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The joint of the highest number that moves a vertex of a mesh.
+struct HighestJoint {
+    double joint = -1; // none
+    std::size_t vertex = 0;
+    std::string attribute; // with its place
+};
+
+void check_count(std::size_t count, std::size_t vertices, const std::string& place) {
+    if (count != vertices)
+        throw std::out_of_range(place + " has " + counted(count, "element", "elements") +
+                                ", expected one for each of " + counted(vertices, "vertex", "vertices"));
+}
+
+void check_indices(const GltfDocument& document, const Json& primitive, std::size_t vertices,
+                   const std::string& place) {
+    if (!primitive.contains("indices")) return;
+    const std::size_t mode = whole_number(primitive, "mode", place, 4);
+    const char* const drawn = mode == 0 ? "a point" : mode <= 3 ? "a line" : "a triangle";
+    for (const double index :
+         values_of(document, primitive["indices"], {place + ": indices", "SCALAR", GltfNumbers::indices}))
+        if (!(index < double(vertices)))
+            throw std::out_of_range(
+                place + ": " + drawn + " names vertex " + std::to_string(std::uint64_t(index)) +
+                (vertices > 0 ? ", expected 0 to " + std::to_string(vertices - 1) : ", but there is none"));
+}
+
+void check_joints(const GltfDocument& document, const Json& attributes, std::size_t vertices, const std::string& place,
+                  HighestJoint& highest) {
+    for (const std::string set : {"0", "1"}) {
+        const std::string joints = "JOINTS_" + set, weights = "WEIGHTS_" + set, its_joints = place + ": " + joints,
+                          its_weights = place + ": " + weights;
+        const bool has_joints = attributes.contains(joints), has_weights = attributes.contains(weights);
+        if (has_joints != has_weights)
+            throw std::out_of_range((has_joints ? its_joints : its_weights) + " comes without " +
+                                    (has_joints ? weights : joints));
+        if (!has_joints) continue;
+        const GltfUse of_joints{its_joints, "VEC4", GltfNumbers::joints},
+            of_weights{its_weights, "VEC4", GltfNumbers::weights};
+        check_count(count_of(document, attributes[joints], of_joints), vertices, its_joints);
+        check_count(count_of(document, attributes[weights], of_weights), vertices, its_weights);
+        const std::vector<double> joint = values_of(document, attributes[joints], of_joints),
+                                  weight = values_of(document, attributes[weights], of_weights);
+        for (std::size_t i = 0; i < joint.size(); ++i)
+            if (weight[i] > 0 && joint[i] > highest.joint) highest = {joint[i], i / 4, its_joints};
+    }
+}
+
+HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh) {
+    HighestJoint highest;
+    const Json& primitives = document.json["meshes"][mesh].at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+        const std::string place = primitive_place(mesh, p);
+        const Json& attributes = primitives[p].at("attributes");
+        if (!attributes.contains("POSITION")) continue;
+        const std::size_t vertices =
+            count_of(document, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::floats});
+        check_indices(document, primitives[p], vertices, place);
+        check_joints(document, attributes, vertices, place, highest);
+    }
+    return highest;
+}
+
+void check_skin(const GltfDocument& document, std::size_t number) {
+    const Json& skin = document.json["skins"][number];
+    if (!skin.contains("inverseBindMatrices")) return;
+    const std::string place = "skin " + std::to_string(number) + ": inverseBindMatrices";
+    const std::size_t joints = skin.at("joints").size(),
+                      count = count_of(document, skin["inverseBindMatrices"], {place, "MAT4", GltfNumbers::floats});
+    if (count < joints)
+        throw std::out_of_range(place + " has " + counted(count, "matrix", "matrices") + ", expected one for each of " +
+                                counted(joints, "joint", "joints"));
+}
+
+} // namespace
+
+void check_arrays(const GltfDocument& document) {
+    const Json& json = document.json;
+    const std::size_t meshes = entries_of(json, "meshes"), skins = entries_of(json, "skins");
+    std::vector<HighestJoint> highest;
+    for (std::size_t m = 0; m < meshes; ++m) highest.push_back(check_mesh(document, m));
+    for (std::size_t s = 0; s < skins; ++s) check_skin(document, s);
+    for (std::size_t i = 0; i < entries_of(json, "nodes"); ++i) {
+        const Json& node = json["nodes"][i];
+        const std::string of_node = " of node " + std::to_string(i);
+        if (!node.contains("mesh")) continue;
+        const HighestJoint& moved = highest[checked_index(node["mesh"], "the mesh" + of_node, meshes)];
+        if (!node.contains("skin")) continue;
+        const std::size_t skin = checked_index(node["skin"], "the skin" + of_node, skins),
+                          joints = json["skins"][skin].at("joints").size();
+        if (moved.joint >= double(joints))
+            throw std::out_of_range(moved.attribute + " has joint " + std::to_string(std::uint64_t(moved.joint)) +
+                                    " move vertex " + std::to_string(moved.vertex) + ", but skin " +
+                                    std::to_string(skin) + " has " + counted(joints, "joint", "joints"));
+    }
+}
+
+} // namespace bough

@@ -1,0 +1,21 @@
+// gltf_complete.h: what a glTF 2.0 file may leave out or say in several ways, and assimp wants said in one: put into the
+// document (private to formats/).
+#pragma once
+#include "gltf_document.h"
+
+namespace bough {
+
+// A file may leave its scenes out: then all its nodes that are no node's children make one. Reads and writes the list
+// "nodes", which must be there, "scenes" and "scene". O(nodes). Throws std::out_of_range for a child that is no node, Json
+// exceptions for types that are wrong.
+void add_missing_scene(nlohmann::ordered_json& document);
+
+// A skin may leave its matrices out, which then are identities; assimp crashes without them. Appends them to the document
+// of the skins that do. O(joints). Throws Json exceptions for types that are wrong.
+void add_missing_matrices(GltfDocument&);
+
+// Weights may be bytes or shorts of which the largest stands for 1; assimp takes their bits for floats. Appends floats,
+// and has the primitives name those. O(weights). Throws as values_of (gltf_accessor.h).
+void weights_as_floats(GltfDocument&);
+
+} // namespace bough
