@@ -119,6 +119,14 @@ std::string received(int pipe) {
     }
 }
 
+// When it has ended.
+int status_of(pid_t child) {
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
 } // namespace
 
 ChildResult run_forked(const std::function<std::string()>& work, const ChildLimits& limits) {
@@ -135,11 +143,16 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
         be_child(ends[1], work, limits);
     }
     ::close(ends[1]);
-    std::string bytes = received(ends[0]);
-    ::close(ends[0]);
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    std::string bytes;
+    try {
+        bytes = received(ends[0]);
+    } catch (...) {       // no memory for it
+        ::close(ends[0]); // on which the child ends
+        (void)status_of(child);
+        throw;
     }
+    ::close(ends[0]);
+    const int status = status_of(child);
     ChildResult result;
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         result.failure = "took longer than " + std::to_string(limits.seconds) + " s";
