@@ -50,25 +50,3 @@ TEST_CASE("an input cut short while it is read ends the tool in one line, with e
     CHECK(files == 2); // the input and the message: no output, whole or temporary
     fs::remove_all(folder);
 }
-
-TEST_CASE("an input written to while it is read is refused when all has been read") {
-    const fs::path folder = fs::temp_directory_path() / ("bough_written_" + std::to_string(::getpid()));
-    fs::create_directory(folder);
-    const std::string input = folder / "input";
-    std::ofstream(input) << "of three"; // within a page, of which a cut leaves zeros
-    {
-        const MappedInput file(input);
-        CHECK(file.content() == "of three");
-        CHECK_NOTHROW(file.check());
-        fs::resize_file(input, 2);
-        CHECK_THROWS_WITH(file.check(), input + ": was written to while it was read, expected a finished file");
-    }
-    {
-        const MappedInput file(input);
-        std::ofstream(folder / "new") << "another";
-        fs::rename(folder / "new", input); // as tools write: what was opened stays as it was
-        CHECK(file.content() == "of");
-        CHECK_NOTHROW(file.check());
-    }
-    fs::remove_all(folder);
-}
