@@ -1,7 +1,7 @@
 // import_support.h: what the tests of the foreign formats share: files in, errors as text, damage.
 #pragma once
 #include "formats/error.h"
-#include "formats/import.h"
+#include "formats/imports/import.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // params_support.h: what the tests of other programs' parameters share.
 #pragma once
-#include "formats/growth_params.h"
+#include "formats/parameters/growth_params.h"
 #include "grow_measure.h"
 #include "import_support.h"
 #include <numeric>

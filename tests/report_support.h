@@ -1,8 +1,8 @@
 // report_support.h: what the tests of reports share.
 #pragma once
 #include "formats/error.h"
-#include "formats/gnuplot.h"
 #include "formats/open.h"
+#include "formats/reports/gnuplot.h"
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>

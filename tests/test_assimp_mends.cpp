@@ -1,4 +1,4 @@
-#include "formats/assimp_mends.h"
+#include "formats/models/assimp_mends.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;

@@ -1,8 +1,8 @@
 // Each way a document can be wrong, with the place and the message; then every cut and every flipped byte.
-#include "formats/motion.h"
-#include "formats/scene.h"
-#include "formats/splines.h"
-#include "formats/tree.h"
+#include "formats/documents/motion.h"
+#include "formats/documents/scene.h"
+#include "formats/documents/splines.h"
+#include "formats/documents/tree.h"
 #include "random_documents.h"
 #include <cstring>
 

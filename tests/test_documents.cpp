@@ -1,11 +1,11 @@
 // Documents written and read again, in both forms, against what was in memory; and small documents written by hand.
-#include "formats/document.h"
-#include "formats/material.h"
-#include "formats/motion.h"
-#include "formats/scene.h"
-#include "formats/species.h"
-#include "formats/splines.h"
-#include "formats/tree.h"
+#include "formats/documents/document.h"
+#include "formats/documents/material.h"
+#include "formats/documents/motion.h"
+#include "formats/documents/scene.h"
+#include "formats/documents/species.h"
+#include "formats/documents/splines.h"
+#include "formats/documents/tree.h"
 #include "random_documents.h"
 #include <chrono>
 #include <clocale>

@@ -1,6 +1,6 @@
-#include "formats/driven_model.h"
 #include "formats/forked.h"
-#include "formats/gltf_prune.h"
+#include "formats/models/driven_model.h"
+#include "formats/models/gltf_prune.h"
 #include "gltf_reader.h"
 #include "import_support.h"
 #include "lib/growth/segment.h"

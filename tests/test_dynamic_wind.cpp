@@ -1,4 +1,4 @@
-#include "formats/dynamic_wind.h"
+#include "formats/exports/dynamic_wind.h"
 #include "tests/make_tree.h"
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // envelope_mesh.h: meshes written here in each format, other programs' models where they are present, and what is refused.
-#include "formats/envelope_mesh.h"
 #include "formats/forked.h"
+#include "formats/models/envelope_mesh.h"
 #include "solids.h"
 #include <catch2/catch.hpp>
 #include <csignal>

@@ -1,5 +1,5 @@
-#include "formats/error_plot.h"
-#include "formats/error_report.h"
+#include "formats/reports/error_plot.h"
+#include "formats/reports/error_report.h"
 #include "report_support.h"
 #include "tools/report_file.h"
 #include <nlohmann/json.hpp>

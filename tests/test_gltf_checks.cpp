@@ -1,10 +1,10 @@
 // Each refusal beside a neighbour that is read. Files are written here byte by byte, and what they must give follows from
 // the format: a vertex is moved by its joints' world matrices, weighted.
 #include "formats/forked.h"
-#include "formats/gltf_complete.h"
-#include "formats/gltf_document.h"
-#include "formats/gltf_prune.h"
-#include "formats/model_scene.h"
+#include "formats/models/gltf_complete.h"
+#include "formats/models/gltf_document.h"
+#include "formats/models/gltf_prune.h"
+#include "formats/models/model_scene.h"
 #include "import_support.h"
 #include "sanitized.h"
 #include <functional>

@@ -1,4 +1,4 @@
-#include "formats/gltf.h"
+#include "formats/exports/gltf.h"
 #include "tests/gltf_reader.h"
 #include "tests/skin_checks.h"
 #include <filesystem>

@@ -1,6 +1,6 @@
-#include "formats/armature.h"
 #include "formats/forked.h"
-#include "formats/user_model.h"
+#include "formats/models/armature.h"
+#include "formats/models/user_model.h"
 #include "import_support.h"
 #include "sanitized.h"
 #include <atomic>

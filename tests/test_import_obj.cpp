@@ -1,4 +1,4 @@
-#include "formats/curve_points.h"
+#include "formats/imports/curve_points.h"
 #include "import_support.h"
 
 using namespace bough;

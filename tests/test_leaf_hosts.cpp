@@ -1,5 +1,5 @@
 // leaf_hosts.h: the branch that a search over every segment of every branch finds, for many leaves around many branches.
-#include "formats/leaf_hosts.h"
+#include "formats/imports/leaf_hosts.h"
 #include <catch2/catch.hpp>
 #include <random>
 

@@ -1,5 +1,5 @@
-#include "formats/line_graph.h"
-#include "formats/weld.h"
+#include "formats/imports/line_graph.h"
+#include "formats/imports/weld.h"
 #include "import_support.h"
 #include <numeric>
 

@@ -1,4 +1,4 @@
-#include "formats/material.h"
+#include "formats/documents/material.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;

@@ -1,6 +1,6 @@
 // The search for the nearest wood against one that asks every segment, in other words: the header's.
-#include "formats/attach.h"
-#include "formats/radix_order.h"
+#include "formats/imports/attach.h"
+#include "formats/imports/radix_order.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "formats/obj.h"
+#include "formats/exports/obj.h"
 #include "tests/make_tree.h"
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>

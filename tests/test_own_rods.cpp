@@ -1,4 +1,4 @@
-#include "formats/gltf.h"
+#include "formats/exports/gltf.h"
 #include "lib/growth/segment.h"
 #include "lib/model/wood.h"
 #include "tests/import_support.h"

@@ -1,4 +1,4 @@
-#include "formats/pipe_rule.h"
+#include "formats/imports/pipe_rule.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;

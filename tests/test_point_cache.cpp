@@ -1,4 +1,4 @@
-#include "formats/point_cache.h"
+#include "formats/exports/point_cache.h"
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // The binary form against readers that share no code with ours: a few lines here, and numpy in test_safetensors.py.
-#include "formats/motion.h"
-#include "formats/splines.h"
-#include "formats/tree.h"
+#include "formats/documents/motion.h"
+#include "formats/documents/splines.h"
+#include "formats/documents/tree.h"
 #include "random_documents.h"
 #include <cstdlib>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "formats/scaling_report.h"
+#include "formats/reports/scaling_report.h"
 #include "report_support.h"
 #include "tools/report_file.h"
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Fields of a scene's document replaced before it is read: against the document as people would have written it.
-#include "formats/scene.h"
+#include "formats/documents/scene.h"
 #include "random_documents.h"
 
 using namespace bough;

@@ -1,4 +1,4 @@
-#include "formats/skeleton_writer.h"
+#include "formats/exports/skeleton_writer.h"
 #include "lib/growth/grow.h"
 #include "tests/hand_made.h"
 #include "tests/import_support.h"

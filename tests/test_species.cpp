@@ -1,4 +1,4 @@
-#include "formats/species.h"
+#include "formats/documents/species.h"
 #include "grow_measure.h"
 #include "lib/growth/segment.h"
 #include "lib/model/sway.h"

@@ -1,5 +1,5 @@
-#include "formats/stability_plot.h"
-#include "formats/stability_report.h"
+#include "formats/reports/stability_plot.h"
+#include "formats/reports/stability_report.h"
 #include "report_support.h"
 #include "tools/report_file.h"
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // What lies on the trees: areas from above, and the sag it makes against closed forms; the start balances.
-#include "formats/tree.h"
+#include "formats/documents/tree.h"
 #include "lib/growth/segment.h"
 #include "lib/model/static_load.h"
 #include "lib/reference/advance.h"

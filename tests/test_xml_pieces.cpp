@@ -1,4 +1,4 @@
-#include "formats/xml_pieces.h"
+#include "formats/imports/xml_pieces.h"
 #include "import_support.h"
 
 using namespace bough;

@@ -1,5 +1,5 @@
-#include "formats/float_range.h"
-#include "formats/point_cache.h"
+#include "formats/exports/float_range.h"
+#include "formats/exports/point_cache.h"
 #include "frame_sink.h"
 #include "lib/growth/skin.h"
 

@@ -1,5 +1,5 @@
 #include "envelope.h"
-#include "formats/envelope_mesh.h"
+#include "formats/models/envelope_mesh.h"
 #include "formats/plain_text.h"
 #include "lib/growth/colonize.h"
 #include "lib/model/counted.h"

@@ -1,6 +1,6 @@
 #include "frame_sink.h"
-#include "formats/motion.h"
-#include "formats/obj.h"
+#include "formats/documents/motion.h"
+#include "formats/exports/obj.h"
 #include "lib/growth/skin.h"
 #include "lib/model/counted.h"
 #include <filesystem>

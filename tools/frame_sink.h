@@ -1,8 +1,8 @@
 // frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, a point cache, or an animated glTF file.
 #pragma once
 #include "common.h"
-#include "formats/driven_model.h"
-#include "formats/gltf.h"
+#include "formats/exports/gltf.h"
+#include "formats/models/driven_model.h"
 #include "lib/model/motion.h"
 #include "lib/model/tree.h"
 #include <memory>

@@ -1,5 +1,5 @@
 #include "growth.h"
-#include "formats/species.h"
+#include "formats/documents/species.h"
 #include "lib/growth/carry.h"
 #include "parameters.h"
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "import_file.h"
 #include "exits.h"
+#include "formats/documents/splines.h"
 #include "formats/mapped.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
-#include "formats/splines.h"
 #include "option_values.h"
 
 namespace bough {

@@ -1,6 +1,6 @@
 // import_file.h: a tree's file of any kind that is known, as --import and INPUT name it.
 #pragma once
-#include "formats/import.h"
+#include "formats/imports/import.h"
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>

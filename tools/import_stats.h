@@ -1,6 +1,6 @@
 // import_stats.h: --stats of the tools that import: what was understood of a file, before anything is made of it.
 #pragma once
-#include "formats/import.h"
+#include "formats/imports/import.h"
 #include <string>
 
 namespace bough {

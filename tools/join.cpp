@@ -1,6 +1,6 @@
 #include "join.h"
+#include "formats/documents/motion.h"
 #include "formats/mapped.h"
-#include "formats/motion.h"
 #include "frame_sink.h"
 #include "lib/model/counted.h"
 #include "lib/model/shortest_text.h"

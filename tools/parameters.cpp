@@ -1,7 +1,7 @@
 #include "parameters.h"
-#include "formats/eztree.h"
-#include "formats/growth_params.h"
-#include "formats/species.h"
+#include "formats/documents/species.h"
+#include "formats/parameters/eztree.h"
+#include "formats/parameters/growth_params.h"
 
 namespace bough {
 

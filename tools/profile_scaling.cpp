@@ -1,4 +1,4 @@
-#include "formats/tree.h"
+#include "formats/documents/tree.h"
 #include "lib/fast/operations.h"
 #include "lib/stages/frozen_rule.h"
 #include "machine_limits.h"

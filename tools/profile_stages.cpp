@@ -1,4 +1,4 @@
-#include "formats/report.h"
+#include "formats/reports/report.h"
 #include "formatted.h"
 #include "profile.h"
 #include "progress.h"

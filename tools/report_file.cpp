@@ -1,7 +1,7 @@
 #include "report_file.h"
-#include "formats/error_plot.h"
-#include "formats/gnuplot.h"
-#include "formats/stability_plot.h"
+#include "formats/reports/error_plot.h"
+#include "formats/reports/gnuplot.h"
+#include "formats/reports/stability_plot.h"
 
 namespace bough {
 namespace {

@@ -2,9 +2,9 @@
 // .json, .csv, .svg and .html (in any case). The file appears whole or not at all.
 #pragma once
 #include "common.h"
-#include "formats/error_report.h"
-#include "formats/scaling_report.h"
-#include "formats/stability_report.h"
+#include "formats/reports/error_report.h"
+#include "formats/reports/scaling_report.h"
+#include "formats/reports/stability_report.h"
 
 namespace bough {
 

@@ -1,5 +1,5 @@
 #include "saved_run.h"
-#include "formats/motion.h"
+#include "formats/documents/motion.h"
 #include "lib/fast/sleep.h"
 #include "lib/stages/frozen.h"
 

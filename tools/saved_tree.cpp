@@ -1,5 +1,5 @@
 #include "saved_tree.h"
-#include "formats/tree.h"
+#include "formats/documents/tree.h"
 #include "lib/stages/posed_tree.h"
 
 namespace bough {

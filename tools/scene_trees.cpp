@@ -1,5 +1,5 @@
 #include "scene_trees.h"
-#include "formats/tree.h"
+#include "formats/documents/tree.h"
 #include "lib/fast/stands.h"
 #include "lib/model/place.h"
 #include "lib/stages/wind_field.h"

@@ -1,7 +1,7 @@
 // set_option.h: --set PATH=VALUE, which replaces a field of the scene's document before it is read.
 #pragma once
 #include "common.h"
-#include "formats/scene.h"
+#include "formats/documents/scene.h"
 
 namespace bough {
 

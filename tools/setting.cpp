@@ -1,6 +1,6 @@
 #include "setting.h"
-#include "formats/scene.h"
-#include "formats/tree.h"
+#include "formats/documents/scene.h"
+#include "formats/documents/tree.h"
 #include "lib/model/static_load.h"
 #include "lib/model/wood_overrides.h"
 #include "rigid_parts.h"

@@ -1,7 +1,7 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
 #include "common.h"
-#include "formats/skeleton_writer.h"
-#include "formats/splines.h"
+#include "formats/documents/splines.h"
+#include "formats/exports/skeleton_writer.h"
 #include "growth.h"
 #include "import_file.h"
 #include "import_stats.h"

@@ -1,6 +1,6 @@
 // treesim: a timed simulation of a tree or a scene, frame after frame.
 #include "error_line.h"
-#include "formats/motion.h"
+#include "formats/documents/motion.h"
 #include "frame_queue.h"
 #include "lib/free/shown_tree.h"
 #include "lib/model/counted.h"

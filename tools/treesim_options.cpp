@@ -1,5 +1,5 @@
 #include "treesim_options.h"
-#include "formats/obj.h"
+#include "formats/exports/obj.h"
 
 namespace bough {
 

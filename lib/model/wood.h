@@ -1,4 +1,4 @@
-// wood.h: what a tree is made of. Presets with sources, or the user's own file (formats/material.h).
+// wood.h: what a tree is made of. Presets with sources, or the user's own file (formats/documents/material.h).
 #pragma once
 #include "splines.h"
 #include <optional>

@@ -1,7 +1,7 @@
 // Documents read and written in memory or to /dev/null: 10 000 bodies. Bytes are those of the document.
 #include "bench_tree.h"
-#include "formats/motion.h"
-#include "formats/tree.h"
+#include "formats/documents/motion.h"
+#include "formats/documents/tree.h"
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // stiffness and damping (DART's springs are implicit), under gravity, started at rest, unloaded, as --pose rest does.
 //   dart_step TREE [STEPS [FPS]]     prints ns a body and step
 // Making the skeleton takes minutes from some thousand bodies on.
-#include "formats/tree.h"
+#include "formats/documents/tree.h"
 #include <chrono>
 #include <dart/dart.hpp>
 #include <fstream>

@@ -1,0 +1,47 @@
+// motion.h: the motion document, "bough-motion" (formats/README.md), as JSON lines, JSON or safetensors.
+#pragma once
+#include "formats/open.h"
+#include "lib/model/motion.h"
+#include <memory>
+
+namespace bough {
+
+enum class MotionForm { jsonl, json, safetensors };
+
+// Writes a motion frame by frame. JSON and JSON lines stream; safetensors keeps its arrays in temporary files until
+// finish(), because its header holds the number of frames. After finish() the output holds every frame written.
+class MotionWriter {
+public:
+    MotionWriter(Output&, const MotionHeader&, MotionForm);
+    ~MotionWriter();
+    void write(const MotionFrame&);
+    void finish();
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+// Reads a motion frame by frame: of JSON lines and safetensors one frame is held at a time, of JSON all of them.
+class MotionFrames {
+public:
+    // The content must stay. Throws InputError, as next() does.
+    MotionFrames(std::string_view content, const std::string& name);
+    ~MotionFrames();
+    MotionFrames(MotionFrames&&) noexcept;
+    const MotionHeader& header() const; // `events` once one has come
+    bool next(MotionFrame&);            // false: there is none left
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+bool is_motion(std::string_view content);
+Motion read_motion(std::string_view content, const std::string& name);
+
+bool is_state(std::string_view content);
+SavedState read_state(std::string_view content, const std::string& name);
+void write_state(Output&, const SavedState&, Form);
+
+} // namespace bough

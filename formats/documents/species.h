@@ -1,0 +1,20 @@
+// species.h: the species document, "bough-species" (formats/README.md), and those that come with bough.
+#pragma once
+#include "formats/open.h"
+#include "lib/growth/species.h"
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bough {
+
+bool is_species(std::string_view content);
+Species read_species(std::string_view content, const std::string& name); // checked; throws InputError
+
+// A document of data/species, compiled in.
+struct SpeciesFile {
+    std::string_view name, content;
+};
+const std::vector<SpeciesFile>& species_files(); // by name
+
+} // namespace bough

@@ -1,0 +1,163 @@
+#include "gltf.h"
+#include "formats/documents/document_parts.h"
+#include "gltf_parts.h"
+#include <cassert>
+#include <limits>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+constexpr int mesh_node = 0, armature_node = 1, first_joint = 2;
+
+// What is taken off all positions: nothing, or the first joint's place where floats would be too coarse.
+Vec3 origin_of(const Skin& skin, const GroupFrames& drawn) {
+    Vec3 low = drawn.x_w[0], high = low;
+    for (const Vec3& p : skin.position) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    const bool suffices = farthest * std::numeric_limits<float>::epsilon() <= 1e-6 * (high - low).maxCoeff();
+    return suffices ? Vec3(Vec3::Zero()) : drawn.x_w[0];
+}
+
+std::string asset(const GltfOptions& options) {
+    std::string text = "\"asset\":{\"version\":\"2.0\",\"generator\":";
+    append_string(text, options.generator);
+    if (!options.source.empty()) {
+        text += ",\"extras\":{\"source\":";
+        append_string(text, options.source);
+        text += '}';
+    }
+    return text + "}";
+}
+
+// The joints' nodes: the drawn pose, children by name of body; `children` holds those that are no joints.
+std::string joint_nodes(const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin,
+                        std::vector<std::string> children, const std::vector<std::string>& rods) {
+    children.resize(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (groups.parent[g] < 0) continue;
+        std::string& list = children[std::size_t(groups.parent[g])];
+        list += (list.empty() ? "" : ",") + std::to_string(first_joint + int(g));
+    }
+    std::string text;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const Vec3 place = groups.parent[g] < 0 ? Vec3(drawn.position[g] - origin) : drawn.position[g];
+        text += ",\n{\"name\":\"body_" + std::to_string(groups.first[g]) +
+                "\",\"translation\":" + gltf_list(Eigen::Vector3f(place.cast<float>())) +
+                ",\"rotation\":" + gltf_list(Eigen::Vector4f(drawn.rotation[g].coeffs().cast<float>()));
+        if (!children[g].empty()) text += ",\"children\":[" + children[g] + "]";
+        text += rods[g] + '}';
+    }
+    return text;
+}
+
+std::string nodes(const Tree& tree, const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin,
+                  const GltfLeaves& leaves) {
+    const std::string name = tree.name.empty() ? "tree" : tree.name;
+    std::string text = "{\"name\":";
+    append_string(text, name);
+    text += ",\"mesh\":0,\"skin\":0},\n{\"name\":";
+    append_string(text, name + " joints");
+    if (!origin.isZero(0)) text += ",\"translation\":" + gltf_list(origin);
+    text += ",\"children\":[";
+    bool first = true;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (groups.parent[g] >= 0) continue;
+        text += (first ? "" : ",") + std::to_string(first_joint + int(g));
+        first = false;
+    }
+    return text + "]}" + joint_nodes(groups, drawn, origin, leaves.children, gltf_rods(tree, groups, drawn)) +
+           leaves.nodes;
+}
+
+// The file's joints as one skin; inverse bind matrices take the mesh's frame (the world less `origin`) to the joints'.
+std::string skin_of(GltfFile& file, const GroupFrames& drawn, const Vec3& origin) {
+    const std::uint64_t n = drawn.x_w.size();
+    const int view = file.add_view(64 * n, GltfTarget::none, 0, [&drawn, origin](GltfBytes& to) {
+        for (std::size_t g = 0; g < drawn.x_w.size(); ++g) {
+            const Mat3 R = drawn.R_wg[g].transpose();
+            const Vec3 t = -(R * (drawn.x_w[g] - origin));
+            for (int c = 0; c < 3; ++c) to.add_all(float(R(0, c)), float(R(1, c)), float(R(2, c)), 0.0f);
+            to.add_all(float(t.x()), float(t.y()), float(t.z()), 1.0f);
+        }
+    });
+    const int accessor = file.add_accessor(view, 0, GltfType::f32, n, "MAT4");
+    std::string text = "{\"inverseBindMatrices\":" + std::to_string(accessor) +
+                       ",\"skeleton\":" + std::to_string(armature_node) + ",\"joints\":[";
+    for (std::uint64_t g = 0; g < n; ++g) text += (g > 0 ? "," : "") + std::to_string(first_joint + int(g));
+    return text + "]}";
+}
+
+// x along the branch: z to x, x to y, y to z.
+Mat3 x_from_z() {
+    Mat3 turn;
+    turn.col(0) = Vec3::UnitZ();
+    turn.col(1) = Vec3::UnitX();
+    turn.col(2) = Vec3::UnitY();
+    return turn;
+}
+
+// The same joints with their own axes turned.
+GroupFrames turned(GroupFrames frames, const JointGroups& groups, const Mat3& turn) {
+    const Quat q(turn);
+    for (std::size_t g = 0; g < frames.x_w.size(); ++g) {
+        frames.R_wg[g] = frames.R_wg[g] * turn;
+        frames.rotation[g] = (groups.parent[g] < 0 ? frames.rotation[g] * q : q.conjugate() * frames.rotation[g] * q);
+        if (groups.parent[g] >= 0) frames.position[g] = turn.transpose() * frames.position[g];
+    }
+    return frames;
+}
+
+} // namespace
+
+GltfWriter::GltfWriter(Output& output, const Skin& skin, const Tree& tree, const JointGroups& groups,
+                       const GltfOptions& options)
+    : output_(output), skin_(skin), tree_(tree), groups_(groups), options_(options),
+      drawn_(options.x_along ? turned(drawn_frames(tree, groups), groups, x_from_z()) : drawn_frames(tree, groups)),
+      keys_(groups.parent, drawn_.rotation), rotation_(groups.size()) {
+    if (groups.size() > 65536)
+        throw std::length_error("a skin of " + std::to_string(groups.size()) +
+                                " joints, but a .glb can number 65536; merge some");
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        if (groups.parent[g] < 0) paths_.push_back({g, {}});
+}
+
+void GltfWriter::write(const MotionFrame& frame) {
+    assert(frame.rotation.size() == tree_.size_bodies());
+    const Quat axes = options_.x_along ? Quat(x_from_z()) : Quat(Quat::Identity());
+    for (std::size_t g = 0; g < groups_.size(); ++g) rotation_[g] = frame.rotation[std::size_t(groups_.lead[g])] * axes;
+    for (RootPath& path : paths_) {
+        const Vec3 &is = frame.position[std::size_t(groups_.first[path.joint])], &drawn = drawn_.x_w[path.joint];
+        path.place.push_back(is);
+        path.leaves |= is != path.place.front() || !((is - drawn).norm() <= 1e-6 * (1 + drawn.norm()));
+    }
+    keys_.add(rotation_);
+}
+
+void GltfWriter::finish() {
+    keys_.thin(options_.key_tolerance);
+    const Vec3 origin = origin_of(skin_, drawn_);
+    GltfFile file;
+    GltfLeaves leaves;
+    if (options_.leaf_instances)
+        leaves =
+            gltf_leaves(file, tree_, groups_, drawn_, first_joint + int(groups_.size()), 1, int(skin_.part.size()));
+    std::string json = asset(options_);
+    if (!leaves.nodes.empty())
+        json +=
+            ",\n\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]";
+    json += ",\n\"scene\":0,\"scenes\":[{\"nodes\":[" + std::to_string(mesh_node) + "," +
+            std::to_string(armature_node) + "]}],\n\"nodes\":[\n" + nodes(tree_, groups_, drawn_, origin, leaves) +
+            "],\n\"materials\":[\n" + gltf_materials(skin_) + leaves.materials +
+            "],\n\"meshes\":[{\"name\":\"skin\",\"primitives\":[\n";
+    json += gltf_primitives(file, skin_, groups_, origin);
+    json += "]}" + leaves.meshes + "],\n\"skins\":[" + skin_of(file, drawn_, origin) + "]";
+    const std::string animation = gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint);
+    if (!animation.empty()) json += ",\n\"animations\":[" + animation + "]";
+    file.write(output_, json);
+}
+
+} // namespace bough

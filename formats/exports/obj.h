@@ -1,0 +1,28 @@
+// obj.h: a skin mesh as Wavefront OBJ, at rest or as a numbered sequence with one mtl.
+#pragma once
+#include "formats/open.h"
+#include "lib/growth/skin.h"
+#include <string>
+#include <vector>
+
+namespace bough {
+
+// The mesh with the given positions and normals (arrays over the skin's vertices) and a mtllib line naming `mtl`, the
+// file's name as seen from the OBJ's folder. Vertex k of the skin is v, vt and vn k + 1; a group and material a part, all one
+// object, so that programs make one mesh of it, with the vertices in this order (what point caches and sequences need).
+// Coordinates are the shortest decimals that give the same float (double where the mesh lies so far from the origin that
+// a float is coarser than 1e-6 of its size), normals have 4 decimals; the locale does not matter. O(vertices + triangles).
+// Throws OutputError.
+void write_obj(Output&, const Skin&, const std::vector<Vec3>& position, const std::vector<Vec3>& normal,
+               const std::string& mtl);
+// Materials of the skin's parts (bark, leaf, fruit): a diffuse colour each.
+void write_mtl(Output&, const Skin&);
+
+// frames/oak_%04d.obj -> frames/oak_0007.obj. The pattern must hold one %d or %0Nd (N 1 to 18) and a prefix before it in
+// the file name; valid_sequence says what is wrong with it, or returns an empty string. The others need a valid pattern.
+std::string valid_sequence(const std::string& pattern);
+std::string sequence_name(const std::string& pattern, std::int64_t frame);
+// frames/oak_%04d.obj -> frames/oak.mtl
+std::string sequence_mtl(const std::string& pattern);
+
+} // namespace bough

@@ -1,0 +1,60 @@
+// import.h: splines from any file we can read: our own document or another program's. A format is one file beside this
+// one with a struct SplineFormat; which one a file has is decided by its content, never by its name alone.
+#pragma once
+#include "formats/open.h"
+#include "lib/model/splines.h"
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace bough {
+
+struct ImportOptions {
+    std::optional<double>
+        unit;           // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
+    char up = 0;        // 'y' or 'z' for the file's up axis; 0: as above
+    std::string name;   // how the file is called in messages
+    std::string folder; // where files stand that it names (a .gltf's buffers); "": nowhere
+    // Called by a reader that has taken the content in, before it makes a tree of it: whoever holds the content may give
+    // its memory back meanwhile. It must stay readable, as messages look for lines in it. May be empty.
+    std::function<void()> taken_in;
+
+    void let_go() const {
+        if (taken_in) taken_in();
+    }
+};
+
+// What a reader wants the user to know: guesses made (units, up) with the reason, things left out, with counts.
+struct ImportNotes {
+    std::vector<std::string> lines;
+    // What was understood, for --stats.
+    std::string format;               // name of the format
+    double unit = 1;                  // [m] one unit of the file
+    char up = 'y';                    // its up axis, 'y' or 'z'
+    std::string unit_from = "stated"; // "stated" by the file or its format, "given" as option, or "guessed"
+    std::string up_from = "stated";
+};
+
+struct SplineFormat {
+    const char* name;                                                              // "SpeedTree raw XML"
+    bool (*recognizes)(std::string_view content);                                  // cheap: the head of the file
+    Splines (*read)(std::string_view content, const ImportOptions&, ImportNotes&); // throws InputError
+};
+
+extern const SplineFormat armature_format;        // armature_format.cpp
+extern const SplineFormat speedtree_format;       // speedtree.cpp
+extern const SplineFormat treetools_format;       // treetools.cpp
+extern const SplineFormat swc_format;             // swc.cpp
+extern const SplineFormat obj_format;             // obj_skeleton.cpp
+extern const SplineFormat ply_format;             // ply_graph.cpp
+extern const SplineFormat sapling_table_format;   // sapling_table.cpp
+extern const SplineFormat sapling_curves_format;  // sapling_curves.cpp
+extern const SplineFormat cylinder_table_format;  // cylinder_table.cpp
+extern const SplineFormat mtg_format;             // mtg.cpp
+extern const SplineFormat eztree_branches_format; // eztree_branches.cpp
+
+// Our own splines document, or the first format that recognizes the content. Throws InputError that lists what could
+// be read, with advice for well-known files that cannot (refused.h).
+Splines import_splines(std::string_view content, const ImportOptions&, ImportNotes&);
+
+} // namespace bough

@@ -1,0 +1,244 @@
+#include "imported_tree.h"
+#include "formats/plain_text.h"
+#include "leaf_hosts.h"
+#include "lib/model/counted.h"
+#include "placed_import.h"
+#include <algorithm>
+#include <limits>
+
+namespace bough {
+
+ParentsFirst parents_first(const std::vector<std::int32_t>& parent) {
+    enum : char { unseen, open, placed };
+    ParentsFirst result;
+    result.order.reserve(parent.size());
+    std::vector<char> state(parent.size(), unseen);
+    std::vector<std::int32_t> path;
+    for (std::size_t start = 0; start < parent.size(); ++start) {
+        std::int32_t i = std::int32_t(start);
+        while (i >= 0 && state[i] == unseen) {
+            state[i] = open;
+            path.push_back(i);
+            i = parent[i];
+        }
+        if (i >= 0 && state[i] == open) {
+            result.cycle = i;
+            return result;
+        }
+        for (; !path.empty(); path.pop_back()) {
+            state[path.back()] = placed;
+            result.order.push_back(path.back());
+        }
+    }
+    return result;
+}
+
+double projected(const Vec3& a, const Vec3& b, const Vec3& p) {
+    const Vec3 d = b - a;
+    const double d2 = d.squaredNorm();
+    return d2 > 0 ? std::clamp((p - a).dot(d) / d2, 0.0, 1.0) : 0.0;
+}
+
+OnPolyline nearest_on(const std::vector<Vec3>& polyline, const Vec3& p) {
+    OnPolyline best;
+    best.distance = std::numeric_limits<double>::infinity();
+    double arc = 0, arc_best = 0;
+    for (std::size_t k = 0; k + 1 < polyline.size(); ++k) {
+        const Vec3& a = polyline[k];
+        const Vec3& b = polyline[k + 1];
+        const double t = projected(a, b, p);
+        const double length = (b - a).norm();
+        const double distance = (a + t * (b - a) - p).norm();
+        if (distance < best.distance) {
+            best.segment = k;
+            best.t = t;
+            best.distance = distance;
+            arc_best = arc + t * length;
+        }
+        arc += length;
+    }
+    best.fraction = arc > 0 ? std::min(1.0, arc_best / arc) : 0.0;
+    return best;
+}
+
+double likely_unit(double height) {
+    constexpr double tallest = 120;
+    return height <= tallest ? 1 : height <= 100 * tallest ? 0.01 : 0.001;
+}
+
+namespace {
+
+std::size_t leave_out_repeated_points(ImportedBranch& branch) {
+    const std::size_t before = branch.point.size();
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < branch.point.size(); ++k) {
+        if (kept > 0 && branch.point[k] == branch.point[kept - 1]) continue;
+        branch.point[kept] = branch.point[k];
+        branch.radius[kept++] = branch.radius[k];
+    }
+    branch.point.resize(kept);
+    branch.radius.resize(kept);
+    return before - kept;
+}
+
+// Branches with at least two points, parents first, and the new index of each old one (-1: none that carries it).
+struct Ordered {
+    std::vector<ImportedBranch> branches;
+    std::vector<std::int32_t> index_of;
+};
+
+Ordered order_branches(std::vector<ImportedBranch>&& branches, ImportNotes& notes) {
+    std::vector<std::int32_t> parent;
+    parent.reserve(branches.size());
+    for (const ImportedBranch& b : branches) parent.push_back(b.parent);
+    Ordered result;
+    result.index_of.assign(branches.size(), -1);
+    std::vector<double> moved_to(branches.size(), -1); // where a branch without length sat on the one that carries it
+    result.branches.reserve(branches.size());
+    std::size_t empty = 0, repeated = 0;
+    for (const std::int32_t i : parents_first(parent).order) {
+        ImportedBranch& b = branches[i];
+        repeated += leave_out_repeated_points(b);
+        if (b.parent >= 0) {
+            if (moved_to[b.parent] >= 0) b.parent_at = moved_to[b.parent];
+            b.parent = result.index_of[b.parent];
+        }
+        if (b.parent < 0) b.parent_at = 0;
+        if (b.point.size() < 2) {
+            ++empty;
+            moved_to[i] = b.parent_at;
+            result.index_of[i] = b.parent;
+            continue;
+        }
+        result.index_of[i] = std::int32_t(result.branches.size());
+        result.branches.push_back(std::move(b));
+    }
+    if (repeated > 0)
+        notes.lines.push_back(counted(repeated, "point that repeats the one before left out",
+                                      "points that repeat the one before left out"));
+    if (empty > 0) notes.lines.push_back(counted(empty, "branch", "branches") + " without length left out");
+    return result;
+}
+
+struct Frame {
+    double unit = 1; // [m]
+    char up = 'y';
+    Vec3 turned(const Vec3& v) const { return up == 'z' ? Vec3(v.x(), v.z(), -v.y()) : v; }
+    Vec3 placed(const Vec3& v) const { return unit * turned(v); }
+    Quat turned(const Mat3& axes) const {
+        Mat3 m;
+        for (int k = 0; k < 3; ++k) m.col(k) = turned(Vec3(axes.col(k)));
+        return Quat(m).normalized();
+    }
+};
+
+char up_axis(const ImportedTree& tree, const ImportOptions& options, ImportNotes& notes) {
+    if (options.up != 0) return options.up;
+    if (tree.up != 0) return tree.up;
+    Vec3 sum = Vec3::Zero();
+    for (const ImportedBranch& b : tree.branches)
+        if (b.parent < 0) sum += b.point.back() - b.point.front();
+    const char up = std::abs(sum.y()) > std::abs(sum.z()) ? 'y' : 'z';
+    notes.lines.push_back(std::string("up axis: the file states none; taken as ") + char(up - 'a' + 'A') +
+                          ", which the trunk follows more closely (--up overrides)");
+    return up;
+}
+
+double height(const ImportedTree& tree, char up) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const ImportedBranch& b : tree.branches) {
+        for (const Vec3& p : b.point) {
+            const double h = up == 'z' ? p.z() : p.y();
+            low = std::min(low, h);
+            high = std::max(high, h);
+        }
+    }
+    return high - low;
+}
+
+double unit_of(const ImportedTree& tree, char up, const ImportOptions& options, ImportNotes& notes) {
+    if (options.unit) return *options.unit;
+    if (tree.unit) return *tree.unit;
+    const double h = height(tree, up);
+    const double unit = likely_unit(h);
+    const std::string too_high = unit == 1 ? "" : " and no tree is " + shown(unit < 0.01 ? 0.01 * h : h) + " m high";
+    notes.lines.push_back("unit: the file states none; taken as " +
+                          std::string(unit == 1      ? "m"
+                                      : unit == 0.01 ? "cm"
+                                                     : "mm") +
+                          ", because the tree is " + shown(h) + " units high" + too_high + " (--units overrides)");
+    return unit;
+}
+
+void add_branch(Splines& s, const ImportedBranch& b, const Frame& frame) {
+    s.parent.push_back(b.parent);
+    s.parent_at.push_back(b.parent_at);
+    s.level.push_back(b.parent < 0 ? 0 : s.level[b.parent] + 1);
+    for (const Vec3& p : b.point) s.point.push_back(frame.placed(p));
+    for (const double r : b.radius) s.radius.push_back(frame.unit * r);
+    s.first_point.push_back(std::int32_t(s.point.size()));
+}
+
+void reserve(Splines& s, const std::vector<ImportedBranch>& branches) {
+    std::size_t points = 0;
+    for (const ImportedBranch& b : branches) points += b.point.size();
+    for (auto* of_branch : {&s.parent, &s.level, &s.first_point}) of_branch->reserve(branches.size() + 1);
+    s.parent_at.reserve(branches.size());
+    s.point.reserve(points);
+    s.radius.reserve(points);
+}
+
+void add_leaf(Splines& s, const ImportedLeaf& leaf, double at, const Frame& frame) {
+    s.leaf_branch.push_back(leaf.branch);
+    s.leaf_at.push_back(at);
+    s.leaf_position.push_back(frame.placed(leaf.position));
+    s.leaf_rotation.push_back(frame.turned(leaf.axes));
+    s.leaf_length.push_back(frame.unit * leaf.length);
+    s.leaf_width.push_back(frame.unit * leaf.width);
+}
+
+} // namespace
+
+Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportNotes& notes) {
+    Ordered ordered = order_branches(std::move(tree.branches), notes);
+    tree.branches = std::move(ordered.branches);
+    if (tree.branches.empty()) throw InputError(options.name, "holds no branch with a length, expected at least one");
+    Frame frame;
+    frame.up = up_axis(tree, options, notes);
+    frame.unit = unit_of(tree, frame.up, options, notes);
+    notes.up = frame.up;
+    notes.unit = frame.unit;
+    if (options.up != 0 || tree.up == 0) notes.up_from = options.up != 0 ? "given" : "guessed"; // else by the reader
+    notes.unit_from = options.unit ? "given" : tree.unit ? "stated" : "guessed";
+
+    Splines s;
+    reserve(s, tree.branches);
+    s.name = valid_utf8(tree.name.empty() ? stem_of(options.name) : tree.name);
+    s.source = valid_utf8(tree.source);
+    s.first_point.push_back(0);
+    for (ImportedBranch& b : tree.branches) {
+        add_branch(s, b, frame);
+        if (tree.leaves.empty()) b = {}; // nobody asks again, and all of a large file twice is much
+    }
+    double reach = 0; // [m] of the leaves
+    for (const ImportedLeaf& leaf : tree.leaves)
+        reach = std::max({reach, frame.placed(leaf.position).cwiseAbs().maxCoeff(), frame.unit * leaf.length,
+                          frame.unit * leaf.width});
+    refuse_too_far(s, reach, options.name);
+    refuse_too_small(s, options.name);
+    for (ImportedLeaf& leaf : tree.leaves)
+        if (leaf.branch >= 0) leaf.branch = ordered.index_of[leaf.branch];
+    find_hosts(tree.branches, tree.leaves);
+    for (const ImportedLeaf& leaf : tree.leaves)
+        add_leaf(s, leaf, nearest_on(tree.branches[leaf.branch].point, leaf.position).fraction, frame);
+    bring_to_origin(s, notes);
+    name_absurd_scale(s, options.unit.has_value(), notes);
+    if (const auto defect = check(s)) {
+        std::string entry;
+        if (defect->index >= 0) entry.append("[").append(std::to_string(defect->index)).append("]");
+        throw InputError(options.name, "imported " + defect->field + entry + " " + defect->message);
+    }
+    return s;
+}
+
+} // namespace bough

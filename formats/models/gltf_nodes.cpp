@@ -1,0 +1,104 @@
+#include "gltf_nodes.h"
+#include "formats/error.h"
+#include "formats/imports/imported_tree.h"
+#include "formats/plain_text.h"
+#include "gltf_document.h"
+#include <new>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <int n> Eigen::Matrix<double, n, 1> numbers(const Json& node, const char* key) {
+    const Json& list = node.at(key);
+    if (!list.is_array() || list.size() != n)
+        throw std::out_of_range(std::string(key) + " holds another number of values than " + std::to_string(n));
+    Eigen::Matrix<double, n, 1> result;
+    for (int k = 0; k < n; ++k) result[k] = list[std::size_t(k)].get<double>();
+    return result;
+}
+
+void read_place(const Json& node, Eigen::Affine3d& local, Quat& turned, double& unequal) {
+    Vec3 scale = Vec3::Ones();
+    local = Eigen::Affine3d::Identity();
+    turned = Quat::Identity();
+    if (node.contains("matrix")) {
+        const auto m = numbers<16>(node, "matrix");
+        local.matrix() = Eigen::Map<const Eigen::Matrix4d>(m.data());
+        part(local.linear(), turned, scale);
+    } else {
+        if (node.contains("rotation")) {
+            const auto q = numbers<4>(node, "rotation");
+            turned = Quat(q[3], q[0], q[1], q[2]);
+            if (!(turned.norm() > 0)) throw std::out_of_range("a rotation is no unit quaternion");
+            turned.normalize();
+        }
+        if (node.contains("scale")) scale = numbers<3>(node, "scale");
+        if (node.contains("translation")) local.translation() = numbers<3>(node, "translation");
+        local.linear() = turned.toRotationMatrix() * scale.asDiagonal();
+    }
+    scale = scale.cwiseAbs();
+    unequal = scale.minCoeff() > 0 ? scale.maxCoeff() / scale.minCoeff() - 1 : 1;
+}
+
+} // namespace
+
+void part(const Mat3& linear, Quat& rotation, Vec3& scale) {
+    const double determinant = linear.determinant();
+    Mat3 R = linear;
+    if (determinant < 0) R = -R; // a mirror is the scale's
+    // Newton's iteration to the nearest rotation (Higham 1986).
+    const double size = std::cbrt(std::abs(determinant));
+    if (!(size > 0) || !std::isfinite(size)) {
+        R = Mat3::Identity();
+    } else {
+        R /= size;
+        for (int k = 0; k < 100; ++k) {
+            const Mat3 next = 0.5 * (R + R.inverse().transpose());
+            const double change = (next - R).norm();
+            R = next;
+            if (change < 1e-15) break;
+        }
+    }
+    rotation = Quat(R).normalized();
+    scale = (R.transpose() * linear).diagonal();
+}
+
+GltfNodes nodes_of(const Json& json, const std::string& name) {
+    GltfNodes result;
+    try {
+        const Json& nodes = json.at("nodes");
+        const std::size_t n = nodes.size();
+        result.parent.assign(n, -1);
+        result.local.resize(n);
+        result.world.resize(n);
+        result.turned.resize(n);
+        result.unequal.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            read_place(nodes[i], result.local[i], result.turned[i], result.unequal[i]);
+            if (!nodes[i].contains("children")) continue;
+            for (const Json& child : nodes[i]["children"]) {
+                std::int32_t& parent = result.parent[checked_index(child, "a child of node " + std::to_string(i), n)];
+                if (parent >= 0) throw std::out_of_range("node " + child.dump() + " has two parents");
+                parent = std::int32_t(i);
+            }
+        }
+        const ParentsFirst sorted = parents_first(result.parent);
+        if (sorted.cycle >= 0) throw std::out_of_range("node " + std::to_string(sorted.cycle) + " is its own ancestor");
+        for (const std::int32_t i : sorted.order) {
+            const std::int32_t p = result.parent[i];
+            result.world[i] = p < 0 ? result.local[i] : result.world[p] * result.local[i];
+            if (p >= 0) result.turned[i] = (result.turned[p] * result.turned[i]).normalized();
+        }
+    } catch (const std::bad_alloc&) {
+        throw; // not the file's fault
+    } catch (const std::exception& error) {
+        throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
+    }
+    return result;
+}
+
+} // namespace bough

@@ -1,0 +1,78 @@
+#include "gltf_uri.h"
+#include "formats/error.h"
+#include "formats/open.h"
+#include "formats/plain_text.h"
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+namespace bough {
+namespace {
+
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+std::string unescaped(std::string_view uri) {
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool escape =
+            uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 && hex_digit(uri[i + 2]) >= 0;
+        text += escape ? static_cast<char>(16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2])) : uri[i];
+        if (escape) i += 2;
+    }
+    return text;
+}
+
+std::string from_base64(std::string_view text) {
+    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::array<int, 256> value;
+    value.fill(-1);
+    for (std::size_t k = 0; k < alphabet.size(); ++k)
+        value[static_cast<unsigned char>(alphabet[k])] = static_cast<int>(k);
+    value['-'] = 62, value['_'] = 63;
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        if (c == '=' || is_blank(c)) continue;
+        const int v = value[static_cast<unsigned char>(c)];
+        if (v < 0)
+            throw std::runtime_error("a data: URI holds " + bough::quoted(std::string_view(&c, 1)) +
+                                     ", expected base64");
+        bits = bits << 6 | static_cast<std::uint32_t>(v);
+        if (++count % 4 == 1) continue;
+        const int left = (4 - count % 4) % 4 * 2; // bits of the next byte
+        bytes += static_cast<char>(bits >> (count % 4 == 0 ? 0 : left) & 255);
+    }
+    return bytes;
+}
+
+} // namespace
+
+std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
+    if (uri.starts_with("data:")) {
+        const std::size_t comma = uri.find(',');
+        if (comma == std::string::npos) throw std::runtime_error("a data: URI has no data");
+        const std::string_view head = std::string_view(uri).substr(0, comma),
+                               data = std::string_view(uri).substr(comma + 1);
+        return head.ends_with(";base64") ? from_base64(data) : unescaped(data);
+    }
+    if (uri.find("://") != std::string::npos || uri.starts_with("/"))
+        throw std::runtime_error(bough::quoted(uri) +
+                                 " is not beside the file, expected a relative path or a data: URI");
+    if (folder.empty())
+        throw std::runtime_error(bough::quoted(uri) + " cannot be looked for: the file was read from a pipe");
+    const std::string file = unescaped(uri);
+    try {
+        return read_input(folder + "/" + file);
+    } catch (const InputError&) {
+        throw std::runtime_error(bough::quoted(uri) + " is not beside the file, or cannot be read");
+    }
+}
+
+} // namespace bough

@@ -1,0 +1,34 @@
+// own_rods.h: the bodies of wood that our own .glb says each joint holds, so that it can be read as the tree it shows and
+// not as bones guessed from its mesh (private to formats/).
+//
+// Every joint of ours has extras: "bough_rods", ten numbers for each body of wood in it, in the order of bodies: its
+// branch, the branch of the body that carries it (-1: the ground), its start and its end in the joint's own axes [m],
+// each x y z and the radius there; and "bough_others", how many leaves, petals and fruit it holds, where it holds some.
+// They are relative to the joint: moved or scaled with the armature in another program, they still say where the wood is.
+#pragma once
+#include "formats/imports/imported_tree.h"
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+
+namespace bough {
+
+using OwnRod = std::array<double, 10>;
+
+struct OwnRods {
+    std::vector<std::vector<OwnRod>> rods; // of each node; empty as a whole: the file holds none, or not as above
+    std::vector<char> ours;                // of each node: whether it is a joint that we wrote
+    std::int64_t others = 0;               // leaves, petals and fruit
+};
+
+// Of a document's "nodes". O(nodes + rods).
+OwnRods own_rods(const nlohmann::ordered_json& nodes);
+
+// A rod of a joint that stands at `world`.
+OwnRod in_world(const OwnRod&, const Eigen::Affine3d& world);
+
+// Placed rods as branches, in the order of their numbers. Rods of a branch stand from base to tip, and behind a rod of
+// the branch that carries them; a branch that none before carries is a root. O(rods log branches, and points of the
+// parent for each branch).
+std::vector<ImportedBranch> branches_of(const std::vector<OwnRod>&);
+
+} // namespace bough
