@@ -47,9 +47,14 @@ Splines read_import(const std::string& name, const ImportChoice& choice, ImportN
         throw UsageError(std::string(choice.units.empty() ? "--up" : "--units") + ": " + options.name +
                          " is a bough document, which is in metres and Y up");
     if (before) before(own);
-    Splines splines = import_splines(content, options, notes);
-    file.check();
-    return splines;
+    try {
+        Splines splines = import_splines(content, options, notes);
+        file.check();
+        return splines;
+    } catch (const InputError&) {
+        file.check(); // half a file is no fault of its format
+        throw;
+    }
 }
 
 } // namespace bough

@@ -226,12 +226,14 @@ void write_one(const Tree& tree, Options& o, const std::string& file, const std:
 }
 
 void write_each(const std::vector<Tree>& trees, Options& o) {
+    const auto named = [](const std::string& pattern, std::size_t k) {
+        return pattern.empty() ? std::string() : sequence_name(pattern, std::int64_t(k));
+    };
+    for (std::size_t k = 0; k < trees.size(); ++k)
+        refuse_own_inputs(o, named(o.common.output, k), named(o.mesh, k), named(o.wind_groups, k));
     for (std::size_t k = 0; k < trees.size(); ++k) {
-        const auto named = [k](const std::string& pattern) {
-            return pattern.empty() ? std::string() : sequence_name(pattern, std::int64_t(k));
-        };
         try {
-            write_one(trees[k], o, named(o.common.output), named(o.mesh), named(o.wind_groups));
+            write_one(trees[k], o, named(o.common.output, k), named(o.mesh, k), named(o.wind_groups, k));
         } catch (const OutputError& error) {
             throw OutputError(o.common.output, "stopped after " + std::to_string(k) + " of " +
                                                    std::to_string(trees.size()) + " trees: " + error.what());

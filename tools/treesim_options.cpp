@@ -149,7 +149,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
                                                     {"--save-tree", o.save_tree, "--save-state", o.save_state}})
         if (!file.empty() && file != "-" && file == same)
             throw UsageError(std::string(option) + ": is '" + file + "', which " + other + " writes already");
-    // --save-tree INPUT and --save-state of what is resumed are another state of the same thing.
+    // --save-tree INPUT, where that is a tree, and --save-state of what is resumed are another state of the same thing.
     const std::string wind = wind_file(o.run.wind);
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind}, {"--skin", o.skin}},
                        {{"-o", o.common.output}, {"--save-state", o.save_state}});

@@ -148,15 +148,17 @@ cat >scene.json <<'END'
 END
 cp scene.json scene_kept.json
 for name in scene.json in.json ./other.json link.json; do
-    refused 1 "reads" treesim scene.json --frames 2 -o "$name" --format json
-    refused 1 "reads" treesim scene.json --frames 2 --no-output --save-state "$name"
-    refused 1 "reads" treesim scene.json --frames 2 --shard 1/2 -o "$name" --format json
+    reads="which the scene reads"
+    [[ $name != scene.json ]] || reads="which INPUT reads"
+    refused 1 "$reads" treesim scene.json --frames 2 -o "$name" --format json
+    refused 1 "$reads" treesim scene.json --frames 2 --no-output --save-state "$name"
+    refused 1 "$reads" treesim scene.json --frames 2 --shard 1/2 -o "$name" --format json
     for command in stages error stability; do
-        refused 1 "reads" treeprofile $command scene.json --report "$name"
-        refused 1 "reads" treeprofile $command scene.json -o "$name"
+        refused 1 "$reads" treeprofile $command scene.json --report "$name"
+        refused 1 "$reads" treeprofile $command scene.json -o "$name"
     done
 done
-refused 1 "reads" treesim scene.json --frames 2 --shard 2/2 --no-output --save-tree other.json
+refused 1 "which the scene reads" treesim scene.json --frames 2 --shard 2/2 --no-output --save-tree other.json
 same in.json kept.json
 same other.json kept.json
 same scene.json scene_kept.json
@@ -172,6 +174,14 @@ cp part1.json part_kept.json
 refused 1 "which --join reads" treesim --join part1.json part2.json -o part1.json
 same part1.json part_kept.json
 expect 0 treesim --join part1.json part2.json -o joined.json
+sed 's/, {"file": "other.json".*}\]/]/' scene.json >single.json
+cp single.json single_kept.json
+refused 1 "which INPUT reads" treesim single.json --frames 2 --no-output --save-tree single.json
+same single.json single_kept.json
+cp "$top/data/fixtures/two_trunks_spines.xml" trunk_1.json
+refused 1 "which INPUT reads" treeconvert trunk_1.json --split -o trunk_%d.json
+same trunk_1.json "$top/data/fixtures/two_trunks_spines.xml"
+absent trunk_0.json
 # Both through pipes: the same name -, not the same file.
 treesim tree.json --frames 2 -q -o own.glb --max-joints all
 cat own.glb | treesim tree.json --frames 2 -q --skin - --format glb >piped.glb || fail "--skin - to stdout"
