@@ -1,6 +1,7 @@
 // The search for the nearest wood against one that asks every segment, in other words: the header's.
 #include "formats/imports/attach.h"
 #include "formats/imports/radix_order.h"
+#include "sanitized.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
@@ -118,7 +119,7 @@ TEST_CASE("places in large pieces, asked one by one and many at once") {
     std::vector<std::int32_t> group(w.base.size()), piece_of(w.point.size());
     std::iota(group.begin(), group.end(), 0);
     for (const Segment& s : w.segment) piece_of[s.a] = piece_of[s.b] = s.piece;
-    for (std::int32_t end = 0; end < std::int32_t(w.point.size()); end += 3) {
+    for (std::int32_t end = 0; end < std::int32_t(w.point.size()); end += sanitized ? 30 : 3) {
         const SegmentPlace truth = nearest_of_all(w, group, end, piece_of[end]);
         const SegmentPlace found = search.nearest(end, piece_of[end]);
         CAPTURE(end, found.cost, truth.cost);
@@ -128,7 +129,7 @@ TEST_CASE("places in large pieces, asked one by one and many at once") {
     // Never "nothing" where one of them finds something.
     std::mt19937 random(2);
     std::size_t nothing = 0;
-    for (int round = 0; round < 2000; ++round) {
+    for (int round = 0; round < (sanitized ? 500 : 2000); ++round) {
         const std::int32_t first = std::int32_t(random() % 1900), many = 1 + std::int32_t(random() % 60);
         std::vector<std::int32_t> ends(std::size_t(std::min(many, 2000 - first)));
         std::iota(ends.begin(), ends.end(), first);
@@ -139,11 +140,11 @@ TEST_CASE("places in large pieces, asked one by one and many at once") {
         REQUIRE((may || !found));
         nothing += !may;
     }
-    CHECK(nothing > 200);
+    CHECK(nothing > (sanitized ? 50 : 200));
 }
 
 TEST_CASE("the nearest place among many is that of a search through all, each curve alone or in groups") {
-    for (const unsigned seed : {1u, 2u, 3u}) {
+    for (const unsigned seed : cases(1, {1u, 2u, 3u})) {
         const Wood w = random_wood(seed, 400);
         SegmentSearch search(w.point, w.radius, w.base, w.segment, w.base.size());
         std::vector<std::int32_t> group(w.base.size());
@@ -194,8 +195,8 @@ TEST_CASE("pieces are joined alike by any number of threads, and whatever places
 #ifdef _OPENMP
     const int before = omp_get_max_threads();
 #endif
-    for (const auto& [threads, curves] :
-         {std::pair(1, false), {2, false}, {3, false}, {8, false}, {1, true}, {2, true}, {8, true}}) {
+    for (const auto& [threads, curves] : cases<std::pair<int, bool>>(
+             2, {{1, false}, {2, true}, {2, false}, {3, false}, {8, false}, {1, true}, {8, true}})) {
 #ifdef _OPENMP
         omp_set_num_threads(threads);
 #endif
