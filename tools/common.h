@@ -1,11 +1,10 @@
-// common.h: what all tools share, declared, parsed and documented once: help, version, threads, output, notes, exit
-// codes, signals. A tool is one Options struct, a function that declares its options, and a function that works.
+// common.h: what all tools share, declared, parsed and documented once: help, version, threads, output, notes (exits.h,
+// option_values.h, signals.h, progress.h beside it). A tool is one Options struct, a function that declares its options, and a function that works.
 #pragma once
 #include "exits.h"
 #include "formats/open.h"
 #include "option_values.h"
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>

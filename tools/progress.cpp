@@ -8,6 +8,7 @@ namespace bough {
 namespace {
 
 std::atomic<bool> bar_on_screen{false};
+static_assert(std::atomic<bool>::is_always_lock_free); // clear_progress is called in handlers
 
 std::int64_t now_ms() {
     using namespace std::chrono;

@@ -19,6 +19,7 @@ extern "C" void on_signal(int signal) {
         return;
     }
     remove_unfinished_outputs();
+    clear_progress();
     _exit(128 + signal);
 }
 

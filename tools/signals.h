@@ -4,7 +4,7 @@
 namespace bough {
 
 // Interrupts (SIGINT, SIGTERM, SIGHUP; not those that the caller has ignored) remove unfinished outputs and end the tool with 128 + the
-// signal. An input that becomes shorter while it is looked at where it lies (formats/mapped.h) ends it in one line with exit_input. A
+// signal. An input that becomes shorter, or whose disk fails, while it is looked at where it lies (formats/mapped.h) ends it in one line with exit_input. A
 // closed pipe is an error of the output that is written to it. `tool` is kept.
 void catch_signals(const char* tool);
 

@@ -1,5 +1,5 @@
-// import.h: splines from any file we can read: our own document or another program's. A format is one file beside this
-// one with a struct SplineFormat; which one a file has is decided by its content, never by its name alone.
+// import.h: splines from any file we can read: our own document or another program's. A format is one file of this
+// folder or of models/ with a struct SplineFormat; which one a file has is decided by its content, never by its name alone.
 #pragma once
 #include "formats/open.h"
 #include "lib/model/splines.h"
@@ -41,7 +41,7 @@ struct SplineFormat {
     Splines (*read)(std::string_view content, const ImportOptions&, ImportNotes&); // throws InputError
 };
 
-extern const SplineFormat armature_format;        // armature_format.cpp
+extern const SplineFormat armature_format;        // models/armature_format.cpp
 extern const SplineFormat speedtree_format;       // speedtree.cpp
 extern const SplineFormat treetools_format;       // treetools.cpp
 extern const SplineFormat swc_format;             // swc.cpp

@@ -4,12 +4,12 @@
 // names none and has no faces, every node that holds nothing. Left out, each counted in a note:
 //   - a topmost node whose bones begin beside or at it rather than above it, unless the file calls it a joint: it is the
 //     armature's frame, not wood;
-//   - where a skin is: an armature of its own none of whose bones moves a vertex (a topmost bone with two more in a row
+//   - where a bone moves a vertex: an armature of its own none of whose bones moves a vertex (a topmost bone with two more in a row
 //     below it), and what else moves no vertex, nor anything below it (IK targets, controls), but for the one place
 //     below a bone that ends a chain, which is that bone's end;
-//   - without vertices: bones that have a rigger's word in their name (ik, ctrl, ctl, control, controller, target, pole,
+//   - where none does (no skin, or one that moves none of them, which a note says): bones that have a rigger's word in their name (ik, ctrl, ctl, control, controller, target, pole,
 //     mch), with nothing but such below them, unless all have;
-//   - a bone without anything below it that says how long it is: alone, without vertices; Blender's `neutral_bone`.
+//   - a bone without anything below it that says how long it is: alone, where no bone moves a vertex; Blender's `neutral_bone`.
 // A node whose name ends in `_end`, `.end` or `nub` with nothing below it marks the end of its parent and is no bone.
 // Ends. At such a mark; else where the file states it (Blender's COLLADA); else at the bone below that starts on this
 // bone's own axis, the farthest: the local axis on which most bones of the file carry another within 1e-4 (Blender's

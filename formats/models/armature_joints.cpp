@@ -161,7 +161,7 @@ bool named_as_control(std::string_view name) {
     return known();
 }
 
-// Without vertices names alone tell: such bones go, with nothing but such bones below them, unless that would be all.
+// Where no bone moves a vertex names alone tell: such bones go, with nothing but such bones below them, unless that would be all.
 // Returns what goes: how many, and the first one's name.
 std::pair<std::size_t, std::string> leave_out_named_controls(Choice& c) {
     const std::size_t n = c.candidate.size();

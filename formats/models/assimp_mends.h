@@ -1,4 +1,4 @@
-// assimp_mends.h: what assimp's writer of glTF gets wrong, put right (private to formats/).
+// assimp_mends.h: what assimp's writer of glTF gets wrong, put right (private to this folder).
 #pragma once
 #include "gltf_document.h"
 

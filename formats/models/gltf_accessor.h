@@ -1,4 +1,4 @@
-// gltf_accessor.h: numbers of a glTF document's accessors, in the shape that their use asks for (private to formats/).
+// gltf_accessor.h: numbers of a glTF document's accessors, in the shape that their use asks for (private to this folder).
 #pragma once
 #include "gltf_document.h"
 

@@ -1,5 +1,5 @@
 // gltf_check.h: the arrays of a glTF document's meshes and skins, looked at before assimp is given them: it reads what is out
-// of shape as something else, or passes over it in silence (private to formats/).
+// of shape as something else, or passes over it in silence (private to this folder).
 #pragma once
 #include "gltf_document.h"
 

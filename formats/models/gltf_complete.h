@@ -1,5 +1,5 @@
 // gltf_complete.h: what a glTF 2.0 file may leave out or say in several ways, and assimp wants said in one: put into the
-// document (private to formats/).
+// document (private to this folder).
 #pragma once
 #include "gltf_document.h"
 

@@ -1,5 +1,5 @@
 // gltf_document.h: a glTF 2.0 file (.glb or .gltf) of another program as its JSON, untouched, and one buffer: what is
-// read of it, and what is written again with something added (private to formats/).
+// read of it, and what is written again with something added (private to this folder).
 //
 // Buffers beside the file and in data: URIs are laid one after another into the binary chunk, each from a multiple of 4,
 // and the views' places moved with them; nothing in them is decoded. Buffers without bytes (the fallbacks of

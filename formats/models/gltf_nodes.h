@@ -1,4 +1,4 @@
-// gltf_nodes.h: where the nodes of a glTF document stand (private to formats/).
+// gltf_nodes.h: where the nodes of a glTF document stand (private to this folder).
 #pragma once
 #include "lib/model/math.h"
 #include <nlohmann/json_fwd.hpp>

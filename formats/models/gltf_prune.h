@@ -1,5 +1,5 @@
 // gltf_prune.h: arrays that a glTF document has no use for any more, once something that named them was taken out
-// (private to formats/).
+// (private to this folder).
 #pragma once
 #include "gltf_document.h"
 

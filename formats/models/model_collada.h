@@ -1,4 +1,4 @@
-// model_collada.h: what a COLLADA file says of joints and assimp does not hand on (private to formats/).
+// model_collada.h: what a COLLADA file says of joints and assimp does not hand on (private to this folder).
 #pragma once
 #include "lib/model/math.h"
 #include <optional>

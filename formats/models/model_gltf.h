@@ -1,4 +1,4 @@
-// model_gltf.h: a glTF document cut down to what an armature is read from (private to formats/).
+// model_gltf.h: a glTF document cut down to what an armature is read from (private to this folder).
 #pragma once
 #include "gltf_document.h"
 #include "own_rods.h"

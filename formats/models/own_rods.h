@@ -1,5 +1,5 @@
 // own_rods.h: the bodies of wood that our own .glb says each joint holds, so that it can be read as the tree it shows and
-// not as bones guessed from its mesh (private to formats/).
+// not as bones guessed from its mesh (private to this folder).
 //
 // Every joint of ours has extras: "bough_rods", ten numbers for each body of wood in it, in the order of bodies: its
 // branch, the branch of the body that carries it (-1: the ground), its start and its end in the joint's own axes [m],
