@@ -29,6 +29,7 @@ struct Splines {
     std::vector<double> leaf_length;       // [m]
     std::vector<double> leaf_width;        // [m]
     std::vector<std::int32_t> leaf_kind;   // 0 leaf or needle, 1 petal; may be empty: all leaves
+    std::vector<std::int32_t> leaf_count;  // how many leaves it stands for, from 2 on a clump; may be empty: not said
 
     // Per fruit: a sphere hanging from a joint.
     std::vector<std::int32_t> fruit_branch;

@@ -38,6 +38,7 @@ struct Tree {
     // Either may be empty: none.
     std::vector<std::uint8_t> rigid; // 1: the body moves as its parent does, its joint holds the drawn pose (reduce.h)
     std::vector<double> load; // [kg] what of the mass lies on the drawn tree and is not carried in its equilibrium
+    std::vector<std::int32_t> leaf_count; // how many leaves a leaf body stands for; 1 for other kinds. From 2 on: a clump
 
     std::string name;        // what the tree is called
     std::string material;    // wood preset or file that gave mass and stiffness
@@ -53,6 +54,11 @@ inline bool continues_parent(const Tree& tree, std::size_t i) {
     const std::int32_t p = tree.parent[i];
     return p >= 0 && tree.kind[i] == Kind::branch && tree.kind[std::size_t(p)] == Kind::branch &&
            tree.branch[i] == tree.branch[std::size_t(p)];
+}
+
+// A body that stands for several leaves on their twigs: porous, where a leaf is a plate (leaf_air.h).
+inline bool is_clump(const Tree& tree, std::size_t i) {
+    return !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
 }
 
 // The first broken rule, or none: at least one body, array lengths equal, parent before child, mass > 0, inertia
