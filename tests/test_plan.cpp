@@ -310,3 +310,30 @@ TEST_CASE("scales of stiffness and damping multiply every joint's") {
         CHECK(plan.beta[i] == 3 * tree.damping[i]);
     }
 }
+
+TEMPLATE_TEST_CASE("step takes the plain analytic plan alone, advance takes all", "", float, double) {
+    using T = TestType;
+    const Tree tree = make_tree::branched();
+    for (const Solver solver : all_solvers)
+        for (const bool lanes : {false, true}) {
+            if (lanes && is_articulated(solver)) continue; // they have none
+            const auto simd = lanes ? std::optional(fast::Target::baseline) : std::nullopt;
+            const auto plan =
+                make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, {}, {}, 1.0 / 30, solver, Scheme::p12, simd);
+            State<T> state = make_state(plan);
+            CAPTURE(solver_name(solver), lanes);
+            REQUIRE(plan.lanes.on == lanes);
+            const bool own = solver == Solver::analytic && !lanes;
+            if (own)
+                CHECK_NOTHROW(step(plan, state));
+            else
+                CHECK_THROWS_WITH(step(plan, state), Catch::Contains("call advance"));
+            CHECK(state.step == own);
+            if (is_articulated(solver) && !std::is_same_v<T, double>) {
+                CHECK_THROWS_AS(advance(plan, state), std::logic_error);
+                continue;
+            }
+            CHECK_NOTHROW(advance(plan, state));
+            CHECK(state.step == own + 1);
+        }
+}

@@ -7,7 +7,7 @@
 #include "../stages/state_update.h"
 #include "articulated_step.h"
 #include "extrapolation.h"
-#include <cassert>
+#include <stdexcept>
 
 namespace bough {
 namespace {
@@ -60,7 +60,7 @@ template <class T> void advance(const Plan<T>& plan, State<T>& state, StageClock
         if (plan.torque) spring_torque(plan, state);
         ++state.step;
     } else {
-        assert(false && "the articulated solvers exist in double alone");
+        throw std::logic_error(std::string("advance: ") + solver_name(plan.solver) + " exists in double alone");
     }
 }
 

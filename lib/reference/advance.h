@@ -6,7 +6,7 @@
 // articulated_implicit  articulated_step.h, linearly implicit
 // articulated_reference extrapolation.h, to the plan's tolerance
 // Needs a state of this plan with kinematics up to date; leaves one, but where the plan has lanes: there present() does. The
-// articulated solvers exist in double alone.
+// articulated solvers exist in double alone: std::logic_error in float.
 #pragma once
 #include "../fast/present.h"
 #include "../stages/step.h"

@@ -8,9 +8,22 @@
 #include "spring.h"
 #include "state_update.h"
 #include "wind.h"
+#include <stdexcept>
 
 namespace bough {
+namespace {
+
+template <class T> void require_plain_analytic(const Plan<T>& plan) {
+    if (plan.solver == Solver::analytic && !plan.lanes.on) return;
+    throw std::logic_error(std::string("step: is the analytic solver's without SIMD lanes, the plan is of ") +
+                           solver_name(plan.solver) + (plan.lanes.on ? " with lanes" : "") +
+                           ": call advance (reference/advance.h)");
+}
+
+} // namespace
+
 template <class T> void step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
+    require_plain_analytic(plan);
     // Loads that depend on time are taken in the middle of the step, where their error is of second order.
     const double middle = (double(state.step) + 0.5) * plan.dt;
     if (plan.wind)

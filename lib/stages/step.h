@@ -23,7 +23,9 @@ template <class T, class Body> void run_stage(Stage stage, State<T>& state, Stag
 }
 
 // Advances the state by plan.dt. Needs a state of this plan with kinematics up to date (make_state, or the step before).
-// O(n), allocates nothing. Never throws; a state that became non-finite is found by first_non_finite().
+// O(n), allocates nothing. A state that became non-finite is found by first_non_finite().
+// Throws std::logic_error, with the state as it was, for a plan that it is not for: of another solver, or with lanes, where a state has
+// other arrays. advance() (reference/advance.h) takes those.
 template <class T> void step(const Plan<T>&, State<T>&, StageClock* clock = nullptr);
 
 } // namespace bough
