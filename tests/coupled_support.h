@@ -12,7 +12,7 @@ namespace coupled {
 
 using namespace bough;
 
-constexpr std::array<Scheme, 5> extrapolating{Scheme::p12, Scheme::p25, Scheme::p50, Scheme::p34, Scheme::midpoint};
+constexpr std::array<Scheme, 4> extrapolating{Scheme::p12, Scheme::p25, Scheme::p50, Scheme::p34};
 
 template <class T = double> struct Run {
     Plan<T> plan;

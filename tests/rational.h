@@ -25,11 +25,9 @@ inline Function of(bough::Scheme scheme) {
     case bough::Scheme::p34:
         return {{1, 3 / 7.0L, 1 / 14.0L, 1 / 210.0L}, {1, -4 / 7.0L, 1 / 7.0L, -2 / 105.0L, 1 / 840.0L}};
     case bough::Scheme::lie:
-        return {{1}, {1, -1}};
-    case bough::Scheme::midpoint:
         break;
     }
-    return {{1, 0.5L}, {1, -0.5L}};
+    return {{1}, {1, -1}};
 }
 
 } // namespace rational

@@ -160,7 +160,6 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
         CHECK(asked.calls(Stage::lanes) == 0);
     };
     refused(Solver::coupled, Scheme::lie, "scheme LIE");
-    refused(Solver::coupled, Scheme::midpoint, "scheme midpoint");
     refused(Solver::articulated_implicit, Scheme::p12, "solver articulated-implicit");
     c.scene.joint_limit = JointLimit{};
     refused(Solver::coupled, Scheme::p12, "/joint_limit");

@@ -94,19 +94,17 @@ TEST_CASE("the estimate is of the size of the error, against the reference") {
         double most; // estimate / error
     };
     const auto p12 = Scheme::p12;
-    for (const Case& c :
-         {Case{"soft chain, gravity switched on", false, 2e8, let_go(), p12, 1, 9.6},
-          Case{"soft chain, gravity switched on, fine", false, 2e8, let_go(), p12, 4, 3.5},
-          Case{"soft chain, wind", false, 2e8, in_wind(), p12, 1, 7},
-          Case{"soft chain, storm", false, 2e8, in_wind("storm"), p12, 4, 7},
-          Case{"soft chain, shaken", false, 2e8, shaken(), p12, 2, 7},
-          Case{"chain, gravity switched on", false, 2e9, let_go(), p12, 1, 7},
-          Case{"branched, wind", true, 2e9, in_wind(), p12, 1, 7},
-          Case{"branched, gravity switched on", true, 2e9, let_go(), p12, 2, 7},
-          Case{"branched, shaken", true, 2e8, shaken(), p12, 1, 7},
-          Case{"stiff branched, wind", true, 2e10, in_wind(), p12, 4, 7},
-          Case{"soft chain, wind, LIE", false, 2e8, in_wind(), Scheme::lie, 4, 1.2},
-          Case{"chain, gravity switched on, midpoint", false, 2e9, let_go(), Scheme::midpoint, 4, 3.2}}) {
+    for (const Case& c : {Case{"soft chain, gravity switched on", false, 2e8, let_go(), p12, 1, 9.6},
+                          Case{"soft chain, gravity switched on, fine", false, 2e8, let_go(), p12, 4, 3.5},
+                          Case{"soft chain, wind", false, 2e8, in_wind(), p12, 1, 7},
+                          Case{"soft chain, storm", false, 2e8, in_wind("storm"), p12, 4, 7},
+                          Case{"soft chain, shaken", false, 2e8, shaken(), p12, 2, 7},
+                          Case{"chain, gravity switched on", false, 2e9, let_go(), p12, 1, 7},
+                          Case{"branched, wind", true, 2e9, in_wind(), p12, 1, 7},
+                          Case{"branched, gravity switched on", true, 2e9, let_go(), p12, 2, 7},
+                          Case{"branched, shaken", true, 2e8, shaken(), p12, 1, 7},
+                          Case{"stiff branched, wind", true, 2e10, in_wind(), p12, 4, 7},
+                          Case{"soft chain, wind, LIE", false, 2e8, in_wind(), Scheme::lie, 4, 1.2}}) {
         CAPTURE(c.name);
         const Tree tree = rods(c.forked, c.E);
         const std::vector<TreeRange> ranges = range_of(tree);

@@ -92,7 +92,7 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
     app.add_option("--scheme", o.scheme,
                    "Which rational function coupled steps with: " + std::string(scheme_of(Scheme()).name) +
                        " (default): robust; P.25, P.5: damp less, stiff joints lag more; P34: true to higher "
-                       "frequencies, two solves a step; LIE, midpoint, for comparison: first order; no damping at all")
+                       "frequencies, two solves a step; LIE, for comparison: first order")
         ->option_text("NAME")
         ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
     add_simd_option(app, o);

@@ -56,11 +56,12 @@ struct EnergyAccount {
     double keep_fast = 1, keep_slow = 1;  // what the rates are scaled by
 };
 
-// The ground over one step, world: half a step on, its velocities at the start, its mean accelerations and their change.
+// The ground over one step, world (ground_course.h): half a step on, its velocities at the start, its mean accelerations and their change.
 template <class T> struct GroundStep {
     Matrix3<T> R;
     Vector3<T> x, v, omega, v_0, omega_0;
     Vector3<T> a, alpha, slope_a, slope_alpha;
+    bool jumps; // within the step
 };
 
 } // namespace bough

@@ -24,6 +24,10 @@ template <class T> void take(const Plan<T>& plan, State<T>& state) {
         Vector3<T>&theta = state.theta[i], &eta = state.theta_dot[i];
         theta += state.theta_change[i];
         eta += state.theta_dot_change[i];
+        if (const GroundStep<T>* ground = ground_step_of(plan, state, i); ground && ground->jumps) {
+            state.theta_change[i] = T(plan.dt) * eta;
+            state.theta_dot_change[i].setZero();
+        }
         if (take_shorter_way(theta, eta, state.theta_change[i], state.theta_dot_change[i], T(plan.dt)))
             ++state.flags.half_turns;
     }

@@ -15,11 +15,12 @@
 // Eliminate x_u = (h x_v - eta_0)/p, s = p/h, and with the acceleration gamma = -p x_v:
 //   (M + (K beta + D)/s + (K + H)/s^2) gamma = M f~_eta - (K + H) eta_0/s
 // : one solve with the tree's inertia at the complex frequency s. resolvent.h makes it an articulated-body pass.
-// Known functions of time (wind, pulls, ground) change in the step by s(t): exactly linear ones add h phi2 to h phi1 at its middle value,
-// phi2's residue is c/p: the right side has f(t*) + (1/p - 1/2)(f(t + h) - f(t)). For LIE, p = 1, it is the force at the end.
+// Known functions of time (wind, pulls, and the ground's acceleration, its two integrals over the step: ground_course.h) change in the step by s(t): exactly linear ones add h phi2 to h phi1 at its middle value,
+// phi2's residue is c/p: the right side has f(t*) + (1/p - 1/2)(f(t + h) - f(t)). For LIE, p = 1, it is the force at the end; of the ground,
+// whose slope can be a pair of impulses that no step of order 1 tells from one, LIE takes the mean.
 //
 // Order. y* = y0 + (last change)/2 is y(t + h/2) to second order: order 2 for any L and any of the schemes but LIE, which takes y* = y0.
-// Where a joint's motion was broken off (start, joint limit, half turn) the last change is h eta, 0.
+// Where a joint's motion was broken off (start, joint limit, half turn, a jump of the ground) the last change is h eta, 0.
 // Error of the linear part: a mode at omega is advanced by R(i omega h): P12 damps by (omega h)^3 / 72 and is exact to h^3.
 // Reads and writes State. See state.h for what is carried: theta, theta_dot, and their last changes.
 #pragma once

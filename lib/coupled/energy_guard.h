@@ -10,7 +10,7 @@
 // enough, from all of the tree. What a tree does slowly is not touched for what its leaves do. Damping only ever makes the
 // excess smaller: the guard never takes what damping took.
 // On a ground that is carried along, all of it is as seen from the ground, and gravity is less by the ground's acceleration.
-// A tree on a ground that turns is not watched: the work of turning is not booked.
+// A tree on a ground that turns, or jumps within the step, is not watched: that work is not booked.
 // Counted a joint (StepFlags::energy_guard). The last change of a scaled joint is dropped.
 // Cost: nothing but a comparison a body where nothing turns fast, else two sweeps over the watched trees.
 #pragma once
@@ -25,13 +25,14 @@ template <class T> bool weigh_start(const Plan<T>&, State<T>&, double time);
 // After it, kinematics (poses) up to date: scales rates.
 template <class T> void guard_energy(const Plan<T>&, State<T>&, double time);
 
+// Or jumps.
 template <class T> bool turns(const GroundStep<T>* g) {
-    return g && !(g->omega.isZero(0) && g->omega_0.isZero(0));
+    return g && (g->jumps || !(g->omega.isZero(0) && g->omega_0.isZero(0)));
 }
 
-// How far the ground goes in the step [m]: Simpson's rule.
+// How far a ground that does not turn goes in the step [m] (ground_course.h).
 template <class T> Vector3<T> carried_by(const GroundStep<T>& g, T h) {
-    return h * ((2 * g.v_0 + h * g.a) + 4 * g.v) / 6;
+    return h * (g.v_0 + h * (g.a / 2 - g.slope_a / 12));
 }
 
 // Finds the account's factors, which leave as much kinetic energy as there may be.

@@ -1,27 +1,50 @@
 #include "midpoint.h"
+#include "../model/ground_course.h"
 #include "../model/resolved_turn.h"
 #include "../model/rotation_maps.h"
 #include "turn_bounds.h"
 
 namespace bough {
 
+namespace {
+
+// Half a step on. Where the ground jumps on the way the mean of both ends: what lasts but a moment is no velocity for a step.
+Ground ground_halfway(const RootSpline& spline, const GroundCourse& c, double time, double h) {
+    if (!c.jumps) return ground_at(spline, time + h / 2);
+    Ground g;
+    g.R = c.turned.isZero(0) ? c.start.R : Mat3(rotation_from_vector<double>(c.turned / 2) * c.start.R);
+    g.omega = (c.start.omega + c.end.omega) / 2;
+    const Vec3 arm = g.R * spline.pivot, before = c.start.x + c.start.R * spline.pivot,
+               after = c.end.x + c.end.R * spline.pivot;
+    g.x = (before + after) / 2 - arm;
+    g.v = (c.v_0 + c.v_1) / 2 - g.omega.cross(arm);
+    return g;
+}
+
+} // namespace
+
 template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, double time) {
     const double h = plan.dt;
+    const bool halfway = scheme_of(plan.scheme).extrapolates;
     for (std::size_t k = 0; k < plan.splines.size(); ++k) {
-        const Ground start = ground_at(plan.splines[k], time), end = ground_at(plan.splines[k], time + h);
-        const Ground middle = ground_at(plan.splines[k], time + (scheme_of(plan.scheme).extrapolates ? h / 2 : 0));
+        GroundCourse c = ground_course(plan.splines[k], time, h);
+        if (!halfway) c.slope = c.slope_turn = Vec3::Zero(); // order 1 makes one impulse of what is a pair
+        const Ground y = halfway ? ground_halfway(plan.splines[k], c, time, h) : c.start;
+        const Vec3 arm = y.R * plan.splines[k].pivot; // from the world's origin, as it is carried, to the pivot
+        std::uint64_t seen = 0;                       // counted by midpoint()
+        const Vec3 spin = resolved_turn(y.omega, h, seen);
         GroundStep<T>& g = state.coupled_ground[k];
-        g.R = middle.R.template cast<T>();
-        g.x = middle.x.template cast<T>();
-        g.v = middle.v.template cast<T>();
-        g.omega = middle.omega.template cast<T>();
-        g.v_0 = start.v.template cast<T>();
-        g.omega_0 = start.omega.template cast<T>();
-        // The mean acceleration, so that the change of velocity is exact whatever happens in between.
-        g.a = ((end.v - start.v) / h).template cast<T>();
-        g.alpha = ((end.omega - start.omega) / h).template cast<T>();
-        g.slope_a = (end.a - start.a).template cast<T>();
-        g.slope_alpha = (end.alpha - start.alpha).template cast<T>();
+        g.R = y.R.template cast<T>();
+        g.x = y.x.template cast<T>();
+        g.v = y.v.template cast<T>();
+        g.omega = y.omega.template cast<T>();
+        g.v_0 = (c.v_0 - c.start.omega.cross(arm)).template cast<T>();
+        g.omega_0 = c.start.omega.template cast<T>();
+        g.a = (c.a - c.alpha.cross(arm) - spin.cross(spin.cross(arm))).template cast<T>();
+        g.alpha = c.alpha.template cast<T>();
+        g.slope_a = (c.slope - c.slope_turn.cross(arm)).template cast<T>();
+        g.slope_alpha = c.slope_turn.template cast<T>();
+        g.jumps = c.jumps;
     }
 }
 

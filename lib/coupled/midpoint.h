@@ -8,7 +8,10 @@
 //   alpha_0 = alpha_0,p + omega_p x w + G J_dot eta*,  a_0 = a_0,p + alpha_0,p x r + omega_p x (omega_p x r)
 //   psi = psi_p + G J (theta* - theta_0)
 // v, omega twice: with eta* and with eta_0 (omega_0, v_0), both in the pose of y*. The ground is a body whose motion is known: there
-// its place and velocity half a step on, and of y0 its velocity at the start.
+// its place and velocity half a step on, and of y0 its velocity at the start. Where it jumps within the step
+// the first are the means of both ends, for y* too has nothing of what lasts but a moment (the answer to it is the resolvent's).
+// All of it is such that the pivot of its turning moves as ground_course.h has it: of what the origin's own motion and the turning
+// about it would make there, large and nearly equal, nothing is left.
 // Quadratic terms take omega as a radian a step at most: what turns faster is not resolved by the step, and would be thrown
 // out by terms that hold for an instant. Counted (StepFlags::fast_turns).
 // Reads   theta, theta_dot, theta_change, theta_dot_change, coupled_ground. Writes the first part of coupled. O(n). Errors none.

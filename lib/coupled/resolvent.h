@@ -9,7 +9,7 @@
 //   A' = Z E A, B' = Z E B, M' = M - B^T E B, N' = N_0 + A E u, F' = F_0 + B^T E u, shifted by r to the parent's joint.
 // (Z E A is A - A E A without its subtraction; at high stiffness that is 70 times better in float.)
 // Outward: a' = a_p + alpha_p x r, gamma = E (u - A alpha_p - B a'), alpha = alpha_p + gamma; the ground's own acceleration
-// is alpha, a + (1/p - 1/2) its change over the step. Then x = rates gamma, and with x_v = -x/p, x_u = (h x_v - eta_0)/p
+// is alpha, a + (1/p - 1/2) its slope over the step. Then x = rates gamma, and with x_v = -x/p, x_u = (h x_v - eta_0)/p
 //   theta_dot_change += h w(c x_v),  theta_change += h w(c x_u),  w = 2 Re for a pair of poles, 1 for a real one.
 // Re s > 0, and K, beta, D are not negative: Re of s A + s Z is positive where |s|^2 M + K + H is, and elimination without
 // pivoting is safe, here by L D L^T of complex symmetric 3x3 matrices.

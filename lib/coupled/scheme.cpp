@@ -15,7 +15,6 @@ const RationalScheme& scheme_of(Scheme scheme) {
            {Z(3.2128068968715339829, 4.7730874332766424998), Z(0.70137713537705595524, 2.8398661208922514883)}}},
          2},
         {"LIE", {{{Z(1), Z(-1)}}}, 1, true, false},
-        {"midpoint", {{{Z(2), Z(-2)}}}, 1, true, true},
     }};
     return table[std::size_t(scheme)];
 }

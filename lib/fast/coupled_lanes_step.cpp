@@ -154,6 +154,33 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     return all;
 }
 
+// Of the trees whose ground jumps: a motion that begins here.
+template <class T> void drop_changes(const Plan<T>& plan, State<T>& state) {
+    const Layout& layout = plan.lanes.layout;
+    constexpr std::size_t L = Row<T>::lanes;
+    const T h = T(plan.dt);
+    const auto jumps = [&](std::uint32_t tree) {
+        const std::uint32_t joint = tree == nothing ? 0 : layout.ground[tree];
+        return joint > 0 && state.coupled_ground[joint - 1].jumps;
+    };
+    for (const Block& block : layout.blocks) {
+        const Run next = places_of(plan, state, block).next;
+        for (std::uint32_t k = block.first_group; k < block.end_group; ++k) {
+            const Group& g = layout.groups[k];
+            for (std::size_t l = 0; l < L; ++l) {
+                if (!jumps(layout.tree[g.first_base + l])) continue;
+                for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
+                    Row<T>* motion = &state.lanes.table[std::size_t(next.at(row - block.first_row))];
+                    for (std::size_t q = 0; q < 3; ++q) {
+                        motion[motion::theta_change + q].lane[l] = h * motion[motion::theta_dot + q].lane[l];
+                        motion[motion::theta_dot_change + q].lane[l] = 0;
+                    }
+                }
+            }
+        }
+    }
+}
+
 template <class T>
 Slot<T> motion_of(RowVector<T>& table, const std::vector<std::size_t>& motion_at, std::uint32_t slot) {
     constexpr std::size_t lanes = Row<T>::lanes;
@@ -218,6 +245,11 @@ template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state,
             flags.fast = solved.fast;
             flags.finite = solved.finite;
         }
+        for (const GroundStep<T>& ground : state.coupled_ground)
+            if (ground.jumps) {
+                drop_changes(plan, state);
+                break;
+            }
         rest_blocks(plan, state, state.lanes.flags);
         if (!flags.fast) return;
         guard_lanes(plan, state, rows);

@@ -1,25 +1,9 @@
 #include "root_motion.h"
+#include "nearest_vector.h"
 #include <algorithm>
-#include <numbers>
 
 namespace bough {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double no_axis = 1e-6; // [rad] below this a rotation does not tell its axis, as given unit quaternions go
-
-// Of the vectors that rotate as q, the one nearest to `before`: along its axis or, where it has none, along before's.
-Vec3 nearest_vector(const Quat& q, const Vec3& before) {
-    const Vec3 small = vector_from_quaternion(q);
-    const double a = small.norm(), length = before.norm();
-    if (a < no_axis) {
-        const double whole = std::round(length / turn);
-        return whole > 0 ? Vec3(before * (whole * turn / length)) : small;
-    }
-    const Vec3 axis = small / a;
-    const double whole = std::round((axis.dot(before) - a) / turn);
-    return whole == 0 ? small : Vec3((a + whole * turn) * axis);
-}
 
 // The rate of body_rate_jacobian(theta) where theta changes at theta_dot: with J = 1 - f theta* + s theta* theta*,
 // f' = (theta.theta_dot) (sin a / a - 2 f) / a^2 and s' = (theta.theta_dot) (f - 3 s) / a^2. Series below 0.1 rad.

@@ -13,7 +13,6 @@
 //   P12       0.76 to 9.6, half of them above 3; one at 0.45 (11 Hz at 1/30 s). Of the worst tip 0.42 to 12.5
 //   P.5       0.76 to 10
 //   P34       0.56 to 33: its own order is higher
-//   midpoint  2.6 to 6.3; one at 0.25 (11 Hz at 1/30 s)
 //   LIE       0.05 to 1.2, below 1/2 for half of them: it damps what a step should resolve
 // What both runs lose is not seen: an oscillation of frequency f > 1/(4 h) that a jolt sets off (a load switched on, a
 // root that jerks) is damped away in either. At 36 and 114 Hz the difference was down to 1/100 of the error.

@@ -22,6 +22,19 @@ void run_row(const Plan<double>& plan, const State<double>& state, ArticulatedPa
     for (int k = 0; k < steps; ++k) implicit_euler(plan, pass, time + k * h, h);
 }
 
+// From `start` to the next key of a moving ground's curves that is further than `least` away.
+double way_to_key(const Plan<double>& plan, double start, double least) {
+    double way = std::numeric_limits<double>::infinity();
+    for (const RootSpline& spline : plan.splines)
+        for (const auto* curve : {&spline.position, &spline.rotation}) {
+            if (!*curve) continue;
+            const std::vector<double>& keys = (*curve)->time;
+            const auto next = std::upper_bound(keys.begin(), keys.end(), start + least);
+            if (next != keys.end()) way = std::min(way, *next - start);
+        }
+    return way;
+}
+
 // The table's last row for one quantity, in place; returns the last correction.
 Vec3 extrapolate(std::array<Vec3, rows>& T) {
     Vec3 correction = Vec3::Zero();
@@ -42,10 +55,10 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
     const auto n = std::int64_t(plan.bodies);
     double done = 0, H = state.articulated_step > 0 ? state.articulated_step : dt;
     while (done < dt) {
-        const double left = dt - done;
-        // The rest in one step or in two even ones: no sliver at the end.
+        const double start = time + done, rest = dt - done;
+        const double key = way_to_key(plan, start, least), left = key < rest - least ? key : rest;
+        // What is left in one step or in two even ones: no sliver at the end.
         const double taken = H >= left ? left : H > left / 2 ? left / 2 : H;
-        const double start = time + done;
         for (ArticulatedPass& pass : state.articulated) pass.fast = 0;
 #pragma omp parallel for schedule(dynamic, 1) if (n > 100)
         for (int j = rows; j >= 1; --j) run_row(plan, state, state.articulated[std::size_t(j - 1)], j, start, taken);
@@ -82,8 +95,8 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
         }
         ++state.flags.inner_steps;
         for (ArticulatedPass& pass : state.articulated) state.flags.fast_turns += pass.fast;
-        done = taken == left ? dt : done + taken;
-        // A last step shortened by the frame says little about the length that would do.
+        done = taken == rest ? dt : done + taken;
+        // A last step shortened by the frame or a key says little about the length that would do.
         H = taken < H ? std::max(H * std::min(growth, 1.0), taken * growth) : taken * growth;
     }
     state.articulated_step = std::min(H, 1e3 * dt);

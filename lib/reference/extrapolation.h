@@ -13,6 +13,8 @@
 // A step of the plan (its dt) is cut into as many H as that takes; the last is shortened to end with it. The proposal for
 // the next goes on in State::articulated_step, which a saved state keeps: a run cut in two is the same.
 // Reads   theta, rate in the state (State::theta, scaled_rate). Writes them. 36 passes an H. Allocates nothing.
+// No H reaches over a key of a moving ground (quintic.h): its fifth derivative jumps there, which the expansion does not have, and all rows
+// would step over a jump that is short beside H / 8.
 // A tolerance holds for one H, in the angle and in H times the rate: over many H the angle's error grows to about
 // tolerance (time / H)^2 where nothing damps it.
 // Errors  where e is above the tolerance but only rounding (4096 roundings of the largest theta and H rate: the weights of the

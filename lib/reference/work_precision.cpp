@@ -239,7 +239,7 @@ std::vector<Variant> all_variants() {
         all.push_back({.solver = solver, .inertia = inertia, .single = single, .scheme = scheme});
     };
     for (const bool single : {false, true}) add(Solver::coupled, Scheme::p12, JointInertia::branch, single);
-    for (const Scheme scheme : {Scheme::p34, Scheme::p50, Scheme::lie, Scheme::midpoint})
+    for (const Scheme scheme : {Scheme::p34, Scheme::p50, Scheme::lie})
         add(Solver::coupled, scheme, JointInertia::branch, false);
     const auto add_analytic = [&](JointInertia inertia, bool single, double refresh) {
         add(Solver::analytic, Scheme::p12, inertia, single);

@@ -1,19 +1,18 @@
 #include "root_term.h"
+#include "../model/ground_course.h"
 
 namespace bough {
 
 template <class T> void root_loads(const Plan<T>& plan, State<T>& state, double time) {
     for (std::size_t k = 0; k < plan.splines.size(); ++k) {
-        const Ground& now = state.ground[k];
-        const Ground middle = ground_at(plan.splines[k], time);
-        // A ground that does not turn has the same R bit by bit, and its load no rounding error from R R^T.
-        const bool turns = !(now.R.array() == middle.R.array()).all();
-        const Mat3 back = turns ? Mat3(now.R * middle.R.transpose()) : Mat3(Mat3::Identity());
+        const GroundCourse course = ground_course(plan.splines[k], time, plan.dt);
+        const Mat3 back =
+            course.turned.isZero(0) ? Mat3(Mat3::Identity()) : rotation_from_vector<double>(-course.turned / 2);
         RootLoad<T>& load = state.root_load[k];
-        load.x = now.x.template cast<T>();
-        load.g = (back * (plan.scene.gravity - middle.a)).template cast<T>();
-        load.omega = (back * middle.omega).template cast<T>();
-        load.alpha = (back * middle.alpha).template cast<T>();
+        load.x = (course.start.x + course.start.R * plan.splines[k].pivot).template cast<T>();
+        load.g = (back * (plan.scene.gravity - course.a)).template cast<T>();
+        load.omega = (back * ((course.start.omega + course.end.omega) / 2)).template cast<T>();
+        load.alpha = (back * course.alpha).template cast<T>();
     }
 }
 

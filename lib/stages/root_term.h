@@ -17,8 +17,12 @@
 // for unit gravity where the scene has none). It takes the apparent gravity at the joint for that of all that is outboard
 // and leaves out their turning: what is far out on a fast turning ground is bounded less than gravity is.
 //
-// Time. The ground's motion is that of the middle of the step, gravity too as seen from the ground, both turned with the
-// ground to where the composite still is, at the start: R(start) R(middle)^T; their errors are of second order.
+// Time. The ground's accelerations are their means over the step, so that the change of velocity is exact whatever happens within it,
+// and its turning the mean of both ends (ground_course.h). They and gravity, as seen from the ground, are turned with the
+// ground to where the composite still is, at the start, from where it is after half of the step's turn. Errors are of second order.
+// A jump that begins and ends within a step is not felt: its mean acceleration is 0, and the oscillators take what drives them as constant
+// (spring.h). A drive linear in time, as the coupled step has, would let them feel it, and not make them right: each joint would answer
+// by itself to what all of them do (a jump that small steps resolve swings trees 0.4 to 1.4 times as far as true dynamics).
 // Reads   plan.splines, time; c_J_w, c_h_w, x_w. Cost: a few 3x3 products a joint, O(moved trees) a step. Errors none.
 #pragma once
 #include "plan.h"
@@ -26,7 +30,7 @@
 
 namespace bough {
 
-// Of each spline for the step whose middle is `time` [s], into state.root_load. Needs the present Ground.
+// Of each spline for the step from `time` [s], into state.root_load.
 template <class T> void root_loads(const Plan<T>&, State<T>&, double time);
 
 // Each spline's Ground at `time` [s], into state.ground.

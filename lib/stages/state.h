@@ -30,7 +30,7 @@ struct StepFlags {
 
 // What a moving ground does to the joints on it in one step (root_term.h), world as at the step's start.
 template <class T> struct RootLoad {
-    Vector3<T> x;            // [m] where the world's origin has gone
+    Vector3<T> x;            // [m] where the pivot of the ground's turning is
     Vector3<T> g;            // [m/s^2] gravity less that point's acceleration
     Vector3<T> omega, alpha; // [rad/s], [rad/s^2]
 };

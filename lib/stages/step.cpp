@@ -25,7 +25,7 @@ template <class T> void require_plain_analytic(const Plan<T>& plan) {
 template <class T> void step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
     require_plain_analytic(plan);
     // Loads that depend on time are taken in the middle of the step, where their error is of second order.
-    const double middle = (double(state.step) + 0.5) * plan.dt;
+    const double time = double(state.step) * plan.dt, middle = (double(state.step) + 0.5) * plan.dt;
     if (plan.wind)
         run_stage(Stage::wind_field, state, clock, [&] { evaluate_wind(*plan.scene.wind, middle, state.wind); });
     if (plan.forces) run_stage(Stage::external_forces, state, clock, [&] { external_forces(plan, state, middle); });
@@ -34,7 +34,7 @@ template <class T> void step(const Plan<T>& plan, State<T>& state, StageClock* c
         run_stage(Stage::refresh, state, clock, [&] { refresh_joints(plan, state); });
     else if (plan.wind)
         run_stage(Stage::drag, state, clock, [&] { joint_drag(plan, state); });
-    if (plan.root_motion) run_stage(Stage::root_motion, state, clock, [&] { root_loads(plan, state, middle); });
+    if (plan.root_motion) run_stage(Stage::root_motion, state, clock, [&] { root_loads(plan, state, time); });
     if (plan.fictitious) run_stage(Stage::fictitious, state, clock, [&] { fictitious_torques(plan, state); });
     run_stage(Stage::spring, state, clock,
               [&] { plan.refresh > 0 ? frozen_update(plan, state) : spring_update(plan, state); });

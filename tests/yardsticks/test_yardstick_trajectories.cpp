@@ -64,10 +64,8 @@ void compare_coupled(const Tree& tree, const bough::Scene& scene, int frames, in
     const Track coarse = integrate(*mujoco, tree, scene, tips, frames, 30, engine_steps);
     const Track fine = integrate(*simbody, tree, scene, tips, frames, 30, 2 * engine_steps);
     CHECK(track_difference(coarse, fine) <= 1e-7);
-    for (const bough::Scheme scheme : {bough::Scheme::midpoint, bough::Scheme::p12}) {
-        INFO(tree.name << ", " << bough::scheme_of(scheme).name);
-        CHECK(track_difference(coupled_track(tree, scene, tips, frames, scheme, 2048), fine) <= 1e-6);
-    }
+    INFO(tree.name);
+    CHECK(track_difference(coupled_track(tree, scene, tips, frames, bough::Scheme::p12, 2048), fine) <= 1e-6);
 }
 
 bough::Scene gravity_switched_on() {
