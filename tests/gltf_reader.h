@@ -126,6 +126,7 @@ inline std::vector<Matrix4d> node_matrices(const Glb& glb, double time) {
                 place[std::size_t(channel["target"]["node"])] = Vector3d(at[3 * key], at[3 * key + 1], at[3 * key + 2]);
                 continue;
             }
+            if (channel["target"]["path"] == "weights") continue; // morph_weights
             REQUIRE(channel["target"]["path"] == "rotation");
             turn[std::size_t(channel["target"]["node"])] =
                 sample(numbers(glb, sampler["input"]), numbers(glb, sampler["output"]), time);
@@ -151,7 +152,38 @@ inline std::vector<Matrix4d> node_matrices(const Glb& glb, double time) {
     return world;
 }
 
-// Vertices of all primitives, one after another, as the skin moves them.
+// Of the morph targets of a node's mesh at a time: linear between keys, its ends outside them; before the animation the mesh's own.
+inline std::vector<double> morph_weights(const Glb& glb, std::size_t node, double time) {
+    const Json& mesh = glb.json["meshes"][std::size_t(glb.json["nodes"][node]["mesh"])];
+    std::vector<double> weights = mesh.value("weights", std::vector<double>());
+    if (time < 0) return weights;
+    for (const Json& channel : glb.json["animations"][0]["channels"]) {
+        if (channel["target"]["path"] != "weights" || channel["target"]["node"] != node) continue;
+        const Json& sampler = glb.json["animations"][0]["samplers"][std::size_t(channel["sampler"])];
+        const std::vector<double> times = numbers(glb, sampler["input"]), all = numbers(glb, sampler["output"]);
+        REQUIRE(all.size() == weights.size() * times.size());
+        const std::size_t after = std::size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+        const std::size_t a = after == 0 ? 0 : after - 1, b = std::min(after, times.size() - 1);
+        const double t = a == b ? 0 : (time - times[a]) / (times[b] - times[a]);
+        for (std::size_t m = 0; m < weights.size(); ++m)
+            weights[m] = (1 - t) * all[weights.size() * a + m] + t * all[weights.size() * b + m];
+    }
+    return weights;
+}
+
+// Adds weight times change of each morph target of a primitive to an attribute of it.
+inline void morph(const Glb& glb, const Json& primitive, const std::vector<double>& weights, const char* attribute,
+                  std::vector<double>& values) {
+    if (!primitive.contains("targets")) return;
+    REQUIRE(primitive["targets"].size() == weights.size());
+    for (std::size_t m = 0; m < weights.size(); ++m) {
+        const std::vector<double> change = numbers(glb, primitive["targets"][m][attribute]);
+        REQUIRE(change.size() == values.size());
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] += weights[m] * change[k];
+    }
+}
+
+// Vertices of all primitives of the scene's skinned nodes, one after another, as the skin moves them.
 inline std::vector<Vector3d> skinned(const Glb& glb, double time) {
     const std::vector<Matrix4d> world = node_matrices(glb, time);
     const Json& skin = glb.json["skins"][0];
@@ -160,9 +192,17 @@ inline std::vector<Vector3d> skinned(const Glb& glb, double time) {
     for (std::size_t j = 0; j < skin["joints"].size(); ++j)
         moved.push_back(world[std::size_t(skin["joints"][j])] * Eigen::Map<const Matrix4d>(&inverse[16 * j]));
     std::vector<Vector3d> all;
-    for (const Json& primitive : glb.json["meshes"][0]["primitives"]) {
+    std::vector<std::pair<Json, std::vector<double>>> primitives; // with the weights of their targets
+    for (const Json& root : glb.json["scenes"][0]["nodes"]) {
+        const Json& node = glb.json["nodes"][std::size_t(root)];
+        if (!node.contains("skin")) continue;
+        for (const Json& primitive : glb.json["meshes"][std::size_t(node["mesh"])]["primitives"])
+            primitives.push_back({primitive, morph_weights(glb, root, time)});
+    }
+    for (const auto& [primitive, weights] : primitives) {
         const Json& attributes = primitive["attributes"];
-        const std::vector<double> position = numbers(glb, attributes["POSITION"]);
+        std::vector<double> position = numbers(glb, attributes["POSITION"]);
+        morph(glb, primitive, weights, "POSITION", position);
         const std::vector<double> joint = numbers(glb, attributes["JOINTS_0"]);
         const std::vector<double> weight = numbers(glb, attributes["WEIGHTS_0"]);
         for (std::size_t v = 0; v < position.size() / 3; ++v) {

@@ -139,6 +139,7 @@ inline Splines random_splines(std::size_t branches, Random& random) {
         s.leaf_length.push_back(random.positive());
         s.leaf_width.push_back(random.positive());
         s.leaf_kind.push_back(random.below(2));
+        s.leaf_count.push_back(s.leaf_kind.back() == 1 ? 1 : 1 + random.below(2000));
         if (b % 2 == 0) continue;
         s.fruit_branch.push_back(random.below(branches));
         s.fruit_at.push_back(random.fraction());
@@ -233,8 +234,8 @@ inline bool same(const Tree& a, const Tree& b) {
            same(a.inertia, b.inertia) && same(a.joint_position, b.joint_position) &&
            same(a.joint_rotation, b.joint_rotation) && same(a.stiffness, b.stiffness) && same(a.damping, b.damping) &&
            same(a.size, b.size) && same(a.branch, b.branch) && same(a.level, b.level) && same(a.s, b.s) &&
-           same(a.rigid, b.rigid) && same(a.load, b.load) && a.name == b.name && a.material == b.material &&
-           a.source == b.source && same(a.color, b.color);
+           same(a.rigid, b.rigid) && same(a.load, b.load) && same(a.leaf_count, b.leaf_count) && a.name == b.name &&
+           a.material == b.material && a.source == b.source && same(a.color, b.color);
 }
 
 inline bool same(const Splines& a, const Splines& b) {
@@ -244,8 +245,8 @@ inline bool same(const Splines& a, const Splines& b) {
            same(a.leaf_rotation, b.leaf_rotation) && same(a.leaf_length, b.leaf_length) &&
            same(a.leaf_width, b.leaf_width) && same(a.fruit_branch, b.fruit_branch) && same(a.fruit_at, b.fruit_at) &&
            same(a.fruit_position, b.fruit_position) && same(a.fruit_center, b.fruit_center) &&
-           same(a.fruit_radius, b.fruit_radius) && same(a.leaf_kind, b.leaf_kind) && same(a.color, b.color) &&
-           a.material == b.material && a.name == b.name && a.source == b.source;
+           same(a.fruit_radius, b.fruit_radius) && same(a.leaf_kind, b.leaf_kind) && same(a.leaf_count, b.leaf_count) &&
+           same(a.color, b.color) && a.material == b.material && a.name == b.name && a.source == b.source;
 }
 
 inline bool same(const RootMotion& a, const RootMotion& b) {

@@ -331,6 +331,17 @@ TEST_CASE("rigid names body and what is expected") {
     CHECK(changed(s, s + ", \"rigid\": [0, 0.5]") == "t.json: /rigid/1: is 0.5, expected an integer");
 }
 
+TEST_CASE("leaf_count names body and what is expected") {
+    const std::string s = "\"s\": [0, 0.5]";
+    CHECK(changed(s, s + ", \"leaf_count\": [1, 12]") == "");
+    CHECK(changed(s, s + ", \"leaf_count\": [1, 0]") == "t.json: /leaf_count/1: is 0, expected 1 or more");
+    CHECK(changed(s, s + ", \"leaf_count\": [2, 1]") ==
+          "t.json: /leaf_count/0: is 2, expected 1 (only a leaf stands for more)");
+    CHECK(changed(s, s + ", \"leaf_count\": [1]") ==
+          "t.json: /leaf_count: has 1 number, expected 2 (one for each body in /parent)");
+    CHECK(changed(s, s + ", \"leaf_count\": [1, 1.5]") == "t.json: /leaf_count/1: is 1.5, expected an integer");
+}
+
 TEST_CASE("root motion names the nested place") {
     const auto moved = [](const std::string& fields) { return scene_error("\"root_motion\": [{" + fields + "}]"); };
     const std::string time = "\"time\": [0, 1], ";

@@ -1,25 +1,23 @@
 #include "formats/exports/float_range.h"
 #include "formats/exports/point_cache.h"
 #include "frame_sink.h"
-#include "lib/growth/skin.h"
+#include "skin_mover.h"
 
 namespace bough {
 namespace {
 
 class CacheSink : public FrameSink {
 public:
-    CacheSink(const std::string& file, PointCache kind, const Tree& tree, int sides, PointCacheShape shape,
-              std::vector<std::string>& notes)
-        : output_(file), skin_(build_skin(tree, {sides})), deformer_(skin_, tree),
+    CacheSink(const std::string& file, PointCache kind, const Tree& tree, int sides, const RustleMaker& rustle,
+              PointCacheShape shape, std::vector<std::string>& notes)
+        : output_(file), skin_(build_skin(tree, {sides})), mover_(skin_, tree, rustle(skin_, false)),
           writer_(output_, kind, with_vertices(shape)) {
         if (!floats_suffice(skin_.position))
             notes.push_back("-o: the tree stands so far from the origin that the cache's floats are coarser than 1e-6 "
                             "of its size");
     }
     void write(const MotionFrame& frame) override {
-        rotation_.resize(frame.rotation.size());
-        for (std::size_t i = 0; i < rotation_.size(); ++i) rotation_[i] = frame.rotation[i].toRotationMatrix();
-        deformer_.deform(rotation_, frame.position, position_, normal_);
+        mover_.move(frame, position_, normal_);
         writer_.write(position_);
     }
     void finish() override {
@@ -35,16 +33,15 @@ private:
 
     Output output_;
     Skin skin_;
-    SkinDeformer deformer_;
+    SkinMover mover_;
     PointCacheWriter writer_;
-    std::vector<Mat3> rotation_;
     std::vector<Vec3> position_, normal_;
 };
 
 } // namespace
 
 std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree& tree, int sides,
-                                      double fps, std::int64_t first, std::int64_t frames,
+                                      const RustleMaker& rustle, double fps, std::int64_t first, std::int64_t frames,
                                       std::vector<std::string>& notes) {
     PointCacheShape shape;
     shape.frames = frames;
@@ -52,7 +49,7 @@ std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string
     shape.fps = fps;
     const PointCache kind = format == "mdd" ? PointCache::mdd : PointCache::pc2;
     try {
-        return std::make_unique<CacheSink>(file, kind, tree, sides, shape, notes);
+        return std::make_unique<CacheSink>(file, kind, tree, sides, rustle, shape, notes);
     } catch (const std::length_error& error) {
         throw UsageError("-o is '" + file + "': " + error.what());
     }

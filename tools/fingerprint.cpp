@@ -31,6 +31,7 @@ struct Fingerprint {
             if (!tree.rigid.empty()) add(std::uint64_t(tree.rigid[i])); // how the air meets it (reduce.h)
         }
         for (const double load : tree.load) add(load);
+        for (const std::int32_t leaves : tree.leaf_count) add(std::uint64_t(leaves)); // a clump has an air of its own
     }
     void add(const Wind& w) {
         add(w.velocity);

@@ -1,8 +1,8 @@
 #include "frame_sink.h"
 #include "formats/documents/motion.h"
 #include "formats/exports/obj.h"
-#include "lib/growth/skin.h"
 #include "lib/model/counted.h"
+#include "skin_mover.h"
 #include <filesystem>
 
 namespace bough {
@@ -25,17 +25,15 @@ private:
 
 class ObjSink : public FrameSink {
 public:
-    ObjSink(const std::string& pattern, const Tree& tree, int sides)
-        : pattern_(pattern), skin_(build_skin(tree, {sides})), deformer_(skin_, tree),
+    ObjSink(const std::string& pattern, const Tree& tree, int sides, const RustleMaker& rustle)
+        : pattern_(pattern), skin_(build_skin(tree, {sides})), mover_(skin_, tree, rustle(skin_, false)),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
         Output output(sequence_mtl(pattern));
         write_mtl(output, skin_);
         output.finish();
     }
     void write(const MotionFrame& frame) override {
-        rotation_.resize(frame.rotation.size());
-        for (std::size_t i = 0; i < rotation_.size(); ++i) rotation_[i] = frame.rotation[i].toRotationMatrix();
-        deformer_.deform(rotation_, frame.position, position_, normal_);
+        mover_.move(frame, position_, normal_);
         try {
             Output output(sequence_name(pattern_, frame.frame));
             write_obj(output, skin_, position_, normal_, mtl_);
@@ -50,9 +48,8 @@ public:
 private:
     std::string pattern_;
     Skin skin_;
-    SkinDeformer deformer_;
+    SkinMover mover_;
     std::string mtl_;
-    std::vector<Mat3> rotation_;
     std::vector<Vec3> position_, normal_;
     std::int64_t written_ = 0;
 };
@@ -66,8 +63,9 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
     return std::make_unique<MotionSink>(file, form, header);
 }
 
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, int sides) {
-    return std::make_unique<ObjSink>(pattern, tree, sides);
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, int sides,
+                                    const RustleMaker& rustle) {
+    return std::make_unique<ObjSink>(pattern, tree, sides, rustle);
 }
 
 } // namespace bough

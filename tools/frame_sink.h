@@ -3,6 +3,7 @@
 #include "common.h"
 #include "formats/exports/gltf.h"
 #include "formats/models/driven_model.h"
+#include "lib/growth/rustle.h"
 #include "lib/model/motion.h"
 #include "lib/model/tree.h"
 #include <memory>
@@ -19,13 +20,16 @@ public:
 // `format`: jsonl, json or safetensors.
 std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::string& format, const MotionHeader&);
 
+// What makes the leaves of a skin's clumps rustle, nothing where they do not; `together` as in rustle.h. Called once, when a sink is made.
+using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool together)>;
+
 // One OBJ a frame, each whole or absent, and one mtl. Keeps references to the tree.
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, int sides);
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, int sides, const RustleMaker&);
 
 // One point cache, `format` mdd or pc2: of `frames` frames from number `first` on. Keeps a reference to the tree; what the
 // user should know is added to the notes. Throws UsageError where the format cannot count so many.
 std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree&, int sides,
-                                      double fps, std::int64_t first, std::int64_t frames,
+                                      const RustleMaker&, double fps, std::int64_t first, std::int64_t frames,
                                       std::vector<std::string>& notes);
 
 // --max-joints, --leaves-as and --key-tolerance (treesim alone).
@@ -56,8 +60,8 @@ std::string leaves_note(const Tree&, const GltfChoice&);
 
 // One .glb, written by finish(), which also notes what merging joints and leaving out keys cost. Keeps a reference to
 // the tree and the notes.
-std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int sides, double fps, const GltfChoice&,
-                                     const std::string& source, std::vector<std::string>& notes);
+std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int sides, const RustleMaker&, double fps,
+                                     const GltfChoice&, const std::string& source, std::vector<std::string>& notes);
 
 // --skin: the user's own model with the motion added, written by finish(). Keeps references to the tree and the notes.
 // The model is read before threads are started (user_model.h).

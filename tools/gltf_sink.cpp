@@ -14,10 +14,11 @@ constexpr double tolerance_default = 0.1;    // [deg]
 
 class GltfSink : public FrameSink {
 public:
-    GltfSink(const std::string& file, const Tree& tree, int sides, const GltfChoice& choice, const GltfOptions& options,
-             std::vector<std::string>& notes)
+    GltfSink(const std::string& file, const Tree& tree, int sides, const RustleMaker& rustle, const GltfChoice& choice,
+             const GltfOptions& options, std::vector<std::string>& notes)
         : output_(file), tree_(tree), choice_(choice), notes_(notes), skin_(chosen_skin(tree, sides, choice)),
-          groups_(chosen_joints(tree, choice)), writer_(output_, skin_, tree, groups_, options) {
+          groups_(chosen_joints(tree, choice)), rustle_(rustle(skin_, true)),
+          writer_(output_, skin_, tree, groups_, options, rustle_.get()) {
         if (groups_.size() < tree.size_bodies()) error_.emplace(tree, groups_);
     }
     void write(const MotionFrame& frame) override {
@@ -58,6 +59,7 @@ private:
     std::vector<std::string>& notes_;
     Skin skin_;
     JointGroups groups_;
+    std::unique_ptr<Rustle> rustle_;
     GltfWriter writer_;
     std::optional<MergeError> error_;
 };
@@ -149,12 +151,12 @@ std::string leaves_note(const Tree& tree, const GltfChoice& choice) {
                    "(--leaves-as skin keeps it)");
 }
 
-std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree& tree, int sides, double fps,
-                                     const GltfChoice& choice, const std::string& source,
+std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree& tree, int sides, const RustleMaker& rustle,
+                                     double fps, const GltfChoice& choice, const std::string& source,
                                      std::vector<std::string>& notes) {
     GltfOptions options = gltf_options(choice, source);
     options.fps = fps;
-    return std::make_unique<GltfSink>(file, tree, sides, choice, options, notes);
+    return std::make_unique<GltfSink>(file, tree, sides, rustle, choice, options, notes);
 }
 
 } // namespace bough

@@ -72,6 +72,7 @@ void leave_out(Splines& splines, const GrowthOptions& o, std::vector<std::string
         splines.leaf_length.clear();
         splines.leaf_width.clear();
         splines.leaf_kind.clear();
+        splines.leaf_count.clear();
     }
     if (!o.fruit && splines.fruits() > 0) {
         notes.push_back(std::to_string(splines.fruits()) + " fruit left out (--fruit keeps them)");

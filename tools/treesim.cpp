@@ -7,6 +7,7 @@
 #include "notes.h"
 #include "progress.h"
 #include "rigid_parts.h"
+#include "rustling.h"
 #include "saved_run.h"
 #include "saved_tree.h"
 #include "signals.h"
@@ -37,16 +38,18 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
                                      const std::string& format, const MotionFields& fields, std::int64_t first,
                                      std::int64_t last, std::optional<UserModel> model) {
     if (o.no_output) return nullptr;
+    const RustleMaker rustle = rustle_maker(setting, shown, o.run.fps);
     if (is_point_cache(format))
-        return cache_sink(o.common.output, format, shown, o.sides.value_or(8), o.run.fps, first, last - first + 1,
-                          o.common.notes);
-    if (format == "obj") return obj_sink(o.common.output, shown, o.sides.value_or(8));
+        return cache_sink(o.common.output, format, shown, o.sides.value_or(8), rustle, o.run.fps, first,
+                          last - first + 1, o.common.notes);
+    if (format == "obj") return obj_sink(o.common.output, shown, o.sides.value_or(8), rustle);
     const std::string source = with_command_line(setting.source, o.common);
     if (model)
         return driven_sink(o.common.output, std::move(*model), shown, driven_options(o, setting, source),
                            o.common.notes);
     if (format == "glb")
-        return gltf_sink(o.common.output, shown, o.sides.value_or(8), o.run.fps, o.gltf, source, o.common.notes);
+        return gltf_sink(o.common.output, shown, o.sides.value_or(8), rustle, o.run.fps, o.gltf, source,
+                         o.common.notes);
     MotionHeader header;
     header.fps = o.run.fps;
     header.balls = std::int64_t(setting.scene.balls.size() + setting.scene.walkers.size());

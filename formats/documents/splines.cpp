@@ -30,6 +30,7 @@ std::vector<Field> fields_of(Splines& s) {
             optional(array("leaf_length", s.leaf_length, leaf)),
             optional(array("leaf_width", s.leaf_width, leaf)),
             optional(array("leaf_kind", s.leaf_kind, {})),
+            optional(array("leaf_count", s.leaf_count, {})),
             optional(array("fruit_branch", s.fruit_branch, {})),
             optional(array("fruit_at", s.fruit_at, fruit)),
             optional(array("fruit_position", s.fruit_position, fruit)),

@@ -24,6 +24,13 @@ Field flags(const std::string& name, std::vector<std::uint8_t>& values, const Pe
     return optional(Field{name, std::move(array)});
 }
 
+// A number for each body, or none at all.
+Field counts(const std::string& name, std::vector<std::int32_t>& values, const Per& per) {
+    Field field = array(name, values, per);
+    std::get<Array>(field.value).fill = [](std::size_t) {}; // absent: empty
+    return optional(std::move(field));
+}
+
 std::vector<Field> fields_of(Tree& t) {
     const Per body{"body in /parent", [&t] { return t.size_bodies(); }};
     return {optional({"name", &t.name}),
@@ -43,7 +50,8 @@ std::vector<Field> fields_of(Tree& t) {
             array("branch", t.branch, body),
             array("level", t.level, body),
             array("s", t.s, body),
-            flags("rigid", t.rigid, body)};
+            flags("rigid", t.rigid, body),
+            counts("leaf_count", t.leaf_count, body)};
 }
 
 } // namespace

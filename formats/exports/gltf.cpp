@@ -1,6 +1,7 @@
 #include "gltf.h"
 #include "formats/documents/document_parts.h"
 #include "gltf_parts.h"
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <stdexcept>
@@ -91,6 +92,46 @@ std::string skin_of(GltfFile& file, const GroupFrames& drawn, const Vec3& origin
     return text + "]}";
 }
 
+// The skin's meshes: one, or two where leaves rustle beside what does not.
+struct LeafMesh {
+    std::string meshes;
+    bool own = false;     // the leaves have a mesh, and a node, of their own
+    int node = mesh_node; // which has the morph targets
+};
+
+LeafMesh leaf_mesh(GltfFile& file, const Skin& skin, const JointGroups& groups, const Vec3& origin,
+                   const Rustle* rustle) {
+    std::vector<std::string> targets(skin.part.size());
+    for (std::size_t m = 0; m < skin.part.size() && rustle; ++m)
+        if (skin.part[m].name == "leaf") targets[m] = gltf_targets(file, skin, skin.part[m], *rustle);
+    const std::vector<std::string> primitives = gltf_primitives(file, skin, groups, origin, targets);
+    std::string still, moving;
+    for (std::size_t m = 0; m < primitives.size(); ++m) {
+        std::string& list = targets[m].empty() ? still : moving;
+        list += (list.empty() ? "" : ",\n") + primitives[m];
+    }
+    const auto mesh = [](const char* name, const std::string& more, const std::string& list) {
+        return std::string("{\"name\":\"") + name + "\"," + more + "\"primitives\":[\n" + list + "]}";
+    };
+    LeafMesh made;
+    if (moving.empty()) {
+        made.meshes = mesh("skin", "", still);
+    } else if (still.empty()) {
+        made.meshes = mesh("skin", gltf_target_weights() + ",", moving);
+    } else {
+        made.meshes = mesh("skin", "", still) + ",\n" + mesh("leaves", gltf_target_weights() + ",", moving);
+        made.own = true;
+        made.node = first_joint + int(groups.size());
+    }
+    return made;
+}
+
+std::string leaf_node(const Tree& tree) {
+    std::string text = ",\n{\"name\":";
+    append_string(text, (tree.name.empty() ? "tree" : tree.name) + " leaves");
+    return text + ",\"mesh\":1,\"skin\":0}";
+}
+
 // x along the branch: z to x, x to y, y to z.
 Mat3 x_from_z() {
     Mat3 turn;
@@ -114,10 +155,10 @@ GroupFrames turned(GroupFrames frames, const JointGroups& groups, const Mat3& tu
 } // namespace
 
 GltfWriter::GltfWriter(Output& output, const Skin& skin, const Tree& tree, const JointGroups& groups,
-                       const GltfOptions& options)
+                       const GltfOptions& options, Rustle* rustle)
     : output_(output), skin_(skin), tree_(tree), groups_(groups), options_(options),
       drawn_(options.x_along ? turned(drawn_frames(tree, groups), groups, x_from_z()) : drawn_frames(tree, groups)),
-      keys_(groups.parent, drawn_.rotation), rotation_(groups.size()) {
+      keys_(groups.parent, drawn_.rotation), rotation_(groups.size()), rustle_(rustle) {
     if (groups.size() > 65536)
         throw std::length_error("a skin of " + std::to_string(groups.size()) +
                                 " joints, but a .glb can number 65536; merge some");
@@ -135,6 +176,9 @@ void GltfWriter::write(const MotionFrame& frame) {
         path.leaves |= is != path.place.front() || !((is - drawn).norm() <= 1e-6 * (1 + drawn.norm()));
     }
     keys_.add(rotation_);
+    if (!rustle_) return;
+    rustle_->go_to(frame.frame);
+    for (const double w : rustle_->weights()) weights_.push_back(float(w));
 }
 
 void GltfWriter::finish() {
@@ -145,17 +189,21 @@ void GltfWriter::finish() {
     if (options_.leaf_instances)
         leaves =
             gltf_leaves(file, tree_, groups_, drawn_, first_joint + int(groups_.size()), 1, int(skin_.part.size()));
+    // Still air moves nothing: no targets.
+    if (std::all_of(weights_.begin(), weights_.end(), [](float w) { return w == 0; })) weights_.clear();
+    const LeafMesh rustling = leaf_mesh(file, skin_, groups_, origin, weights_.empty() ? nullptr : rustle_);
     std::string json = asset(options_);
     if (!leaves.nodes.empty())
         json +=
             ",\n\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]";
     json += ",\n\"scene\":0,\"scenes\":[{\"nodes\":[" + std::to_string(mesh_node) + "," +
-            std::to_string(armature_node) + "]}],\n\"nodes\":[\n" + nodes(tree_, groups_, drawn_, origin, leaves) +
-            "],\n\"materials\":[\n" + gltf_materials(skin_) + leaves.materials +
-            "],\n\"meshes\":[{\"name\":\"skin\",\"primitives\":[\n";
-    json += gltf_primitives(file, skin_, groups_, origin);
-    json += "]}" + leaves.meshes + "],\n\"skins\":[" + skin_of(file, drawn_, origin) + "]";
-    const std::string animation = gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint);
+            std::to_string(armature_node) + (rustling.own ? "," + std::to_string(rustling.node) : "") +
+            "]}],\n\"nodes\":[\n" + nodes(tree_, groups_, drawn_, origin, leaves) +
+            (rustling.own ? leaf_node(tree_) : "") + "],\n\"materials\":[\n" + gltf_materials(skin_) +
+            leaves.materials + "],\n\"meshes\":[" + rustling.meshes + leaves.meshes + "],\n\"skins\":[" +
+            skin_of(file, drawn_, origin) + "]";
+    const std::string animation =
+        gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint, weights_, rustling.node);
     if (!animation.empty()) json += ",\n\"animations\":[" + animation + "]";
     file.write(output_, json);
 }

@@ -14,6 +14,9 @@
 // a mesh for leaves, one for petals, each 1 m long and wide, and under each joint that bears some a node that draws them at
 // their places, turned and scaled, still relative to the joint. The skin is then one without leaves, the groups are those
 // of merge_joints without leaves.
+// Leaves of clumps that rustle (rustle.h, all together) are a second skinned mesh at the root, with four morph targets whose weights are
+// animated: joints of their own would be some thousands, of which programs bear about one. Size: 96 bytes a vertex of the leaves, whatever the
+// length of the animation, and 16 bytes a frame.
 // Each joint's extras say which bodies of wood it holds (own_rods.h), so that the tree can be read again from the file.
 // A vertex moved by two bodies of one group is moved by the group alone. Weights are floats, joints u8 or u16, indices u16
 // where they fit; every array starts at a multiple of 4 bytes.
@@ -23,6 +26,7 @@
 #include "formats/open.h"
 #include "lib/growth/joint_keys.h"
 #include "lib/growth/merge_joints.h"
+#include "lib/growth/rustle.h"
 #include "lib/growth/skin.h"
 #include "lib/model/motion.h"
 
@@ -46,8 +50,8 @@ struct RootPath {
 
 class GltfWriter {
 public:
-    // Keeps references to all but the options.
-    GltfWriter(Output&, const Skin&, const Tree&, const JointGroups&, const GltfOptions&);
+    // Keeps references to all but the options. rustle: of this skin, together; none where nothing rustles.
+    GltfWriter(Output&, const Skin&, const Tree&, const JointGroups&, const GltfOptions&, Rustle* rustle = nullptr);
     // The next frame (its pose).
     void write(const MotionFrame&);
     // All of the file. Once; the caller finishes the Output.
@@ -64,6 +68,8 @@ private:
     JointKeys keys_;
     std::vector<Quat> rotation_;
     std::vector<RootPath> paths_; // of the roots, in order
+    Rustle* rustle_;
+    std::vector<float> weights_; // of the morph targets, frame after frame
 };
 
 } // namespace bough

@@ -65,7 +65,7 @@ void write_rotations(GltfBytes& to, const JointKeys& keys) {
     }
 }
 
-// Times of all frames, for the roots that leave their places.
+// Times of all frames, for the roots that leave their places and for morph targets.
 int add_all_times(GltfFile& file, std::size_t frames, double fps) {
     const int view = file.add_view(4 * frames, GltfTarget::none, 0, [frames, fps](GltfBytes& to) {
         for (std::size_t f = 0; f < frames; ++f) to.add(time_of(f, fps));
@@ -99,7 +99,8 @@ struct Channels {
 } // namespace
 
 std::string gltf_animation(GltfFile& file, const JointKeys& keys, const std::vector<RootPath>& paths,
-                           const Vec3& origin, double fps, int first_node) {
+                           const Vec3& origin, double fps, int first_node, const std::vector<float>& weights,
+                           int weights_node) {
     if (keys.frames() == 0) return "";
     const KeyTimes times = add_times(file, keys, fps);
     const int view =
@@ -118,6 +119,14 @@ std::string gltf_animation(GltfFile& file, const JointKeys& keys, const std::vec
         if (!path.leaves) continue;
         if (all_times < 0) all_times = add_all_times(file, keys.frames(), fps);
         motion.add(all_times, add_places(file, path, origin), first_node + int(path.joint), "translation");
+    }
+    if (!weights.empty()) {
+        if (all_times < 0) all_times = add_all_times(file, keys.frames(), fps);
+        const int weights_view = file.add_view(4 * weights.size(), GltfTarget::none, 0, [&weights](GltfBytes& to) {
+            for (const float w : weights) to.add(w);
+        });
+        const int output = file.add_accessor(weights_view, 0, GltfType::f32, weights.size(), "SCALAR");
+        motion.add(all_times, output, weights_node, "weights");
     }
     return "{\"name\":\"motion\",\"channels\":[\n" + motion.channels + "],\n\"samplers\":[\n" + motion.samplers + "]}";
 }

@@ -1,5 +1,6 @@
 #include "formats/documents/document_parts.h"
 #include "gltf_parts.h"
+#include "lib/growth/clump.h"
 #include "lib/model/drawn_pose.h"
 #include <algorithm>
 #include <memory>
@@ -17,17 +18,26 @@ struct Instance {
 // In the order of groups, leaves before petals: what stands under one node is one stretch.
 std::vector<Instance> instances_of(const Tree& tree, const JointGroups& groups, const GroupFrames& drawn) {
     const auto [R_wb, x_w] = drawn_pose(tree);
+    const std::int32_t most = clump_leaves_drawn(tree);
     std::vector<Instance> all;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (!is_flat(tree.kind[i])) continue;
         const std::size_t g = std::size_t(groups.group[i]);
         const Mat3 R_gw = drawn.R_wg[g].transpose();
-        const Quat turn = Quat(Mat3(R_gw * R_wb[i])).normalized();
-        const double length = tree.size[i].x();
-        // A scale of 0 has no normals.
-        const Vec3 scale = Vec3(tree.size[i].y(), tree.size[i].z(), length).cwiseMax(1e-6 * length);
-        all.push_back({groups.group[i], tree.kind[i], (R_gw * (x_w[i] - drawn.x_w[g])).cast<float>(),
-                       scale.cast<float>(), turn.coeffs().cast<float>()});
+        const auto add = [&](const Mat3& axes, const Vec3& foot, const Vec3& size) {
+            const Quat turn = Quat(Mat3(R_gw * axes)).normalized();
+            // A scale of 0 has no normals.
+            const Vec3 scale = Vec3(size.y(), size.z(), size.x()).cwiseMax(1e-6 * size.x());
+            all.push_back({groups.group[i], tree.kind[i], (R_gw * (foot - drawn.x_w[g])).cast<float>(),
+                           scale.cast<float>(), turn.coeffs().cast<float>()});
+        };
+        if (!is_clump(tree, i)) {
+            add(R_wb[i], x_w[i], tree.size[i]);
+            continue;
+        }
+        const std::int32_t count = std::min(tree.leaf_count[i], most);
+        for (const ClumpLeaf& leaf : clump_leaves(tree, i, R_wb[i], count))
+            add(R_wb[i] * leaf.axes, x_w[i] + R_wb[i] * leaf.foot, clump_leaf_size(tree, i, count));
     }
     std::stable_sort(all.begin(), all.end(), [](const Instance& a, const Instance& b) {
         return a.group != b.group ? a.group < b.group : a.kind < b.kind;

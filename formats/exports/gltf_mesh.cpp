@@ -6,27 +6,11 @@
 namespace bough {
 namespace {
 
-// Vertices that a part's triangles use: the whole stretch from the first to the last of them.
-struct Stretch {
-    std::int32_t first = std::numeric_limits<std::int32_t>::max(), last = 0;
-    std::uint64_t count() const { return std::uint64_t(last - first) + 1; }
-};
-
-Stretch vertices_of(const Skin& skin, const SkinPart& part) {
-    Stretch used;
-    for (std::size_t t = part.first_index; t < part.first_index + part.index_count; ++t)
-        for (const std::int32_t v : skin.triangle[t]) {
-            used.first = std::min(used.first, v);
-            used.last = std::max(used.last, v);
-        }
-    return used;
-}
-
 Eigen::Vector3f placed(const Vec3& position, const Vec3& origin) {
     return (position - origin).cast<float>();
 }
 
-std::string position_bounds(const Skin& skin, const Stretch& used, const Vec3& origin) {
+std::string position_bounds(const Skin& skin, const VertexStretch& used, const Vec3& origin) {
     Eigen::Vector3f low = placed(skin.position[std::size_t(used.first)], origin), high = low;
     for (std::size_t v = std::size_t(used.first); v <= std::size_t(used.last); ++v) {
         const Eigen::Vector3f p = placed(skin.position[v], origin);
@@ -103,7 +87,7 @@ template <class Number> void write_indices(GltfBytes& to, const Skin& skin, cons
 }
 
 // Indices count from the part's first vertex; 65535 would be a mark in u16.
-int add_indices(GltfFile& file, const Skin& skin, const SkinPart& part, const Stretch& used) {
+int add_indices(GltfFile& file, const Skin& skin, const SkinPart& part, const VertexStretch& used) {
     const bool small = used.count() <= 65535;
     const std::uint64_t count = 3 * std::uint64_t(part.index_count);
     const int view = file.add_view((small ? 2 : 4) * count, GltfTarget::indices, 0,
@@ -128,11 +112,22 @@ double roughness(const std::string& part) {
 
 } // namespace
 
-std::string gltf_primitives(GltfFile& file, const Skin& skin, const JointGroups& groups, const Vec3& origin) {
+VertexStretch vertices_of(const Skin& skin, const SkinPart& part) {
+    VertexStretch used;
+    for (std::size_t t = part.first_index; t < part.first_index + part.index_count; ++t)
+        for (const std::int32_t v : skin.triangle[t]) {
+            used.first = std::min(used.first, v);
+            used.last = std::max(used.last, v);
+        }
+    return used;
+}
+
+std::vector<std::string> gltf_primitives(GltfFile& file, const Skin& skin, const JointGroups& groups,
+                                         const Vec3& origin, const std::vector<std::string>& targets) {
     const VertexViews views = add_vertex_views(file, skin, groups, origin);
-    std::string text;
+    std::vector<std::string> all;
     for (std::size_t m = 0; m < skin.part.size(); ++m) {
-        const Stretch used = vertices_of(skin, skin.part[m]);
+        const VertexStretch used = vertices_of(skin, skin.part[m]);
         const std::uint64_t first = std::uint64_t(used.first), n = used.count();
         const std::uint64_t joint_bytes = views.joint_type == GltfType::u8 ? 4 : 8;
         const auto accessor = [&](int view, std::uint64_t bytes, GltfType component, const char* type,
@@ -140,16 +135,17 @@ std::string gltf_primitives(GltfFile& file, const Skin& skin, const JointGroups&
             return std::to_string(file.add_accessor(view, first * bytes, component, n, type, bounds));
         };
         const std::string bounds = position_bounds(skin, used, origin);
-        text += m == 0 ? "" : ",\n";
-        text += "{\"attributes\":{\"POSITION\":" + accessor(views.position, 12, GltfType::f32, "VEC3", bounds);
+        std::string text =
+            "{\"attributes\":{\"POSITION\":" + accessor(views.position, 12, GltfType::f32, "VEC3", bounds);
         text += ",\"NORMAL\":" + accessor(views.normal, 12, GltfType::f32, "VEC3");
         text += ",\"TEXCOORD_0\":" + accessor(views.texture, 8, GltfType::f32, "VEC2");
         text += ",\"JOINTS_0\":" + accessor(views.joint, joint_bytes, views.joint_type, "VEC4");
         text += ",\"WEIGHTS_0\":" + accessor(views.weight, 16, GltfType::f32, "VEC4");
         text += "},\"indices\":" + std::to_string(add_indices(file, skin, skin.part[m], used)) +
-                ",\"material\":" + std::to_string(m) + "}";
+                ",\"material\":" + std::to_string(m) + targets[m] + "}";
+        all.push_back(std::move(text));
     }
-    return text;
+    return all;
 }
 
 std::string gltf_material(const std::string& part, const Vec3& srgb) {

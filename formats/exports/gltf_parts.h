@@ -3,6 +3,7 @@
 #pragma once
 #include "gltf.h"
 #include <functional>
+#include <limits>
 
 namespace bough {
 
@@ -56,8 +57,16 @@ private:
 template <class Numbers> std::string gltf_list(const Numbers& numbers);
 std::string gltf_bounds(const Eigen::Vector3f& low, const Eigen::Vector3f& high);
 
-// ---- gltf_mesh.cpp ---- the mesh's primitives and "materials" as JSON; positions are written less `origin`.
-std::string gltf_primitives(GltfFile&, const Skin&, const JointGroups&, const Vec3& origin);
+// ---- gltf_mesh.cpp ---- a primitive for each part of the skin, and "materials", as JSON; positions are written less `origin`.
+// targets: of each part, what gltf_targets gives, or "".
+std::vector<std::string> gltf_primitives(GltfFile&, const Skin&, const JointGroups&, const Vec3& origin,
+                                         const std::vector<std::string>& targets);
+// Vertices that a part's triangles use: the whole stretch from the first to the last of them.
+struct VertexStretch {
+    std::int32_t first = std::numeric_limits<std::int32_t>::max(), last = 0;
+    std::uint64_t count() const { return std::uint64_t(last - first) + 1; }
+};
+VertexStretch vertices_of(const Skin&, const SkinPart&);
 std::string gltf_materials(const Skin&);
 std::string gltf_material(const std::string& part, const Vec3& srgb);
 
@@ -73,9 +82,13 @@ GltfLeaves gltf_leaves(GltfFile&, const Tree&, const JointGroups&, const GroupFr
 // ---- gltf_rods.cpp ---- each group's "extras", after a comma: what wood it holds, as own_rods.h has it.
 std::vector<std::string> gltf_rods(const Tree&, const JointGroups&, const GroupFrames& drawn);
 
+// ---- gltf_rustle.cpp ---- morph targets of the part that holds the clumps' leaves, after a comma; what their mesh says of them.
+std::string gltf_targets(GltfFile&, const Skin&, const SkinPart&, const Rustle&);
+std::string gltf_target_weights();
+
 // ---- gltf_animation.cpp ---- the JSON of "animations", "" where there are no frames; joint j is node first_node + j.
-// Places are written less `origin`.
+// Places are written less `origin`. weights: of the morph targets of node weights_node, frame after frame; empty: none.
 std::string gltf_animation(GltfFile&, const JointKeys&, const std::vector<RootPath>&, const Vec3& origin, double fps,
-                           int first_node);
+                           int first_node, const std::vector<float>& weights, int weights_node);
 
 } // namespace bough

@@ -1,4 +1,5 @@
 #include "bodies.h"
+#include "leaf_count.h"
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -15,6 +16,7 @@ public:
     void add_curve(std::size_t c);
     void add_leaf(std::size_t k, const Material&);
     void add_fruit(std::size_t k);
+    void count_leaves();
     Tree finish();
 
 private:
@@ -113,6 +115,14 @@ void Builder::add_fruit(std::size_t k) {
         {along.norm(), radius, radius}, branch, splines_.fruit_at[k]);
 }
 
+// Leaves stand behind the wood, in their order.
+void Builder::count_leaves() {
+    const std::vector<std::int32_t> counts = leaf_counts(splines_);
+    if (std::all_of(counts.begin(), counts.end(), [](std::int32_t n) { return n == 1; })) return;
+    tree_.leaf_count.assign(tree_.size_bodies(), 1);
+    std::copy(counts.begin(), counts.end(), tree_.leaf_count.begin() + std::ptrdiff_t(next_ - counts.size()));
+}
+
 Tree Builder::finish() {
     return std::move(tree_);
 }
@@ -123,6 +133,7 @@ Tree make_bodies(const Splines& splines, const Curves& curves, const CutRule& ru
     Builder build(splines, curves, rule);
     for (std::size_t c = 0; c < curves.size(); ++c) build.add_curve(c);
     for (std::size_t k = 0; k < splines.leaves(); ++k) build.add_leaf(k, material);
+    build.count_leaves();
     for (std::size_t k = 0; k < splines.fruits(); ++k) build.add_fruit(k);
     return build.finish();
 }

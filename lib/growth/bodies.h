@@ -6,6 +6,7 @@
 // the frame with x along the world's X and z up. A fruit's frame likewise, z to its centre. A leaf's frame is its own.
 // Whatever hangs sideways belongs to the piece that holds its arc length on the parent (at a cut, the one that begins
 // there); its joint stays where it was drawn.
+// A leaf that stands for several is one body with its count (leaf_count.h).
 // Writes every array but mass, com, inertia, stiffness, damping. O(points + bodies log points).
 #pragma once
 #include "../model/tree.h"

@@ -1,5 +1,6 @@
 #include "../model/polyline.h"
 #include "colony.h"
+#include "leaf_count.h"
 #include "turn.h"
 #include "weber_penn.h"
 #include <algorithm>
@@ -95,6 +96,7 @@ void add_colony_foliage(const ColonizeParameters& p, std::uint64_t seed, bool wi
         for (std::int64_t i = 0; i < fruits; ++i)
             add_fruit(p, b, twig.at(random_unit(key, Draw::place, static_cast<std::uint64_t>(i))), s);
     }
+    say_leaf_count(s);
 }
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "grow.h"
 #include "carry.h"
+#include "leaf_count.h"
 #include "pipe.h"
 #include "stem.h"
 #include <stdexcept>
@@ -37,6 +38,7 @@ bool grow_up_to(const GrowthParameters& parameters, std::uint64_t seed, const It
 Splines grow(const GrowthParameters& parameters, std::uint64_t seed, const Items& items) {
     Splines result;
     grow_up_to(parameters, seed, items, INT64_MAX, result);
+    say_leaf_count(result);
     return result;
 }
 

@@ -1,3 +1,4 @@
+#include "leaf_count.h"
 #include "lop.h"
 #include "segment.h"
 #include "stem.h"
@@ -84,7 +85,9 @@ double miss(Search& search, const Dial& dial) {
     const std::int64_t enough = 2 * search.bodies + 100;
     Splines tree;
     std::int64_t count = enough;
-    if (grow_up_to(scaled(search, dial), search.seed, search.items, enough, tree)) {
+    const GrowthParameters p = scaled(search, dial);
+    if (grow_up_to(p, search.seed, search.items, enough, tree)) {
+        say_leaf_count(tree, p.leaf_scale / search.parameters.leaf_scale);
         count = count_bodies(tree, SegmentOptions());
         std::int64_t count_kept = count; // of `tree`, which the best one before may become
         if (search.best_count < 0 || std::abs(count - search.bodies) < std::abs(search.best_count - search.bodies)) {
@@ -162,6 +165,7 @@ bool pluck(Splines& s, std::uint64_t seed, std::int64_t surplus) {
     keep(s.leaf_length, kept);
     keep(s.leaf_width, kept);
     keep(s.leaf_kind, kept);
+    keep(s.leaf_count, kept);
     keep(s.leaf_branch, kept);
     return true;
 }

@@ -69,6 +69,7 @@ Splines without_twigs(const Splines& s, std::uint64_t seed, std::int64_t count) 
         result.leaf_length.push_back(s.leaf_length[i]);
         result.leaf_width.push_back(s.leaf_width[i]);
         if (!s.leaf_kind.empty()) result.leaf_kind.push_back(s.leaf_kind[i]);
+        if (!s.leaf_count.empty()) result.leaf_count.push_back(s.leaf_count[i]);
     }
     for (std::size_t i = 0; i < s.fruits(); ++i) {
         const std::int32_t branch = place[std::size_t(s.fruit_branch[i])];

@@ -1,4 +1,5 @@
 #include "skin.h"
+#include "clump.h"
 #include "skin_mesh.h"
 #include <algorithm>
 #include <cassert>
@@ -65,12 +66,14 @@ std::vector<int> find_sides(const Tree& tree, const Chains& chains, int most) {
 }
 
 // Room for the whole mesh (at most a few rings too much), so that it is never copied while it grows.
-void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vector<int>& sides) {
+void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vector<int>& sides,
+             const std::vector<std::int32_t>& blades) {
     std::size_t vertices = 0, triangles = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const std::size_t n = std::size_t(sides[i]), rings = n > 3 ? 2 : 1;
         if (tree.kind[i] == Kind::branch) vertices += rings * (n + 1), triangles += rings * 2 * n;
-        if (is_flat(tree.kind[i])) vertices += leaf_vertices, triangles += leaf_triangles;
+        const auto flat = std::size_t(is_flat(tree.kind[i]) ? blades.empty() ? 1 : blades[i] : 0);
+        vertices += flat * leaf_vertices, triangles += flat * leaf_triangles;
         if (tree.kind[i] == Kind::fruit) vertices += fruit_vertices, triangles += fruit_triangles;
     }
     for (const std::int32_t start : chains.starts) {
@@ -84,6 +87,14 @@ void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vect
     skin.joint.reserve(vertices);
     skin.weight.reserve(vertices);
     skin.triangle.reserve(triangles);
+}
+
+// How many leaves each body is drawn as; empty: one each.
+std::vector<std::int32_t> find_blades(const Tree& tree) {
+    std::vector<std::int32_t> blades = tree.leaf_count;
+    const std::int32_t most = clump_leaves_drawn(tree);
+    for (std::int32_t& n : blades) n = std::min(n, most);
+    return blades;
 }
 
 void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, const Chains& chains,
@@ -114,14 +125,16 @@ Skin build_skin(const Tree& tree, const SkinOptions& options) {
     const DrawnPose pose = drawn_pose(tree);
     const Chains chains = find_chains(tree);
     const std::vector<int> sides = find_sides(tree, chains, options.sides);
+    const std::vector<std::int32_t> blades = find_blades(tree);
     Skin skin;
-    reserve(skin, tree, chains, sides);
+    reserve(skin, tree, chains, sides, blades);
     add_bark(skin, tree, pose, chains, sides);
     const std::vector<Vec3>& color = tree.color.empty() ? default_colors() : tree.color;
     close_part(skin, "bark", color[0]);
     for (const Kind kind : {Kind::leaf, Kind::petal}) {
         for (std::size_t i = 0; i < tree.size_bodies() && options.leaves; ++i)
-            if (tree.kind[i] == kind) add_leaf(skin, tree, pose, i);
+            if (tree.kind[i] == kind)
+                is_clump(tree, i) ? add_clump(skin, tree, pose, i, blades[i]) : add_leaf(skin, tree, pose, i);
         kind == Kind::leaf ? close_part(skin, "leaf", color[1]) : close_part(skin, "petal", color[2]);
     }
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)

@@ -9,7 +9,7 @@
 // then a root ring where it comes out, moved by both; so no gap opens whichever way it bends, nor where a branch was
 // drawn starting off the parent's axis. An end ring thinner than 1/1000 of the next is drawn as a point.
 // Leaves and petals are drawn as kites of their prism's length, width and area, one for each broad face (no petiole);
-// fruit are spheres with a thin stalk from joints outside them; all are moved by their body alone.
+// a clump as several of them (clump.h); fruit are spheres with a thin stalk from joints outside them; all are moved by their body alone.
 // u runs 0..1 around (one seam column doubled), v is the arc length from the branch's joint over the circumference at its
 // base (of its thickest ring where that is a point), so that bark is not stretched; v < 0 inside the parent.
 // Reads a checked Tree in the drawn pose. O(bodies * sides). Constant topology: only positions and normals move. Every
@@ -37,6 +37,9 @@ struct SkinPart {
     std::size_t index_count; // triangles
 };
 
+// Of a leaf or petal: foot, left and right, tip of its upper face, then those of its lower one.
+constexpr std::size_t leaf_vertices = 8, leaf_triangles = 4;
+
 struct Skin {
     std::vector<Vec3> position;                        // [m] world, drawn pose
     std::vector<Vec3> normal;                          // unit, world, drawn pose, outward
@@ -44,6 +47,7 @@ struct Skin {
     std::vector<std::array<std::int32_t, 4>> joint;    // bodies that move the vertex; unused entries repeat the first
     std::vector<std::array<float, 4>> weight;          // sum 1, unused 0
     std::vector<std::array<std::int32_t, 3>> triangle; // counterclockwise seen from outside
+    std::vector<std::int32_t> clump_leaf;              // first vertex of each leaf of the clumps, rising
     std::vector<SkinPart> part;                        // in order, covering `triangle`: bark, leaf, petal, fruit
 };
 

@@ -1,28 +1,45 @@
+#include "clump.h"
 #include "skin_mesh.h"
 #include <numbers>
 
 namespace bough {
 
-void add_leaf(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t body) {
-    const Vec3& size = tree.size[body];
-    const Binding binding = bound_to(body);
+namespace {
+
+// A blade of length, width and thickness; where it stands in the world.
+void add_blade(Skin& skin, Kind kind, const Vec3& size, const Mat3& axes, const Vec3& foot, const Binding& binding) {
+    const auto at = [&](double x, double y, double z) { return Vec3(foot + axes * Vec3(x, y, z)); };
     // A kite has the area of the triangle of its length and width; leaves are widest near the base, petals near the tip.
-    const double widest = tree.kind[body] == Kind::petal ? 0.7 : 0.4;
+    const double widest = kind == Kind::petal ? 0.7 : 0.4;
     // The faces stand a leaf's thickness apart, so that they do not flicker in programs that draw both.
     for (const double side : {1.0, -1.0}) {
         const double y = side * size.z() / 2;
-        const Vec3 normal = side * pose.R_wb[body].col(1);
-        const std::int32_t a = add_vertex(skin, pose.at(body, {0, y, 0}), normal, 0.5, 0, binding);
+        const Vec3 normal = side * axes.col(1);
+        const std::int32_t a = add_vertex(skin, at(0, y, 0), normal, 0.5, 0, binding);
         for (const double across : {-0.5, 0.5})
-            add_vertex(skin, pose.at(body, {across * size.y(), y, widest * size.x()}), normal, 0.5 + across, widest,
-                       binding);
-        add_vertex(skin, pose.at(body, {0, y, size.x()}), normal, 0.5, 1, binding);
+            add_vertex(skin, at(across * size.y(), y, widest * size.x()), normal, 0.5 + across, widest, binding);
+        add_vertex(skin, at(0, y, size.x()), normal, 0.5, 1, binding);
         for (const auto& [b, c] : {std::pair(1, 3), std::pair(3, 2)}) {
             if (side > 0)
                 skin.triangle.push_back({a, a + b, a + c});
             else
                 skin.triangle.push_back({a, a + c, a + b});
         }
+    }
+}
+
+} // namespace
+
+void add_leaf(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t body) {
+    add_blade(skin, tree.kind[body], tree.size[body], pose.R_wb[body], pose.x_w[body], bound_to(body));
+}
+
+void add_clump(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t body, std::int32_t leaves) {
+    const Mat3& R = pose.R_wb[body];
+    const Vec3 size = clump_leaf_size(tree, body, leaves);
+    for (const ClumpLeaf& leaf : clump_leaves(tree, body, R, leaves)) {
+        skin.clump_leaf.push_back(std::int32_t(skin.position.size()));
+        add_blade(skin, Kind::leaf, size, R * leaf.axes, pose.at(body, leaf.foot), bound_to(body));
     }
 }
 

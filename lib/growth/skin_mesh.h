@@ -31,13 +31,15 @@ struct BranchTube {
 // The closed tube of a branch (skin.h). O(pieces * sides).
 void add_tube(Skin&, const Tree&, const DrawnPose&, const BranchTube&);
 
-constexpr std::size_t leaf_vertices = 8, leaf_triangles = 4;
 constexpr std::size_t fruit_columns = 8, fruit_bands = 4;
 constexpr std::size_t fruit_vertices = (fruit_columns + 1) * (fruit_bands + 3); // at most: with a stalk
 constexpr std::size_t fruit_triangles = 2 * fruit_columns * (fruit_bands + 2);
 
 // The two broad faces of a leaf or petal.
 void add_leaf(Skin&, const Tree&, const DrawnPose&, std::size_t body);
+
+// The leaves of a clump, `leaves` of them (clump.h).
+void add_clump(Skin&, const Tree&, const DrawnPose&, std::size_t body, std::int32_t leaves);
 
 // A sphere, drawn out to the joint by a thin stalk where the joint lies outside it.
 void add_fruit(Skin&, const Tree&, const DrawnPose&, std::size_t body);

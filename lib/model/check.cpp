@@ -130,6 +130,16 @@ void check_sizes(Rules& rules, const char* field, const std::vector<Vec3>& value
             });
 }
 
+// At least 1, and 1 where is_leaf(index) does not hold.
+template <class IsLeaf> void check_counts(Rules& rules, const std::vector<std::int32_t>& counts, IsLeaf is_leaf) {
+    rules.each(
+        "leaf_count", counts, [&](std::size_t i, std::int32_t n) { return n == 1 || (n > 1 && is_leaf(i)); },
+        [&](std::size_t i, std::int32_t n) {
+            return "is " + std::to_string(n) + ", expected " +
+                   (is_leaf(i) ? "1 or more" : "1 (only a leaf stands for more)");
+        });
+}
+
 void check_colors(Rules& rules, const std::vector<Vec3>& colors) {
     rules.length("color", colors, colors.empty() ? 0 : default_colors().size(), "none, or bark, leaf, petal and fruit")
         .each(
@@ -166,6 +176,7 @@ std::optional<Defect> check(const Splines& splines) {
         .length("leaf_length", splines.leaf_length, leaves, "one for each leaf")
         .length("leaf_width", splines.leaf_width, leaves, "one for each leaf")
         .length("leaf_kind", splines.leaf_kind, splines.leaf_kind.empty() ? 0 : leaves, "none, or one for each leaf")
+        .length("leaf_count", splines.leaf_count, splines.leaf_count.empty() ? 0 : leaves, "none, or one for each leaf")
         .length("fruit_at", splines.fruit_at, fruits, "one for each fruit")
         .length("fruit_position", splines.fruit_position, fruits, "one for each fruit")
         .length("fruit_center", splines.fruit_center, fruits, "one for each fruit")
@@ -196,8 +207,9 @@ std::optional<Defect> check(const Splines& splines) {
         .positive("leaf_width", splines.leaf_width)
         .each(
             "leaf_kind", splines.leaf_kind, [](std::size_t, std::int32_t k) { return k == 0 || k == 1; },
-            [](std::size_t, std::int32_t k) { return "is " + std::to_string(k) + ", expected 0 (leaf) or 1 (petal)"; })
-        .index("fruit_branch", splines.fruit_branch, branches, "a branch")
+            [](std::size_t, std::int32_t k) { return "is " + std::to_string(k) + ", expected 0 (leaf) or 1 (petal)"; });
+    check_counts(rules, splines.leaf_count, [&](std::size_t k) { return !splines.is_petal(k); });
+    rules.index("fruit_branch", splines.fruit_branch, branches, "a branch")
         .between("fruit_at", splines.fruit_at, 0, 1)
         .all_finite("fruit_position", splines.fruit_position)
         .all_finite("fruit_center", splines.fruit_center)
@@ -227,7 +239,8 @@ std::optional<Defect> check(const Tree& tree) {
         .length("branch", tree.branch, n, each)
         .length("level", tree.level, n, each)
         .length("s", tree.s, n, each)
-        .length("rigid", tree.rigid, tree.rigid.empty() ? 0 : n, "none, or one for each body");
+        .length("rigid", tree.rigid, tree.rigid.empty() ? 0 : n, "none, or one for each body")
+        .length("leaf_count", tree.leaf_count, tree.leaf_count.empty() ? 0 : n, "none, or one for each body");
     if (rules.defect) return rules.defect;
 
     rules.parents(tree.parent)
@@ -257,6 +270,7 @@ std::optional<Defect> check(const Tree& tree) {
         [](std::size_t, std::uint8_t r) {
             return "is " + std::to_string(int(r)) + ", expected 0 (its joint moves) or 1 (it is rigid)";
         });
+    check_counts(rules, tree.leaf_count, [&](std::size_t i) { return tree.kind[i] == Kind::leaf; });
     check_colors(rules, tree.color);
     return rules.defect;
 }

@@ -19,6 +19,7 @@ void copy_body(Tree& to, const Tree& from, std::size_t i, std::int32_t parent) {
     to.s.push_back(from.s[i]);
     if (!from.rigid.empty()) to.rigid.push_back(from.rigid[i]);
     if (!from.load.empty()) to.load.push_back(from.load[i]);
+    if (!from.leaf_count.empty()) to.leaf_count.push_back(from.leaf_count[i]);
 }
 
 } // namespace

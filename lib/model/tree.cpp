@@ -9,12 +9,13 @@ template <class T> void add(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-// Arrays that may be empty: zeros, then.
-template <class T> void add(std::vector<T>& to, const std::vector<T>& from, std::size_t before, std::size_t more) {
+// Arrays that may be empty: `absent` everywhere, then.
+template <class T>
+void add(std::vector<T>& to, const std::vector<T>& from, std::size_t before, std::size_t more, T absent) {
     if (to.empty() && from.empty()) return;
-    to.resize(before, T(0));
+    to.resize(before, absent);
     add(to, from);
-    to.resize(before + more, T(0));
+    to.resize(before + more, absent);
 }
 
 } // namespace
@@ -35,6 +36,7 @@ void Tree::resize(std::size_t bodies) {
     s.resize(bodies);
     if (!rigid.empty()) rigid.resize(bodies);
     if (!load.empty()) load.resize(bodies);
+    if (!leaf_count.empty()) leaf_count.resize(bodies, 1);
 }
 
 std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw) {
@@ -59,8 +61,9 @@ std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double ya
     add(tree.branch, more.branch);
     add(tree.level, more.level);
     add(tree.s, more.s);
-    add(tree.rigid, more.rigid, first, more.size_bodies());
-    add(tree.load, more.load, first, more.size_bodies());
+    add(tree.rigid, more.rigid, first, more.size_bodies(), std::uint8_t(0));
+    add(tree.load, more.load, first, more.size_bodies(), 0.0);
+    add(tree.leaf_count, more.leaf_count, first, more.size_bodies(), 1);
 
     place(tree, position, yaw, first);
     for (std::size_t i = first; i < tree.size_bodies(); ++i) {

@@ -1,0 +1,88 @@
+#include "clump.h"
+#include "random.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace bough {
+namespace {
+
+enum class Draw : std::uint8_t {
+    clump = 210,
+    leaf,
+    start,
+    direction,
+    normal
+}; // apart from the draws of growth (stem.h)
+
+// Powers of the inverse of the root of x^4 = x + 1: the most even recurrence in three dimensions.
+constexpr std::array<double, 3> kStep = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+
+double fraction(double x) {
+    return x - std::floor(x);
+}
+
+// Evenly in the unit ball where u, v, w are evenly in 0..1.
+Vec3 in_ball(double u, double v, double w) {
+    const double radius = std::cbrt(u), z = 2 * v - 1, around = 2 * std::numbers::pi * w;
+    const double level = std::sqrt(std::max(0.0, 1 - z * z));
+    return radius * Vec3(level * std::cos(around), level * std::sin(around), z);
+}
+
+Vec3 any_vector(RandomKey key, Draw draw) {
+    return in_ball(random_unit(key, draw, 0), random_unit(key, draw, 1), random_unit(key, draw, 2));
+}
+
+Vec3 direction_of(const Vec3& v, const Vec3& otherwise) {
+    const double length = v.norm();
+    return length > 1e-9 ? Vec3(v / length) : otherwise;
+}
+
+} // namespace
+
+std::int32_t clump_leaves_drawn(const Tree& tree) {
+    std::int64_t all = 0;
+    for (const std::int32_t n : tree.leaf_count) all += n > 1 ? std::min(n, clump_leaves_most) : 0;
+    if (all <= clump_leaves_all) return clump_leaves_most;
+    const auto clumps =
+        std::count_if(tree.leaf_count.begin(), tree.leaf_count.end(), [](std::int32_t n) { return n > 1; });
+    return std::int32_t(std::clamp<std::int64_t>(clump_leaves_all / clumps, 1, clump_leaves_most));
+}
+
+Vec3 clump_leaf_size(const Tree& tree, std::size_t body, std::int32_t count) {
+    const Vec3& size = tree.size[body];
+    const double smaller = 1 / std::sqrt(double(count));
+    return {smaller * size.x(), smaller * size.y(), size.z()};
+}
+
+std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Mat3& R_wb, std::int32_t count) {
+    const RandomKey clump = random_key(RandomKey{0}, Draw::clump, std::uint64_t(body));
+    const Vec3 up = R_wb.transpose() * Vec3::UnitY();
+    const double length = tree.size[body].x(), width = tree.size[body].y();
+    const Vec3 half(width / 2, 0.3 * width, length / 2);
+    const double blade = clump_leaf_size(tree, body, count).x();
+    std::vector<ClumpLeaf> leaves;
+    for (std::int32_t k = 0; k < count; ++k) {
+        const RandomKey key = random_key(clump, Draw::leaf, std::uint64_t(k));
+        const auto even = [&](std::size_t d) {
+            return fraction(random_unit(clump, Draw::start, d) + double(k + 1) * kStep[d]);
+        };
+        const Vec3 place = in_ball(even(0), even(1), even(2));
+        const Vec3 middle = tree.com[body] + half.cwiseProduct(place);
+        const Vec3 away = direction_of(middle, Vec3::UnitZ());
+        ClumpLeaf leaf;
+        const Vec3 z =
+            direction_of(0.6 * away + 0.7 * place - 0.35 * up + 0.6 * any_vector(key, Draw::direction), away);
+        const Vec3 facing = up + 0.5 * place + 0.6 * any_vector(key, Draw::normal);
+        const Vec3 side = direction_of(facing.cross(z), direction_of(Vec3::UnitX().cross(z), Vec3::UnitY()));
+        leaf.axes.col(0) = side;
+        leaf.axes.col(1) = z.cross(side);
+        leaf.axes.col(2) = z;
+        leaf.foot = middle - 0.5 * blade * z;
+        leaves.push_back(leaf);
+    }
+    return leaves;
+}
+
+} // namespace bough

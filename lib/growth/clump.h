@@ -1,0 +1,33 @@
+// clump.h: the leaves that a clump (is_clump in tree.h) is drawn as.
+//
+// A body that stands for n leaves is drawn as min(n, drawn_most) of them, each of the body's proportions and of its area
+// over their number, so that what is drawn has the clump's area. Where a tree has so many clumps that this would come to
+// more than 200 000 leaves, each is drawn as so many fewer.
+// They fill the ellipsoid of axes (width, 0.6 width, length) about the body's centre of mass, evenly: the middle of leaf k
+// is point k of a sequence of low discrepancy (the additive recurrence of three irrationals). They point away from the
+// clump's joint and middle and droop a little; their upper faces look up and outward. All of it is drawn from the body's
+// index, so that the same tree looks the same whoever draws it.
+#pragma once
+#include "../model/tree.h"
+
+namespace bough {
+
+constexpr std::int32_t clump_leaves_most = 64;     // of one clump
+constexpr std::int64_t clump_leaves_all = 200'000; // of a tree
+
+// How many leaves each clump of the tree is drawn as at most, 1..64. O(bodies).
+std::int32_t clump_leaves_drawn(const Tree&);
+
+// A leaf of a clump, in the clump's body frame.
+struct ClumpLeaf {
+    Vec3 foot; // [m] where its blade begins
+    Mat3 axes; // its width, its normal, its length
+};
+
+// R_wb: how the body stands when drawn. Count: as above. O(count).
+std::vector<ClumpLeaf> clump_leaves(const Tree&, std::size_t body, const Mat3& R_wb, std::int32_t count);
+
+// Length, width, thickness [m] of one of `count` leaves.
+Vec3 clump_leaf_size(const Tree&, std::size_t body, std::int32_t count);
+
+} // namespace bough
