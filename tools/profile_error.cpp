@@ -16,7 +16,7 @@ constexpr double seconds_default = 2;
 struct ErrorCommand {
     CommonOptions& common;
     RunOptions run;
-    std::string steps, report;
+    std::string steps, report, truth = "reference";
     CLI::App* app = nullptr;
 };
 
@@ -28,6 +28,11 @@ void declare(CLI::App& app, ErrorCommand& o) {
            "Steps a frame to run with, with commas: powers of two from 1/64 to 4096, the three finest also for the "
            "limit of small steps (1/4,1/2,1,2,4,8,16,32,64)")
         ->option_text("LIST");
+    app.add_option("--truth", o.truth,
+                   "What all is held against: articulated-reference, or, for trees of more than some thousand bodies, "
+                   "the coupled solver at 64 steps a frame (reference)")
+        ->option_text("reference|fine")
+        ->check(CLI::IsMember({"reference", "fine"}));
     app.add_option("--report", o.report, "Also write the figures as .json or .csv, the plot as .svg, both as .html")
         ->option_text("FILE")
         ->check(file_name());
@@ -103,6 +108,8 @@ void let_move(ErrorCommand& o, Scene& scene) {
 
 void work(ErrorCommand& o) {
     if (o.app->get_option("--substeps")->count() > 0) throw UsageError("--substeps: --steps says it here");
+    if (o.truth == "fine" && o.run.tolerance)
+        throw UsageError("--tolerance: is the reference's, which --truth fine does without");
     if (o.run.joint_limit) throw UsageError("--joint-limit: the reference solution keeps no limits");
     if (o.run.solver == solver_name(Solver::articulated_reference))
         throw UsageError("--solver articulated-reference is what the others are held against");
@@ -114,6 +121,7 @@ void work(ErrorCommand& o) {
     ErrorOptions options;
     options.steps_per_frame = chosen_steps(o.steps);
     options.variants = chosen_variants(o);
+    options.truth = o.truth == "fine" ? Truth::fine : Truth::reference;
     if (o.run.tolerance) options.tolerance = *o.run.tolerance;
     RunOptions reading = o.run; // what is a series' own is not the scene's
     reading.tolerance.reset();

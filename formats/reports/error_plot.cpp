@@ -1,4 +1,5 @@
 #include "error_plot.h"
+#include "error_motion_panel.h"
 #include "gnuplot.h"
 #include <algorithm>
 #include <array>
@@ -203,7 +204,7 @@ std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines
 }
 
 // The three parts at one step a frame, a group of bars a line.
-std::string split_panel(const std::vector<Line>& lines, int height, int top) {
+std::string split_panel(const std::vector<Line>& lines, int height, int top, int bottom) {
     std::vector<const ErrorRun*> runs;
     std::vector<std::string> names;
     std::vector<double> parts;
@@ -223,7 +224,7 @@ std::string split_panel(const std::vector<Line>& lines, int height, int top) {
             number(1 - double(top + 24) / height) + " left\nset key default\nset key at screen 0.965,screen " +
             number(1 - double(top + 16) / height) + " right top horizontal Left reverse samplen 1.5\n";
     text += "set lmargin at screen 0.33\nset tmargin at screen " + number(1 - double(top + 48) / height) +
-            "\nset bmargin at screen " + number(58.0 / height) + "\n";
+            "\nset bmargin at screen " + number(1 - double(bottom - 58) / height) + "\n";
     text += "set xrange " + range_text(x) + "\nset yrange [" +
             number(double(std::max<std::size_t>(runs.size(), 1)) - 0.4) + ":-0.6]\n";
     text += "set xlabel 'RMS of tips / RMS tip deflection'\nset style fill solid 1.0 noborder\nunset ytics\n";
@@ -262,10 +263,17 @@ std::string error_svg(const ErrorReport& report, const std::string& name) {
     const std::vector<ErrorSeries> series = drawn(error_series(report), left_out);
     const std::vector<Line> lines = make_lines(series, report.reference_error);
     const int top = plot_height + key_line * (int(lines.size()) + (left_out.empty() ? 1 : 2)) + 20;
-    const int height = top + 48 + 58 + std::max(70, 46 * int(lines.size()));
-    return gnuplot_svg("set multiplot\n" + plot_panel(report, lines, left_out, height) +
-                           split_panel(lines, height, top) + "unset multiplot\n",
-                       picture_width, height, name);
+    const int bottom = top + 48 + 58 + std::max(70, 46 * int(lines.size()));
+    const int height = bottom + motion_panel_height(report);
+    std::vector<MotionMarks> marks;
+    for (const Line& line : lines)
+        for (const ErrorRun* run : line.series->runs)
+            if (run->steps_per_frame == 1)
+                marks.push_back({run, line.style.colour, line.style.mark - (line.style.dash == 2 ? 1 : 0)});
+    return gnuplot_svg(
+        "set multiplot\n" + plot_panel(report, lines, left_out, height) + split_panel(lines, height, top, bottom) +
+            (height > bottom ? motion_panel(report, marks, height, bottom) : std::string()) + "unset multiplot\n",
+        picture_width, height, name);
 }
 
 } // namespace bough

@@ -73,7 +73,10 @@ void write_page(Output& output, const Page& page, const ReportMeta& meta) {
         output.write("<div><dt>" + escaped_markup(name) + "</dt><dd>" + escaped_markup(value) + "</dd></div>\n");
     output.write("</dl>\n<figure>\n" + page.svg + "\n</figure>\n");
     for (const std::string& note : page.notes) output.write("<p>" + escaped_markup(note) + "</p>\n");
-    output.write("<h2>Figures</h2>\n" + table_text(page.table) + "<h2>Made by</h2>\n");
+    output.write("<h2>Figures</h2>\n" + table_text(page.table));
+    for (const auto& [name, table] : page.more)
+        output.write("<h2>" + escaped_markup(name) + "</h2>\n" + table_text(table));
+    output.write("<h2>Made by</h2>\n");
     if (!meta.source.empty()) output.write("<pre>" + escaped_markup(meta.source) + "</pre>\n");
     output.write("<p>" +
                  escaped_markup(meta.tool + " " + meta.version + " (bough), " + meta.compiler + ", " +

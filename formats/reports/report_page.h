@@ -21,6 +21,7 @@ struct Page {
     std::string svg;
     std::vector<std::string> notes;
     PageTable table;
+    std::vector<std::pair<std::string, PageTable>> more; // further tables under their titles
 };
 void write_page(Output&, const Page&, const ReportMeta&);
 

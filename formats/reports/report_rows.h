@@ -19,7 +19,7 @@ struct ReportMeta {
 
 // One value under its name, the same in JSON and in CSV. A number that is not finite is null, in CSV an empty cell.
 using ReportValue = std::variant<std::string, double, std::int64_t, bool>;
-using ReportRow = std::vector<std::pair<const char*, ReportValue>>;
+using ReportRow = std::vector<std::pair<std::string, ReportValue>>;
 
 // {"format": format, "version": 1, tool, tool_version, compiler, flags, threads, then `head`, "rows_name": [a row a
 // line], "source"}. Texts that are no UTF-8 are made so.

@@ -2,15 +2,31 @@
 #include "../stages/fictitious.h"
 #include "../stages/root_term.h"
 #include "advance.h"
+#include "body_poses.h"
 #include <chrono>
 #include <cmath>
 
 namespace bough {
 namespace {
 
+// What of a run is kept of all bodies: the ends of the wood, the joints' angles, and statistics.
+struct Bodies {
+    std::vector<std::size_t> wood;
+    MotionStatistics statistics;
+};
+
+template <class T> void sample_bodies(const Plan<T>& plan, const State<T>& state, Bodies& bodies, Trajectory& out) {
+    BodyPoses poses = body_poses(plan, state);
+    bodies.statistics.add(poses.x, poses.R, poses.theta);
+    out.wood.emplace_back();
+    for (const std::size_t i : bodies.wood)
+        out.wood.back().push_back(poses.x[i] + poses.R[i].col(2) * bodies.statistics.tree().size[i][0]);
+    out.theta.push_back(std::move(poses.theta));
+}
+
 template <class T>
 bool sample(const Plan<T>& plan, const State<T>& state, const Tree& tree, const std::vector<std::size_t>& tips,
-            bool keep_theta, Trajectory& out) {
+            Bodies* bodies, Trajectory& out) {
     if (first_non_finite(state)) return false;
     std::vector<Vec3> tip;
     tip.reserve(tips.size());
@@ -19,15 +35,12 @@ bool sample(const Plan<T>& plan, const State<T>& state, const Tree& tree, const 
         if (!tip.back().allFinite()) return false;
     }
     out.tip.push_back(std::move(tip));
-    if (keep_theta) {
-        out.theta.emplace_back();
-        for (const auto& theta : state.theta) out.theta.back().push_back(theta.template cast<double>());
-    }
+    if (bodies) sample_bodies(plan, state, *bodies, out);
     return true;
 }
 
 template <class T>
-Trajectory run(const Problem& problem, const Variant& how, bool keep_theta, int repeat,
+Trajectory run(const Problem& problem, const Variant& how, bool all_bodies, int repeat,
                const std::function<void()>& tick) {
     using Time = std::chrono::steady_clock;
     Scene scene = for_solver(problem.scene, how.solver);
@@ -43,16 +56,20 @@ Trajectory run(const Problem& problem, const Variant& how, bool keep_theta, int 
     for (int k = 0; k < repeat; ++k) {
         Trajectory now;
         now.stride = stride;
+        std::optional<Bodies> bodies;
+        if (all_bodies) bodies.emplace(Bodies{wood_bodies(problem.tree), {problem.tree, problem.fps}});
+        Bodies* const kept = bodies ? &*bodies : nullptr;
         State<T> state = make_state(plan);
-        now.finite = sample(plan, state, problem.tree, tips, keep_theta, now);
+        now.finite = sample(plan, state, problem.tree, tips, kept, now);
         for (std::int64_t f = stride; now.finite && f < problem.frames; f += stride) {
             tick();
             const Time::time_point start = Time::now();
             for (std::int64_t s = 0; s < substeps; ++s) advance(plan, state);
             now.seconds += std::chrono::duration<double>(Time::now() - start).count();
             present(plan, state);
-            now.finite = sample(plan, state, problem.tree, tips, keep_theta, now);
+            now.finite = sample(plan, state, problem.tree, tips, kept, now);
         }
+        if (bodies && stride == 1) now.motion = bodies->statistics.result();
         now.hash = state_hash(state);
         now.flags = state.flags;
         if (k == 0 || now.seconds < best.seconds) best = std::move(now);
@@ -82,10 +99,10 @@ template <class T> Vec3 tip_position(const Plan<T>& plan, const State<T>& state,
 template Vec3 tip_position(const Plan<float>&, const State<float>&, const Tree&, std::size_t);
 template Vec3 tip_position(const Plan<double>&, const State<double>&, const Tree&, std::size_t);
 
-Trajectory run_trajectory(const Problem& problem, const Variant& how, bool keep_theta, int repeat,
+Trajectory run_trajectory(const Problem& problem, const Variant& how, bool all_bodies, int repeat,
                           const std::function<void()>& tick) {
-    return how.single ? run<float>(problem, how, keep_theta, repeat, tick)
-                      : run<double>(problem, how, keep_theta, repeat, tick);
+    return how.single ? run<float>(problem, how, all_bodies, repeat, tick)
+                      : run<double>(problem, how, all_bodies, repeat, tick);
 }
 
 } // namespace bough

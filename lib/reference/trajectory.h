@@ -1,7 +1,9 @@
-// trajectory.h: one run of one solver at one step length, kept as the positions of the tree's tips in each frame.
+// trajectory.h: one run of one solver at one step length, kept as the positions of the tree's tips in each frame; where all
+// bodies are asked for, also as those of the ends of its wood, the joints' angles, and what the motion is like.
 #pragma once
 #include "../stages/plan.h"
 #include "../stages/state.h"
+#include "motion_statistics.h"
 #include <functional>
 #include <string>
 #include <vector>
@@ -37,9 +39,12 @@ std::vector<std::size_t> tip_bodies(const Tree&);
 template <class T> Vec3 tip_position(const Plan<T>&, const State<T>&, const Tree&, std::size_t body);
 
 struct Trajectory {
-    std::int64_t stride = 1;              // frames between two samples
-    std::vector<std::vector<Vec3>> tip;   // [m] samples x tips, as seen from the tree's ground
-    std::vector<std::vector<Vec3>> theta; // [rad] samples x joints, where asked for
+    std::int64_t stride = 1;            // frames between two samples
+    std::vector<std::vector<Vec3>> tip; // [m] samples x tips, as seen from the tree's ground
+    // Where all bodies are asked for:
+    std::vector<std::vector<Vec3>> theta; // [rad] samples x joints
+    std::vector<std::vector<Vec3>> wood;  // [m] samples x far ends of wood_bodies(), as seen from the tree's ground
+    MotionSummary motion;                 // of runs of a step a frame and more, to the last finite frame
     double seconds = 0;                   // run time of the steps alone, the fastest of `repeat` runs
     bool finite = true;
     std::uint64_t hash = 0;
@@ -48,7 +53,7 @@ struct Trajectory {
 
 // tick is called once a frame and may throw to end the run. A run that becomes non-finite ends there (finite = false).
 // Throws what make_plan throws. O(bodies) a step.
-Trajectory run_trajectory(const Problem&, const Variant&, bool keep_theta, int repeat,
+Trajectory run_trajectory(const Problem&, const Variant&, bool all_bodies, int repeat,
                           const std::function<void()>& tick);
 
 } // namespace bough

@@ -1,6 +1,7 @@
 #include "work_precision.h"
 #include "../stages/frozen_rule.h"
 #include "ring_down.h"
+#include "trajectory_difference.h"
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -11,45 +12,11 @@ namespace {
 constexpr double quick = 0.1;         // [s] below it a run is repeated, the fastest counts
 constexpr double ringing_up_to = 8;   // steps a frame
 constexpr double reference_cost = 60; // of its passes in a frame, for the progress alone
+constexpr double fine_steps = 64;     // a frame, of the coupled solver as the truth
+constexpr double fine_ringing = 16;   // the same in the ring-down, which is small and slow
 
 bool same_series(const Variant& a, const Variant& b) {
     return a.solver == b.solver && a.inertia == b.inertia && a.scheme == b.scheme && a.refresh == b.refresh;
-}
-
-struct Difference {
-    double rms = NAN, worst = NAN; // [m]
-};
-
-// Of tips, over the frames that both have (the start is left out).
-Difference difference(const Trajectory& a, const Trajectory& b) {
-    if (!a.finite || !b.finite) return {};
-    const std::int64_t stride = std::max(a.stride, b.stride);
-    double squares = 0, worst = 0;
-    std::size_t count = 0;
-    for (std::int64_t f = stride;; f += stride) {
-        const auto i = std::size_t(f / a.stride), j = std::size_t(f / b.stride);
-        if (i >= a.tip.size() || j >= b.tip.size()) break;
-        for (std::size_t k = 0; k < a.tip[i].size(); ++k) {
-            const double d2 = (a.tip[i][k] - b.tip[j][k]).squaredNorm();
-            squares += d2;
-            worst = std::max(worst, d2);
-            ++count;
-        }
-    }
-    if (count == 0) return {};
-    return {std::sqrt(squares / double(count)), std::sqrt(worst)};
-}
-
-double angle_difference(const Trajectory& run, const Trajectory& truth) {
-    if (!run.finite) return NAN;
-    double squares = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 1; i < run.theta.size(); ++i) {
-        const std::vector<Vec3>& other = truth.theta[i * std::size_t(run.stride)];
-        for (std::size_t k = 0; k < other.size(); ++k) squares += (run.theta[i][k] - other[k]).squaredNorm();
-        count += other.size();
-    }
-    return count > 0 ? std::sqrt(squares / double(count)) : NAN;
 }
 
 // Limit of small steps by a solver's three finest runs; none where they do not converge (work_precision.h).
@@ -57,10 +24,11 @@ std::optional<Trajectory> limit_of(const std::vector<Trajectory>& runs) {
     if (runs.size() < 3) return std::nullopt;
     const Trajectory &fine = runs.back(), &coarse = runs[runs.size() - 2], &coarser = runs[runs.size() - 3];
     if (!coarser.finite || !coarse.finite || !fine.finite || coarse.stride != 1) return std::nullopt;
-    const double before = difference(coarse, coarser).rms, last = difference(fine, coarse).rms;
+    const double before = distance(coarse, coarser).rms, last = distance(fine, coarse).rms;
     if (!(last < 0.75 * before)) return std::nullopt;
     const double weight = 1 / (std::clamp(before / last, 2.0, 8.0) - 1);
-    Trajectory limit = fine;
+    Trajectory limit;
+    limit.tip = fine.tip;
     for (std::size_t f = 0; f < limit.tip.size(); ++f)
         for (std::size_t k = 0; k < limit.tip[f].size(); ++k)
             limit.tip[f][k] += weight * (fine.tip[f][k] - coarse.tip[f][k]);
@@ -69,7 +37,8 @@ std::optional<Trajectory> limit_of(const std::vector<Trajectory>& runs) {
 
 // What the rows of a series say of its limit.
 struct Limit {
-    double left = 0, model = 0; // [m] from the finest run to it, from it to the reference
+    double left = 0;  // [m] from the finest run to it
+    Distance model{}; // from it to the reference
 };
 
 struct Bench {
@@ -79,6 +48,7 @@ struct Bench {
     double done = 0, total = 1, unit = 1;
     Trajectory truth;
     double height = 0, rms = 0, peak = 0; // [m]
+    WoodLevels levels;
     RingDown ring;
     ErrorReport report;
     std::vector<Variant> rows;                     // what report.runs are of
@@ -96,6 +66,7 @@ struct Bench {
 
     void find_truth();
     void measure_deflection();
+    void compare_wood(const Trajectory&, ErrorRun&) const;
     Trajectory timed(const Variant&);
     ErrorRun row(const Variant&, const Trajectory&, const Trajectory* same_in_double,
                  const std::optional<Trajectory>& limit);
@@ -104,25 +75,29 @@ struct Bench {
     void find_models();
 };
 
+Deflection in_metres(const Distance& d) {
+    return {d.rms, d.most};
+}
+
 void Bench::measure_deflection() {
     const std::vector<Vec3>& drawn = truth.tip.front();
-    double squares = 0;
-    for (std::size_t f = 1; f < truth.tip.size(); ++f)
-        for (std::size_t k = 0; k < drawn.size(); ++k) {
-            const double d = (truth.tip[f][k] - drawn[k]).norm();
-            squares += d * d;
-            peak = std::max(peak, d);
-        }
-    rms = std::sqrt(squares / double(drawn.size() * (truth.tip.size() - 1)));
+    const Distance tips = deflection(truth.tip);
+    rms = tips.rms;
+    peak = tips.most;
     double lowest = INFINITY, highest = -INFINITY;
     for (std::size_t i = 0; i < problem.tree.size_bodies(); ++i)
         if (problem.tree.parent[i] < 0) lowest = std::min(lowest, problem.tree.joint_position[i].y());
     for (const Vec3& x : drawn) highest = std::max(highest, x.y());
     height = std::max(highest - lowest, 1e-12);
+    levels = wood_levels(problem.tree);
+    for (const std::vector<std::size_t>& level : levels.level)
+        report.level_deflection.push_back(in_metres(deflection(truth.wood, &level)));
+    report.wood_deflection = in_metres(deflection(truth.wood, &levels.to_one));
 }
 
 void Bench::find_truth() {
     Variant exact{Solver::articulated_reference, JointInertia::branch, false, 1, options.tolerance};
+    if (options.truth == Truth::fine) exact = {.solver = Solver::coupled, .steps_per_frame = fine_steps};
     start(reference_cost);
     truth = run_trajectory(problem, exact, true, 1, tick());
     if (!truth.finite) throw std::domain_error("the reference solution became non-finite");
@@ -131,13 +106,30 @@ void Bench::find_truth() {
     if (!(rms > 0)) throw std::domain_error("nothing moves in the reference solution: there is no error to measure");
     Variant rough = exact;
     rough.tolerance *= 10;
-    const Trajectory again = run_trajectory(problem, rough, false, 1, tick());
-    report.reference_error = difference(again, truth).rms / rms;
+    rough.steps_per_frame = options.truth == Truth::fine ? fine_steps / 2 : 1;
+    const Distance again = distance(run_trajectory(problem, rough, false, 1, tick()), truth);
+    report.reference_error = again.rms / rms;
+    report.reference_error_max = again.most / rms;
     if (truth.flags.unresolved > 0) report.reference_error = std::max(report.reference_error, 1.0);
     exact.tolerance = std::max(options.tolerance, 1e-8);
-    ring = ring_down(problem, exact, std::min(1 / 120.0, 0.25 / problem.fps), [] {});
+    const double ringing =
+        options.truth == Truth::fine ? ring_dt(fine_ringing) : std::min(1 / 120.0, 0.25 / problem.fps);
+    ring = ring_down(problem, exact, ringing, [] {});
+    report.truth = options.truth == Truth::fine ? "coupled, 64 steps a frame" : solver_name(exact.solver);
     report.frequency = ring.frequency;
     report.decay = ring.decay;
+    report.motion = truth.motion;
+}
+
+// Of the wood, each level and that to level 1.
+void Bench::compare_wood(const Trajectory& run, ErrorRun& r) const {
+    const auto shares = [&](const std::vector<std::size_t>& of, const Deflection& whole) {
+        const Distance d = distance(run.wood, run.stride, truth.wood, truth.stride, &of);
+        return PointError{d.rms / whole.rms, d.most / whole.rms, d.rms / whole.peak, d.most / whole.peak};
+    };
+    for (std::size_t k = 0; k < levels.level.size(); ++k)
+        r.error_level.push_back(shares(levels.level[k], report.level_deflection[k]));
+    r.error_wood = shares(levels.to_one, report.wood_deflection);
 }
 
 std::string tolerance_text(double tolerance) {
@@ -174,15 +166,27 @@ ErrorRun Bench::row(const Variant& v, const Trajectory& run, const Trajectory* s
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(run.hash));
     r.hash = text;
-    const Difference error = difference(run, truth);
+    const Distance error = distance(run, truth);
     r.error_rms = error.rms / rms;
-    r.error_max = error.worst / rms;
+    r.error_max = error.most / rms;
     r.error_rms_peak = error.rms / peak;
-    r.error_max_peak = error.worst / peak;
+    r.error_max_peak = error.most / peak;
     r.error_rms_height = error.rms / height;
-    r.error_angle = angle_difference(run, truth);
-    if (limit) r.error_step = difference(same_in_double ? *same_in_double : run, *limit).rms / rms;
-    if (same_in_double) r.error_arithmetic = difference(run, *same_in_double).rms / rms;
+    r.error_max_height = error.most / height;
+    r.error_angle = angle_distance(run, truth);
+    compare_wood(run, r);
+    r.motion = run.motion;
+    r.error_spectrum = spectrum_difference(run.motion.leaves, truth.motion.leaves);
+    if (limit) {
+        const Distance step = distance(same_in_double ? *same_in_double : run, *limit);
+        r.error_step = step.rms / rms;
+        r.error_step_max = step.most / rms;
+    }
+    if (same_in_double) {
+        const Distance arithmetic = distance(run, *same_in_double);
+        r.error_arithmetic = arithmetic.rms / rms;
+        r.error_arithmetic_max = arithmetic.most / rms;
+    }
     if (rings(v)) {
         start(v.steps_per_frame);
         const RingDown own = ring_down(problem, v, ring_dt(v.steps_per_frame), [] {});
@@ -201,8 +205,7 @@ void Bench::series(const std::vector<Variant>& variants, const Variant* in_float
     if (n >= 3 && variants[n - 1].steps_per_frame == 2 * variants[n - 2].steps_per_frame &&
         variants[n - 2].steps_per_frame == 2 * variants[n - 3].steps_per_frame)
         limit = limit_of(runs);
-    if (limit)
-        limits.push_back({variants.front(), {difference(runs.back(), *limit).rms, difference(*limit, truth).rms}});
+    if (limit) limits.push_back({variants.front(), {distance(runs.back(), *limit).rms, distance(*limit, truth)}});
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const bool shown = std::any_of(options.variants.begin(), options.variants.end(),
                                        [&](const Variant& v) { return same_series(v, variants[k]) && !v.single; });
@@ -224,10 +227,12 @@ void Bench::add(const Variant& v, const ErrorRun& run) {
 // Of each row whose solver has a limit: by the scheme that needed the least extrapolation.
 void Bench::find_models() {
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        Limit best{INFINITY, NAN};
+        Limit best{INFINITY, {}};
         for (const auto& [v, limit] : limits)
             if (v.solver == rows[k].solver && v.inertia == rows[k].inertia && limit.left < best.left) best = limit;
-        if (report.runs[k].finite) report.runs[k].error_model = best.model / rms;
+        if (!report.runs[k].finite) continue;
+        report.runs[k].error_model = best.model.rms / rms;
+        report.runs[k].error_model_max = best.model.most / rms;
     }
 }
 
@@ -256,7 +261,7 @@ std::vector<Variant> all_variants() {
 
 ErrorReport measure_error(const Problem& problem, const ErrorOptions& options,
                           const std::function<void(std::int64_t, std::int64_t)>& progress) {
-    Bench bench{problem, options, progress, 0, 1, 1, {}, 0, 0, 0, {}, {}, {}, {}};
+    Bench bench{problem, options, progress, 0, 1, 1, {}, 0, 0, 0, {}, {}, {}, {}, {}};
     double a_series = 0;
     for (const double steps : options.steps_per_frame) a_series += std::max(1.0, steps);
     bench.total = double(problem.frames - 1) * (2 * reference_cost + a_series * double(options.variants.size()));

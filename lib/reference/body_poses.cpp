@@ -1,0 +1,25 @@
+#include "body_poses.h"
+#include "../stages/root_term.h"
+
+namespace bough {
+
+template <class T> BodyPoses body_poses(const Plan<T>& plan, const State<T>& state) {
+    BodyPoses poses;
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        Vec3 x = state.x_w[i].template cast<double>();
+        Mat3 R = state.R_wb[i].template cast<double>();
+        if (const Ground* ground = plan.root_motion ? ground_of(plan, state, i) : nullptr) {
+            x = ground->R.transpose() * (x - ground->x);
+            R = ground->R.transpose() * R;
+        }
+        poses.x.push_back(x);
+        poses.R.push_back(R);
+        poses.theta.push_back(state.theta[i].template cast<double>());
+    }
+    return poses;
+}
+
+template BodyPoses body_poses(const Plan<float>&, const State<float>&);
+template BodyPoses body_poses(const Plan<double>&, const State<double>&);
+
+} // namespace bough
