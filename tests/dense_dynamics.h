@@ -97,22 +97,57 @@ inline Vector centres(const Problem& p, Real s) {
     return all;
 }
 
-// (21)-(23) over kappa rho A.
+// (21)-(23) over kappa rho A; a leaf with a quarter of its drag from all sides, folding at 8 m/s.
 inline V3 air_force(bough::Kind kind, const M3& R, const V3& u) {
     if (kind == bough::Kind::fruit) return u.norm() * u;
-    if (bough::is_flat(kind)) return u.norm() * u.dot(R.col(1)) * R.col(1);
+    if (bough::is_flat(kind)) {
+        const V3 along = u.dot(R.col(1)) * R.col(1);
+        return u.norm() / (1 + u.norm() / 8) * (along + Real(0.25) * (u - along));
+    }
     const V3 across = u - u.dot(R.col(2)) * R.col(2);
     return across.norm() * across;
 }
 inline M3 air_damping(bough::Kind kind, const M3& R, const V3& u) {
-    if (bough::is_flat(kind)) {
-        const Real along = u.dot(R.col(1));
-        return (u.norm() + along * along / u.norm()) * (R.col(1) * R.col(1).transpose());
+    if (bough::is_flat(kind)) { // symmetric parts: of the drag from all sides, and along the normal
+        const Real U = u.norm(), g = 1 / (1 + U / 8), along = u.dot(R.col(1));
+        const M3 n = R.col(1) * R.col(1).transpose();
+        return Real(0.25) * (g * U * M3::Identity() + g * g / U * u * u.transpose()) +
+               Real(0.75) * (g * U + g * g / U * along * along) * n;
     }
     M3 D;
     for (int k = 0; k < 3; ++k)
         D.col(k) = first_derivative([&](Real s) { return air_force(kind, R, V3(u + s * V3::Unit(k))); });
     return D;
+}
+
+// [1/s] by which the air takes a leaf's own turning, times its inertia about the centre of mass; area: kappa rho A.
+inline Real spin_rate(bough::Kind kind, Real area, Real mass, const V3& u) {
+    return bough::is_flat(kind) ? 6 * area / mass * u.norm() / (1 + u.norm() / 8) : Real(0);
+}
+
+// [kg] First moments of kappa rho A about each joint of what it carries: a leaf counts outboard with its mean over all directions, to its own joint
+// with its drag from all sides. Sets leaves where there are some.
+inline std::vector<V3> drag_moments(const Problem& p, const Pose& pose, bool& leaves) {
+    std::vector<Real> carried(p.tree.size_bodies());
+    std::vector<V3> moment(p.tree.size_bodies(), V3::Zero());
+    leaves = false;
+    for (std::size_t i = p.tree.size_bodies(); i-- > 0;) {
+        const bool flat = bough::is_flat(p.tree.kind[i]);
+        leaves = leaves || flat;
+        carried[i] += p.plan.drag_area[i] * (flat ? Real(0.5) : Real(1));
+        moment[i] += p.plan.drag_area[i] * (flat ? Real(0.25) : Real(1)) * (pose.c[i] - pose.x[i]);
+        if (p.tree.parent[i] < 0) continue;
+        const auto q = std::size_t(p.tree.parent[i]);
+        carried[q] += carried[i];
+        moment[q] += carried[i] * (pose.x[i] - pose.x[q]);
+    }
+    return moment;
+}
+// [N m] What drag that pulls outward resists turning by.
+inline M3 streaming(const V3& moment, const V3& u, bool leaves) {
+    const V3 pull = u.norm() / (leaves ? 1 + u.norm() / 8 : Real(1)) * u;
+    if (!(moment.dot(pull) > 0)) return M3::Zero();
+    return moment.dot(pull) * (M3::Identity() - moment * moment.transpose() / moment.squaredNorm());
 }
 
 struct Solved {
@@ -127,6 +162,8 @@ inline Solved solve(const Problem& p) {
     const Vector v = first_derivative([&](Real s) { return centres(p, s); });
     const Vector a0 = second_derivative([&](Real s) { return centres(p, s); });
     std::vector<V3> omega(n), alpha0(n);
+    bool leaves = false;
+    const std::vector<V3> moments = p.air ? drag_moments(p, pose, leaves) : std::vector<V3>();
     Solved out{Matrix::Zero(3 * Eigen::Index(n), 3 * Eigen::Index(n)), Vector::Zero(3 * Eigen::Index(n)), {}};
     // A force at x and a moment on body i, as the joints of its path feel them.
     const auto push = [&](std::size_t i, const V3& x, const V3& force, const V3& moment) {
@@ -157,8 +194,17 @@ inline Solved solve(const Problem& p) {
                 moved += D;
                 force -= D * ai;
             }
+            const M3 spin = spin_rate(p.tree.kind[i], area, m, u) * I;
+            turning += p.h * spin;
+            moment -= spin * (omega[i] + p.h * alpha0[i]);
+            if (p.h > 0 && !p.plan.carried_drag.empty()) {
+                const M3 W = streaming(moments[i], u, leaves);
+                turning += p.h * p.h * W;
+                moment -= p.h * W * (omega[i] + p.h * alpha0[i]);
+            }
             if (p.h > 0 && bough::is_flat(p.tree.kind[i])) {
-                const M3 W = 2 * area * Real(p.tree.com[i].norm()) * u.squaredNorm() * R.col(0) * R.col(0).transpose();
+                const M3 W = Real(1.5) / (1 + u.norm() / 8) * area * Real(p.tree.com[i].norm()) * u.squaredNorm() *
+                             R.col(0) * R.col(0).transpose();
                 turning += p.h * p.h * W;
                 moment -= p.h * W * (omega[i] + p.h * alpha0[i]);
             }

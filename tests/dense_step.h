@@ -65,6 +65,8 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
     // What each body turns: its own first moment and its children's places times the mass outboard.
     std::vector<Real> outboard(n);
     std::vector<V3> carried(n, V3::Zero());
+    bool leaves = false;
+    const std::vector<V3> drag = p.air ? drag_moments(p, pose, leaves) : std::vector<V3>();
     for (std::size_t i = n; i-- > 0;) {
         outboard[i] += tree.mass[i];
         carried[i] += Real(tree.mass[i]) * (pose.c[i] - pose.x[i]);
@@ -100,8 +102,12 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             D = area * air_damping(tree.kind[b], pose.R[b], u);
             if (bough::is_flat(tree.kind[b])) {
                 const V3 x = pose.R[b].col(0);
-                H += 2 * area * Real(tree.com[b].norm()) * u.squaredNorm() * x * x.transpose();
+                H += Real(1.5) / (1 + u.norm() / 8) * area * Real(tree.com[b].norm()) * u.squaredNorm() * x *
+                     x.transpose();
             }
+            H += streaming(drag[b], u, leaves);
+            const M3 I = pose.R[b] * tree.inertia[b].cast<Real>() * pose.R[b].transpose();
+            C += turn.transpose() * spin_rate(tree.kind[b], area, tree.mass[b], u) * I * turn;
         }
         K += turn.transpose() * H * turn;
         C += move.transpose() * D * move;

@@ -183,7 +183,7 @@ inline void morph(const Glb& glb, const Json& primitive, const std::vector<doubl
     }
 }
 
-// Vertices of all primitives of the scene's skinned nodes, one after another, as the skin moves them.
+// Vertices of all primitives of the skinned nodes, one after another, as the skin moves them.
 inline std::vector<Vector3d> skinned(const Glb& glb, double time) {
     const std::vector<Matrix4d> world = node_matrices(glb, time);
     const Json& skin = glb.json["skins"][0];
@@ -193,8 +193,8 @@ inline std::vector<Vector3d> skinned(const Glb& glb, double time) {
         moved.push_back(world[std::size_t(skin["joints"][j])] * Eigen::Map<const Matrix4d>(&inverse[16 * j]));
     std::vector<Vector3d> all;
     std::vector<std::pair<Json, std::vector<double>>> primitives; // with the weights of their targets
-    for (const Json& root : glb.json["scenes"][0]["nodes"]) {
-        const Json& node = glb.json["nodes"][std::size_t(root)];
+    for (std::size_t root = 0; root < glb.json["nodes"].size(); ++root) {
+        const Json& node = glb.json["nodes"][root];
         if (!node.contains("skin")) continue;
         for (const Json& primitive : glb.json["meshes"][std::size_t(node["mesh"])]["primitives"])
             primitives.push_back({primitive, morph_weights(glb, root, time)});

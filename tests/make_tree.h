@@ -194,10 +194,15 @@ inline Tree forest(const std::vector<Tree>& trees) {
             t.inertia.push_back(more.inertia[i]);
             t.stiffness.push_back(more.stiffness[i]);
             t.damping.push_back(more.damping[i]);
+            if (!more.leaf_count.empty()) {
+                t.leaf_count.resize(t.parent.size(), 1);
+                t.leaf_count.back() = more.leaf_count[i];
+            }
             last_branch = std::max(last_branch, t.branch.back());
         }
         branches = last_branch + 1;
     }
+    if (!t.leaf_count.empty()) t.leaf_count.resize(t.parent.size(), 1);
     return t;
 }
 

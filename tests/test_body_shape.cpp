@@ -68,6 +68,28 @@ TEST_CASE("leaf prism equals the sum of its strips") {
     require_same(leaf_prism(length, width, thickness, 800), sliced(0, length, 800, area, across, along), 1e-11);
 }
 
+TEST_CASE("a leaf's blade equals the sum of its strips, a clump that of its discs, each with the mass of the leaf's "
+          "triangle") {
+    const double length = 0.09, width = 0.06, thickness = 0.004, mass = 800 * length * width / 2 * thickness;
+    // The blade: an ellipse over the outer two thirds. (Steep at its ends: the sum is less exact.)
+    const double a = length / 3, from = length / 3;
+    const auto half = [&](double z) {
+        return width / 2 * std::sqrt(std::max(0.0, 1 - std::pow((z - from - a) / a, 2)));
+    };
+    const double even = mass / (pi * a * width / 2 * thickness); // density that spreads it so
+    const auto area = [&](double z) { return 2 * half(z) * thickness; };
+    const auto across = [&](double z) { return 2 * half(z) * std::pow(thickness, 3) / 12; };
+    const auto along = [&](double z) { return thickness * std::pow(2 * half(z), 3) / 12; };
+    require_same(leaf_blade(length, width, thickness, 800), sliced(from, length, even, area, across, along), 1e-5);
+    // The clump: an ellipsoid of semi-axes width/2, 0.3 width, length/2.
+    const double x = width / 2, y = 0.3 * width, c = length / 2, filled = mass / (4 * pi / 3 * x * y * c);
+    const auto r2 = [&](double z) { return 1 - std::pow((z - c) / c, 2); };
+    const auto disc = [&](double z) { return pi * x * y * r2(z); };
+    const auto about_x = [&](double z) { return disc(z) * y * y * r2(z) / 4; };
+    const auto about_y = [&](double z) { return disc(z) * x * x * r2(z) / 4; };
+    require_same(leaf_clump(length, width, thickness, 800), sliced(0, length, filled, disc, about_x, about_y), 1e-10);
+}
+
 TEST_CASE("sphere equals the sum of its discs") {
     const double center = 0.05, radius = 0.03;
     const auto r2 = [&](double z) { return std::max(0.0, radius * radius - (z - center) * (z - center)); };

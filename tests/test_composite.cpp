@@ -43,7 +43,9 @@ bool outboard(const Tree& tree, std::size_t b, std::size_t j) { // b is j or han
 
 // Way along the tree from joint j to the centre of mass of b, which is outboard of it.
 double way(const Tree& tree, std::size_t b, std::size_t j) {
-    double length = tree.com[b].norm();
+    // Of a leaf, whose own turning the air damps, out to where its inertia would be in one point.
+    const double spread = is_flat(tree.kind[b]) ? tree.inertia[b].trace() / (2 * tree.mass[b]) : 0;
+    double length = std::sqrt(tree.com[b].squaredNorm() + spread);
     for (std::size_t k = b; k != j; k = std::size_t(tree.parent[k])) length += tree.joint_position[k].norm();
     return length;
 }
@@ -102,7 +104,9 @@ TEST_CASE("with wind, forces and drag of a composite are sums over the bodies ou
                 f += s.f_w[b];
                 tau += r.cross(s.f_w[b]);
                 drag += s.drag_f_w[b];
-                drag_tau += r.cross(s.drag_f_w[b]);
+                // A leaf's own turning is damped by a torque beside.
+                drag_tau +=
+                    r.cross(s.drag_f_w[b]) + s.drag_tau_w[b] - Vec3(s.R_wb[b] * tree.com[b]).cross(s.drag_f_w[b]);
                 size += (s.f_w[b].norm() + s.drag_f_w[b].norm()) * (1 + r.norm());
                 double W = 0; // how far the weights of the path move the body
                 for (std::int64_t k = std::int64_t(b); k >= 0; k = tree.parent[std::size_t(k)])

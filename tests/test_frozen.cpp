@@ -147,7 +147,7 @@ TEST_CASE("a wind that rises makes twigs anew, one that hardly changes does not;
         }
         return made / double(kept_joints(run));
     };
-    CHECK(made_anew(18) > 0.5);
+    CHECK(made_anew(30) > 0.5); // leaves fold: it takes more wind
     CHECK(made_anew(6.05) < 0.1);
 }
 

@@ -57,7 +57,7 @@ std::vector<Path> paths() {
             {"analytic, lanes", Solver::analytic, fast::best_target()}};
 }
 
-// Force and torque about the centre of mass by matrices in the leaf's own axes, written from the paper: (23), (24).
+// Force and torque about the centre of mass by matrices in the leaf's own axes, written from the paper, (23), (24), and from air.h: folding, turning.
 struct LeafLoad {
     Vec3 force, torque;
 };
@@ -66,10 +66,13 @@ LeafLoad paper_load(const LeafAir& by, const Tree& tree, std::size_t i, const Ma
     const double A = tree.size[i][0] * tree.size[i][1] / 2, phi = by.offset * std::acos(-1.0) / 180;
     const Vec3 v = R.transpose() * u, n(0, 1, 0), vn = v.dot(n) * n, vt = v - vn;
     const Mat3 nx = cross_matrix(n);
-    const Vec3 f = by.kappa * 1.2 * A * v.norm() * vn + by.air_resistance * tree.mass[i] * (vn + vt / by.drag_ratio);
+    const double g = 1 / (1 + v.norm() / 8); // folding at 8 m/s; a quarter of the drag from all sides
+    const Vec3 f = by.kappa * 1.2 * A * g * v.norm() * (vn + 0.25 * vt) +
+                   by.air_resistance * tree.mass[i] * (vn + vt / by.drag_ratio);
     const Vec3 t = by.kappa * 1.2 * A / 2 * std::sqrt(A / std::acos(-1.0)) * v.dot(n) *
                        (nx * (v * std::cos(phi) + nx * v * std::sin(phi))) -
-                   by.air_resistance * tree.inertia[i] * (R.transpose() * omega);
+                   (by.air_resistance + 6 * g * v.norm() * by.kappa * 1.2 * A / tree.mass[i]) * tree.inertia[i] *
+                       (R.transpose() * omega);
     return {R * f, R * t};
 }
 

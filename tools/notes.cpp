@@ -1,6 +1,7 @@
 #include "notes.h"
 #include "lib/fast/shared_constants.h"
 #include "lib/model/counted.h"
+#include <algorithm>
 #include <array>
 #include <iomanip>
 #include <sstream>
@@ -42,6 +43,19 @@ std::string explanation(const Plan<T>& plan, const std::vector<std::string>& cha
     return text.str();
 }
 
+// What turned too fast for the step to follow. Where that is a body in a thousand there is nothing to do about it.
+template <class T>
+void note_fast_turns(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps, std::vector<std::string>& notes) {
+    const double all = double(steps) * double(plan.bodies);
+    const std::uint64_t most = std::max({flags.half_turns, flags.energy_guard, flags.fast_turns});
+    if (!(double(most) > 1e-3 * all)) return;
+    std::ostringstream text;
+    text << std::setprecision(2) << 100 * double(most) / all << " % of the bodies' steps turned too fast for the step ("
+         << flags.fast_turns << " by more than a radian, " << flags.half_turns << " past half a turn, "
+         << flags.energy_guard << " held from gaining energy): --substeps 2 shows whether it matters";
+    notes.push_back(text.str());
+}
+
 template <class T>
 void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps, std::vector<std::string>& notes) {
     if (flags.buckling > 0)
@@ -49,16 +63,9 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
                         " a joint was softer than gravity's pull on it (buckling)");
     if (flags.bounded_lambda > 0)
         notes.push_back(counted(flags.bounded_lambda, "time", "times") + " a joint's growth in a step was bounded");
-    if (flags.half_turns > 0)
-        notes.push_back(counted(flags.half_turns, "time", "times") +
-                        " a joint turned past half a turn: the small angles that the method assumes are left");
-    if (flags.energy_guard > 0)
-        notes.push_back(counted(flags.energy_guard, "time", "times") +
-                        " a joint was kept from gaining energy in a turn of more than 0.3 rad in a step");
+    note_fast_turns(plan, flags, steps, notes);
     if (flags.limited > 0)
         notes.push_back(counted(flags.limited, "time", "times") + " a joint was stopped at its limit, as asked");
-    if (flags.fast_turns > 0)
-        notes.push_back(counted(flags.fast_turns, "time", "times") + " a body turned by more than a radian in a step");
     if (flags.refreshed > 0) {
         std::ostringstream share;
         share << std::setprecision(3) << 100 * double(flags.refreshed) / (double(steps) * double(plan.bodies));

@@ -32,14 +32,15 @@ template <class T> Vector3<T> wind_change(const State<T>& state, const Vector3<T
     return state.wind.factor(place.y()) * change;
 }
 
-// leaf_air.h, but for nu I in the inertia, which is the resolvent's.
+// leaf_air.h.
 // Apart, so that scenes without it have none of it in their way.
 template <class T>
 [[gnu::noinline]] void add_leaf(const Plan<T>& plan, CoupledBody<T>& b, std::size_t i, const Vector3<T>& u) {
     const T m = plan.mass[i], scale = plan.drag_area[i];
     b.D += leaf_damping(plan.leaf, m, b.R);
     b.air += leaf_resistance(plan.leaf, m, b.R, u);
-    b.N += leaf_spin_damping(plan.leaf, m, b.J, b.c) * b.omega_0 - leaf_torque(plan.leaf, scale, b.R, u);
+    b.spin += plan.leaf.across;
+    b.N -= leaf_torque(plan.leaf, scale, b.R, u);
     b.H += leaf_turning(plan.leaf, scale, m, plan.com[i].norm(), b.R, u);
 }
 
@@ -50,12 +51,15 @@ template <class T> void add_air(const Plan<T>& plan, const State<T>& state, Coup
     b.D = scale * air_damping(plan.kind[i], b.R, u);
     const Vector3<T> ahead = b.v - b.v_0 + (b.omega - b.omega_0).cross(b.c);
     b.air = scale * air_force(plan.kind[i], b.R, u).force;
+    b.spin = spin_rate(plan.kind[i], scale, plan.mass[i], u);
     if (plan.leaf.on && is_flat(plan.kind[i])) add_leaf(plan, b, i, u);
+    if (b.spin > 0) b.N += b.spin * (central_inertia(plan.mass[i], b.J, b.c) * b.omega_0);
     const Vector3<T> f = b.air + b.D * ahead;
     b.F -= f;
     b.N -= b.c.cross(f);
     b.slope_F = -b.D * sheltered(plan, i, wind_change(state, place, clock_of(plan, i)));
     b.slope_N = b.c.cross(b.slope_F);
+    b.H += streaming_stiffness(plan.foliage, Vector3<T>(b.R * plan.carried_drag[i]), u);
     if (is_flat(plan.kind[i])) b.H += scale * plan.com[i].norm() * air_turning(plan.kind[i], b.R, u);
 }
 

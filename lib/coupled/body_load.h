@@ -8,8 +8,11 @@
 // of its potential, which is block diagonal in the bodies' absolute rotations (the body's first moment is that of
 // all it carries: P = R (m c + sum over children of (mass outboard) d), a constant in the body's axes):
 //   H = (P.g) 1 - (P g^T + g P^T) / 2
-// The air's on plates: the bound of air.h on how fast its moment may turn, and leaf_air.h's where there is /leaves, which brings to N its torque
-// too: of that, nu I omega at omega_0, as its change is the resolvent's.
+// The air's: what the drag of all that the body carries, streaming with the wind, resists its turning by (air.h). Without it ends that stream in a
+// storm, where drag is twenty times their weight, flutter at one step a frame, and the tree stands too straight: a birch of 1 000 bodies in
+// steady 35 m/s leaned by 0.47 m instead of 0.52 m. On plates also the bound of air.h on how fast their moment may turn, and leaf_air.h's where
+// there is /leaves, which brings to N its torque too. What the air takes of a body's own turning, spin I omega, is in N at omega_0, as its change is
+// the resolvent's.
 // slope: known functions of time, the wind's velocity U and the pulls: D (U(t+h) - U(t)), f(t+h) - f(t).
 // Torque of the joint, world: rates^T (-K (theta_0 + beta eta_0)), and rates^T K eta_0 its rate.
 // Reads   the first part of coupled, theta, theta_dot, wind, wind_change. Writes the second. O(n), bodies in parallel. Errors none.

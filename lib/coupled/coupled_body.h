@@ -23,6 +23,7 @@ template <class T> struct CoupledBody {
     Matrix3<T> H;                // [N m/rad] gravity's stiffness and the air's in turning
     Matrix3<T> D;                // [N s/m] the air's damping at the centre of mass; with wind alone
     Vector3<T> air;              // [N] the air's force at y*; with wind alone
+    T spin;                      // [1/s] what the air takes of its own turning, times I; with wind alone
     Vector3<T> N, F;             // [N m], [N] that the motion at y* with those biases asks for, less the forces
     Vector3<T> slope_N, slope_F; // [N m], [N] what they change by over the step with time; with wind or pulls
     Vector3<T> torque;           // [N m] of the joint's own spring and damper at y0
@@ -40,16 +41,22 @@ template <class S> struct ResolventBody {
 
 // A body as the energy guard weighs it (energy_guard.h), velocities at its joint, world: by slow joints and by fast ones.
 template <class T> struct GuardBody {
-    Vector3<T> com;                // [m] at the step's start
+    Vector3<T> com, joint;         // [m] at the step's start
     Vector3<T> v, omega;           // [m/s], [rad/s]
     Vector3<T> v_fast, omega_fast; // [m/s], [rad/s]
-    std::uint32_t tree = 0;        // account
+    // Of ends of branches: the centre of mass from the joint at the start, in the axes of what carries it [m]; the velocity that it would have
+    // had, borne as if fixed, and had [m/s]; that carrier's turning [rad/s]; pulls on it [N]
+    Vector3<T> arm, carried, host_omega, push;
+    double own = 0;         // [J] kinetic and elastic at the start, as seen from what carries it
+    T keep = 1;             // what its rate is scaled by
+    std::uint32_t tree = 0; // account
     bool fast = false;
 };
 
 // Energies [J] of one root's tree in one step.
 struct EnergyAccount {
-    bool watched = false;
+    bool watched = false; // some body of the tree turns fast
+    bool wood = false;    // and one of wood
     double kinetic = 0,
            gained = 0; // at the start; potential energy gained in the step less the work done by the air and pulls
     double slow = 0, mixed = 0, fast = 0; // kinetic at the end, (slow + 2 x mixed + x^2 fast) at x = 1

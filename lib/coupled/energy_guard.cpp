@@ -30,9 +30,17 @@ template <class T> Vector3<T> joint_spin(const State<T>& s, std::size_t i) {
     return s.R_wb[i] * (body_rate_jacobian(s.theta[i]) * s.theta_dot[i]);
 }
 
-// The pulls' work, from their points at the start (sign 1) to those at the end (-1), as seen from the ground.
+// By its joint alone.
+template <class T> double own_kinetic(const Plan<T>& plan, const State<T>& s, std::size_t i) {
+    const Vector3<T> rate = body_rate_jacobian(s.theta[i]) * s.theta_dot[i];
+    return double(rate.dot(plan.inertia_joint[i] * rate) / 2);
+}
+
+// The pulls' work on wood, from their points at the start (sign 1) to those at the end (-1), as seen from the ground; at the end
+// their forces on ends of branches.
 template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, double time, double sign) {
     visit_pushes(plan, s, time + plan.dt / 2, [&](std::size_t body, const Vector3<T>& point_b, const Vector3<T>& f) {
+        if (is_end(plan, body) && sign > 0) s.guard[body].push += f;
         Vector3<T> point = s.x_w[body] + s.R_wb[body] * point_b;
         const GroundStep<T>* ground = ground_step_of(plan, s, body);
         if (ground && sign < 0) point -= carried_by(*ground, T(plan.dt));
@@ -40,60 +48,105 @@ template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, double time
     });
 }
 
+template <class T> void start_of(const Plan<T>& plan, State<T>& s, std::size_t i) {
+    GuardBody<T>& b = s.guard[i];
+    EnergyAccount& account = s.account[b.tree];
+    b.joint = s.x_w[i];
+    b.com = s.x_w[i] + s.R_wb[i] * plan.com[i];
+    b.v.setZero();
+    b.omega.setZero();
+    b.push.setZero();
+    Matrix3<T> host = Matrix3<T>::Identity();
+    if (plan.parent[i] >= 0) {
+        const auto p = std::size_t(plan.parent[i]);
+        host = s.R_wb[p];
+        b.omega = s.guard[p].omega;
+        b.v = s.guard[p].v + b.omega.cross(Vector3<T>(s.x_w[i] - s.x_w[p]));
+    }
+    if (is_end(plan, i)) {
+        b.arm = host.transpose() * (b.com - b.joint);
+        b.carried = b.v + b.omega.cross(Vector3<T>(b.com - b.joint));
+        b.host_omega = b.omega;
+        b.own = own_kinetic(plan, s, i) + elastic(plan, i, s.theta[i]);
+    }
+    b.omega += joint_spin(s, i);
+    account.kinetic += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
+    account.gained -= elastic(plan, i, s.theta[i]);
+}
+
 } // namespace
 
 template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s, double time) {
-    const T limit = T(watched_turn / plan.dt);
     for (EnergyAccount& account : s.account) account = {};
     std::uint32_t trees = 0;
     bool any = false;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         GuardBody<T>& b = s.guard[i];
         b.tree = plan.parent[i] < 0 ? trees++ : s.guard[std::size_t(plan.parent[i])].tree;
+        const T limit = T((is_end(plan, i) ? watched_end_turn : watched_turn) / plan.dt);
         const Vector3<T> rate = s.theta_dot[i] + s.theta_dot_change[i];
         if (!(s.coupled[i].omega.squaredNorm() > limit * limit || rate.squaredNorm() > limit * limit)) continue;
         if (turns(ground_step_of(plan, s, i))) continue;
         s.account[b.tree].watched = any = true;
+        if (!is_end(plan, i)) s.account[b.tree].wood = true;
     }
     if (!any) return false;
-    for (std::size_t i = 0; i < plan.bodies; ++i) {
-        GuardBody<T>& b = s.guard[i];
-        EnergyAccount& account = s.account[b.tree];
-        if (!account.watched) continue;
-        b.com = s.x_w[i] + s.R_wb[i] * plan.com[i];
-        b.v.setZero();
-        b.omega.setZero();
-        if (plan.parent[i] >= 0) {
-            const auto p = std::size_t(plan.parent[i]);
-            b.omega = s.guard[p].omega;
-            b.v = s.guard[p].v + b.omega.cross(Vector3<T>(s.x_w[i] - s.x_w[p]));
-        }
-        b.omega += joint_spin(s, i);
-        account.kinetic += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
-        account.gained -= elastic(plan, i, s.theta[i]);
-    }
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (s.account[s.guard[i].tree].watched) start_of(plan, s, i);
     book_pulls(plan, s, time, 1);
     return true;
 }
 
 namespace {
 
-// Work [J] of the air on a body that moved so far. Whatever the body does, its power is at most kappa rho A times 4/27 |U|^3 (branch,
-// fruit; at a third of the wind's speed U) or |u| U_n^2 / 4 (plate), and of a leaf's resistance nu m |U|^2 / 4: what the linear model has beyond
-// that is its error. The torque of leaf_air.h is not booked: what it puts into a leaf that turns fast is taken again.
+// Work [J] of the air on a body that moved so far, `own` of it as seen from what carries it. Whatever the body does, its power is at most
+// kappa rho A times 4/27 |U|^3 (branch, fruit, clump; at a third of the wind's speed U) or |u| U_n^2 / 4 (plate), and of a leaf's resistance
+// nu m |U|^2 / 4: what the linear model has beyond that is its error. The torque of leaf_air.h is not booked: what it puts into a leaf that
+// turns fast is taken again.
 template <class T>
 double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved, const Vector3<T>& own) {
     const CoupledBody<T>& y = s.coupled[i];
-    const Vector3<T> mean = moved / T(plan.dt), ground = (moved - own) / T(plan.dt);
-    const Vector3<T> U = wind_on_body_at(plan, i, s.wind, Vector3<T>(y.x + y.c)) - ground;
+    const Vector3<T> mean = moved / T(plan.dt), carried = (moved - own) / T(plan.dt);
+    const Vector3<T> U = wind_on_body_at(plan, i, s.wind, Vector3<T>(y.x + y.c)) - carried;
     const Vector3<T> ahead = mean - y.v - y.omega.cross(y.c);
     const T speed = U.norm();
     const T most =
-        is_flat(plan.kind[i]) ? (U + ground - mean).norm() * speed * speed / 4 : T(4.0 / 27) * speed * speed * speed;
+        is_flat(plan.kind[i]) ? (U + carried - mean).norm() * speed * speed / 4 : T(4.0 / 27) * speed * speed * speed;
     T limit = T(plan.dt) * plan.drag_area[i] * most;
     if (plan.leaf.on && is_flat(plan.kind[i]))
         limit += T(plan.dt) * plan.mass[i] * plan.leaf.most * (speed * speed / 4);
     return double(std::min((y.air - y.D * ahead).dot(own), limit));
+}
+
+template <class T>
+void weigh_end_of_branch(const Plan<T>& plan, State<T>& s, std::size_t i, const Vector3<T>& own, const Vector3<T>& g) {
+    GuardBody<T>& b = s.guard[i];
+    const T h = T(plan.dt), m = plan.mass[i];
+    const Vector3<T> c = s.R_wb[i] * plan.com[i], moved = s.x_w[i] + c - b.com;
+    Vector3<T> arm = b.arm;
+    if (plan.parent[i] >= 0) arm = s.R_wb[std::size_t(plan.parent[i])] * b.arm;
+    const Vector3<T> omega = b.omega + b.omega_fast, v = b.v + b.v_fast; // of what carries it
+    const Vector3<T> spin = joint_spin(s, i);
+    const Vector3<T> by_itself = c - arm;
+    const Vector3<T> a = (v + omega.cross(arm) - b.carried) / h;
+    b.keep = 1;
+    if (b.push.isZero(0) && (omega + spin).norm() * h > T(watched_end_turn)) {
+        const Matrix3<T> I =
+            s.R_wb[i] * plan.inertia_joint[i] * s.R_wb[i].transpose() + m * cross_matrix(c) * cross_matrix(c);
+        const double now = own_kinetic(plan, s, i);
+        double work = double(m * (g - a).dot(by_itself)) - double((I * (omega - b.host_omega)).dot(spin));
+        if (plan.wind) work += air_work(plan, s, i, moved, by_itself);
+        const double excess = now + elastic(plan, i, s.theta[i]) - b.own - work;
+        if (excess > tolerance * now) b.keep = T(std::sqrt(std::max(0.0, 1 - excess / now)));
+    }
+    // In the tree's balance with what it keeps.
+    EnergyAccount& account = s.account[b.tree];
+    b.omega += b.keep * spin;
+    account.slow += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
+    account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);
+    account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
+    account.gained += elastic(plan, i, s.theta[i]) - double(m * g.dot(own));
+    if (plan.wind) account.gained -= air_work(plan, s, i, moved, own);
 }
 
 template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t i) {
@@ -109,24 +162,26 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
         b.v = p.v + p.omega.cross(arm);
         b.v_fast = p.v_fast + p.omega_fast.cross(arm);
     }
+    Vector3<T> own = moved, g = plan.scene.gravity.template cast<T>();
+    if (const GroundStep<T>* ground = ground_step_of(plan, s, i)) {
+        own -= carried_by(*ground, T(plan.dt));
+        g -= ground->a;
+    }
+    if (is_end(plan, i)) return weigh_end_of_branch(plan, s, i, own, g);
     const Vector3<T> spin = joint_spin(s, i);
     b.fast = (b.omega + b.omega_fast + spin).norm() * T(plan.dt) > T(watched_turn);
     (b.fast ? b.omega_fast : b.omega) += spin;
     account.slow += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
     account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);
     account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
-    Vector3<T> own = moved, g = plan.scene.gravity.template cast<T>();
-    if (const GroundStep<T>* ground = ground_step_of(plan, s, i)) {
-        own -= carried_by(*ground, T(plan.dt));
-        g -= ground->a;
-    }
     account.gained += elastic(plan, i, s.theta[i]) - double(plan.mass[i] * g.dot(own));
     if (plan.wind) account.gained -= air_work(plan, s, i, moved, own);
 }
 
 } // namespace
 
-void settle(EnergyAccount& a) {
+void settle(EnergyAccount& a, bool foliage) {
+    if (!a.wood) return;
     const double now = a.slow + 2 * a.mixed + a.fast, excess = now - a.kinetic + a.gained;
     if (!(excess > tolerance * now)) return;
     const double target = now - excess;
@@ -139,6 +194,7 @@ void settle(EnergyAccount& a) {
         return;
     }
     a.keep_fast = least;
+    if (foliage && !(a.fast > 0.01 * a.slow)) return;
     a.keep_slow = at_least > 0 ? std::sqrt(std::max(0.0, target) / at_least) : 1;
     a.keep_fast *= a.keep_slow;
 }
@@ -148,10 +204,12 @@ template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, double ti
         if (s.account[s.guard[i].tree].watched) weigh_end(plan, s, i);
     book_pulls(plan, s, time, -1);
     for (EnergyAccount& account : s.account)
-        if (account.watched) settle(account);
+        if (account.watched) settle(account, plan.foliage);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const EnergyAccount& account = s.account[s.guard[i].tree];
-        const double keep = s.guard[i].fast ? account.keep_fast : account.keep_slow;
+        if (!account.watched) continue;
+        double keep = s.guard[i].fast ? account.keep_fast : account.keep_slow;
+        if (is_end(plan, i)) keep = double(s.guard[i].keep) * account.keep_slow;
         if (!(keep < 1)) continue;
         s.theta_dot[i] *= T(keep);
         s.theta_change[i] = T(plan.dt) * s.theta_dot[i];

@@ -36,7 +36,7 @@ template <class T, class S> struct Solve {
             q.A += s1 * cDc.template cast<S>();
             q.B += s1 * cD.template cast<S>();
             q.M += s1 * b.D.template cast<S>();
-            if (plan.leaf.on && is_flat(plan.kind[i])) damp_spin(q, b, m);
+            if (b.spin > 0) damp_spin(q, b, m);
         }
         if (plan.forces) {
             q.N += slope * b.slope_N.template cast<S>();
@@ -45,7 +45,7 @@ template <class T, class S> struct Solve {
     }
 
     [[gnu::noinline]] void damp_spin(ResolventBody<S>& q, const CoupledBody<T>& b, T m) {
-        q.A += s1 * leaf_spin_damping(plan.leaf, m, b.J, b.c).template cast<S>();
+        q.A += (s1 * b.spin) * central_inertia(m, b.J, b.c).template cast<S>();
     }
 
     void eliminate(std::size_t i) {

@@ -3,7 +3,7 @@
 //
 // Equation, divided by s^2 and in accelerations: of every body
 //   N = A alpha + B a + N_0,  F = B^T alpha + M a + F_0,  and about every joint  N = tau - Z (joint's acceleration), with
-//   A = J + H/s^2 + [c] D [c]^T/s,  B = m [c] + [c] D/s,  M = m 1 + D/s,   Z = (beta/s + 1/s^2) rates^T K rates
+//   A = J + H/s^2 + ([c] D [c]^T + spin I)/s,  B = m [c] + [c] D/s,  M = m 1 + D/s,   Z = (beta/s + 1/s^2) rates^T K rates
 //   N_0 = N + H (omega_0 less the ground's)/s + (1/p - 1/2) slope_N,  F_0 = F + (1/p - 1/2) slope_F,   tau = torque - torque_rate/s
 // Inward, E = (A + Z)^-1, u = tau - N_0:
 //   A' = Z E A, B' = Z E B, M' = M - B^T E B, N' = N_0 + A E u, F' = F_0 + B^T E u, shifted by r to the parent's joint.

@@ -10,4 +10,7 @@ constexpr double extrapolated_turn = 0.3;
 // [rad] that a body turns by in a step, from which on the energy guard looks at its tree (energy_guard.h).
 constexpr double watched_turn = 0.3;
 
+// And of a leaf, a clump or fruit, whose own balance it looks at.
+constexpr double watched_end_turn = 1;
+
 } // namespace bough

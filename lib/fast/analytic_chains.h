@@ -72,14 +72,16 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     };
 
     // The air's force over kappa rho A, and its speed (air.h).
-    template <Kind kind> BOUGH_FORCE static V3<W> air_force(const V3<W>& u, W& speed) {
+    template <Kind kind> BOUGH_FORCE static V3<W> air_force(const V3<W>& u, W& speed, T fold) {
         if constexpr (kind == Kind::branch) {
             speed = root(W(u.x * u.x + u.y * u.y));
             return {speed * u.x, speed * u.y, W{}};
         } else {
             speed = root(dot(u, u));
+            speed = Base::unfolded(fold, speed) * speed;
             if constexpr (kind == Kind::fruit) return speed * u;
-            return {W{}, speed * u.y, W{}};
+            const W streams = T(streaming_drag) * speed;
+            return {streams * u.x, speed * u.y, streams * u.z};
         }
     }
 
@@ -103,8 +105,21 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         return {scratch + (loads + (row - block.first_row) * std::size_t(analytic::leaf_torque_count)) * L + lane};
     }
 
+    // damp_spin of external_forces.cpp, onto what is loaded.
+    BOUGH_FORCE void damp_spin(const Rows<const T>& k, std::uint32_t row, int lane, const W& rate,
+                               const V3<W>& omega) const {
+        const Rows<T> out = loaded_of(row, lane);
+        const W mass = k.real(constant::mass);
+        const V3<W> c = k.vector(constant::com);
+        const Symmetric<W> spin = spin_damping(rate, mass, k.symmetric(constant::inertia_joint), c);
+        leaf_torque_of(row, lane).set(0, -(spin * omega));
+        const W per_arm = 1 / larger(k.real(constant::com_distance), all(T(1e-9)));
+        const W bound = mass * rate * (1 - dot(c, c) * (per_arm * per_arm));
+        out.set(loaded::drag, W(out.real(loaded::drag) + k.real(constant::sway) * bound));
+    }
+
     // leaf_in_wind of external_forces.cpp, onto what is loaded.
-    [[gnu::noinline]] void add_leaf(std::uint32_t row, int lane, V3<W> still, V3<W> moving, V3<W> omega) const {
+    [[gnu::noinline]] void add_leaf(std::uint32_t row, int lane, V3<W> still, V3<W> moving) const {
         const Rows<const T> k = constants_of(row, lane);
         const Rows<T> out = loaded_of(row, lane);
         const LeafTerms<T>& terms = rows.leaf;
@@ -114,14 +129,14 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         const V3<W> f{along * still.x, across * still.y, along * still.z},
             drag_f{along * v.x, across * v.y, along * v.z};
         const V3<W> at_rest = leaf_torque(terms, lever, n, still);
-        const Symmetric<W> spin = leaf_spin_damping(terms, mass, k.symmetric(constant::inertia_joint), c);
         out.set(loaded::f, out.vector(loaded::f) + f);
         out.set(loaded::tau, out.vector(loaded::tau) + cross(c, f) + at_rest);
         out.set(loaded::drag_f, out.vector(loaded::drag_f) - drag_f);
-        leaf_torque_of(row, lane).set(0, leaf_torque(terms, lever, n, moving) - at_rest - spin * omega);
+        const Rows<T> torque = leaf_torque_of(row, lane);
+        torque.set(0, torque.vector(0) + leaf_torque(terms, lever, n, moving) - at_rest);
         const W speed = root(dot(still, still)), per_arm = 1 / larger(k.real(constant::com_distance), all(T(1e-9)));
-        const W spread = 1 - dot(c, c) * (per_arm * per_arm), resisted = terms.most * mass, pressed = lever * per_arm;
-        const W bound = resisted + across * spread + pressed * (root(dot(moving, moving)) + speed);
+        const W resisted = terms.most * mass, pressed = lever * per_arm;
+        const W bound = resisted + pressed * (root(dot(moving, moving)) + speed);
         const W sway = k.real(constant::sway);
         out.set(loaded::drag, W(out.real(loaded::drag) + sway * bound));
         out.set(loaded::wind, W(out.real(loaded::wind) + sway * resisted));
@@ -147,7 +162,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         }
     }
 
-    template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane) const {
+    template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane, T fold) const {
         const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
         const Rows<T> out = loaded_of(row, lane);
         prefetch_constants<Own::template frozen<kind>>(constants_at(row + 1, lane));
@@ -177,18 +192,26 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             const W scale = k.real(constant::drag_area);
             const W still2 = dot(still, still), still_speed = root(still2);
             W speed_0, speed_1;
-            const V3<W> f0 = air_force<kind>(still, speed_0), f1 = air_force<kind>(moving, speed_1);
+            const V3<W> f0 = air_force<kind>(still, speed_0, fold), f1 = air_force<kind>(moving, speed_1, fold);
             const V3<W> force = scale * f0;
             out.set(loaded::f, force);
             out.set(loaded::tau, cross(c, force));
             out.set(loaded::drag_f, scale * (f1 - f0));
             const W sway = scale * k.real(constant::sway);
             out.set(loaded::drag, W(sway * (speed_1 + speed_0)));
-            out.set(loaded::wind, W(sway * still_speed));
+            const W pressing = kind == Kind::branch ? still_speed : speed_0;
+            out.set(loaded::wind, W(sway * pressing));
             constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);
-            out.set(loaded::turn, W(turns * scale * still2));
+            out.set(loaded::turn, W(turns * scale * pressing * still_speed));
+            if constexpr (kind != Kind::branch)
+                if (fold > 0) {
+                    W rate = T(kind == Kind::leaf ? blade_turning : clump_turning) * scale /
+                             larger(k.real(constant::mass), all(T(1e-30))) * speed_1;
+                    if (kind == Kind::leaf && rows.leaf.on) rate = rate + rows.leaf.across;
+                    damp_spin(k, row, lane, rate, f.omega);
+                }
             if constexpr (kind == Kind::leaf)
-                if (rows.leaf.on) add_leaf(row, lane, still, moving, f.omega);
+                if (rows.leaf.on) add_leaf(row, lane, still, moving);
         } else if constexpr (pulls) {
             for (int j = 0; j < 6; ++j) out.set(loaded::f + j, W{});
         }
@@ -210,7 +233,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                 }
             }
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step_out<kind>(f, row, lane);
+                step_out<kind>(f, row, lane, Base::fold_of(g.kind));
                 if (!placed || rows.fork_of_row[row] < 0) continue;
                 q.set(outward::R_bw, f.R_bw);
                 q.set(outward::omega, f.omega);
@@ -351,8 +374,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                     add(q, forks.rows());
                 }
                 if constexpr (wind)
-                    if (rows.leaf.on && g.kind == Kind::leaf)
-                        q.drag_tau = q.drag_tau + leaf_torque_of(row, lane).vector(0);
+                    if (is_foliage(g.kind)) q.drag_tau = q.drag_tau + leaf_torque_of(row, lane).vector(0);
                 own().joint_loaded(g.kind, row, lane, step_in(q, row, lane));
             }
             Records<T, inward_count> base;
@@ -376,7 +398,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             if (!wind || g.kind == Kind::branch)
                 group_out<Kind::branch>(g);
             else if constexpr (wind) {
-                if (g.kind == Kind::fruit)
+                if (!is_flat(g.kind))
                     group_out<Kind::fruit>(g);
                 else
                     group_out<Kind::leaf>(g);

@@ -39,7 +39,7 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     Lanes<T>& lanes = state.lanes;
     const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
     const std::size_t count =
-        std::size_t(analytic::loaded::count + (plan.leaf.on ? analytic::leaf_torque_count : 0)); // a row
+        std::size_t(analytic::loaded::count + (plan.foliage ? analytic::leaf_torque_count : 0)); // a row
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
     T* top_scratch = room(lanes.scratch[threads], (blocks[0].end_row - blocks[0].first_row) * count);

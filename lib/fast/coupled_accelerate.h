@@ -79,7 +79,8 @@ template <class T> struct CoupledAccelerate : SweepParts<T> {
                 const W angle2 = dot(theta, theta), rate2 = dot(eta, eta);
                 if (rows.ends) {
                     // As the plain step looks at theta_dot at the start and its change: the rate at the end.
-                    if (any_above(rate2, fast2())) mark(g.first_base, lane, rate2, flags);
+                    const bool wood = g.kind == Kind::branch;
+                    if (any_above(rate2, fast2(wood))) mark(g.first_base, lane, rate2, wood, flags);
                     sizes = sizes + (angle2 + rate2);
                     if (any_above(angle2, all(about_half_turn2)))
                         turn_back(y1, flags, constants(row, lane).real(constant::mass));

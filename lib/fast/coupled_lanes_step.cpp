@@ -1,6 +1,7 @@
 #include "coupled_lanes_step.h"
 #include "../coupled/half_turn.h"
 #include "../coupled/midpoint.h"
+#include "../stages/air_constants.h"
 #include "../stages/external_forces.h"
 #include "../stages/root_term.h"
 #include "../stages/spring.h"
@@ -96,6 +97,7 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
         const Pull& pull = plan.scene.pulls[on.source];
         put(on.change, pull_force(pull, time + h) - pull_force(pull, time));
     }
+    rows.fold = plan.foliage ? T(1 / fold_speed) : T(0);
     rows.shorten = shorten<T>;
     place_grounds(plan, state, time, slope);
     return rows;

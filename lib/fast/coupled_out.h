@@ -130,36 +130,44 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
     struct LeafIn {
         M3<W> R;
         V3<W> u, ahead, change; // [m/s] past the centre of mass; its velocity ahead; the wind's over the step
-        V3<W> omega_0, turn, own;
+        V3<W> turn, own;
     };
-    // leaf_air.h, onto what is loaded. nu I is damping, which the sweep inward has none of in turning: as s1 = 1/s and s2 = s1^2 are complex,
-    // s1 = x + y s2 with the reals x = |s1|^2 / (2 Re s1), y = 1 / (2 Re s1), and it goes to J and H in these parts.
+    // What the air takes of a body's own turning, onto what is loaded. It is damping, which the sweep inward has none of in turning: as s1 = 1/s
+    // and s2 = s1^2 are complex, s1 = x + y s2 with the reals x = |s1|^2 / (2 Re s1), y = 1 / (2 Re s1), and it goes to J and H in these parts.
+    BOUGH_FORCE void damp_spin(const Rows<T>& out, const W& rate, const W& mass, const V3<W>& c, const V3<W>& omega_0,
+                               Symmetric<W>& J, Symmetric<W>& H, V3<C>& N) const {
+        const Symmetric<W> G = spin_damping(rate, mass, J, c);
+        const V3<W> taken = G * omega_0;
+        N = N + complex(taken, V3<W>{});
+        const T y = 1 / (2 * rows.s1[0]), x = (rows.s1[0] * rows.s1[0] + rows.s1[1] * rows.s1[1]) * y;
+        J = J + x * G;
+        H = H + y * G;
+        out.set(loaded::J, J);
+    }
+    // leaf_air.h, but for nu I w, onto what is loaded.
     [[gnu::noinline]] void add_leaf(const Rows<const T>& k, const Rows<T>& out, LeafIn in) const {
         const LeafTerms<T>& terms = rows.leaf;
         const W mass = k.real(constant::mass), scale = k.real(constant::drag_area), lever = leaf_lever(terms, scale);
         const V3<W> com = k.vector(constant::com), c = out.vector(loaded::c);
         const W speed2 = dot(in.u, in.u);
-        const Symmetric<W> J = out.symmetric(loaded::J), D = leaf_damping(terms, mass, in.R.y);
-        const Symmetric<W> G = leaf_spin_damping(terms, mass, J, c);
+        const Symmetric<W> D = leaf_damping(terms, mass, in.R.y);
         const Symmetric<W> H = across(W(2 * lever * speed2), in.R.y) +
                                across(W(2 * terms.most * mass * root(dot(com, com)) * root(speed2)), in.R.z);
         const V3<W> slope = D * in.change, f = D * (in.u + in.ahead) + rows.slope[0] * slope,
                     fi = rows.slope[1] * slope;
         const V3<W> bent_by = in.turn - rows.s1[0] * in.own;
-        const V3<W> N = G * in.omega_0 - leaf_torque(terms, lever, in.R.y, in.u) - cross(c, f) - H * bent_by,
+        const V3<W> N = -leaf_torque(terms, lever, in.R.y, in.u) - cross(c, f) - H * bent_by,
                     Ni = rows.s1[1] * (H * in.own) - cross(c, fi);
         out.set(loaded::N, out.complex_vector(loaded::N) + complex(N, Ni));
         out.set(loaded::F, out.complex_vector(loaded::F) + complex(-f, -fi));
         out.set(loaded::D, out.symmetric(loaded::D) + D);
-        const T y = 1 / (2 * rows.s1[0]), x = (rows.s1[0] * rows.s1[0] + rows.s1[1] * rows.s1[1]) * y;
-        out.set(loaded::J, J + x * G);
-        out.set(loaded::H, out.symmetric(loaded::H) + H + y * G);
+        out.set(loaded::H, out.symmetric(loaded::H) + H);
     }
 
     // One row: the frame of its bodies from their parents'.
     template <bool wind, bool gravity, Kind kind>
     BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
-                              W& fastest, SweepFlags& flags) const {
+                              W& fastest, SweepFlags& flags, T fold) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         prefetch(constants(row + 1, lane).at, constant::count * L);
         prefetch(now(row + 1, lane).at, motion::count * L);
@@ -206,7 +214,8 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
         f.R = R;
         const W omega2 = dot(f.omega, f.omega);
         fastest = larger(omega2, fastest);
-        if (any_above(omega2, fast2())) mark(row_base, lane, omega2, flags);
+        constexpr bool wood = kind == Kind::branch;
+        if (any_above(omega2, fast2(wood))) mark(row_base, lane, omega2, wood, flags);
 
         V3<W> u{};
         typename Parts::Speed speed{};
@@ -238,7 +247,7 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
         std::uint64_t seen = 0; // counted at the next body's turn about it
         const V3<W> spin = resolved(f.omega, h, mass, seen);
         const V3<W> g = vector(rows.gravity);
-        const Symmetric<W> J = turned(R, k.symmetric(constant::inertia_joint));
+        Symmetric<W> J = turned(R, k.symmetric(constant::inertia_joint));
         out.set(loaded::J, J);
         Symmetric<W> H{};
         V3<W> a0 = f.a;
@@ -256,19 +265,34 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
             const V3<W> ahead = f.ahead_v + cross(f.ahead_omega, c);
             const V3<W> com = k.vector(constant::com);
             const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
-            const auto air_on = Parts::template air<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm);
+            const auto air_on =
+                Parts::template air<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, fold);
             out.set(loaded::D, air_on.D);
+            const V3<W> P = R * k.vector(constant::carried_drag); // streaming_stiffness of air.h
+            const W past = kind == Kind::branch ? root(dot(u, u)) : speed.speed;
+            const W along = past * Parts::unfolded(rows.fold, past) * larger(dot(P, u), W{});
+            const V3<W> p = W(along / larger(dot(P, P), all(T(1e-30)))) * P;
+            H = H + Symmetric<W>{along - p.x * P.x, -(p.x * P.y), -(p.x * P.z),
+                                 along - p.y * P.y, -(p.y * P.z), along - p.z * P.z};
             const V3<W> slope_F = air_on.D * (wind_factor * wind_change_here(over));
             at_com = at_com - air_on.force - rows.slope[0] * slope_F;
             slope = -(rows.slope[1] * slope_F);
         }
         V3<C> F = complex(turning_F + at_com, slope), N = complex(turning_N + cross(c, at_com), cross(c, slope));
-        if constexpr (gravity || (wind && kind == Kind::leaf)) {
+        if constexpr (gravity || wind) {
             const V3<W> bent_by = f.turn - rows.s1[0] * f.own, back = H * bent_by,
                         ahead_back = rows.s1[1] * (H * f.own);
             N = complex(V3<W>{N.x.re - back.x, N.y.re - back.y, N.z.re - back.z},
                         V3<W>{N.x.im + ahead_back.x, N.y.im + ahead_back.y, N.z.im + ahead_back.z});
         }
+        if constexpr (wind && kind != Kind::branch)
+            if (fold > 0) {
+                const T k_spin = T(kind == Kind::leaf ? blade_turning : clump_turning);
+                W rate = k_spin * k.real(constant::drag_area) / larger(mass, all(T(1e-30))) *
+                         (Parts::unfolded(fold, speed.speed) * speed.speed);
+                if (kind == Kind::leaf && rows.leaf.on) rate = rate + rows.leaf.across;
+                damp_spin(out, rate, mass, c, V3<W>(f.omega - f.ahead_omega), J, H, N);
+            }
         if constexpr (gravity || wind) out.set(loaded::H, H);
         if (rows.pulls && rows.pull_of_row[row] >= 0) {
             const Pulls pulls = pulls_on(row, lane, R);
@@ -279,9 +303,9 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
         out.set(loaded::F, F);
         if constexpr (wind && kind == Kind::leaf)
             if (rows.leaf.on)
-                add_leaf(k, out,
-                         {R, u, f.ahead_v + cross(f.ahead_omega, c), wind_factor * wind_change_here(over),
-                          f.omega - f.ahead_omega, f.turn, f.own});
+                add_leaf(
+                    k, out,
+                    {R, u, f.ahead_v + cross(f.ahead_omega, c), wind_factor * wind_change_here(over), f.turn, f.own});
     }
 
     template <bool wind, bool gravity, Kind kind>
@@ -294,7 +318,7 @@ template <class T, bool field = false> struct CoupledOut : SweepParts<T> {
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 step_out<wind, gravity, kind>(f, row, g.first_base, lane,
                                               {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane},
-                                              fastest, flags);
+                                              fastest, flags, Parts::fold_of(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
                 base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,

@@ -16,7 +16,8 @@ using namespace body_constant;
 enum : int {
     carried_moment = shared_count, // [kg m]
     drag_area = 24,                // [kg/m]
-    count = 25
+    carried_drag = 25,             // [kg]
+    count = 28
 };
 } // namespace constant
 
@@ -74,9 +75,10 @@ template <class T> struct CoupledRows : SweepRows<T> {
     T* solved_rows;
     std::ptrdiff_t now_stride, next_stride, solved_stride;
     T* accelerated_records;
-    // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard.
+    // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard; 1 of wood, 2 of what hangs at its ends.
     std::uint8_t* watched;
 
+    T fold; // 1 / fold_speed (air.h) where there is foliage, else 0: how the drag of what bodies carry is taken
     bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
     bool stream;              // solved_rows are more than the caches hold, and go past them
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2

@@ -30,7 +30,7 @@ template <class T, bool field = false> struct Sweep {
                 out.template group_out<wind, gravity, Kind::branch>(g, loaded_rows, flags);
             else if (g.kind == Kind::branch)
                 out.template group_out<wind, gravity, Kind::branch>(g, loaded_rows, flags);
-            else if (g.kind == Kind::fruit)
+            else if (!is_flat(g.kind))
                 out.template group_out<wind, gravity, Kind::fruit>(g, loaded_rows, flags);
             else
                 out.template group_out<wind, gravity, Kind::leaf>(g, loaded_rows, flags);

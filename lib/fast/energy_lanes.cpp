@@ -13,7 +13,10 @@ template <class T> std::vector<bool> watch(const Plan<T>& plan, State<T>& state)
     for (std::size_t k = 0; k < layout.tree.size(); ++k) {
         if (!state.lanes.watched[k] || layout.tree[k] == nothing) continue;
         const std::uint32_t ground = layout.ground[layout.tree[k]];
-        state.account[layout.tree[k]].watched = ground == 0 || !turns(&state.coupled_ground[ground - 1]);
+        if (ground != 0 && turns(&state.coupled_ground[ground - 1])) continue;
+        EnergyAccount& account = state.account[layout.tree[k]];
+        account.watched = true;
+        account.wood = account.wood || (state.lanes.watched[k] & 1);
     }
     std::vector<bool> blocks(layout.blocks.size(), false);
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)
@@ -75,7 +78,7 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
     }
 }
 
-// A group's bodies: the rates of those that their tree's account takes from.
+// A group's bodies: the rates of those that their tree's account, or their own, takes from.
 template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, const Block& block, const Group& g) {
     constexpr std::size_t L = Row<T>::lanes;
     const Layout& layout = plan.lanes.layout;
@@ -86,9 +89,12 @@ template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, con
         const std::uint32_t tree = layout.tree[g.first_base + l];
         if (tree == nothing) continue;
         const EnergyAccount& account = state.account[tree];
-        if (!(account.keep_fast < 1 || account.keep_slow < 1)) continue;
+        if (!account.watched) continue;
         for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-            const double keep = state.lanes.energy_fast[row].lane[l] > 0 ? account.keep_fast : account.keep_slow;
+            const T said = state.lanes.energy_fast[row].lane[l]; // of ends of branches, what is kept
+            const double keep = g.kind != Kind::branch ? double(said) * account.keep_slow
+                                : said > 0             ? account.keep_fast
+                                                       : account.keep_slow;
             if (!(keep < 1) || layout.body[row * L + l] < 0) continue;
             Row<T>* motion = &state.lanes.table[std::size_t(next.at(row - block.first_row))];
             for (std::size_t k = 0; k < 3; ++k) {
@@ -138,12 +144,8 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
                 account.fast += double(sum[energy::fast * L]);
             }
     }
-    bool any = false;
-    for (EnergyAccount& account : state.account) {
-        if (account.watched) settle(account);
-        any = any || account.keep_fast < 1 || account.keep_slow < 1;
-    }
-    if (!any) return;
+    for (EnergyAccount& account : state.account)
+        if (account.watched) settle(account, plan.foliage);
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)
         if (blocks[b])
             for (std::uint32_t k = layout.blocks[b].first_group; k < layout.blocks[b].end_group; ++k)

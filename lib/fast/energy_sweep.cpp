@@ -121,12 +121,24 @@ template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
         }
     }
 
+    [[gnu::noinline]] V3<W> pushes_on(std::uint32_t row, int lane) const {
+        V3<W> sum{};
+        for (auto k = std::size_t(rows.pull_of_row[row]); k < rows.pull_count && rows.pulls[k].row == row; ++k) {
+            const int l = int(rows.pulls[k].lane) - lane;
+            if (l < 0 || l >= width<T>) continue;
+            sum.x[l] += rows.pulls[k].force[0];
+            sum.y[l] += rows.pulls[k].force[1];
+            sum.z[l] += rows.pulls[k].force[2];
+        }
+        return sum;
+    }
+
     struct OnGround {
         V3<W> carried, a;
     };
 
     template <bool wind, Kind kind>
-    BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane) const {
+    BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane, T fold) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         const Rows<T> y1 = next(row, lane);
         const Body b{k.real(constant::mass), k.vector(constant::com), k.vector(constant::K),
@@ -162,55 +174,90 @@ template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
             }
         }
 
+        constexpr bool wood = kind == Kind::branch;
+        const M3<W> host_0 = f.start.R, host_1 = f.end.R;
         const V3<W> spin_0 = move(f.start, R_pj, d, theta_0, eta_0, arm);
+        const V3<W> c_0 = f.start.R * b.com, host_omega = f.start.omega;
+        const V3<W> carried_0 = f.start.v + cross(host_omega, c_0); // of the centre of mass, were the joint fixed
         f.start.omega = f.start.omega + spin_0;
-        const V3<W> c_0 = f.start.R * b.com;
         sums.quantity[energy::kinetic] +=
             kinetic(b, f.start.R, c_0, f.start.v, f.start.omega, f.start.v, f.start.omega);
 
         const V3<W> theta_1 = y1.vector(motion::theta);
         const V3<W> spin_1 = move(f.end, R_pj, d, theta_1, y1.vector(motion::theta_dot), arm);
         f.fast_v = f.fast_v + cross(f.fast_omega, arm);
-        const V3<W> omega = f.end.omega + f.fast_omega + spin_1;
-        const W fast =
-            where_above(W((rows.h * rows.h) * dot(omega, omega)), all(T(watched_turn) * T(watched_turn)), all(T(1)));
-        f.fast_omega = f.fast_omega + fast * spin_1;
-        f.end.omega = f.end.omega + W(1 - fast) * spin_1;
-        write(out.fast + row * std::size_t(L) + std::size_t(lane), fast);
+        const V3<W> host_omega_1 = f.end.omega + f.fast_omega, omega = host_omega_1 + spin_1;
         const V3<W> c_1 = f.end.R * b.com;
-        sums.quantity[energy::slow] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.end.v, f.end.omega);
-        sums.quantity[energy::mixed] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.fast_v, f.fast_omega);
-        sums.quantity[energy::fast] += kinetic(b, f.end.R, c_1, f.fast_v, f.fast_omega, f.fast_v, f.fast_omega);
+        if constexpr (wood) {
+            const W fast = where_above(W((rows.h * rows.h) * dot(omega, omega)), all(T(watched_turn) * T(watched_turn)),
+                                       all(T(1)));
+            f.fast_omega = f.fast_omega + fast * spin_1;
+            f.end.omega = f.end.omega + W(1 - fast) * spin_1;
+            write(out.fast + row * std::size_t(L) + std::size_t(lane), fast);
+        }
 
         const V3<W> own = f.end.x + c_1 - (f.start.x + c_0); // as seen from the ground
-        W gained = elastic(b, theta_1) - elastic(b, theta_0) - b.mass * dot(vector(rows.gravity) - ground.a, own);
+        const V3<W> g = vector(rows.gravity) - ground.a;
+        const V3<W> borne = host_1 * transposed_times(host_0, c_0); // c_0, were the joint fixed
+        const V3<W> seen = wood ? own : c_1 - borne;                // from what carries it
+        const W stored = elastic(b, theta_1) - elastic(b, theta_0);
+        V3<W> force{};
+        W work{}, work_seen{};
         if constexpr (wind) { // air_work of energy_guard.cpp
             const W scale = k.real(constant::drag_area);
             const V3<W> mean = (1 / rows.h) * (own + ground.carried), ahead = mean - rate_at_com;
             Symmetric<W> unused{};
             const V3<W> u = air_velocity - rate_at_com;
-            const auto air_on =
-                Parts::template air<kind>(u, Parts::template air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{});
-            const V3<W> U = air_velocity - (1 / rows.h) * ground.carried;
-            const W speed2 = dot(U, U);
-            W most;
-            if constexpr (kind == Kind::leaf) {
-                const V3<W> relative = air_velocity - mean;
-                most = T(0.25) * root(dot(relative, relative)) * speed2;
-            } else {
-                most = T(4.0 / 27) * root(speed2) * speed2;
-            }
-            V3<W> force = air_on.force;
-            W limit = rows.h * scale * most;
+            const auto air_on = Parts::template air<kind>(u, Parts::template air_speed<kind>(u, f.R), -ahead, f.R,
+                                                          scale, unused, W{}, fold);
+            force = air_on.force;
             if constexpr (kind == Kind::leaf)
-                if (rows.leaf.on) {
-                    force = force + leaf_damping(rows.leaf, b.mass, f.R.y) * (u - ahead);
-                    limit = limit + T(0.25) * rows.h * rows.leaf.most * b.mass * speed2;
+                if (rows.leaf.on) force = force + leaf_damping(rows.leaf, b.mass, f.R.y) * (u - ahead);
+            // On a body that moved by `way` as seen from what carries it.
+            const auto work_along = [&](const V3<W>& way) {
+                const V3<W> U = air_velocity - (1 / rows.h) * (own + ground.carried - way);
+                const W speed2 = dot(U, U);
+                W most;
+                if constexpr (kind == Kind::leaf) {
+                    const V3<W> relative = air_velocity - mean;
+                    most = T(0.25) * root(dot(relative, relative)) * speed2;
+                } else {
+                    most = T(4.0 / 27) * root(speed2) * speed2;
                 }
-            gained -= smaller(dot(force, own), limit);
+                W limit = rows.h * scale * most;
+                if constexpr (kind == Kind::leaf)
+                    if (rows.leaf.on) limit = limit + T(0.25) * rows.h * rows.leaf.most * b.mass * speed2;
+                return smaller(dot(force, way), limit);
+            };
+            work = work_along(own);
+            if constexpr (!wood) work_seen = work_along(seen);
         }
-        if (rows.pulls && rows.pull_of_row[row] >= 0) book_pulls(row, lane, f, gained);
+        const bool pulled = rows.pulls && rows.pull_of_row[row] >= 0;
+        W gained = stored - b.mass * dot(g, own) - work;
+        if (pulled) book_pulls(row, lane, f, gained);
+        if constexpr (!wood) {
+            V3<W> push{};
+            if (pulled) push = pushes_on(row, lane);
+            const V3<W> host_v = f.end.v + f.fast_v;
+            const V3<W> a = (1 / rows.h) * (host_v + cross(host_omega_1, borne) - carried_0);
+            const V3<W> rate_0 = transposed_times(f.start.R, spin_0), rate_1 = transposed_times(f.end.R, spin_1);
+            const V3<W> turned = transposed_times(f.end.R, host_omega_1 - host_omega);
+            const V3<W> euler = b.inertia * turned - b.mass * (dot(b.com, b.com) * turned - dot(b.com, turned) * b.com);
+            const W after = T(0.5) * dot(rate_1, b.inertia * rate_1), before = T(0.5) * dot(rate_0, b.inertia * rate_0);
+            const W excess = after - before + stored - work_seen - b.mass * dot(g - a, seen) + dot(euler, rate_1);
+            const W most = all(T(watched_end_turn) * T(watched_end_turn));
+            W left = larger(W(1 - excess / larger(after, all(T(1e-30)))), W{}); // of its energy
+            left = choose_above(excess, W(T(1e-3) * after), left, all(T(1)));
+            left = choose_above(W((rows.h * rows.h) * dot(omega, omega)), most, left, all(T(1)));
+            left = choose_above(dot(push, push), W{}, all(T(1)), left);
+            const W keep = root(left);
+            write(out.fast + row * std::size_t(L) + std::size_t(lane), keep);
+            f.end.omega = f.end.omega + keep * spin_1; // in the tree's balance with what it keeps
+        }
         sums.quantity[energy::gained] += gained;
+        sums.quantity[energy::slow] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.end.v, f.end.omega);
+        sums.quantity[energy::mixed] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.fast_v, f.fast_omega);
+        sums.quantity[energy::fast] += kinetic(b, f.end.R, c_1, f.fast_v, f.fast_omega, f.fast_v, f.fast_omega);
     }
 
     template <bool wind, Kind kind> void group(const Group& g) const {
@@ -225,7 +272,7 @@ template <class T, bool field = false> struct EnergySweep : SweepParts<T> {
             }
             Sums sums;
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step<wind, kind>(f, sums, ground, row, lane);
+                step<wind, kind>(f, sums, ground, row, lane, Parts::fold_of(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
                 base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
@@ -248,7 +295,7 @@ void energy_block(const CoupledRows<T>& rows, const EnergyRows<T>& energies, con
         const Group& g = rows.groups[k];
         if (!wind || g.kind == Kind::branch)
             sweep.template group<wind, Kind::branch>(g);
-        else if (g.kind == Kind::fruit)
+        else if (!is_flat(g.kind))
             sweep.template group<wind, Kind::fruit>(g);
         else
             sweep.template group<wind, Kind::leaf>(g);

@@ -30,7 +30,7 @@ enum : int { kinetic = 0, gained = 1, slow = 2, mixed = 3, fast = 4, sums = 5 };
 template <class T> struct EnergyRows {
     T* records;
     T* sums; // of a group: energy::sums rows of lanes, at first_base * energy::sums
-    T* fast; // a row of lanes for each row: 1 where the body turns fast
+    T* fast; // a row of lanes for each row: 1 where the body turns fast; of ends of branches what is kept of its rate
     // Where the ground is moved, of a group: 6 rows of lanes, at first_base * 6: how far it goes in the step [m], and its
     // acceleration [m/s^2]; null: all of it rests.
     const T* ground;

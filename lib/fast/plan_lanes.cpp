@@ -16,6 +16,7 @@ template <class T> void fill(const Plan<T>& plan, PlannedLanes<T>& lanes) {
         row.put(constant::inertia_joint, own_inertia(plan.inertia_joint[i]));
         if (plan.gravity) row.put(constant::carried_moment, plan.carried_moment[i]);
         if (plan.wind) row.put(constant::drag_area, plan.drag_area[i]);
+        if (plan.wind) row.put(constant::carried_drag, plan.carried_drag[i]);
     });
 }
 

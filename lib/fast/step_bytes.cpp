@@ -41,7 +41,7 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
         waiting += own;
         waiting_bases += own_bases;
     }
-    const std::uint64_t quantities = std::uint64_t(constant::count) - (wind ? 0 : 1) - (gravity ? 0 : 3);
+    const std::uint64_t quantities = std::uint64_t(constant::count) - (wind ? 0 : 4) - (gravity ? 0 : 3);
     const std::uint64_t record_reals = record(outward::count, layout.lanes) + record(inward::count, layout.lanes) +
                                        record(accelerated::count, layout.lanes);
     const std::uint64_t records = layout.joints * record_reals * real;

@@ -1,6 +1,7 @@
 // sweep_parts.h: what the sweeps over lanes share: their rows, the wind and the air, and where a joint is half a step on.
 #pragma once
 #include "../coupled/turn_bounds.h"
+#include "../stages/air_constants.h"
 #include "wide_maps.h"
 #include "wide_pair.h"
 #include "wide_rows.h"
@@ -48,14 +49,16 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         return {rows.solved_rows + std::ptrdiff_t(row - rows.first_row) * rows.solved_stride * L + lane};
     }
 
-    // Square of the rate from which on the energy guard looks at a tree.
-    W fast2() const {
-        return all(T(watched_turn) / rows.h * (T(watched_turn) / rows.h));
+    // Square of the rate from which on the energy guard looks at a body's tree.
+    W fast2(bool wood) const {
+        const T most = T(wood ? watched_turn : watched_end_turn) / rows.h;
+        return all(most * most);
     }
-    [[gnu::noinline]] void mark(std::uint32_t base, int lane, W rate2, SweepFlags& flags) const {
+    [[gnu::noinline]] void mark(std::uint32_t base, int lane, W rate2, bool wood, SweepFlags& flags) const {
         flags.fast = true;
+        const W most = fast2(wood);
         for (int l = 0; l < width<T>; ++l)
-            if (rate2[l] > fast2()[l]) rows.watched[base + std::uint32_t(lane + l)] = 1;
+            if (rate2[l] > most[l]) rows.watched[base + std::uint32_t(lane + l)] |= wood ? 1 : 2;
     }
 
     // Parent's body frame from joint frame.
@@ -169,20 +172,36 @@ template <class T, class Given = CoupledRows<T>> struct SweepParts {
         Symmetric<W> D;
     };
 
+    // 1 / fold_speed for what folds (air.h), else 0: a clump is a fruit but for that.
+    static constexpr T fold_of(Kind kind) {
+        return is_foliage(kind) ? T(1 / fold_speed) : T(0);
+    }
+    // g
+    BOUGH_FORCE static W unfolded(T fold, const W& speed) {
+        return 1 / (1 + fold * speed);
+    }
+
     // air.h
     template <Kind kind>
     BOUGH_FORCE static Air air(const V3<W>& u, const Speed& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
-                               Symmetric<W>& H, const W& arm) {
+                               Symmetric<W>& H, const W& arm, T fold) {
         Air out;
-        const W one = scale * s.speed, more = scale * s.inverse;
+        W one = scale * s.speed, more = scale * s.inverse;
+        if constexpr (kind != Kind::branch) {
+            const W g = unfolded(fold, s.speed);
+            one = g * one;
+            more = g * g * more;
+        }
         if constexpr (kind == Kind::leaf) {
             const V3<W>&n = R.y, &x = R.x;
             const W along = dot(u, n);
-            const W d = one + more * along * along;
-            const V3<W> dn = d * n;
-            out.D = {dn.x * n.x, dn.x * n.y, dn.x * n.z, dn.y * n.y, dn.y * n.z, dn.z * n.z};
-            out.force = W(one * along + d * dot(n, ahead)) * n;
-            const V3<W> hx = W(2 * one * arm * s.speed) * x;
+            const T across = T(1 - streaming_drag), all_ways = T(streaming_drag);
+            const W s_one = all_ways * one;
+            const V3<W> dn = W(across * (one + more * along * along)) * n, du = W(all_ways * more) * u;
+            out.D = {s_one + du.x * u.x + dn.x * n.x, du.x * u.y + dn.x * n.y, du.x * u.z + dn.x * n.z,
+                     s_one + du.y * u.y + dn.y * n.y, du.y * u.z + dn.y * n.z, s_one + du.z * u.z + dn.z * n.z};
+            out.force = W(across * one * along) * n + s_one * u + out.D * ahead;
+            const V3<W> hx = W(2 * across * one * arm * s.speed) * x;
             H = H + Symmetric<W>{hx.x * x.x, hx.x * x.y, hx.x * x.z, hx.y * x.y, hx.y * x.z, hx.z * x.z};
         } else {
             V3<W> across = u;

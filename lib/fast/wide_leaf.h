@@ -32,14 +32,13 @@ template <class W> BOUGH_FORCE Symmetric<W> across(const W& weight, const V3<W>&
     return {weight - m.x * n.x, -m.x * n.y, -m.x * n.z, weight - m.y * n.y, -m.y * n.z, weight - m.z * n.z};
 }
 
-// nu I w; J: inertia about the joint, c: the centre of mass from there.
-template <class T, class W>
-BOUGH_FORCE Symmetric<W> leaf_spin_damping(const LeafTerms<T>& terms, const W& mass, const Symmetric<W>& J,
-                                           const V3<W>& c) {
+// rate I; J: inertia about the joint, c: the centre of mass from there.
+template <class W>
+BOUGH_FORCE Symmetric<W> spin_damping(const W& rate, const W& mass, const Symmetric<W>& J, const V3<W>& c) {
     const V3<W> mc = mass * c;
     const W xx = mc.x * c.x, yy = mc.y * c.y, zz = mc.z * c.z;
-    return terms.across * Symmetric<W>{J.xx - yy - zz, J.xy + mc.x * c.y, J.xz + mc.x * c.z,
-                                       J.yy - xx - zz, J.yz + mc.y * c.z, J.zz - xx - yy};
+    return rate * Symmetric<W>{J.xx - yy - zz, J.xy + mc.x * c.y, J.xz + mc.x * c.z,
+                               J.yy - xx - zz, J.yz + mc.y * c.z, J.zz - xx - yy};
 }
 
 } // namespace BOUGH_TARGET

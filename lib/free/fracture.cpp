@@ -22,6 +22,7 @@ double normal_draw(RandomKey key) {
 double of_kind(const Fracture& f, const Tree& tree, std::size_t i) {
     switch (tree.kind[i]) {
     case Kind::leaf:
+    case Kind::clump:
         return f.leaf;
     case Kind::petal:
         return f.petal;
@@ -171,6 +172,7 @@ template <class T> void clear_body(Plan<T>& plan, State<T>& state, std::size_t i
     plan.K[i] = Vector3<T>::Constant(stiffness);
     plan.beta[i] = 0;
     if (!plan.carried_moment.empty()) plan.carried_moment[i].setZero();
+    if (!plan.carried_drag.empty()) plan.carried_drag[i].setZero(); // what bore it keeps its own: any will do (air.h)
     if (!plan.gravity_row.empty()) plan.gravity_row[i] = 0;
     if (!plan.drag_area.empty()) plan.drag_area[i] = 0;
     for (auto* array : {&state.theta, &state.theta_dot, &state.scaled_rate, &state.spin_dot, &state.theta_change,

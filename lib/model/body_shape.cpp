@@ -35,6 +35,25 @@ MassProperties leaf_prism(double length, double width, double thickness, double 
     return body;
 }
 
+MassProperties leaf_blade(double length, double width, double thickness, double density) {
+    MassProperties body;
+    body.mass = density * leaf_area(length, width) * thickness;
+    const double blade = (1 - petiole_share) * length;
+    body.com.z() = length - blade / 2;
+    const double x2 = width * width / 16, y2 = thickness * thickness / 12, z2 = blade * blade / 16;
+    body.inertia = (body.mass * Vec3(y2 + z2, x2 + z2, x2 + y2)).asDiagonal();
+    return body;
+}
+
+MassProperties leaf_clump(double length, double width, double thickness, double density) {
+    MassProperties body;
+    body.mass = density * leaf_area(length, width) * thickness;
+    body.com.z() = length / 2;
+    const double x2 = width * width / 20, y2 = clump_depth * clump_depth * x2, z2 = length * length / 20;
+    body.inertia = (body.mass * Vec3(y2 + z2, x2 + z2, x2 + y2)).asDiagonal();
+    return body;
+}
+
 MassProperties sphere(double center, double radius, double density) {
     MassProperties body;
     body.mass = density * 4 * pi / 3 * radius * radius * radius;

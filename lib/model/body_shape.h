@@ -1,7 +1,8 @@
-// body_shape.h: mass, centre of mass, inertia and areas of the three body shapes (§3, §7, §8), in closed form.
+// body_shape.h: mass, centre of mass, inertia and areas of the body shapes (§3, §7, §8), in closed form.
 //
-// Body frame: origin at the joint, z along the body. A frustum has its axis on z from 0 to length; a leaf is a thin
-// triangular prism, base edge (width) along x centred on the origin, apex at z = length, thickness along y, uniform;
+// Body frame: origin at the joint, z along the body. A frustum has its axis on z from 0 to length; a petal is a thin
+// triangular prism, base edge (width) along x centred on the origin, apex at z = length, thickness along y, uniform; a leaf is the same
+// mass and area as an elliptic blade on a petiole without mass, and a clump of leaves (tree.h) an ellipsoid of their mass;
 // a fruit is a sphere with its centre on z. Each result is exact for the solid named. Cost O(1). No errors: sizes are
 // checked by whoever made them (zero length or radius gives zero mass).
 #pragma once
@@ -17,6 +18,11 @@ struct MassProperties {
 
 MassProperties frustum(double length, double radius_base, double radius_tip, double density);
 MassProperties leaf_prism(double length, double width, double thickness, double density);
+// A leaf: an elliptic blade of two thirds of the length on a petiole of a third, with the triangle's area and mass.
+MassProperties leaf_blade(double length, double width, double thickness, double density);
+// A clump of leaves: their mass, spread evenly through an ellipsoid of that length and width, clump_depth times the width deep.
+MassProperties leaf_clump(double length, double width, double thickness, double density);
+constexpr double petiole_share = 1.0 / 3, clump_depth = 0.6;
 MassProperties sphere(double center, double radius, double density);
 
 // Longitudinal cross-section A_c of a frustum [m^2] (21): the trapezoid length * (radius_base + radius_tip).

@@ -11,6 +11,7 @@ double density_of(const StaticLoad& load, Kind kind) {
     case Kind::leaf:
         return load.leaf;
     case Kind::petal:
+    case Kind::clump:
         return load.petal;
     case Kind::fruit:
         return load.fruit;
@@ -27,6 +28,7 @@ double area_from_above(const Tree& tree, std::size_t i, const Mat3& R_wb) {
     switch (tree.kind[i]) {
     case Kind::leaf:
     case Kind::petal:
+    case Kind::clump:
         return leaf_area(size[0], size[1]) * std::abs(R_wb(1, 1));
     case Kind::fruit:
         return sphere_section(size[1]);

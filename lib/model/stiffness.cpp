@@ -10,8 +10,11 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double petiole_length = 0.5;     // blade lengths
-constexpr double petiole_radius = 0.0075;  // blade lengths
+constexpr double petiole_radius = 0.009; // blade lengths
+constexpr double twig_share = 1.5e-4;     // wood's cross-section over the leaf area that it bears (Huber value)
+constexpr double shoot_modulus = 3e9;     // [Pa]
+constexpr double shoot_droop = 0.25;      // [rad] at most, held out level
+constexpr double clump_damping_ratio = 0.2;
 constexpr double stalk_radius = 0.04;      // fruit radii
 constexpr double least_stalk_length = 0.5; // fruit radii
 constexpr double twist_to_bend = 4.3;      // EI / GJ of petioles
@@ -21,10 +24,13 @@ Vec3 rod_stiffness(double modulus, double length, double radius) {
     return {bend, bend, bend / twist_to_bend};
 }
 
-double damping_ratio(const Material& material, Kind kind) {
+double damping_ratio(const Material& material, const Tree& tree, std::size_t i) {
+    if (is_clump(tree, i)) return clump_damping_ratio;
+    const Kind kind = tree.kind[i];
     switch (kind) {
     case Kind::leaf:
     case Kind::petal:
+    case Kind::clump:
         return material.leaf_damping_ratio;
     case Kind::fruit:
         return material.fruit_damping_ratio;
@@ -49,7 +55,19 @@ Vec3 branch_stiffness(const Material& material, const Vec3& piece, const Vec3* p
 }
 
 Vec3 leaf_stiffness(const Material& material, double length) {
-    return rod_stiffness(material.leaf_modulus, petiole_length * length, petiole_radius * length);
+    const double l = petiole_share * length, blade = length - l, lever = blade / 2;
+    const Vec3 rod = rod_stiffness(material.leaf_modulus, l, petiole_radius * blade);
+    // A force at the blade's centre bends the rod by l^3/3 + l^2 lever + l lever^2 over E I; the joint at its foot by (l + lever)^2 over K.
+    const double bend = l * (l + lever) * (l + lever) / (l * l * l / 3 + l * l * lever + l * lever * lever);
+    return {bend * rod[0], bend * rod[1], rod[2]};
+}
+
+Vec3 clump_stiffness(const Material& material, const Vec3& size) {
+    const double area = leaf_area(size[0], size[1]), r2 = twig_share * area / pi;
+    const MassProperties body = leaf_clump(size[0], size[1], size[2], material.leaf_density);
+    const double borne = body.mass * 9.81 * body.com.z() / shoot_droop;
+    const double bend = std::max(4.39 * shoot_modulus * pi * r2 * r2 / 4 / size[0], borne);
+    return {bend, bend, bend / 2};
 }
 
 Vec3 fruit_stiffness(const Material& material, double joint_to_center, double radius) {
@@ -67,7 +85,10 @@ void set_mass(Tree& tree, const Material& material) {
             break;
         case Kind::leaf:
         case Kind::petal:
-            body = leaf_prism(size[0], size[1], size[2], material.leaf_density);
+        case Kind::clump:
+            body = (is_clump(tree, i)            ? leaf_clump
+                    : tree.kind[i] == Kind::leaf ? leaf_blade
+                                                 : leaf_prism)(size[0], size[1], size[2], material.leaf_density);
             break;
         case Kind::fruit:
             body = sphere(size[0], size[1], material.fruit_density);
@@ -89,7 +110,8 @@ void set_stiffness(Tree& tree, const Material& material) {
             break;
         case Kind::leaf:
         case Kind::petal:
-            tree.stiffness[i] = leaf_stiffness(material, size[0]);
+        case Kind::clump:
+            tree.stiffness[i] = is_clump(tree, i) ? clump_stiffness(material, size) : leaf_stiffness(material, size[0]);
             break;
         case Kind::fruit:
             tree.stiffness[i] = fruit_stiffness(material, size[0], size[1]);
@@ -102,7 +124,7 @@ void set_damping(Tree& tree, const Material& material) {
     const BranchModes modes = branch_modes(tree);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const double omega = modes.omega_bend[i];
-        tree.damping[i] = omega > 0 ? 2 * damping_ratio(material, tree.kind[i]) / omega : 0;
+        tree.damping[i] = omega > 0 ? 2 * damping_ratio(material, tree, i) / omega : 0;
     }
 }
 

@@ -25,6 +25,7 @@ const WoodFactors& factors_of(const Wood& wood, Kind kind) {
     case Kind::leaf:
         return wood.leaf;
     case Kind::petal:
+    case Kind::clump:
         return wood.petal;
     case Kind::fruit:
         return wood.fruit;

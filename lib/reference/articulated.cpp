@@ -67,7 +67,7 @@ void add_leaf(const Plan<double>& plan, ArticulatedBody& b, std::size_t i, const
     static const Mat3 own_axes = Mat3::Identity();
     const Vec3& c = plan.com[i];
     const double m = plan.mass[i], scale = plan.drag_area[i];
-    const Mat3 spin = leaf_spin_damping(plan.leaf, m, plan.inertia_joint[i], c);
+    const Mat3 spin = plan.leaf.across * central_inertia(m, plan.inertia_joint[i], c);
     f += leaf_resistance(plan.leaf, m, own_axes, u);
     b.N += spin * b.omega - leaf_torque(plan.leaf, scale, own_axes, u);
     if (!(h > 0)) return;
@@ -91,6 +91,12 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
         place.y() += b.R_wb.row(1).dot(c);
     const Vec3 u = b.R_wb.transpose() * wind_on_body_at(plan, i, pass.wind, place) - b.v - b.omega.cross(c);
     Vec3 f = plan.drag_area[i] * air_force(plan.kind[i], own_axes, u).force;
+    if (is_foliage(plan.kind[i])) {
+        const Mat3 spin = spin_rate(plan.kind[i], plan.drag_area[i], plan.mass[i], u) *
+                          central_inertia(plan.mass[i], plan.inertia_joint[i], c);
+        b.N += spin * b.omega;
+        b.A += h * spin;
+    }
     if (h > 0) {
         const Mat3 D = h * plan.drag_area[i] * air_damping(plan.kind[i], own_axes, u);
         const Mat3 cD = cross_left(c, D);
@@ -98,11 +104,12 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
         b.B += cD;
         b.A += cross_left(c, cD.transpose()); // [c] D [c]^T
         f -= D * a_own;
-        if (is_flat(plan.kind[i])) {
-            const Mat3 turning = h * plan.drag_area[i] * c.norm() * air_turning(plan.kind[i], own_axes, u);
-            b.A += h * turning;
-            b.N += turning * b.omega;
-        }
+        Mat3 turning =
+            Mat3::Zero(); // of streaming in that solver alone: where it begins is a kink, which extrapolation feels
+        if (!plan.carried_drag.empty()) turning = h * streaming_stiffness(plan.foliage, plan.carried_drag[i], u);
+        if (is_flat(plan.kind[i])) turning += h * plan.drag_area[i] * c.norm() * air_turning(plan.kind[i], own_axes, u);
+        b.A += h * turning;
+        b.N += turning * b.omega;
     }
     if (plan.leaf.on && is_flat(plan.kind[i])) add_leaf(plan, b, i, u, a_own, h, f);
     b.F -= f;

@@ -28,15 +28,19 @@ template <class T> std::vector<Vec3> air_moments(const Plan<T>& plan, const Stat
         const BodyMotion& b = motion[i];
         const Vec3 c = b.R * plan.com[i].template cast<double>();
         const Vec3 u = wind_on_body_at(plan, i, wind, Vec3(b.x + c)) - b.v - b.omega.cross(c);
-        f[i] = double(plan.drag_area[i]) * air_force<double>(plan.kind[i], b.R, u).force;
+        const double area = double(plan.drag_area[i]), m = double(plan.mass[i]);
+        double spin = spin_rate<double>(plan.kind[i], area, m, u);
+        f[i] = area * air_force<double>(plan.kind[i], b.R, u).force;
         tau[i].setZero();
         if (plan.leaf.on && is_flat(plan.kind[i])) {
             const LeafTerms<double> terms = leaf_terms<double>(plan.scene);
-            const double m = double(plan.mass[i]);
-            const Mat3 J = b.R * plan.inertia_joint[i].template cast<double>() * b.R.transpose();
             f[i] += leaf_resistance<double>(terms, m, b.R, u);
-            tau[i] = leaf_torque<double>(terms, double(plan.drag_area[i]), b.R, u) -
-                     leaf_spin_damping<double>(terms, m, J, c) * b.omega;
+            tau[i] = leaf_torque<double>(terms, area, b.R, u);
+            spin += terms.across;
+        }
+        if (spin > 0) {
+            const Mat3 J = b.R * plan.inertia_joint[i].template cast<double>() * b.R.transpose();
+            tau[i] -= spin * (central_inertia<double>(m, J, c) * b.omega);
         }
         tau[i] += c.cross(f[i]);
     }

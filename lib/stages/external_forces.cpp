@@ -18,25 +18,37 @@ Vec3 pull_force(const Pull& pull, double t) {
 
 namespace {
 
-// still, moving: the air's velocity past the body at rest on its ground, and as it goes; turning: that ground's.
+// What the air takes of a body's own turning, at `rate` (air.h, leaf_air.h). turning: its ground's.
+template <class T>
+void damp_spin(const Plan<T>& plan, State<T>& state, std::size_t i, T rate, const Vector3<T>& turning) {
+    const Matrix3<T>& R = state.R_wb[i];
+    const T m = plan.mass[i];
+    const Vector3<T>& c = plan.com[i];
+    const Matrix3<T> I = rate * central_inertia(m, plan.inertia_joint[i], c);
+    const Vector3<T> omega = state.omega_w[i] - turning;
+    state.tau_w[i] -= R * (I * (R.transpose() * turning));
+    state.drag_tau_w[i] -= R * (I * (R.transpose() * omega));
+    const T arm = std::max(plan.com_distance[i], T(1e-9));
+    state.drag_bound[i] +=
+        m * rate * (1 - c.squaredNorm() / (arm * arm)); // the rate times I is at most this times the arm's square
+}
+
+// still, moving: the air's velocity past the body at rest on its ground, and as it goes.
 template <class T>
 void leaf_in_wind(const Plan<T>& plan, State<T>& state, std::size_t i, const Vector3<T>& still,
-                  const Vector3<T>& moving, const Vector3<T>& turning) {
+                  const Vector3<T>& moving) {
     const Matrix3<T>& R = state.R_wb[i];
     const T m = plan.mass[i], scale = plan.drag_area[i], k = leaf_lever(plan.leaf, scale);
     const Vector3<T> c = R * plan.com[i];
-    const Matrix3<T> J = R * plan.inertia_joint[i] * R.transpose(), spin = leaf_spin_damping(plan.leaf, m, J, c);
     const Vector3<T> f = leaf_resistance(plan.leaf, m, R, still),
                      drag_f = leaf_resistance(plan.leaf, m, R, Vector3<T>(moving - still));
     const Vector3<T> at_rest = leaf_torque(plan.leaf, scale, R, still);
     state.f_w[i] += f;
-    state.tau_w[i] += c.cross(f) + at_rest - spin * turning;
+    state.tau_w[i] += c.cross(f) + at_rest;
     state.drag_f_w[i] += drag_f;
-    state.drag_tau_w[i] +=
-        c.cross(drag_f) + leaf_torque(plan.leaf, scale, R, moving) - at_rest - spin * (state.omega_w[i] - turning);
+    state.drag_tau_w[i] += c.cross(drag_f) + leaf_torque(plan.leaf, scale, R, moving) - at_rest;
     const T arm = std::max(plan.com_distance[i], T(1e-9)), speed = still.norm();
-    const T spread = 1 - c.squaredNorm() / (arm * arm); // nu I over the arm's square is at most nu m times this
-    state.drag_bound[i] += m * (plan.leaf.most + plan.leaf.across * spread) + k / arm * (moving.norm() + speed);
+    state.drag_bound[i] += m * plan.leaf.most + k / arm * (moving.norm() + speed);
     state.wind_bound[i] += m * plan.leaf.most;
     state.turn_bound[i] += 2 * speed * (m * plan.leaf.most + k / arm * speed);
 }
@@ -60,11 +72,17 @@ template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::
     state.drag_f_w[i] = scale * (moving.force - still.force);
     state.drag_tau_w[i] = arm.cross(state.drag_f_w[i]);
     state.drag_bound[i] = scale * (moving.speed + still.speed);
-    state.wind_bound[i] = scale * wind.norm();
-    // Force and arm both turn: twice the force for |u| (u.n), three times for |u_n| u_n, the arm alone for a sphere.
+    const T pressing = is_foliage(plan.kind[i]) ? still.speed : wind.norm();
+    state.wind_bound[i] = scale * pressing;
+    // Force and arm both turn: twice the force for a plate's, three times for |u_n| u_n, the arm alone for a sphere.
     const T turns = plan.kind[i] == Kind::branch ? T(3) : is_flat(plan.kind[i]) ? T(2) : T(1);
-    state.turn_bound[i] = turns * scale * wind.squaredNorm();
-    if (plan.leaf.on && is_flat(plan.kind[i])) leaf_in_wind<T>(plan, state, i, wind, wind - v, turning);
+    state.turn_bound[i] = turns * scale * pressing * wind.norm();
+    if (!is_foliage(plan.kind[i])) return;
+    const bool leaf = plan.leaf.on && is_flat(plan.kind[i]);
+    damp_spin<T>(plan, state, i,
+                 spin_rate(plan.kind[i], scale, plan.mass[i], Vector3<T>(wind - v)) + (leaf ? plan.leaf.across : T(0)),
+                 turning);
+    if (leaf) leaf_in_wind<T>(plan, state, i, wind, wind - v);
 }
 
 } // namespace

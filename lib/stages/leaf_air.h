@@ -64,10 +64,9 @@ Vector3<T> leaf_torque(const LeafTerms<T>& terms, T drag_area, const Matrix3<T>&
     return leaf_lever(terms, drag_area) * u.dot(n) * (terms.cos_offset * turning + terms.sin_offset * n.cross(turning));
 }
 
-// nu I [N m s]; J: inertia about the joint, c: the centre of mass from there.
-template <class T>
-Matrix3<T> leaf_spin_damping(const LeafTerms<T>& terms, T mass, const Matrix3<T>& J, const Vector3<T>& c) {
-    return terms.across * (J + mass * (c * c.transpose() - c.squaredNorm() * Matrix3<T>::Identity()));
+// I [kg m^2]; J: inertia about the joint, c: the centre of mass from there.
+template <class T> Matrix3<T> central_inertia(T mass, const Matrix3<T>& J, const Vector3<T>& c) {
+    return J + mass * (c * c.transpose() - c.squaredNorm() * Matrix3<T>::Identity());
 }
 
 // How fast both moments about the joint may change with rotation [N m/rad]: symmetric, positive semidefinite. arm: |c|.

@@ -73,17 +73,18 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, Tree* own) 
     take(plan.beta, tree.damping);
     give_back(own, &Tree::mass, &Tree::damping);
     if (plan.wind) plan.kind = tree.kind;
-    for (std::size_t i = 0; i < plan.kind.size() && !tree.rigid.empty(); ++i) plan.kind[i] = kind_in_air(tree, i);
+    for (std::size_t i = 0; i < plan.kind.size(); ++i) plan.kind[i] = kind_in_air(tree, i);
+    plan.foliage = std::any_of(plan.kind.begin(), plan.kind.end(), is_foliage);
     plan.parent = tree.parent;
-    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid);
+    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid, &Tree::leaf_count);
 }
 
 // With lanes that hold them all, and nobody who reads poses.
 template <class T> void give_back_bodies(Plan<T>& plan) {
     const auto all = [](auto&... arrays) { (give_back(arrays), ...); };
     all(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint, plan.K,
-        plan.beta, plan.inertia_factor, plan.gravity_row, plan.carried_moment, plan.drag_area, plan.kind, plan.sway,
-        plan.joint_distance, plan.com_distance, plan.inverse_weight, plan.shelter, plan.clock);
+        plan.beta, plan.inertia_factor, plan.gravity_row, plan.carried_moment, plan.carried_drag, plan.drag_area,
+        plan.kind, plan.sway, plan.joint_distance, plan.com_distance, plan.inverse_weight, plan.shelter, plan.clock);
 }
 
 template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
@@ -257,6 +258,8 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     if (solver == Solver::analytic && (plan.gravity || plan.root_motion)) plan_gravity_rows(plan, tree, weight);
     give_back(weight);
     if (solver == Solver::coupled && plan.gravity) plan_carried_moments(plan, tree);
+    if (plan.wind && (solver == Solver::coupled || solver == Solver::articulated_implicit))
+        plan_carried_drag(plan, tree);
     plan_bodies(plan, tree, own);
     if (plan.wind && scene.wind->shelter) plan.shelter = shelter_factors(plan);
     plan.lanes.reason = "not asked for";

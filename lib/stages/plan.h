@@ -126,6 +126,7 @@ template <class T> struct Plan {
     T row_gravity = 0; // [m/s^2] what the rows hold for: |g|, or 1 where the root's motion stands in (root_term.h)
 
     std::vector<Vector3<T>> carried_moment; // [kg m] P of body_load.h, body axes
+    std::vector<Vector3<T>> carried_drag;   // [kg] likewise of kappa rho A; with wind alone
 
     // Root motion (root_term.h): a curve an entry of Scene::root_motion, and which trees it moves, rising.
     std::vector<RootSpline> splines;
@@ -134,8 +135,9 @@ template <class T> struct Plan {
     // Wind (drag.h, external_forces.h).
     std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)
     std::vector<Kind> kind;
-    LeafTerms<T> leaf;                           // on with /wind and /leaves (leaf_air.h)
-    std::vector<T> sway;                         // [1] W_b: what the weights move the body's centre of mass by
+    bool foliage = false; // some body is a leaf, a petal or a clump: it folds, and the air takes its turning (air.h)
+    LeafTerms<T> leaf;    // on with /wind and /leaves (leaf_air.h)
+    std::vector<T> sway;  // [1] W_b: what the weights move the body's centre of mass by
     std::vector<T> joint_distance, com_distance; // [m] |joint_position|, |com|
     std::vector<T> inverse_weight;               // [m/rad] 1 / u_j
     double top = 0;                              // [m] highest point, for the wind's table

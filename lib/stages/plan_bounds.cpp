@@ -8,10 +8,10 @@
 namespace bough {
 namespace {
 
-// [m] What turns with a body is within this of its joint (drag.h): its centre of mass, and of a leaf with the torque of /leaves that its
+// [m] What turns with a body is within this of its joint (drag.h): its centre of mass, and of a leaf or clump, whose turning the air damps, its
 // inertia too, which is then at most its mass times the rest of this (external_forces.cpp).
-template <class T> double air_arm(const Plan<T>& plan, const Tree& tree, std::size_t i) {
-    if (!plan.leaf.on || !is_flat(tree.kind[i])) return tree.com[i].norm();
+double air_arm(const Tree& tree, std::size_t i) {
+    if (!is_foliage(kind_in_air(tree, i))) return tree.com[i].norm();
     return std::sqrt(tree.com[i].squaredNorm() + tree.inertia[i].trace() / (2 * tree.mass[i]));
 }
 
@@ -26,7 +26,7 @@ template <class T> void plan_air_bounds(Plan<T>& plan, const Tree& tree, const s
         const auto p = std::size_t(tree.parent[i]);
         if (!root) depth[i] = std::uint8_t(std::min(depth[p] + (continues_parent(tree, i) ? 0 : 1), 16));
         const double u = std::ldexp(weight[i], depth[i]);
-        const double r = root ? 0 : tree.joint_position[i].norm(), arm = air_arm(plan, tree, i);
+        const double r = root ? 0 : tree.joint_position[i].norm(), arm = air_arm(tree, i);
         sum[i] = u + (root ? 0 : sum[p]);
         moved[i] = root ? 0 : moved[p] + sum[p] * r;
         plan.sway.push_back(T(moved[i] + sum[i] * arm));
@@ -95,6 +95,23 @@ template <class T> void plan_carried_moments(Plan<T>& plan, const Tree& tree) {
     for (const Vec3& moment : P) plan.carried_moment.push_back(moment.template cast<T>());
 }
 
+template <class T> void plan_carried_drag(Plan<T>& plan, const Tree& tree) {
+    std::vector<double> drag(plan.bodies); // [kg/m] of all outboard, its own included
+    std::vector<Vec3> P(plan.bodies);
+    for (std::size_t i = plan.bodies; i-- > 0;) {
+        const bool flat = is_flat(kind_in_air(tree, i));
+        drag[i] += double(plan.drag_area[i]) * (flat ? blade_mean : 1);
+        P[i] = double(plan.drag_area[i]) * (flat ? streaming_drag : 1) * tree.com[i];
+        if (tree.parent[i] >= 0) drag[std::size_t(tree.parent[i])] += drag[i];
+    }
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += drag[i] * tree.joint_position[i];
+    plan.carried_drag.reserve(plan.bodies);
+    for (const Vec3& moment : P) plan.carried_drag.push_back(moment.template cast<T>());
+}
+
+template void plan_carried_drag(Plan<float>&, const Tree&);
+template void plan_carried_drag(Plan<double>&, const Tree&);
 template void plan_surfaces(Plan<float>&, const Tree&, const Scene&);
 template std::vector<double> plan_modes(Plan<float>&, const Tree&);
 template void plan_gravity_rows(Plan<float>&, const Tree&, const std::vector<double>&);

@@ -1,5 +1,5 @@
 // plan_bounds.h: what a plan knows of its tree beforehand so that steps of any size stay bounded: drag's surfaces and bounds (drag.h), the analytic
-// solver's factors of inertia (branch_mode.h) and bounds of gravity's rows, the coupled one's first moments. Each fills the arrays of the plan
+// solver's factors of inertia (branch_mode.h) and bounds of gravity's rows, the coupled one's first moments of mass and drag. Each fills the arrays of the plan
 // that bear its name, from a checked, scaled tree with no rigid bodies. O(n) each.
 #pragma once
 #include "../model/tree.h"
@@ -16,5 +16,7 @@ template <class T> std::vector<double> plan_modes(Plan<T>&, const Tree&);
 template <class T> void plan_gravity_rows(Plan<T>&, const Tree&, const std::vector<double>& weight);
 // carried_moment: P, the first moment that a body's own turning moves, body axes. Needs c_mass.
 template <class T> void plan_carried_moments(Plan<T>&, const Tree&);
+// carried_drag: the same of kappa rho A (air.h), body axes. Needs drag_area.
+template <class T> void plan_carried_drag(Plan<T>&, const Tree&);
 
 } // namespace bough

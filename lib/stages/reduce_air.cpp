@@ -33,7 +33,7 @@ struct Fits {
 
 // Mean over all directions of the wind of a body's drag, f.u, of kappa A = 1.
 double mean_drag(Kind kind) {
-    return kind == Kind::branch ? 3 * std::numbers::pi / 16 : is_flat(kind) ? 1.0 / 3 : 1.0;
+    return kind == Kind::branch ? 3 * std::numbers::pi / 16 : is_flat(kind) ? blade_mean : 1.0;
 }
 
 // How much a direction counts, by the cosine of its angle to the wind, to or fro.
@@ -104,7 +104,7 @@ void fit_air(const Tree& whole, Reduced& r, const std::vector<std::uint8_t>& joi
             const double drag = drag_area(whole.kind[i], whole.size[i], 1, plate_kappa);
             const Mat3 R = r.rotation[i].toRotationMatrix();
             for (std::size_t k = 0; k < directions.size(); ++k)
-                force[k] += drag * air_force(whole.kind[i], R, directions[k]).force;
+                force[k] += drag / unfolded(whole.kind[i], 1.0) * air_force(whole.kind[i], R, directions[k]).force;
         }
         Fits fits;
         for (std::size_t k = 0; k < directions.size(); ++k) {

@@ -13,7 +13,6 @@ struct Obstacle {
     double along; // [m] centre of mass along the wind
     std::size_t body;
     std::pair<std::int64_t, std::int64_t> column;
-    double share; // [1] kappa A_b (f_b . e) / A
 };
 
 // World poses at the start: of each body its rotation and its joint.
@@ -41,24 +40,28 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan) {
     std::vector<T> factors(plan.bodies, T(1));
     const double density = plan.scene.air_density, cell = plan.scene.wind->shelter->cell;
     if (density == 0) return factors;
-    const Vec3 e = plan.scene.wind->velocity.normalized();
+    const double speed = plan.scene.wind->velocity.norm();
+    const Vec3 e = plan.scene.wind->velocity / speed;
     const Vec3 side = (std::abs(e.y()) < 0.9 ? e.cross(Vec3::UnitY()) : e.cross(Vec3::UnitX())).normalized(),
                other = side.cross(e);
     const Poses pose = start_poses(plan);
+    // [1] Of a column's flux, at the speed that the body has, u over the undisturbed. (Foliage folds, so that it is no constant.)
+    const auto share = [&](std::size_t i, double u) {
+        const Vec3 past = u * speed * e;
+        return double(plan.drag_area[i]) / density * air_force(plan.kind[i], pose.R[i], past).force.dot(e) /
+               (past.squaredNorm() * cell * cell);
+    };
     std::vector<Obstacle> obstacles;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Vec3 place = pose.x[i] + pose.R[i] * plan.com[i].template cast<double>();
-        const double share =
-            double(plan.drag_area[i]) / density * air_force(plan.kind[i], pose.R[i], e).force.dot(e) / (cell * cell);
-        if (!(share < 1))
+        if (!(share(i, 1) < 1))
             throw std::domain_error("/wind/shelter/cell: is " + std::to_string(cell) + " m, but body " +
-                                    std::to_string(i) + " alone drags as much as " + std::to_string(share) +
+                                    std::to_string(i) + " alone drags as much as " + std::to_string(share(i, 1)) +
                                     " columns have; expected a larger one");
         obstacles.push_back(
             {place.dot(e),
              i,
-             {std::int64_t(std::floor(place.dot(side) / cell)), std::int64_t(std::floor(place.dot(other) / cell))},
-             share});
+             {std::int64_t(std::floor(place.dot(side) / cell)), std::int64_t(std::floor(place.dot(other) / cell))}});
     }
     std::sort(obstacles.begin(), obstacles.end(), [](const Obstacle& a, const Obstacle& b) {
         return std::pair(a.along, a.body) < std::pair(b.along, b.body);
@@ -67,7 +70,7 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan) {
     for (const Obstacle& o : obstacles) {
         double& u2 = left.try_emplace(o.column, 1).first->second;
         factors[o.body] = T(std::sqrt(u2));
-        u2 *= 1 - o.share;
+        if (u2 > 0) u2 *= 1 - share(o.body, std::sqrt(u2));
     }
     return factors;
 }

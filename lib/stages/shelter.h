@@ -2,7 +2,7 @@
 //
 // Model. The air goes straight through the scene along the mean wind's direction e (Wind::velocity), in columns of side `cell` whose
 // section is A = cell^2. Of each column's flux of momentum, rho u^2 A, a body takes its drag: from body to body along the way
-//   rho A d(u^2) = -F_b,   F_b = kappa rho A_b u_b^2 (f_b . e),   f_b the law of air.h for a wind of 1 m/s along e on the standing body
+//   rho A d(u^2) = -F_b,   F_b = kappa rho A_b u_b^2 (f_b . e),   f_b the law of air.h over u_b^2 for a wind of u_b along e on the standing body
 // With u_b the column's speed before the body, u after it is u_b sqrt(1 - kappa A_b (f_b . e) / A): what is taken from the columns is the sum of
 // the bodies' drags exactly, the first body of a column has all of the wind, and a crown of many leaves thins it out exponentially, with
 // no constant of its own. A body counts in the column of its centre of mass, in the pose at the start; what is beside the columns does not mix in.

@@ -60,7 +60,7 @@ printf 'radius\tlength\n1\t2\n' | refuse_as table.txt "unknown format"
 }
 
 # What is to be read, by its path; all else is to be refused.
-readable='^(speedtree/|qsm/.*\.(txt|csv)$|sapling/.*\.(csv|json)$|sapling/.*\.(lines|nurbs|nurbs_py)\.obj$'
+readable='^(speedtree/|measured/.*\.csv$|qsm/.*\.(txt|csv)$|sapling/.*\.(csv|json)$|sapling/.*\.(lines|nurbs|nurbs_py)\.obj$'
 readable+='|skeleton/.*\.(swc|ply)$|skeleton/reconstructed_appletree\.mtg$|eztree/.*\.branches\.json$'
 readable+='|invalid/Neuron(-flat|_zero_length_segments)\.swc$|models/testline\.obj$'
 # Armatures.

@@ -100,7 +100,7 @@ cp err hash
 expect 0 treesim --join end2.json end1.json --hash
 same err hash
 # Each tree finds its own sag, with its neighbours or without.
-snowy=(park.json --frames 5 -q --pose settled --set 'load={"branch":2,"leaf":0.1}')
+snowy=(park.json --frames 5 -q --pose settled --set 'load={"branch":2,"leaf":0.05}')
 for i in 1 2; do expect 0 treesim "${snowy[@]}" --shard $i/2 --no-output --save-state end$i.json; done
 expect 0 treesim "${snowy[@]}" --no-output --hash
 cp err hash

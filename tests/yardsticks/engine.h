@@ -30,9 +30,9 @@ struct Motion {
 
 // Where the engine finds the bodies: its own kinematics.
 struct Bodies {
-    explicit Bodies(std::size_t n) : R_wb(n), joint(n), com(n), com_velocity(n) {}
-    std::vector<Mat3> R_wb;                     // world from body
-    std::vector<Vec3> joint, com, com_velocity; // [m], [m], [m/s] world
+    explicit Bodies(std::size_t n) : R_wb(n), joint(n), com(n), com_velocity(n), omega(n) {}
+    std::vector<Mat3> R_wb;                            // world from body
+    std::vector<Vec3> joint, com, com_velocity, omega; // [m], [m], [m/s], [rad/s] world
 };
 
 struct Loads {

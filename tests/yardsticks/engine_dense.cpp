@@ -53,6 +53,7 @@ public:
             bodies.R_wb[i] = R[i].cast<double>();
             bodies.joint[i] = x[i].cast<double>();
             bodies.com[i] = c[i].cast<double>();
+            bodies.omega[i] = omega[i].cast<double>();
             bodies.com_velocity[i] = V(v[i] + omega[i].cross(out)).cast<double>();
         }
     }

@@ -106,6 +106,7 @@ public:
             Eigen::Matrix<double, 6, 1> velocity;
             mj_objectVelocity(model.get(), data.get(), mjOBJ_BODY, id[i], velocity.data(), 0);
             bodies.com_velocity[i] = velocity.tail<3>();
+            bodies.omega[i] = velocity.head<3>();
         }
     }
 

@@ -58,6 +58,7 @@ public:
             bodies.joint[i] = from_simbody(ball[i].getBodyOriginLocation(state));
             bodies.com[i] = from_simbody(ball[i].findStationLocationInGround(state, com[i]));
             bodies.com_velocity[i] = from_simbody(ball[i].findStationVelocityInGround(state, com[i]));
+            bodies.omega[i] = from_simbody(ball[i].getBodyAngularVelocity(state));
         }
     }
 
