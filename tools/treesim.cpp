@@ -38,9 +38,8 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
                                      const std::string& format, const MotionFields& fields, std::int64_t first,
                                      std::int64_t last, std::optional<UserModel> model) {
     if (o.no_output) return nullptr;
-    // A blended loop ends as it begins, which a rustle that goes on with the wind would not.
-    RustleMaker rustle = rustle_maker(setting, shown, o.run.fps);
-    if (o.loop.blend) rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
+    RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
+    if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
     if (is_point_cache(format))
         return cache_sink(o.common.output, format, shown, o.sides.value_or(8), rustle, o.run.fps, first,
                           last - first + 1, o.common.notes);

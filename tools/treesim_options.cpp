@@ -43,6 +43,7 @@ void declare(CLI::App& app, TreesimOptions& o) {
     add_max_joints(app, o.gltf);
     add_leaves_as(app, o.gltf);
     add_key_tolerance(app, o.gltf);
+    app.add_flag("--rustle", o.rustle, "In a mesh, clumps' drawn leaves rustle with the wind");
     app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
     app.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
     app.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
@@ -122,6 +123,8 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.report_rigid && !o.resume.empty())
         throw UsageError("--report-rigid: not with --resume, which says nothing of the joints that are held");
     const bool mesh = is_mesh(format);
+    if (o.rustle && !mesh) throw UsageError("--rustle: only with a mesh (.obj, .glb, .mdd, .pc2)");
+    if (o.rustle && o.loop.blend) throw UsageError("--rustle: not with --loop-blend, whose end is its beginning");
     if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb, .mdd, .pc2)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
     if (!o.skin.empty()) {

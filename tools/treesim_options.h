@@ -18,6 +18,7 @@ struct TreesimOptions {
     const CLI::App* app = nullptr; // for what was given
     GltfChoice gltf;
     std::optional<int> sides;
+    bool rustle = false;
     LoopChoice loop;
     bool explain = false, hash = false, report_error = false, report_cost = false, report_rigid = false,
          no_output = false, watch = false;
