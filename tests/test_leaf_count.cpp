@@ -58,8 +58,8 @@ TEST_CASE("what is said is said where it changes something") {
     Splines s = trunk_with_leaves({0.1, 0.15});
     say_leaf_count(s);
     CHECK(s.leaf_count.empty());
-    say_leaf_count(s, 2.9);
-    CHECK(s.leaf_count == std::vector<std::int32_t>{8, 8});
+    say_leaf_count(s, 2.95);
+    CHECK(s.leaf_count == std::vector<std::int32_t>{9, 9});
     s.leaf_length[1] = 0.25;
     say_leaf_count(s);
     CHECK(s.leaf_count == std::vector<std::int32_t>{1, 1});
