@@ -9,8 +9,8 @@
 // leaves face all ways, meets the air as fruit does, with the mean of its leaves' law over all directions.
 // Folding. Leaves roll up and clumps close as the wind rises (Vogel, J. Exp. Bot. 40:941, 1989): their drag goes with |u|^(2 + E), Vogel's E
 // between -0.5 and -1 at 5 to 20 m/s. All of their force is times g = 1 / (1 + |u| / fold_speed); 1 for wood and fruit. g's own E is -(1 - g), the
-// rest comes of blades that turn with the wind. Mean drag [N] over directions, steady wind of 5, 10, 20 m/s, E from the first to the last: a leaf of
-// 9 cm 0.011, 0.022, 0.048, -0.95; a clump of 30 cm 0.15, 0.43, 1.05, -0.62; a maple of 20 000 bodies in leaf 3 130, 9 020, 24 000, -0.53.
+// rest comes of blades that turn with the wind. From 5 to 20 m/s a leaf, a clump and a crown's
+// foliage are within -0.5 and -1 (tests/test_foliage.cpp).
 // Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges: a torque
 //   -k g |u| (kappa rho A / m) I w,   I the inertia about the centre of mass
 // I / m being the blade's second moments of area over its area, k = 1 is the normal force (23) strip by strip. Thin plates have more: pi/2 rho |u| b^3
