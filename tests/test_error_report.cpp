@@ -261,7 +261,7 @@ TEST_CASE("a figure wider than its column keeps one digit, and the columns stay 
     report.runs[0].error_frequency = -1.62e-7;
     report.runs[0].error_decay = -1.23e-6;
     const std::string table = error_table(report);
-    CHECK(table.find("   -2e-05%   -1e-04%") != std::string::npos);
+    CHECK(table.find("   -2e-05%   -1e-04%\n") != std::string::npos);
 }
 
 TEST_CASE("a refresh is named where runs differ in it, and parts the lines") {

@@ -149,6 +149,20 @@ TEST_CASE("a frame is still when every end moves slower than a millimetre a seco
     CHECK(m.still == 10);
 }
 
+TEST_CASE("a frame is still by velocities where they are given: one that stops at each frame's end is") {
+    const Stand s;
+    const DrawnPose drawn = drawn_pose(s.tree);
+    const std::vector<Vec3> theta(drawn.x_w.size(), Vec3::Zero());
+    MotionStatistics statistics(s.tree, fps);
+    for (int k = 0; k <= 10; ++k) {
+        std::vector<Vec3> x = drawn.x_w, v(x.size(), Vec3(0, 9e-4, 0));
+        x[s.top].x() += k % 2; // far and back
+        if (k == 4) v[s.leaf] = Vec3(8e-4, 8e-4, 0);
+        statistics.add(x, drawn.R_wb, theta, v);
+    }
+    CHECK(statistics.result().still == 9);
+}
+
 TEST_CASE("what is not there has no figure") {
     const Tree pole = make_tree::chain(3, 2, 0.03, 0.03);
     const MotionSummary m = motion_of(pole, 4, [](double, Frame&) {});

@@ -1,5 +1,6 @@
 // Error against run time: on trees whose answers are known from elsewhere, the table must say them.
 #include "lib/reference/ring_down.h"
+#include "lib/reference/trajectory_difference.h"
 #include "lib/reference/work_precision.h"
 #include "tests/make_tree.h"
 #include "tests/paper_trees.h"
@@ -212,4 +213,78 @@ TEST_CASE("what cannot run is non-finite, and what does not move has no error") 
     Scene still = gravity_switched_on();
     still.gravity.setZero();
     CHECK_THROWS_AS(report_of(tree, still, {{Solver::analytic}}, {1}), std::domain_error);
+}
+
+TEST_CASE("distances and deflections of points are those of their coordinates, of all of them or of some") {
+    // Two points over four frames: the first goes by 3, 4 and 5 along x, the second stays.
+    const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY();
+    const Points a = {{x, y}, {4 * x, y}, {5 * x, y}, {6 * x, y}};
+    const std::vector<std::size_t> first = {0}, second = {1};
+    CHECK(deflection(a).rms == Approx(std::sqrt((9 + 16 + 25) / 6.0)));
+    CHECK(deflection(a).most == Approx(5));
+    CHECK(deflection(a, &first).rms == Approx(std::sqrt(50 / 3.0)));
+    CHECK(deflection(a, &second).most == 0);
+    // The other run lies off by 1, 2 and 2 at the second point, and has other starts, which are not compared.
+    const Points b = {{9 * x, 9 * y}, {4 * x, 2 * y}, {5 * x, -y}, {6 * x, 3 * y}};
+    CHECK(distance(a, 1, b, 1).rms == Approx(std::sqrt((1 + 4 + 4) / 6.0)));
+    CHECK(distance(a, 1, b, 1, &second).rms == Approx(std::sqrt(3.0)));
+    CHECK(distance(a, 1, b, 1, &second).most == Approx(2));
+    CHECK(distance(a, 1, b, 1, &first).most == 0);
+    // One has every second frame alone.
+    const Points coarse = {b[0], b[2]};
+    CHECK(distance(coarse, 2, a, 1, &second).rms == Approx(2));
+    CHECK(std::isnan(distance({a[0]}, 1, b, 1).rms));
+}
+
+TEST_CASE("wood is sorted by branch level, leaves and fruit left out") {
+    const Tree tree = make_tree::branched();
+    const std::vector<std::size_t> wood = wood_bodies(tree);
+    const WoodLevels levels = wood_levels(tree);
+    std::size_t all = 0;
+    for (std::size_t level = 0; level < levels.level.size(); ++level)
+        for (const std::size_t k : levels.level[level]) {
+            CHECK(tree.kind[wood[k]] == Kind::branch);
+            CHECK(tree.level[wood[k]] == std::int32_t(level));
+            ++all;
+        }
+    CHECK(all == wood.size());
+    CHECK(levels.level.size() >= 3);
+    CHECK(levels.to_one.size() == levels.level[0].size() + levels.level[1].size());
+}
+
+TEST_CASE("wood and statistics of a run: those of the coupled step at 64 steps are the reference's, which either truth "
+          "says") {
+    const Tree tree = make_tree::branched();
+    const std::vector<TreeRange> ranges = range_of(tree);
+    Scene scene;
+    scene.wind = wind_preset("breeze");
+    ErrorOptions options;
+    options.steps_per_frame = {0.5, 64};
+    options.variants = {{.solver = Solver::coupled}};
+    const auto report = [&](Truth truth) {
+        options.truth = truth;
+        return measure_error({tree, ranges, scene, 30, 31}, options, [](std::int64_t, std::int64_t) {});
+    };
+    const ErrorReport reference = report(Truth::reference), fine = report(Truth::fine);
+    CHECK(reference.truth == "articulated-reference");
+    CHECK(fine.truth == "coupled, 64 steps a frame");
+    // A step over two frames has no turn a frame; pointwise errors it has.
+    CHECK(reference.runs[0].motion.frames == 0);
+    CHECK(reference.runs[0].error_wood.rms > 0);
+    const ErrorRun& run = reference.runs[1];
+    CHECK(run.motion.frames == 30);
+    REQUIRE(run.error_level.size() == reference.level_deflection.size());
+    for (std::size_t k = 0; k < run.error_level.size(); ++k) {
+        const PointError& e = run.error_level[k];
+        CHECK(e.rms < 0.01);
+        CHECK(e.rms <= e.max);
+        CHECK(e.max_peak * reference.level_deflection[k].peak == Approx(e.max * reference.level_deflection[k].rms));
+    }
+    CHECK(run.motion.top.spread == Approx(reference.motion.top.spread).epsilon(0.01));
+    CHECK(run.motion.leaves.turn == Approx(reference.motion.leaves.turn).epsilon(0.02));
+    CHECK(run.error_spectrum < 0.05);
+    CHECK(fine.motion.top.lean == Approx(reference.motion.top.lean).epsilon(0.01));
+    CHECK(fine.runs[1].error_wood.max < 1e-9); // it is the truth itself
+    CHECK(fine.reference_error < 0.01);
+    CHECK(fine.frequency == Approx(reference.frequency).epsilon(0.01));
 }

@@ -1,9 +1,10 @@
 #include "body_poses.h"
+#include "../stages/energy.h"
 #include "../stages/root_term.h"
 
 namespace bough {
 
-template <class T> BodyPoses body_poses(const Plan<T>& plan, const State<T>& state) {
+template <class T> BodyPoses body_poses(const Plan<T>& plan, const State<T>& state, const Tree& tree) {
     BodyPoses poses;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         Vec3 x = state.x_w[i].template cast<double>();
@@ -16,10 +17,14 @@ template <class T> BodyPoses body_poses(const Plan<T>& plan, const State<T>& sta
         poses.R.push_back(R);
         poses.theta.push_back(state.theta[i].template cast<double>());
     }
+    if (plan.root_motion) return poses;
+    const std::vector<BodyMotion> motion = body_motions(plan, state);
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        poses.v.push_back(motion[i].v + motion[i].omega.cross(motion[i].R.col(2) * tree.size[i][0]));
     return poses;
 }
 
-template BodyPoses body_poses(const Plan<float>&, const State<float>&);
-template BodyPoses body_poses(const Plan<double>&, const State<double>&);
+template BodyPoses body_poses(const Plan<float>&, const State<float>&, const Tree&);
+template BodyPoses body_poses(const Plan<double>&, const State<double>&, const Tree&);
 
 } // namespace bough

@@ -10,9 +10,10 @@ struct BodyPoses {
     std::vector<Vec3> x;     // [m] own joints
     std::vector<Mat3> R;     // ground from body
     std::vector<Vec3> theta; // [rad] joint axes
+    std::vector<Vec3> v;     // [m/s] of the far ends; empty where the ground moves
 };
 
 // The state's kinematics are up to date (present). O(n log moved trees).
-template <class T> BodyPoses body_poses(const Plan<T>&, const State<T>&);
+template <class T> BodyPoses body_poses(const Plan<T>&, const State<T>&, const Tree&);
 
 } // namespace bough

@@ -111,7 +111,8 @@ MotionStatistics::MotionStatistics(const Tree& tree, double fps)
     : tree_(tree), fps_(fps), wood_(wood_bodies(tree)), leaves_(leaf_bodies(tree)), top_(trunk_top(tree)),
       wood_spread_(wood_.size()), leaf_spread_(leaves_.size()) {}
 
-void MotionStatistics::add(const std::vector<Vec3>& x, const std::vector<Mat3>& R, const std::vector<Vec3>& theta) {
+void MotionStatistics::add(const std::vector<Vec3>& x, const std::vector<Mat3>& R, const std::vector<Vec3>& theta,
+                           const std::vector<Vec3>& v) {
     std::vector<Vec3> end(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) end[i] = x[i] + R[i].col(2) * tree_.size[i][0];
     const bool start = added_++ == 0;
@@ -122,10 +123,10 @@ void MotionStatistics::add(const std::vector<Vec3>& x, const std::vector<Mat3>& 
     } else {
         double fastest = 0, rate = 0;
         for (std::size_t i = 0; i < end.size(); ++i) {
-            fastest = std::max(fastest, (end[i] - end_[i]).squaredNorm());
+            fastest = std::max(fastest, v.empty() ? fps_ * (end[i] - end_[i]).norm() : v[i].norm());
             rate = std::max(rate, turn_between(R_[i], R[i]));
         }
-        still_ += std::sqrt(fastest) * fps_ < still_speed;
+        still_ += fastest < still_speed;
         last_rate_ = rate * fps_;
         for (std::size_t k = 0; k < wood_.size(); ++k) wood_spread_[k].add(end[wood_[k]]);
         normals_.emplace_back(leaves_.size());

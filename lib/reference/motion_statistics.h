@@ -38,7 +38,7 @@ struct MotionSummary {
     TopMotion top;
     std::vector<double> level_spread; // [m] of wood's ends by branch level, RMS over bodies; NAN: no wood of that level
     LeafMotion leaves;
-    std::int64_t still = 0; // frames to which every body's end moved slower than 1 mm/s
+    std::int64_t still = 0; // frames in which every body's end is slower than 1 mm/s
     double last_rate = NAN; // [rad/s] the fastest body's turn to the last frame
 };
 
@@ -57,8 +57,11 @@ public:
     // Keeps a reference to the tree. fps: of the frames that will be added.
     MotionStatistics(const Tree&, double fps);
 
-    // One frame: own joints [m] and world from body, theta [rad] in joint axes; of every body.
-    void add(const std::vector<Vec3>& x, const std::vector<Mat3>& R, const std::vector<Vec3>& theta);
+    // One frame: own joints [m] and world from body, theta [rad] in joint axes; of every body. v [m/s]: their ends' velocities,
+    // by which a frame is still. Where they are left out, it is by how far the ends have come since the last frame. That does not see a
+    // run that is stopped at each frame's end and thrown on from there.
+    void add(const std::vector<Vec3>& x, const std::vector<Mat3>& R, const std::vector<Vec3>& theta,
+             const std::vector<Vec3>& v = {});
 
     const Tree& tree() const { return tree_; }
     // O(leaves x frames^2). Memory: 24 bytes a leaf and frame.

@@ -16,8 +16,8 @@ struct Bodies {
 };
 
 template <class T> void sample_bodies(const Plan<T>& plan, const State<T>& state, Bodies& bodies, Trajectory& out) {
-    BodyPoses poses = body_poses(plan, state);
-    bodies.statistics.add(poses.x, poses.R, poses.theta);
+    BodyPoses poses = body_poses(plan, state, bodies.statistics.tree());
+    bodies.statistics.add(poses.x, poses.R, poses.theta, poses.v);
     out.wood.emplace_back();
     for (const std::size_t i : bodies.wood)
         out.wood.back().push_back(poses.x[i] + poses.R[i].col(2) * bodies.statistics.tree().size[i][0]);
