@@ -1,6 +1,10 @@
 // The grid of extremes: every promised cell holds, and the audit that says so can say no.
+#include "lib/growth/grow.h"
+#include "lib/growth/segment.h"
+#include "lib/model/wood.h"
 #include "lib/reference/advance.h"
 #include "lib/reference/stability.h"
+#include "lib/reference/stability_motion.h"
 #include "sanitized.h"
 #include "tests/make_tree.h"
 #include <catch2/catch.hpp>
@@ -41,6 +45,7 @@ TEST_CASE("every promised cell holds, float and double") {
         if (!first || sanitized) without.push_back("10 000 balls");
         const StabilityReport report = measure_stability(setup, {40, false, "", without}, no_progress);
         std::map<std::string, std::size_t> promised;
+        int compared = 0;
         for (const StabilityCell& cell : report.cells) {
             CAPTURE(tree.name, cell.group, cell.name, cell.solver, cell.precision, cell.note, cell.energy_drift,
                     cell.rms_growth);
@@ -48,7 +53,10 @@ TEST_CASE("every promised cell holds, float and double") {
             ++promised[cell.solver];
             CHECK(cell.finite);
             CHECK(cell.bounded);
+            CHECK(cell.moves);
+            compared += cell.compared;
         }
+        CHECK(compared == 18); // nine cases, in double and float
         CHECK(promised.size() == 2);
         CHECK(promised["coupled"] >= (first ? 90 : 70));
         CHECK(promised["analytic"] == promised["coupled"]);
@@ -112,4 +120,70 @@ TEST_CASE("guards are what the coupled step flags, and none in a motion that the
     };
     CHECK(guards(0.2) > 0);
     CHECK(guards(0.005) == 0);
+}
+
+TEST_CASE("a cell moves as the truth does within a quarter, and does not stand still in a wind that changes") {
+    MotionTruth truth;
+    truth.height = 10;
+    truth.motion.top = {0.4, 0.2, 1};
+    const auto judged = [&](double lean, double spread, std::int64_t still) {
+        MotionSummary run;
+        run.top = {lean, spread, 1};
+        run.still = still;
+        StabilityCell cell;
+        const std::string wrong = judge_motion(run, truth, cell);
+        CHECK(cell.compared);
+        CHECK(cell.moves == wrong.empty());
+        CHECK(cell.still == still);
+        CHECK(cell.lean_error == Approx(lean / 0.4 - 1));
+        CHECK(cell.spread_error == Approx(spread / 0.2 - 1));
+        return wrong;
+    };
+    CHECK(judged(0.49, 0.16, 0).empty());
+    CHECK(judged(0.51, 0.2, 0) == "trunk's mean lean 0.51 m, truth 0.4");
+    CHECK(judged(0.4, 0.14, 0) == "trunk's std 0.14 m, truth 0.2");
+    CHECK(judged(0.4, 0.2, 5).empty()); // in a steady wind a tree comes to rest
+    truth.unsteady = true;
+    CHECK(judged(0.4, 0.2, 5) == "5 still frames");
+    CHECK(judged(0.1, 0.1, 5) == "trunk's mean lean 0.1 m, truth 0.4; trunk's std 0.1 m, truth 0.2; 5 still frames");
+    truth.motion.still = 1;
+    CHECK(judged(0.4, 0.2, 5).empty());
+    // What is below a ten-thousandth of the height is none of what a tree does.
+    truth.motion.top = {4e-4, 2e-4, 1e-3};
+    CHECK(std::abs(4e-4 - 13e-4) < 1e-4 * truth.height);
+    MotionSummary run;
+    run.top = {13e-4, 11e-4, 1e-3};
+    StabilityCell cell;
+    CHECK(judge_motion(run, truth, cell).empty());
+}
+
+// May fail: the energy guard brakes trees in leaf from 20 m/s on.
+TEST_CASE("trees in leaf move in wind as the truth does", "[!mayfail]") {
+    StabilitySetup setup =
+        setup_of(segment(grow_bodies(default_growth(), 1, {true, false, false}, 300), wood_presets().front(), {}));
+    setup.simd = fast::best_target();
+    StabilityOptions grid{60, false, "wind", {"forest", "K x"}};
+    for (const StabilityCell& cell : measure_stability(setup, grid, no_progress).cells) {
+        CAPTURE(cell.name, cell.precision, cell.note, cell.lean_error, cell.spread_error, cell.still);
+        CHECK(cell.moves);
+    }
+}
+
+TEST_CASE("a tree that is held in a storm does not move as the truth does") {
+    StabilitySetup setup = setup_of(make_tree::branched());
+    setup.scene.wind = wind_preset("storm");
+    const std::optional<MotionTruth> truth = motion_truth(setup, 60, [] {});
+    REQUIRE(truth);
+    CHECK(truth->unsteady);
+    CHECK(truth->motion.still == 0);
+    CHECK(truth->motion.top.spread > 1e-4 * truth->height);
+    const auto cell = [&](const StabilitySetup& s) {
+        return run_cell(
+            s, {"own", "storm", true, {}}, Solver::coupled, false, 60, [] {}, &*truth);
+    };
+    CHECK(cell(setup).moves);
+    StabilitySetup held = setup; // its stiffness a hundredfold
+    for (Vec3& K : held.tree.stiffness) K *= 100;
+    CHECK_FALSE(cell(held).moves);
+    CHECK(cell(held).bounded);
 }

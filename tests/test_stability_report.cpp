@@ -24,7 +24,7 @@ StabilityCell make_cell(const char* group, const char* name, const char* precisi
     return cell;
 }
 
-// Held, failed though promised, outside, unbounded, not run.
+// Held, failed though promised, outside, unbounded, not run; held; bounded but not as the truth moves.
 StabilityReport make_report() {
     StabilityReport report;
     report.bodies = 21;
@@ -41,6 +41,14 @@ StabilityReport make_report() {
     report.cells[4].promised = false;
     report.cells[4].frames = 0;
     report.cells.push_back(make_cell("damping", "beta = 0", "float"));
+    report.cells.push_back(make_cell("wind", "storm", "double"));
+    StabilityCell& storm = report.cells.back();
+    storm.compared = true;
+    storm.moves = false;
+    storm.lean_error = -0.0625;
+    storm.spread_error = -0.75;
+    storm.still = 31;
+    storm.note = "trunk's std 0.05 m, truth 0.2; 31 still frames";
     return report;
 }
 
@@ -56,14 +64,14 @@ TEST_CASE("every figure of a stability report is in its JSON, what is not finite
     CHECK(j.at("tool_version") == "0.1.0");
     CHECK(j.at("bodies") == 21);
     CHECK(j.at("fps") == 30);
-    CHECK(j.at("promised") == 3);
+    CHECK(j.at("promised") == 4);
     CHECK(j.at("promised_held") == 2);
     CHECK(j.at("source") == meta.source);
     REQUIRE(j.at("cells").size() == report.cells.size());
     for (std::size_t k = 0; k < report.cells.size(); ++k) {
         const StabilityCell& cell = report.cells[k];
         const auto& row = j["cells"][k];
-        CHECK(row.size() == 15);
+        CHECK(row.size() == 20);
         CHECK(row.at("group") == cell.group);
         CHECK(row.at("case") == cell.name);
         CHECK(row.at("solver") == cell.solver);
@@ -79,15 +87,22 @@ TEST_CASE("every figure of a stability report is in its JSON, what is not finite
         CHECK(row.at("frames") == cell.frames);
         CHECK(row.at("note") == cell.note);
         CHECK(row.at("energy_drift").is_null() == (k == 1));
+        CHECK(row.at("compared") == cell.compared);
+        CHECK(row.at("moves") == cell.moves);
+        for (const char* name : {"lean_error", "std_error", "still_frames"})
+            CHECK(row.at(name).is_null() == !cell.compared);
     }
+    CHECK(j["cells"].back().at("lean_error") == -0.0625);
+    CHECK(j["cells"].back().at("std_error") == -0.75);
+    CHECK(j["cells"].back().at("still_frames") == 31);
 }
 
 TEST_CASE("CSV of a stability report has a line a cell, quoted where it must be") {
     const auto lines = lines_of(written([](Output& o) { write_stability_csv(o, make_report()); }));
-    REQUIRE(lines.size() == 7);
-    CHECK(lines[0] == "group,case,solver,precision,finite,bounded,energy_drift,ringing,max_angle,rms_growth,guards,"
-                      "promised,outside,frames,note");
-    CHECK(lines[2].find("stiffness,K x 1e6,analytic,double,false,false,,0.125,") == 0);
+    REQUIRE(lines.size() == 8);
+    CHECK(lines[0] == "group,case,solver,precision,finite,bounded,compared,moves,energy_drift,ringing,max_angle,"
+                      "rms_growth,lean_error,std_error,still_frames,guards,promised,outside,frames,note");
+    CHECK(lines[2].find("stiffness,K x 1e6,analytic,double,false,false,false,true,,0.125,") == 0);
     CHECK(lines[2].find(",\"non-finite after frame 3, \"\"spring\"\", body 7\"") != std::string::npos);
 }
 
@@ -100,10 +115,12 @@ TEST_CASE("a cell is judged by what it did, what is promised and what is assumed
     CHECK(cell_state(report.cells[3]) == CellState::failed);
     CHECK(cell_verdict(report.cells[3]) == "unbounded");
     CHECK(cell_state(report.cells[4]) == CellState::not_run);
+    CHECK(cell_state(report.cells[6]) == CellState::failed);
+    CHECK(cell_verdict(report.cells[6]) == "moves wrongly");
     report.cells[2].promised = true; // what is promised cannot be excused
     CHECK(cell_state(report.cells[2]) == CellState::failed);
     report.cells[4].promised = true; // nor by not running it
-    CHECK(promise_count(report).promised == 5);
+    CHECK(promise_count(report).promised == 6);
     CHECK(promise_count(report).held == 2);
 }
 
@@ -111,7 +128,7 @@ TEST_CASE("the stability table groups the cells and ends with the count of the p
     const auto lines = lines_of(stability_table(make_report()));
     for (const std::string& line : lines) CHECK(line.size() <= 120);
     CHECK(lines.front().find("bodies 21") == 0);
-    CHECK(lines.back() == "promised 2 of 3 hold");
+    CHECK(lines.back() == "promised 2 of 4 hold");
     const auto group = std::find(lines.begin(), lines.end(), "stiffness");
     REQUIRE(lines.end() - group > 8);
     CHECK(group[1].find("held") != std::string::npos);
@@ -119,6 +136,9 @@ TEST_CASE("the stability table groups the cells and ends with the count of the p
     CHECK(group[2].find("non-finite") != std::string::npos);
     CHECK(group[3].find("non-finite after frame 3") != std::string::npos);
     CHECK(group[7] == "damping");
+    CHECK(group[10].find("moves wrongly") != std::string::npos);
+    CHECK(group[10].find("0.75       0   -6.25%     -75%") != std::string::npos);
+    CHECK(group[11] == "      trunk's std 0.05 m, truth 0.2; 31 still frames");
 }
 
 TEST_CASE("the grid is well-formed SVG with each case, column and verdict in words") {
@@ -135,7 +155,7 @@ TEST_CASE("the grid is well-formed SVG with each case, column and verdict in wor
     }
     for (const char* word :
          {"stiffness", "damping", "K x 1e6", "K x <&>", "beta = 0", "analytic", "double", "float", "held", "non-finite",
-          "outside, unbounded", "unbounded, 12 guards", "not run", "promised"}) {
+          "outside, unbounded", "unbounded, 12 guards", "not run", "promised", "moves wrongly"}) {
         INFO(word);
         CHECK(
             std::any_of(texts.begin(), texts.end(), [&](const std::string& text) { return text.rfind(word, 0) == 0; }));
@@ -147,7 +167,7 @@ TEST_CASE("the stability page holds grid and figures, escaped, and loads nothing
     if (!has_gnuplot()) return;
     const std::string page = written([](Output& o) { write_stability_html(o, make_report(), meta); });
     for (const char* part : {"<svg", "K x &lt;&amp;&gt;", "class=\"failed\"", "class=\"outside\"", "class=\"not-run\"",
-                             "2 of 3", "&lt;a&gt;.json"})
+                             "2 of 4", "&lt;a&gt;.json", "<td>-75%</td>", "<td>31</td>"})
         CHECK(page.find(part) != std::string::npos);
     for (const char* part : {"src=", "<link", "@import", "url(http", "<script", "<?xml"})
         CHECK(page.find(part) == std::string::npos);
@@ -158,7 +178,7 @@ TEST_CASE("a stability report is written in the form of its name") {
     CHECK_THROWS_AS(write_stability_report(folder.file("a.pdf"), make_report(), meta), UsageError);
     CHECK(folder.files() == 0);
     write_stability_report(folder.file("a.json"), make_report(), meta);
-    CHECK(nlohmann::json::parse(read_input(folder.file("a.json")))["cells"].size() == 6);
+    CHECK(nlohmann::json::parse(read_input(folder.file("a.json")))["cells"].size() == 7);
     write_stability_report(folder.file("a.csv"), make_report(), meta);
     CHECK(read_input(folder.file("a.csv")).rfind("group,", 0) == 0);
     if (!has_gnuplot()) return;

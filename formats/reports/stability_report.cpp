@@ -1,5 +1,6 @@
 #include "stability_report.h"
 #include <algorithm>
+#include <cmath>
 
 namespace bough {
 namespace {
@@ -11,10 +12,15 @@ ReportRow row_of(const StabilityCell& c) {
             {"precision", c.precision},
             {"finite", c.finite},
             {"bounded", c.bounded},
+            {"compared", c.compared},
+            {"moves", c.moves},
             {"energy_drift", c.energy_drift},
             {"ringing", c.ringing},
             {"max_angle", c.max_angle},
             {"rms_growth", c.rms_growth},
+            {"lean_error", c.lean_error},
+            {"std_error", c.spread_error},
+            {"still_frames", c.compared ? double(c.still) : NAN},
             {"guards", std::int64_t(c.guards)},
             {"promised", c.promised},
             {"outside", c.outside},
@@ -29,7 +35,7 @@ std::vector<ReportRow> rows_of(const StabilityReport& report) {
 }
 
 bool holds(const StabilityCell& c) {
-    return c.frames > 0 && c.finite && c.bounded;
+    return c.frames > 0 && c.finite && c.bounded && c.moves;
 }
 
 } // namespace
@@ -43,9 +49,9 @@ CellState cell_state(const StabilityCell& c) {
 std::string cell_verdict(const StabilityCell& c) {
     const CellState state = cell_state(c);
     if (state == CellState::not_run) return "not run";
-    const std::string what = !c.finite ? "non-finite" : !c.bounded ? "unbounded" : "held";
+    const std::string what = !c.finite ? "non-finite" : !c.bounded ? "unbounded" : !c.moves ? "moves wrongly" : "held";
     if (state != CellState::outside) return what;
-    return c.finite && c.bounded ? "outside" : "outside, " + what;
+    return c.finite && c.bounded && c.moves ? "outside" : "outside, " + what;
 }
 
 PromiseCount promise_count(const StabilityReport& report) {

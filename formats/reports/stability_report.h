@@ -6,14 +6,15 @@
 
 namespace bough {
 
-// not_run: no frames. failed: non-finite or unbounded, and promised or within the method's assumption. outside: outside
+// not_run: no frames. failed: non-finite, unbounded or not moving as the truth does, and promised or within the method's assumption. outside: outside
 // the assumption and not promised, whatever it did.
 enum class CellState { held, outside, failed, not_run };
 CellState cell_state(const StabilityCell&);
-// One word or two: "held", "outside", "outside, unbounded", "outside, non-finite", "unbounded", "non-finite", "not run".
+// One word or two: "held", "outside", "outside, unbounded", "outside, non-finite", "unbounded", "non-finite", "moves
+// wrongly", "outside, moves wrongly", "not run".
 std::string cell_verdict(const StabilityCell&);
 
-// A promised cell holds if it ran, stayed finite and bounded.
+// A promised cell holds if it ran, stayed finite and bounded and, where it is compared, moved as the truth does.
 struct PromiseCount {
     std::int64_t promised = 0, held = 0;
 };

@@ -20,7 +20,9 @@ std::string row(const StabilityCell& c, const Widths& w) {
     if (c.frames > 0)
         text += padded(known(percent(c.energy_drift), c.energy_drift), 10) +
                 padded(known(figure(c.ringing), c.ringing), 9) + padded(known(figure(degrees), degrees), 9) +
-                padded(known(figure(c.rms_growth), c.rms_growth), 9) + padded(std::to_string(c.guards), 8);
+                padded(known(figure(c.rms_growth), c.rms_growth), 9) + padded(std::to_string(c.guards), 8) +
+                padded(known(percent(c.lean_error), c.lean_error), 9) +
+                padded(known(percent(c.spread_error), c.spread_error), 9);
     while (text.back() == ' ') text.pop_back();
     text += "\n";
     return c.note.empty() ? text : text + "      " + c.note + "\n";
@@ -37,7 +39,8 @@ std::string stability_table(const StabilityReport& report) {
     std::string text = "bodies " + std::to_string(report.bodies) + ", frames at " + figure(report.fps) + "/s, cells " +
                        std::to_string(report.cells.size()) + "\n\n  " + padded("case", -w.name) + "  " +
                        padded("solver", -w.solver) + "  prec.   prom." + padded("", -19) + padded("drift", 9) +
-                       padded("ringing", 9) + padded("max deg", 9) + padded("growth", 9) + padded("guards", 8) + "\n";
+                       padded("ringing", 9) + padded("max deg", 9) + padded("growth", 9) + padded("guards", 8) +
+                       padded("lean", 9) + padded("std", 9) + "\n";
     for (const std::string& group : stability_groups(report)) {
         text += group + "\n";
         for (const StabilityCell& cell : report.cells)

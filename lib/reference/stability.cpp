@@ -7,8 +7,10 @@
 #include "../stages/shelter.h"
 #include "../stages/wind.h"
 #include "advance.h"
+#include "body_poses.h"
 #include "ring_down.h"
 #include "stability_free.h"
+#include "stability_motion.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -139,7 +141,7 @@ std::string failures(const StabilityCell& cell, bool booked, bool settles) {
 
 template <class T>
 StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver solver, std::int64_t frames,
-                  const std::function<void()>& tick) {
+                  const std::function<void()>& tick, const MotionTruth* truth) {
     StabilityCell cell;
     cell.group = what.group;
     cell.name = what.name;
@@ -154,6 +156,13 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
                                       Scheme::p12, setup.simd, 0, setup.refresh);
     State<T> state = make_state(plan);
     Audit<T> audit(plan, state, setup.tree, frames);
+    MotionStatistics statistics(setup.tree, 1 / setup.dt);
+    const auto add_frame = [&] {
+        if (!truth) return;
+        const BodyPoses poses = body_poses(plan, state, setup.tree);
+        statistics.add(poses.x, poses.R, poses.theta, poses.v);
+    };
+    add_frame();
     cell.finite = true;
     for (std::int64_t k = 0; k < frames && cell.finite; ++k) {
         tick();
@@ -161,7 +170,9 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
         present(plan, state);
         cell.frames = k + 1;
         cell.finite = !first_non_finite(state);
-        if (cell.finite) audit.after_step(state);
+        if (!cell.finite) break;
+        audit.after_step(state);
+        add_frame();
     }
     cell.guards = state.flags.bounded_lambda + state.flags.half_turns + state.flags.energy_guard +
                   state.flags.fast_turns + state.flags.unresolved;
@@ -176,6 +187,10 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
     }
     cell.note = failures(cell, audit.booked, must_settle(plan, setup, frames));
     cell.bounded = cell.note.empty();
+    if (truth) {
+        const std::string wrong = judge_motion(statistics.result(), *truth, cell);
+        if (!wrong.empty()) cell.note += (cell.note.empty() ? "" : "; ") + wrong;
+    }
     if (cell.outside) cell.note += std::string(cell.note.empty() ? "" : "; ") + "joints past 1 rad";
     if (state.flags.half_turns > 0) cell.note += ", past half a turn";
     return cell;
@@ -184,8 +199,9 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
 } // namespace
 
 StabilityCell run_cell(const StabilitySetup& setup, const StabilityCase& what, Solver solver, bool single,
-                       std::int64_t frames, const std::function<void()>& tick) {
-    return single ? run<float>(setup, what, solver, frames, tick) : run<double>(setup, what, solver, frames, tick);
+                       std::int64_t frames, const std::function<void()>& tick, const MotionTruth* truth) {
+    return single ? run<float>(setup, what, solver, frames, tick, truth)
+                  : run<double>(setup, what, solver, frames, tick, truth);
 }
 
 StabilityReport measure_stability(const StabilitySetup& given, const StabilityOptions& options,
@@ -216,8 +232,11 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
         setup.scene.contact.reset();
         what.apply(setup);
         const auto tick = [&] { progress(done, total); };
+        std::optional<MotionTruth> truth;
+        if (what.compared && options.with_truth) truth = motion_truth(setup, options.frames, tick);
         const auto cell = [&](Solver solver, bool single) {
-            report.cells.push_back(run_cell(setup, what, solver, single, options.frames, tick));
+            const MotionTruth* const held_against = truth && solver == Solver::coupled ? &*truth : nullptr;
+            report.cells.push_back(run_cell(setup, what, solver, single, options.frames, tick, held_against));
             progress(++done, total);
         };
         cell(Solver::coupled, false);

@@ -8,6 +8,7 @@
 //           that is not booked: such cells are judged without.)
 // growth    RMS tip deflection of the last quarter at most 1.05 times that of the third, where the load is a steady wind, damping
 //           is on and a quarter holds a period of the first mode.
+// motion    In the cases of a wind on the user's tree coupled moves as the truth does (stability_motion.h): bounded is not right.
 // A joint past 1 rad has left the method's assumption of small angles a joint: `outside`, which is said, not excused.
 // Ringing is sign changes of theta_dot a joint axis and frame, below a millionth of the largest rate left out; guards are those of StepFlags but buckling, which is physics, and joint limits, which the scene asks for.
 #pragma once
@@ -26,12 +27,16 @@ struct StabilityCell {
     std::string name;              // the case on that axis, e.g. "K x 1e-3"
     std::string solver, precision; // "analytic" ..., "float" or "double"
     bool finite = false, bounded = false;
-    bool promised = false;     // bough promises that this cell holds: finite and bounded
-    bool outside = false;      // outside the method's assumption; note says which
+    bool promised = false; // bough promises that this cell holds: finite, bounded, and where compared it moves rightly
+    bool compared = false, moves = true; // held against the truth; moves as that does
+    bool outside = false;                // outside the method's assumption; note says which
     double energy_drift = NAN; // [1] energy above initial + work of the external forces, of the largest so far
     double ringing = NAN;      // [1/frame] sign changes of the joints' velocities
     double max_angle = NAN;    // [rad] largest joint angle
     double rms_growth = NAN;   // [1] RMS of the last quarter over that of the third
+    double lean_error = NAN,
+           spread_error = NAN; // [1] of the trunk's top, where compared: mean lean, standard deviation
+    std::int64_t still = 0;    // frames in which nothing moves, where compared
     std::uint64_t guards = 0;  // times that a guard acted
     std::int64_t frames = 0;   // run; 0 if the cell was not
     std::string note;          // what failed, or why it is outside
@@ -48,11 +53,15 @@ struct StabilityOptions {
     bool with_implicit = true;          // beside coupled and analytic in double and float, articulated_implicit
     std::string only;                   // cases whose group or name contains this; empty: all
     std::vector<std::string> without{}; // none whose group or name contains one of these
+    bool with_truth = true;             // the cases of wind are held against the truth
 };
 
-// One cell: `frames` steps of the case with this solver and precision. tick once a step; may throw.
+struct MotionTruth;
+
+// One cell: `frames` steps of the case with this solver and precision, of which that may be held against a truth of as many.
+// tick once a step; may throw.
 StabilityCell run_cell(const StabilitySetup&, const StabilityCase&, Solver, bool single, std::int64_t frames,
-                       const std::function<void()>& tick);
+                       const std::function<void()>& tick, const MotionTruth* = nullptr);
 
 // The whole grid for a user's tree and scene. progress(done, cells); may throw to end.
 StabilityReport measure_stability(const StabilitySetup&, const StabilityOptions&,
