@@ -79,6 +79,8 @@ moving = 0
 for s in doc["animations"][0]["samplers"]:
     time, value = read(s["input"]), read(s["output"])
     if len(time) < 2: continue
+    per = len(value) // len(time) # 4 for the weights of morph targets
+    value = [sum(value[i:i + per], ()) for i in range(0, len(value), per)]
     moving += 1
     assert time[0] == (0.0,) and time[-1] == (4.0,), time
     sign = 1 if sum(a * b for a, b in zip(value[0], value[-1])) > 0 else -1
