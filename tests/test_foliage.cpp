@@ -153,7 +153,7 @@ TEST_CASE("The air takes a blade's turning about its length by exp(-rate t), in 
         scene.gravity = Vec3::Zero();
         const double share = leaves > 1 ? 0.5 : 1, k = leaves > 1 ? 2 : 6; // of a blade's drag broadside
         const double area = 0.6 * 1.2 * 0.1 * 0.07 / 2 * share;
-        const double rate = k * area / tree.mass[0] * speed / (1 + speed / 8);
+        const double rate = k * area / tree.mass[0] * speed / (1 + speed / 7.5);
         for (const lanes::Simd simd : {lanes::Simd(), lanes::Simd(fast::best_target())}) {
             const Plan<double> plan = plan_of(tree, scene, 1.0 / 240, simd);
             State<double> state = make_state(plan);
