@@ -145,7 +145,7 @@ void work(ScalingCommand& o) {
     refuse_overwriting(read, {{"--report", o.report}, {"-o", o.common.output}});
     require_report(o.report);
     if (!fast::available(fast::counted_target))
-        throw UsageError("scaling: this build cannot count what a step computes (it was made with BOUGH_COUNTING=OFF)");
+        throw UsageError("scaling: this build cannot count what a step computes; make it with -DBOUGH_COUNTING=ON");
     ScalingChoice choice;
     choice.ways = chosen_ways(o);
     const std::string machine = machine_threads() > 1 ? "1," + std::to_string(machine_threads()) : "1";
