@@ -22,7 +22,6 @@ struct Case {
     double angle = 0, rate = 0; // [rad], [rad/s] at random at the start
     std::vector<TreeRange> ranges{};
     Solver solver = Solver::coupled;
-    double refresh = 0; // of the analytic solver
     std::vector<TreeRange> all_ranges() const {
         return ranges.empty() ? std::vector<TreeRange>{{0, tree.size_bodies(), 0}} : ranges;
     }
@@ -34,7 +33,7 @@ template <class T = double> struct Run {
     Run(const Case& c, Simd simd, Scheme scheme = Scheme::p12, const Wishes& wishes = {},
         std::optional<Solver> solver = std::nullopt, double sleep = 0)
         : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver.value_or(c.solver), scheme, simd,
-                            sleep, c.refresh)),
+                            sleep)),
           state(make_state(plan)) {
         if (c.angle == 0 && c.rate == 0) return;
         make_tree::Dice dice{std::mt19937(5)};

@@ -28,7 +28,6 @@ ErrorRun make_run(const char* solver, const char* scheme, const char* precision,
     ErrorRun run;
     run.solver = solver;
     run.scheme = scheme;
-    run.refresh = "always";
     run.precision = precision;
     run.steps_per_frame = steps;
     run.finite = std::isfinite(error);
@@ -143,10 +142,9 @@ TEST_CASE("every figure of an error report is in its JSON, what is not finite as
     for (std::size_t k = 0; k < report.runs.size(); ++k) {
         const ErrorRun& run = report.runs[k];
         const auto& row = j["runs"][k];
-        CHECK(row.size() == 23 + 12 + 1 + 15);
+        CHECK(row.size() == 22 + 12 + 1 + 15);
         CHECK(row.at("solver") == run.solver);
         CHECK(row.at("scheme") == run.scheme);
-        CHECK(row.at("refresh") == run.refresh);
         CHECK(row.at("precision") == run.precision);
         CHECK(row.at("steps_per_frame") == run.steps_per_frame);
         CHECK(row.at("finite") == run.finite);
@@ -203,7 +201,7 @@ TEST_CASE("CSV has a line a run under the names of the JSON") {
     const auto lines = lines_of(written([](Output& o) { write_error_csv(o, make_report()); }));
     REQUIRE(lines.size() == 7);
     const std::string names =
-        "solver,scheme,refresh,steps_per_frame,precision,finite,seconds_per_simulated_second,error_rms,error_max,"
+        "solver,scheme,steps_per_frame,precision,finite,seconds_per_simulated_second,error_rms,error_max,"
         "error_rms_peak,error_max_peak,error_rms_height,error_max_height,error_angle,error_frequency,error_decay,"
         "error_step,error_step_max,error_model,error_model_max,error_arithmetic,error_arithmetic_max,hash,"
         "error_wood_rms,error_wood_max,error_wood_rms_peak,error_wood_max_peak,error_level0_rms,error_level0_max,"
@@ -211,10 +209,9 @@ TEST_CASE("CSV has a line a run under the names of the JSON") {
         "error_level1_max_peak,error_spectrum,top_lean,top_std,top_peak,still_frames,last_rate,level0_std,level1_std,"
         "leaf_flap_std,leaf_sway_std,leaf_twist_std,leaf_turn,leaf_fast,leaf_spectrum0,leaf_spectrum1,leaf_spectrum2";
     CHECK(lines[0] == names);
-    CHECK(lines[3].rfind("analytic,branch,always,0.25,double,true,0.0025,0.8,3.2,", 0) == 0);
-    CHECK(lines[5].rfind(
-              "\"explicit <&'\"\"\",euler,always,1,double,false,0.01,,,,,,,,,,,,,,1e-12,2e-12,0123456789abcdef,,,",
-              0) == 0);
+    CHECK(lines[3].rfind("analytic,branch,0.25,double,true,0.0025,0.8,3.2,", 0) == 0);
+    CHECK(lines[5].rfind("\"explicit <&'\"\"\",euler,1,double,false,0.01,,,,,,,,,,,,,,1e-12,2e-12,0123456789abcdef,,,",
+                         0) == 0);
     for (const std::string& line : lines)
         CHECK(std::count(line.begin(), line.end(), ',') == std::count(names.begin(), names.end(), ','));
 }
@@ -262,19 +259,6 @@ TEST_CASE("a figure wider than its column keeps one digit, and the columns stay 
     report.runs[0].error_decay = -1.23e-6;
     const std::string table = error_table(report);
     CHECK(table.find("   -2e-05%   -1e-04%\n") != std::string::npos);
-}
-
-TEST_CASE("a refresh is named where runs differ in it, and parts the lines") {
-    ErrorReport report = make_report();
-    REQUIRE(error_series(report).size() == 4);
-    CHECK(error_series(report)[0].name == "analytic, branch, double");
-    report.runs[0].refresh = "4";
-    const auto series = error_series(report);
-    REQUIRE(series.size() == 5);
-    CHECK(series[0].name == "analytic, branch, refresh 4, double");
-    CHECK(series[1].name == "analytic, branch, refresh always, double");
-    CHECK(series[1].runs.size() == 2);
-    CHECK(series[1].runs[0]->steps_per_frame == 0.25);
 }
 
 TEST_CASE("the plot is well-formed SVG that names each line and what could not be drawn") {

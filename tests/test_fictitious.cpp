@@ -229,15 +229,12 @@ TEST_CASE("the terms are for the analytic solver, on the plain path; all 0 is no
                               Catch::StartsWith("fictitious: only for solver analytic; solver " +
                                                 std::string(solver_name(solver)) + " has these terms by nature"));
     const auto plan_of = [&](const Scene& s) {
-        return make_plan<float>(tree, ranges, s, {}, 0.01, Solver::analytic, Scheme::p12, fast::Target::baseline, 0,
-                                0.05);
+        return make_plan<float>(tree, ranges, s, {}, 0.01, Solver::analytic, Scheme::p12, fast::Target::baseline);
     };
     const Plan<float> plan = plan_of(scene);
     CHECK(plan.fictitious);
     CHECK_FALSE(plan.lanes.on);
     CHECK(plan.lanes.reason == "/fictitious");
-    CHECK(plan.refresh == 0);
-    CHECK(plan.refresh_reason == "/fictitious");
     const Plan<float> none = plan_of(lagged(0, 0, 0));
     CHECK_FALSE(none.fictitious);
     CHECK(none.lanes.on);

@@ -110,7 +110,7 @@ TEMPLATE_TEST_CASE("of shared constants, too", "", float, double) {
 
 // Of by_hand(): 6 rows, of which the top's one is visited twice.
 TEST_CASE("bytes of the analytic step over a layout made by hand") {
-    const StepBytes all = analytic_step_bytes(by_hand(), true, true, true, false, 4);
+    const StepBytes all = analytic_step_bytes(by_hand(), true, true, true, 4);
     CHECK(all.constants.in == 7 * 29 * 64);
     CHECK(all.now.in == 7 * 9 * 64);
     CHECK(all.next.in == 0); // where it was read
@@ -118,12 +118,10 @@ TEST_CASE("bytes of the analytic step over a layout made by hand") {
     CHECK(all.solved.in + all.solved.out == 0);
     CHECK(all.records.in == 4 * (16 + 32) * 4); // 16, 28 -> 32 reals of 4 bytes
     CHECK(all.indices.in == 4 * (7 + 48 + 48 + 32));
-    const StepBytes shared = analytic_step_bytes(by_hand(), true, true, true, false, 4, false, 3);
+    const StepBytes shared = analytic_step_bytes(by_hand(), true, true, true, 4, false, 3);
     CHECK(shared.constants.in == 3 * 29 * 64);
     CHECK(shared.indices.in == all.indices.in + 4 * 7);
     CHECK(shared.tables == all.tables - 3 * 29 * 64 + 4 * 7);
-    // Kept coefficients are each body's own: 30 of them, and of the constants all but beta, the two factors and gravity's row.
-    CHECK(analytic_step_bytes(by_hand(), true, true, true, true, 4, false, 3).constants.in == (3 * 25 + 7 * 30) * 64);
-    CHECK(analytic_step_bytes(by_hand(), false, true, false, false, 4).constants.in == 7 * 23 * 64);
-    CHECK(analytic_step_bytes(by_hand(), false, false, true, false, 4).records.in == 4 * (16 + 16) * 4);
+    CHECK(analytic_step_bytes(by_hand(), false, true, false, 4).constants.in == 7 * 23 * 64);
+    CHECK(analytic_step_bytes(by_hand(), false, false, true, 4).records.in == 4 * (16 + 16) * 4);
 }

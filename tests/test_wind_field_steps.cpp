@@ -70,10 +70,6 @@ std::vector<Case> cases(Solver solver) {
         Scene moved = in_wind(field());
         moved.root_motion = {carried_about()};
         all.push_back({"ground that moves and turns", leafy, moved});
-    } else {
-        Case kept{"coefficients kept", large, in_wind(field())};
-        kept.refresh = 0.05;
-        all.push_back(kept);
     }
     all.push_back({"several blocks", firm(grown(3000)), in_wind(field())});
     for (Case& c : all) c.solver = solver;

@@ -66,11 +66,6 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
     note_fast_turns(plan, flags, steps, notes);
     if (flags.limited > 0)
         notes.push_back(counted(flags.limited, "time", "times") + " a joint was stopped at its limit, as asked");
-    if (flags.refreshed > 0) {
-        std::ostringstream share;
-        share << std::setprecision(3) << 100 * double(flags.refreshed) / (double(steps) * double(plan.bodies));
-        notes.push_back(share.str() + " % of the bodies' steps made their joints' coefficients anew (--refresh)");
-    }
     if (flags.asleep > 0)
         notes.push_back(std::to_string(flags.asleep) + " of " + std::to_string(std::uint64_t(steps) * plan.bodies) +
                         " steps of a body were left out: at rest below " + rate_text(plan.lanes.sleep.rate) +

@@ -64,7 +64,7 @@ std::vector<double> chosen_steps(const std::string& text) {
     return steps;
 }
 
-// The usual series, or with --scheme or --refresh that one's; of these what --solver, --precision, --joint-inertia leave.
+// The usual series, or with --scheme that one's; of these what --solver, --precision, --joint-inertia leave.
 std::vector<Variant> chosen_variants(const ErrorCommand& o) {
     const auto given = [&](const char* name) { return o.app->get_option(name)->count() > 0; };
     std::vector<Variant> series = all_variants(), chosen;
@@ -72,15 +72,6 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
         Variant v;
         v.solver = Solver::coupled;
         v.scheme = chosen_scheme(o.run);
-        series = {v, v};
-        series.back().single = true;
-    }
-    if (given("--refresh")) { // of its own series each
-        if (!o.run.scheme.empty()) throw UsageError("--refresh: not with --scheme, which is coupled's");
-        Variant v;
-        v.solver = Solver::analytic;
-        v.refresh = analytic_refresh(o.run);
-        if (o.run.joint_inertia == "paper") v.inertia = JointInertia::paper;
         series = {v, v};
         series.back().single = true;
     }
@@ -93,7 +84,7 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
         chosen.push_back(v);
     }
     if (chosen.empty())
-        throw UsageError("--solver, --scheme, --refresh, --precision and --joint-inertia leave nothing to measure");
+        throw UsageError("--solver, --scheme, --precision and --joint-inertia leave nothing to measure");
     return chosen;
 }
 
@@ -127,7 +118,6 @@ void work(ErrorCommand& o) {
     reading.tolerance.reset();
     reading.joint_inertia.clear();
     reading.scheme.clear();
-    reading.refresh.clear();
     Setting setting = read_setting(reading);
     refuse_overwriting_trees(setting, written);
     if (has_free_bodies(setting.scene))

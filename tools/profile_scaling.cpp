@@ -1,6 +1,5 @@
 #include "formats/documents/tree.h"
 #include "lib/fast/operations.h"
-#include "lib/stages/frozen_rule.h"
 #include "machine_limits.h"
 #include "profile.h"
 #include "progress.h"
@@ -21,7 +20,7 @@ struct ScalingCommand {
     CommonOptions& common;
     RunOptions run; // wind
     std::string bodies = "1000,10000,100000,1000000", threads, precision = "float,double",
-                solver = solver_name(default_solver), simd = "auto", shape = "bushy", refresh;
+                solver = solver_name(default_solver), simd = "auto", shape = "bushy";
     std::vector<std::string> trees;
     std::optional<std::int64_t> frames, array;
     int repeat = ScalingChoice().repeat;
@@ -49,10 +48,6 @@ void declare(CLI::App& app, ScalingCommand& o) {
     app.add_option("--solver", o.solver, std::string("Solvers, with commas (") + o.solver + ")")->option_text("LIST");
     app.add_option("--simd", o.simd,
                    "Which SIMD code, with commas: auto (default), avx512, avx2, baseline, or off, the plain step")
-        ->option_text("LIST");
-    app.add_option("--refresh", o.refresh,
-                   "Tolerances of analytic's frozen coefficients, with commas, or always (" +
-                       rate_text(default_refresh) + "; in wind always)")
         ->option_text("LIST");
     app.add_option("--wind", o.run.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file")
         ->option_text("NAME|FILE");
@@ -103,9 +98,6 @@ std::vector<std::int64_t> counts(const std::string& option, const std::string& t
 std::vector<RunOptions> chosen_ways(const ScalingCommand& o) {
     std::vector<std::string> solvers;
     for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
-    const bool analytic = o.solver.find(solver_name(Solver::analytic)) != std::string::npos;
-    if (!o.refresh.empty() && o.refresh != "always" && !analytic)
-        throw UsageError("--refresh: only with --solver analytic");
     std::vector<RunOptions> ways;
     for (const std::string& solver : words("--solver", o.solver, solvers))
         for (const std::string& simd : words("--simd", o.simd, {"auto", "off", "baseline", "avx2", "avx512"}))
@@ -117,16 +109,7 @@ std::vector<RunOptions> chosen_ways(const ScalingCommand& o) {
                 if (precision == "float" && solver.rfind("articulated", 0) == 0)
                     throw UsageError("--precision float: not with --solver " + solver + ", which runs in double");
                 chosen_simd(way); // refused before the work
-                if (solver != solver_name(Solver::analytic)) {
-                    ways.push_back(way);
-                    continue;
-                }
-                for (const std::string& refresh :
-                     o.refresh.empty() ? std::vector<std::string>{""} : split_list(o.refresh)) {
-                    way.refresh = refresh;
-                    analytic_refresh(way); // refused before the work
-                    ways.push_back(way);
-                }
+                ways.push_back(way);
             }
     return ways;
 }
@@ -162,7 +145,7 @@ void work(ScalingCommand& o) {
     refuse_overwriting(read, {{"--report", o.report}, {"-o", o.common.output}});
     require_report(o.report);
     if (!fast::available(fast::counted_target))
-        throw UsageError("scaling: this build cannot count what a step computes (it was made with BOUGH_COUNTING=OFF)");
+        throw UsageError("scaling: this build cannot count what a step computes; make it with -DBOUGH_COUNTING=ON");
     ScalingChoice choice;
     choice.ways = chosen_ways(o);
     const std::string machine = machine_threads() > 1 ? "1," + std::to_string(machine_threads()) : "1";

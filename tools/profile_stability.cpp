@@ -20,7 +20,6 @@ void declare(CLI::App& app, StabilityCommand& o) {
     app.add_option("INPUT", o.run.input, "A tree, or a scene whose trees, gravity and air are taken; - for stdin");
     app.add_option("--frames", o.frames, "Steps a cell (100)")->option_text("N")->check(whole_number(4));
     add_simd_option(app, o.run);
-    add_refresh_option(app, o.run);
     app.add_option("--only", o.only, "Only the cases whose group or name contains this")->option_text("TEXT");
     app.add_option("--report", o.report, "Also write the figures as .json or .csv, the grid as .svg, both as .html")
         ->option_text("FILE")
@@ -42,13 +41,12 @@ void work(StabilityCommand& o) {
     StabilityReport report;
     {
         std::unique_ptr<Progress> progress;
-        report = measure_stability(
-            {setting.tree, setting.ranges, setting.scene, 1.0 / 30, chosen_simd(o.run), analytic_refresh(o.run)},
-            options, [&](std::int64_t done, std::int64_t cells) {
-                if (interrupted()) throw Interrupted("interrupted: nothing is written");
-                if (!progress) progress = std::make_unique<Progress>(o.common, "cell", cells);
-                progress->at(done);
-            });
+        report = measure_stability({setting.tree, setting.ranges, setting.scene, 1.0 / 30, chosen_simd(o.run)}, options,
+                                   [&](std::int64_t done, std::int64_t cells) {
+                                       if (interrupted()) throw Interrupted("interrupted: nothing is written");
+                                       if (!progress) progress = std::make_unique<Progress>(o.common, "cell", cells);
+                                       progress->at(done);
+                                   });
     }
     if (report.cells.empty()) throw UsageError("--only is '" + o.only + "', which no case's group or name contains");
     Output output(o.common.output);

@@ -1,5 +1,4 @@
 #include "run_options.h"
-#include "lib/stages/frozen_rule.h"
 #include "set_option.h"
 #include <array>
 #include <cmath>
@@ -51,14 +50,6 @@ void add_simd_option(CLI::App& app, RunOptions& o) {
         ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
 }
 
-void add_refresh_option(CLI::App& app, RunOptions& o) {
-    app.add_option("--refresh", o.refresh,
-                   "With --solver analytic: when a joint's modes are worked out anew: once its composite has turned or "
-                   "changed by about TOL radians since, or always (" +
-                       rate_text(default_refresh) + "; in wind always)")
-        ->option_text("TOL|always");
-}
-
 void add_sleep_option(CLI::App& app, RunOptions& o) {
     app.add_option("--sleep", o.sleep,
                    "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
@@ -96,7 +87,6 @@ void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
         ->option_text("NAME")
         ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
     add_simd_option(app, o);
-    add_refresh_option(app, o);
     app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
         ->option_text("RAD")
         ->check(positive_number());
@@ -147,24 +137,6 @@ std::optional<fast::Target> chosen_simd(const RunOptions& o) {
         throw UsageError("--simd " + o.simd + ": this machine or build does not have it; the best here is " +
                          fast::target_name(fast::best_target()));
     return target;
-}
-
-double analytic_refresh(const RunOptions& o) {
-    if (o.refresh.empty()) return default_refresh;
-    if (o.refresh == "always") return 0;
-    const std::optional<double> tolerance = parse_number(o.refresh);
-    if (!tolerance || !(*tolerance > 0 && *tolerance <= 3))
-        throw UsageError("--refresh is '" + o.refresh + "', expected a tolerance above 0, at most 3, or always");
-    return *tolerance;
-}
-
-double chosen_refresh(const RunOptions& o, const Scene& scene) {
-    const double tolerance = analytic_refresh(o);
-    if (chosen_solver(o) == Solver::analytic) return o.refresh.empty() && scene.wind ? 0 : tolerance;
-    if (tolerance > 0 && !o.refresh.empty())
-        throw UsageError("--refresh " + o.refresh +
-                         ": only with --solver analytic; all others work everything out anew");
-    return 0;
 }
 
 double chosen_sleep(const RunOptions& o) {

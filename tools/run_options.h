@@ -20,7 +20,6 @@ struct RunOptions {
     std::string simd = "auto";
     std::string sleep;        // as given: a rate or off; empty: sleep_default
     double sleep_default = 0; // [rad/s] the tool's own
-    std::string refresh;      // as given: a tolerance or always; empty: chosen_refresh
     std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
     std::optional<std::uint64_t> seed;
     std::vector<std::string> set; // as given: PATH=VALUE, set_option.h
@@ -31,7 +30,6 @@ struct RunOptions {
 void add_run_options(CLI::App&, RunOptions&, double seconds_default);
 
 void add_simd_option(CLI::App&, RunOptions&);
-void add_refresh_option(CLI::App&, RunOptions&);
 void add_sleep_option(CLI::App&, RunOptions&); // with sleep_default as it stands
 
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
@@ -54,10 +52,5 @@ std::optional<fast::Target> chosen_simd(const RunOptions&);
 // one given with --simd off.
 double chosen_sleep(const RunOptions&);
 std::string rate_text(double rate); // "1e-05"
-
-// Tolerance of frozen coefficients (lib/stages/frozen.h); 0: none are kept. Without --refresh: default_refresh with the analytic solver, but in wind, whose
-// changes make too many anew, none. Throws UsageError for what is no tolerance, and for one given with another solver.
-double chosen_refresh(const RunOptions&, const Scene&);
-double analytic_refresh(const RunOptions&); // whatever the solver and the wind
 
 } // namespace bough

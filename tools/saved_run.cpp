@@ -1,7 +1,6 @@
 #include "saved_run.h"
 #include "formats/documents/motion.h"
 #include "lib/fast/sleep.h"
-#include "lib/stages/frozen.h"
 
 namespace bough {
 namespace {
@@ -32,11 +31,6 @@ template <class T> void restore(const TreesimOptions& o, const Setting& setting,
     refuse("precision", saved.precision, o.run.precision);
     refuse("solver", saved.solver, o.run.solver);
     refuse("scheme", saved.scheme, scheme_name(o.run));
-    if (saved.refresh != plan.refresh) {
-        const auto text = [](double refresh) { return refresh > 0 ? rate_text(refresh) : "always"; };
-        throw InputError(input_name(o.resume),
-                         "/refresh: is " + text(saved.refresh) + ", but this run has " + text(plan.refresh));
-    }
     refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
     if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
     refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(plan.bodies) + " bodies");
@@ -60,11 +54,6 @@ template <class T> void restore(const TreesimOptions& o, const Setting& setting,
     state.articulated_step = saved.articulated_step;
     state.step = saved.frame * o.run.substeps;
     restart(plan, state);
-    try {
-        if (plan.refresh > 0) restore_frozen(plan, state, saved.frozen);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(input_name(o.resume), std::string("/frozen: ") + error.what());
-    }
     try {
         if (plan.lanes.sleep.on) fast::restore_sleep(plan, state, saved.sleep); // else what slept goes on awake
     } catch (const std::invalid_argument& error) {
@@ -90,9 +79,7 @@ template <class T> void save(const TreesimOptions& o, const Setting& setting, Ru
     saved.articulated_step = state.articulated_step;
     saved.source = with_command_line(setting.source, o.common);
     saved.sleep = fast::saved_sleep(plan, state);
-    saved.refresh = plan.refresh;
     saved.free_bodies = saved_world(state, run.world);
-    saved.frozen = saved_frozen(plan, state);
     visit_carried(plan, state, saved, [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
         for (const Vector3<T>& v : from) to.push_back(v.template cast<double>());
     });

@@ -21,11 +21,6 @@ double median(std::vector<double> values) {
 }
 
 // What code `plan` runs with, and by which target's limits it is held.
-template <class T> std::string refresh_of(const Plan<T>& plan) {
-    if (plan.solver != Solver::analytic) return {};
-    return plan.refresh > 0 ? rate_text(plan.refresh) : "always";
-}
-
 template <class T> std::string simd_of(const Plan<T>& plan) {
     return plan.lanes.on ? fast::target_name(plan.target) : "none";
 }
@@ -59,8 +54,7 @@ template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
     const fast::StepBytes bytes =
         plan.solver == Solver::coupled
             ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed, shared)
-            : fast::analytic_step_bytes(layout, plan.wind, plan.pushes(), plan.gravity, plan.refresh > 0, sizeof(T),
-                                        plan.field, shared);
+            : fast::analytic_step_bytes(layout, plan.wind, plan.pushes(), plan.gravity, sizeof(T), plan.field, shared);
     const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
     cost.slots = each(std::uint64_t(layout.rows) * std::uint64_t(layout.lanes));
     cost.constants_in = each(bytes.constants.in);
@@ -138,7 +132,6 @@ private:
         ScalingCost c;
         c.shape = tree.shape;
         c.solver = way.solver;
-        c.refresh = refresh_of(plan);
         c.precision = way.precision;
         c.simd = simd_of(plan);
         c.bodies = std::int64_t(plan.bodies);
@@ -177,7 +170,6 @@ private:
             run.shape = tree.shape;
             run.solver = way.solver;
             run.scheme = scheme_name(way);
-            run.refresh = refresh_of(plan);
             run.precision = way.precision;
             run.simd = simd_of(plan);
             run.threads = threads;

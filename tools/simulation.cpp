@@ -60,14 +60,14 @@ Plan<T> plan_of(TreeType&& tree, const Setting& setting, Wishes wishes, const Ru
     try {
         const Solver solver = chosen_solver(o);
         std::optional<fast::Target> simd = chosen_simd(o);
-        double sleep = chosen_sleep(o), refresh = chosen_refresh(o, setting.scene);
+        double sleep = chosen_sleep(o);
         if (setting.part.parts > 1) sleep = 0; // trees sleep by blocks, which those of a whole scene share
         if (setting.part.moved) {              // as make_plan decides for the whole
-            sleep = refresh = 0;
+            sleep = 0;
             if (solver == Solver::analytic) simd.reset();
         }
         Plan<T> plan = make_plan<T>(std::forward<TreeType>(tree), setting.ranges, setting.scene, wishes,
-                                    1 / (o.fps * o.substeps), solver, chosen_scheme(o), simd, sleep, refresh);
+                                    1 / (o.fps * o.substeps), solver, chosen_scheme(o), simd, sleep);
         if (o.tolerance) plan.tolerance = *o.tolerance;
         return plan;
     } catch (const std::out_of_range& error) {

@@ -197,8 +197,6 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
-    if (!o.run.refresh.empty() && o.run.refresh != "always" && plan.refresh == 0)
-        o.common.notes.push_back("--refresh: nothing is kept in this run: " + plan.refresh_reason);
     const auto [first, last] = frames_to_make(o, setting, from, run, frames);
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;

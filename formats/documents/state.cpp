@@ -40,8 +40,6 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             carried("scaled_rate", state.scaled_rate, body),
             carried("spin_dot", state.spin_dot, body),
             optional({"articulated_step", &state.articulated_step}),
-            optional({"refresh", &state.refresh}),
-            without_filling(optional(array("frozen", state.frozen, {}))),
             without_filling(optional(array("free_bodies", state.free_bodies, {}))),
             without_filling(optional(array("sleep", state.sleep, {})))};
 }
@@ -69,14 +67,6 @@ void check_carried(const SavedState& state, const std::string& name) {
     check("scheme", !state.scheme.empty(), coupled);
     check("theta_change", !state.theta_change.empty(), coupled && bodies);
     check("theta_dot_change", !state.theta_dot_change.empty(), coupled && bodies);
-    const bool frozen = state.solver == solver_name(Solver::analytic) && state.refresh > 0;
-    if (!(state.refresh >= 0)) throw InputError(name + ": /refresh", "is below 0, expected a tolerance, or 0");
-    if (state.refresh > 0 && !frozen)
-        throw InputError(name + ": /refresh", "is there, but solver " + in_quotes(state.solver) + " has none");
-    if (frozen || state.frozen.empty())
-        check("frozen", !state.frozen.empty(), frozen && bodies);
-    else
-        throw InputError(name + ": /frozen", "is there, but /refresh is not");
     check("scaled_rate", !state.scaled_rate.empty(), !coupled && bodies);
     check("spin_dot", !state.spin_dot.empty(),
           !state.spin_dot.empty() && state.solver == solver_name(Solver::analytic));

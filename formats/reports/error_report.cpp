@@ -1,7 +1,6 @@
 #include "error_report.h"
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace bough {
 namespace {
@@ -50,7 +49,6 @@ void add_motion(ReportRow& row, const std::string& prefix, const MotionSummary& 
 ReportRow row_of(const ErrorRun& r, const Columns& columns) {
     ReportRow row = {{"solver", r.solver},
                      {"scheme", r.scheme},
-                     {"refresh", r.refresh},
                      {"steps_per_frame", r.steps_per_frame},
                      {"precision", r.precision},
                      {"finite", r.finite},
@@ -115,18 +113,13 @@ void write_error_csv(Output& output, const ErrorReport& report) {
 }
 
 std::vector<ErrorSeries> error_series(const ErrorReport& report) {
-    std::set<std::string> refreshes; // of the solvers that have any
-    for (const ErrorRun& run : report.runs)
-        if (!run.refresh.empty()) refreshes.insert(run.refresh);
     std::vector<ErrorSeries> series;
     for (const ErrorRun& run : report.runs) {
         std::string method = run.solver;
         if (!run.scheme.empty()) method += ", " + run.scheme;
-        if (!run.refresh.empty() && refreshes.size() > 1) method += ", refresh " + run.refresh;
         auto found = std::find_if(series.begin(), series.end(), [&](const ErrorSeries& s) {
             const ErrorRun& other = *s.runs.front();
-            return other.solver == run.solver && other.scheme == run.scheme && other.refresh == run.refresh &&
-                   other.precision == run.precision;
+            return other.solver == run.solver && other.scheme == run.scheme && other.precision == run.precision;
         });
         if (found == series.end())
             found = series.insert(found, {method + ", " + run.precision, method, run.precision, {}});

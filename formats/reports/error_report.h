@@ -14,7 +14,7 @@ std::string error_table(const ErrorReport&);
 
 // Runs that differ in their steps a frame only, in the report's order: one line of a plot.
 struct ErrorSeries {
-    std::string name;   // "analytic, branch, always, double"; refresh is left out where all runs have the same
+    std::string name;   // "analytic, inertia-branch, double"
     std::string method; // the name without the precision
     std::string precision;
     std::vector<const ErrorRun*> runs; // by steps a frame, fewest first; they point into the report

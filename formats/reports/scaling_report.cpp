@@ -18,7 +18,6 @@ ReportRow row_of(const ScalingCost& c) {
     return {{"shape", c.shape},
             {"bodies", c.bodies},
             {"solver", c.solver},
-            {"refresh", c.refresh},
             {"precision", c.precision},
             {"simd", c.simd},
             {"slots", c.slots},
@@ -45,7 +44,6 @@ ReportRow row_of(const ScalingRun& r) {
             {"bodies", r.bodies},
             {"solver", r.solver},
             {"scheme", r.scheme},
-            {"refresh", r.refresh},
             {"precision", r.precision},
             {"simd", r.simd},
             {"threads", std::int64_t(r.threads)},
@@ -68,9 +66,8 @@ template <class X> std::vector<ReportRow> rows_of(const std::vector<X>& all) {
 }
 
 std::string series_name(const ScalingRun& r) {
-    return r.shape + ", " + r.solver + (r.scheme.empty() ? "" : ", " + r.scheme) +
-           (r.refresh.empty() ? "" : ", refresh " + r.refresh) + ", " + r.precision + ", " + r.simd + ", " +
-           std::to_string(r.threads) + (r.threads == 1 ? " thread" : " threads");
+    return r.shape + ", " + r.solver + (r.scheme.empty() ? "" : ", " + r.scheme) + ", " + r.precision + ", " + r.simd +
+           ", " + std::to_string(r.threads) + (r.threads == 1 ? " thread" : " threads");
 }
 
 } // namespace

@@ -18,7 +18,7 @@ struct ScalingLimits {
 
 // What a step computes and moves, a body, counted (lib/fast/operations.h, lib/fast/step_bytes.h).
 struct ScalingCost {
-    std::string shape, solver, refresh, precision, simd; // refresh: of analytic, always or a tolerance
+    std::string shape, solver, precision, simd;
     std::int64_t bodies = 0;
     double slots = NAN; // places in rows of lanes a body: 1 without pads
     double additions = NAN, multiplications = NAN, divisions = NAN, roots = NAN;
@@ -32,7 +32,7 @@ struct ScalingCost {
 
 // One combination, all its runs.
 struct ScalingRun {
-    std::string shape, solver, scheme, refresh, precision, simd;
+    std::string shape, solver, scheme, precision, simd;
     int threads = 1;
     std::int64_t bodies = 0, frames = 0; // measured, after one of warm-up
     double ns = NAN;                     // [ns] a body and frame, the median of the runs

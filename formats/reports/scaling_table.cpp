@@ -36,8 +36,7 @@ std::string costs_text(const ScalingReport& report) {
         head({"slots", "add", "multiply", "divide", "root", "const B", "now", "next", "solved", "records", "all B"});
     std::string before;
     for (const ScalingCost& c : report.costs) {
-        const std::string name = c.shape + ", " + c.solver + (c.refresh.empty() ? "" : ", refresh " + c.refresh) +
-                                 ", " + c.precision + ", " + c.simd;
+        const std::string name = c.shape + ", " + c.solver + ", " + c.precision + ", " + c.simd;
         if (name != before) text += name + "\n";
         before = name;
         text += padded(std::to_string(c.bodies), wide) + cell(c.slots) + cell(c.additions) + cell(c.multiplications) +

@@ -1,9 +1,8 @@
 // analytic_chains.h: the analytic step's way over a block's chains of lanes, apart from what a joint does (analytic_joints.h): outward where the bodies
 // are and what loads them (state_update.h, external_forces.h), inward the composites (composite.h). Everything of a body is in its own axes.
 //
-// Own, the sweep that is derived, has frozen<kind>, whether joints of that kind keep coefficients (frozen.h), which chains then are all of;
-// joint_rate<kind>(row, lane, theta, turn), the joint's rate in the axes of its body; joint_loaded(kind, row, lane, seen), called as soon as the
-// composite of the register's bodies is there, outermost first; and joints_done(), at the end of each visit to a block.
+// Own, the sweep that is derived, has joint_rate(row, lane, theta, turn), the joint's rate in the axes of its body; joint_loaded(row, lane), called
+// as soon as the composite of the register's bodies is there, outermost first; and joints_done(), at the end of each visit to a block.
 #pragma once
 #include "analytic_sweeps.h"
 #include "sweep_parts.h"
@@ -19,13 +18,6 @@ namespace constant = analytic::constant;
 namespace loaded = analytic::loaded;
 namespace outward = analytic::outward;
 namespace inward = analytic::inward;
-
-// Of a joint, for frozen coefficients: the composite's inertia in the parent's axes, and h^2 times what gravity and the air would add to its
-// stiffness.
-template <class W> struct Seen {
-    Symmetric<W> J;  // [kg m^2]
-    W gravity, wind; // [kg m^2]
-};
 
 template <class T, bool wind, bool pulls, bool gravity, bool field, class Own>
 struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
@@ -143,15 +135,6 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         out.set(loaded::turn, W(out.real(loaded::turn) + 2 * speed * (resisted + pressed * speed)));
     }
 
-    template <bool frozen> BOUGH_FORCE static void prefetch_constants(const T* at) {
-        if constexpr (frozen) {
-            prefetch(at, analytic::first_of_coefficients * L);
-            prefetch(at + analytic::end_of_coefficients * L, (constant_count - analytic::end_of_coefficients) * L);
-        } else {
-            prefetch(at, constant_count * L);
-        }
-    }
-
     // On the body at rest, in its axes. p: the profile's factor there.
     BOUGH_FORCE V3<W> wind_on(const Frame& f, std::uint32_t row, int lane, const W& p, const V3<W>& c) const {
         if constexpr (field) {
@@ -165,8 +148,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane, T fold) const {
         const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
         const Rows<T> out = loaded_of(row, lane);
-        prefetch_constants<Own::template frozen<kind>>(constants_at(row + 1, lane));
-        prefetch(y0.at + motion::count * L, (Own::template frozen<kind> ? motion::theta_dot : motion::count) * L);
+        prefetch(constants_at(row + 1, lane), constant_count * L);
+        prefetch(y0.at + motion::count * L, motion::count * L);
         const V3<W> theta = y0.vector(motion::theta);
         const W q = dot(theta, theta);
         const Turn<W> turn = turn_of(q);
@@ -181,7 +164,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                 f.z = f.z + dot(f.R_bw.z, r);
             }
             f.v = transposed_times(R, f.v + cross(f.omega, r));
-            f.omega = transposed_times(R, f.omega) + own().template joint_rate<kind>(row, lane, theta, turn);
+            f.omega = transposed_times(R, f.omega) + own().joint_rate(row, lane, theta, turn);
         }
         f.R_bw = {transposed_times(R, f.R_bw.x), transposed_times(R, f.R_bw.y), transposed_times(R, f.R_bw.z)};
         if constexpr (gravity) out.set(loaded::g, f.R_bw * vector(rows.gravity));
@@ -300,8 +283,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         }
     }
 
-    // Returned: what frozen coefficients are held against (frozen.h).
-    BOUGH_FORCE Seen<W> step_in(Composite& q, std::uint32_t row, int lane) const {
+    BOUGH_FORCE void step_in(Composite& q, std::uint32_t row, int lane) const {
         const Rows<const T> k = constants_of(row, lane);
         const Rows<T> io = loaded_of(row, lane);
         const M3<W> R = io.matrix(loaded::R_pb);
@@ -334,16 +316,11 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             io.set(loaded::wind, q.wind_row);
             io.set(loaded::turn, q.turn_row);
         }
-        Seen<W> seen;
-        if constexpr (gravity) seen.gravity = (rows.h * rows.h) * dot(q.h, io.vector(loaded::g));
-        if constexpr (wind)
-            seen.wind = rows.h * (k.real(constant::inverse_weight) * q.wind_row) + (rows.h * rows.h) * q.turn_row;
         // To the parent's joint, in its body's axes.
         const V3<W> r = k.vector(constant::joint_position);
         const V3<W> h = R * q.h, way = T(0.5) * q.mass * r, p = h + way;
         const W xx = r.x * p.x, yy = r.y * p.y, zz = r.z * p.z;
         const Symmetric<W> J = turned(R, q.J);
-        seen.J = J;
         q.J = {J.xx + 2 * (yy + zz), J.xy - (r.x * p.y + r.y * p.x), J.xz - (r.x * p.z + r.z * p.x),
                J.yy + 2 * (xx + zz), J.yz - (r.y * p.z + r.z * p.y), J.zz + 2 * (xx + yy)};
         q.h = p + way;
@@ -359,7 +336,6 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             q.wind_row = q.wind_row + distance * q.wind_;
             q.turn_row = q.turn_row + distance * q.turn;
         }
-        return seen;
     }
 
     void group_in(const Group& g) {
@@ -375,7 +351,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                 }
                 if constexpr (wind)
                     if (is_foliage(g.kind)) q.drag_tau = q.drag_tau + leaf_torque_of(row, lane).vector(0);
-                own().joint_loaded(g.kind, row, lane, step_in(q, row, lane));
+                step_in(q, row, lane);
+                own().joint_loaded(row, lane);
             }
             Records<T, inward_count> base;
             keep(q, base.rows());

@@ -1,5 +1,4 @@
-// analytic_joints.h: what the joints' own steps (wide_spring.h, wide_frozen.h) read and write in the rows, and what of them is seen to one
-// by one: half turns, and turns so large that their energy is checked (stages/spring.h).
+// analytic_joints.h: what the joints' own steps (wide_spring.h) read and write in the rows, and what of them is seen to one by one: half turns, and turns so large that their energy is checked (stages/spring.h).
 #pragma once
 #include "../stages/oscillator.h"
 #include "../stages/turn_guard.h"
@@ -142,8 +141,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
     }
 
     // The end of a step: what large turns come to, and the motion.
-    template <bool frozen, class X>
-    BOUGH_FORCE void finish(const At<X>& a, const JointLoad<X>& in, JointStep<X>& step) {
+    template <class X> BOUGH_FORCE void finish(const At<X>& a, const JointLoad<X>& in, JointStep<X>& step) {
         using P = Registers<X>;
         V3<X> theta = step.theta;
         X q = dot(theta, theta);
@@ -162,11 +160,8 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
         }
         a.motion.set(motion::theta, theta);
         a.motion.set(motion::scaled_rate, step.rate);
-        V3<X> rate = step.omega;
-        if constexpr (!frozen) {
-            rate = rate_of(theta, t2_of(q), step.omega);
-            a.motion.set(motion::theta_dot, rate);
-        }
+        const V3<X> rate = rate_of(theta, t2_of(q), step.omega);
+        a.motion.set(motion::theta_dot, rate);
         const X all_of_it = q + dot(rate, rate);
         for (int j = 0; j < P::count; ++j) size = size + P::part(all_of_it, j);
     }
@@ -216,7 +211,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
                     count(-Registers<X>::part(o.lambda[m], j), 0, mass, flags.buckling);
                     count(Registers<X>::part(o.with_air[m], j), largest_lambda<T>(), mass, flags.bounded_lambda);
                 }
-        finish<false>(a, in, step);
+        finish(a, in, step);
     }
 
     void see_finite() const {

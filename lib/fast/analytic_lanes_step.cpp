@@ -1,7 +1,5 @@
 #include "analytic_lanes_step.h"
-#include "../stages/frozen.h"
 #include "clear_lanes.h"
-#include "frozen_lanes.h"
 #include "lane_tables.h"
 #include "shared_constants.h"
 #include "targets.h"
@@ -25,16 +23,13 @@ template <class T> AnalyticRows<T> rows_of(const Plan<T>& plan, State<T>& state)
     AnalyticRows<T> rows{};
     place_tables<T>(plan, state, (double(state.step) + 0.5) * plan.dt, rows);
     rows.motion = data(state.lanes.now);
-    if (plan.refresh > 0) rows.frozen = data(state.lanes.frozen);
-    rows.tolerance = T(plan.refresh);
     rows.shorten = shorten<T>;
     return rows;
 }
 
 template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const AnalyticRows<T>& rows) {
     const AnalyticLoads loads{plan.wind, plan.pushes(), plan.gravity, plan.field};
-    const AnalyticSweeps<T> sweeps =
-        plan.refresh > 0 ? frozen_sweeps_for<T>(plan.target, loads) : analytic_sweeps_for<T>(plan.target, loads);
+    const AnalyticSweeps<T> sweeps = analytic_sweeps_for<T>(plan.target, loads);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
     const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
@@ -91,20 +86,12 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state, cons
         row.put(analytic::motion::theta_dot, entry(state.theta_dot, i));
         row.put(analytic::motion::scaled_rate, entry(state.scaled_rate, i));
     }
-    if (plan.refresh > 0) start_frozen(plan, state);
     pack_pulls(plan, state);
     lanes.presented = true;
 }
 
 template <class T> Vector3<T> analytic_theta_dot(const State<T>& state, std::size_t slot) {
-    const auto motion = [&](int k) { return vector_at(state.lanes.now, analytic::motion::count, slot, k); };
-    if (state.lanes.frozen.empty()) return motion(analytic::motion::theta_dot);
-    const auto kept = [&](int k) { return vector_at(state.lanes.frozen, analytic::frozen::count, slot, k); };
-    const Vector3<T> a = kept(analytic::frozen::J), b = kept(analytic::frozen::J + 3);
-    if (!(a[0] + b[0] + b[2] > 0)) return motion(analytic::motion::theta_dot); // none are kept, or not yet
-    Matrix3<T> U;
-    for (int k = 0; k < 3; ++k) U.col(k) = kept(analytic::frozen::U + 3 * k);
-    return body_rate_jacobian_inverse(motion(analytic::motion::theta)) * (U * motion(analytic::motion::scaled_rate));
+    return vector_at(state.lanes.now, analytic::motion::count, slot, analytic::motion::theta_dot);
 }
 
 template <class T> void unpack_analytic(const Plan<T>& plan, State<T>& state) {
@@ -128,7 +115,6 @@ template <class T> void analytic_lanes_step(const Plan<T>& plan, State<T>& state
     state.flags.bounded_lambda += met.bounded_lambda;
     state.flags.half_turns += met.half_turns;
     state.flags.energy_guard += met.energy_guard;
-    state.flags.refreshed += met.refreshed;
     ++state.step;
 }
 

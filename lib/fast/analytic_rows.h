@@ -10,12 +10,7 @@ namespace bough::fast::analytic {
 
 // What changes from step to step and is carried: State's arrays of these names. In place, as a joint reads nobody else's.
 namespace motion {
-enum : int {
-    theta = 0,
-    scaled_rate = 3, // with frozen coefficients the modes' own,
-    theta_dot = 6,   // and this follows from them, and is not kept up
-    count = 9
-};
+enum : int { theta = 0, scaled_rate = 3, theta_dot = 6, count = 9 };
 }
 
 // Constants of a body.
@@ -34,26 +29,8 @@ enum : int {
     count = 29
 };
 } // namespace constant
-// Of those, what frozen coefficients are made of alone stands together.
-constexpr int first_of_coefficients = constant::beta, end_of_coefficients = constant::gravity_row + 1;
 constexpr int constants(bool wind) {
     return wind ? int(constant::count) : int(constant::still_count);
-}
-
-// Frozen coefficients (stages/frozen.h), where the plan keeps them.
-namespace frozen {
-enum : int {
-    U = 0,        // modes in body axes, by columns
-    E = 9,        // of the residual force in the turn
-    B = 12,       // and in the rate
-    carry = 15,   // of the rate in the turn
-    C = 18,       // and in itself
-    J = 21,       // [kg m^2] xx xy xz yy yz zz of the composite when they were made, in the parent's axes; 0: never
-    gravity = 27, // [kg m^2] h^2 times what gravity and the air then added
-    wind = 28,
-    sensitivity = 29, // [1/(kg m^2)]
-    count = 30
-};
 }
 
 // From the sweep outward to the sweep inward and to the joint's own step, in a thread's own memory.
@@ -124,8 +101,6 @@ namespace bough::fast {
 
 template <class T> struct AnalyticRows : SweepRows<T> {
     T* motion;
-    T* frozen;                 // null: no coefficients are kept
-    T tolerance;               // frozen.h
     bool (*shorten)(T* theta); // shorten_rotation (math.h) for one body
 };
 

@@ -13,14 +13,11 @@ struct AnalyticSweep : AnalyticJoints<T, wind, pulls, gravity, field, AnalyticSw
     using Base::Base;
     using typename Base::W;
 
-    template <Kind> static constexpr bool frozen = false;
-
-    template <Kind>
     BOUGH_FORCE V3<W> joint_rate(std::uint32_t row, int lane, const V3<W>& theta, const Turn<W>& turn) const {
         return this->kept_rate(row, lane, theta, turn);
     }
 
-    BOUGH_FORCE void joint_loaded(Kind, std::uint32_t row, int lane, const Seen<W>&) { this->step_next(row, lane); }
+    BOUGH_FORCE void joint_loaded(std::uint32_t row, int lane) { this->step_next(row, lane); }
     void joints_done() {
         this->step_last();
         this->see_finite();

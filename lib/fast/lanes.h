@@ -94,7 +94,6 @@ template <class T> struct Lanes {
     RowVector<T> now;                          // of the analytic step: motion
     RowVector<T> table;                        // of the coupled step: CoupledColumns
     bool odd = false;                          // which of them
-    RowVector<T> frozen;                       // analytic::frozen, where coefficients are kept
     RowVector<T> outward, inward, accelerated; // a record a joint
     std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
     std::vector<PullOnLane<T>> pulls;

@@ -7,8 +7,7 @@
 // (PlannedSharing::row). Sweeps look it up, a load a row among some thousand instructions; what they read is the same to the last bit.
 //
 // A scene pays for it only where two of its trees may be instances of one; else there is no table, nothing is hashed or compared. Not with
-// /fracture, which changes the constants of single bodies as they break off (clear_lanes.h). What coefficients are kept (frozen.h) is
-// each body's own, and not shared.
+// /fracture, which changes the constants of single bodies as they break off (clear_lanes.h).
 //
 // In double, trees under different yaws share next to nothing where gravity acts and `pose` is not `rest`: the start (pose.h) is found in the
 // world's axes, and its last digits differ. In float they are rounded away, but for about one number in 10^8.

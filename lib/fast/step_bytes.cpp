@@ -62,28 +62,23 @@ StepBytes coupled_step_bytes(const Layout& layout, bool wind, bool gravity, std:
     return bytes;
 }
 
-StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, bool frozen, std::size_t real,
-                              bool field, std::uint64_t shared) {
+StepBytes analytic_step_bytes(const Layout& layout, bool wind, bool pulls, bool gravity, std::size_t real, bool field,
+                              std::uint64_t shared) {
     const std::uint64_t rows = layout.rows, top = layout.blocks[0].end_row - layout.blocks[0].first_row;
-    const auto kept = std::uint64_t(frozen ? int(analytic::frozen::count) : 0),
-               own = std::uint64_t(analytic::constants(wind)),
-               left = std::uint64_t(frozen    ? analytic::end_of_coefficients - analytic::first_of_coefficients
-                                    : gravity ? 0
-                                              : 1),
-               motion = std::uint64_t(frozen ? int(analytic::motion::theta_dot) : int(analytic::motion::count));
+    const auto own = std::uint64_t(analytic::constants(wind)), left = std::uint64_t(gravity ? 0 : 1),
+               motion = std::uint64_t(analytic::motion::count);
     const std::uint64_t records = layout.joints * real *
                                   (record(analytic::outward_count(field), layout.lanes) +
                                    record(analytic::inward_count(wind, pulls), layout.lanes));
     const std::uint64_t lanes = layout.base.size() + layout.landing.size() + layout.fork.size();
     StepBytes bytes;
     const Constants constants = constants_of(layout, rows + top, own, shared);
-    bytes.constants.in = (constants.in * (own - left) + (rows + top) * kept) * line;
+    bytes.constants.in = constants.in * (own - left) * line;
     bytes.now.in = (rows + top) * motion * line;
     bytes.next.out = rows * motion * line;
     bytes.records.in = bytes.records.out = records;
     bytes.indices.in = index * (rows + top + lanes) + constants.table;
-    bytes.tables =
-        (constants.held * own + rows * (kept + motion)) * line + records + index * (rows + lanes) + constants.table;
+    bytes.tables = (constants.held * own + rows * motion) * line + records + index * (rows + lanes) + constants.table;
     return bytes;
 }
 

@@ -36,12 +36,10 @@ struct StepBytes {
 StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t real, bool streamed,
                              std::uint64_t shared = 0);
 
-// frozen: coefficients are kept (stages/frozen.h), which count among the constants; what they alone are made of is left where it is, and the
-// motion is without theta_dot. As of branches none of which is made anew: where there are leaves or much is, that moves other bytes.
 // The analytic step's (analytic_rows.h), which changes the motion where it stands: `next` goes out and need not come in. The top is visited twice, every
 // other block once; nothing waits.
-StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, bool frozen, std::size_t real,
-                              bool field = false, std::uint64_t shared = 0);
+StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, std::size_t real, bool field = false,
+                              std::uint64_t shared = 0);
 
 // Whether `solved` of a layout is more than shared_cache, and is written past the caches where the target can.
 // Measured (Xeon, 480 MB shared; coupled, float, gusty wind; streamed over not): 10k bodies, 2.8 MB: 1.24; 100k, 24 MB: 1.08; 1M, 230 MB: 0.69.

@@ -76,7 +76,7 @@ template <class T> struct SweepRows {
 // What a sweep over a block met with.
 struct SweepFlags {
     std::uint64_t fast_turns = 0, half_turns = 0;
-    std::uint64_t buckling = 0, bounded_lambda = 0, energy_guard = 0, refreshed = 0; // of the analytic step (StepFlags)
+    std::uint64_t buckling = 0, bounded_lambda = 0, energy_guard = 0; // of the analytic step (StepFlags)
     bool fast = false;  // a body turned by more than the energy guard lets pass unseen (energy_guard.h)
     bool finite = true; // of theta and theta_dot
     double omega2 = 0;  // [rad^2/s^2] the fastest body's (sleep.h)
@@ -87,7 +87,6 @@ struct SweepFlags {
         buckling += more.buckling;
         bounded_lambda += more.bounded_lambda;
         energy_guard += more.energy_guard;
-        refreshed += more.refreshed;
         fast = fast || more.fast;
         finite = finite && more.finite;
         if (more.omega2 > omega2) omega2 = more.omega2;

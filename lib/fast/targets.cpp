@@ -11,14 +11,12 @@ template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 MemoryKernels memory_kernels();
 template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
-template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace baseline
 #ifdef BOUGH_HAS_COUNTED
 namespace counted {
 template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field);
 template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
-template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace counted
 #endif
 #ifdef BOUGH_HAS_AVX2
@@ -28,7 +26,6 @@ template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 MemoryKernels memory_kernels();
 template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
-template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace avx2
 #endif
 #ifdef BOUGH_HAS_AVX512
@@ -38,7 +35,6 @@ template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field);
 MemoryKernels memory_kernels();
 template <class T> ArithmeticKernel<T> arithmetic_kernel();
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);
-template <class T> AnalyticSweeps<T> frozen_sweeps(AnalyticLoads);
 } // namespace avx512
 #endif
 
@@ -159,20 +155,6 @@ template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target target, Analytic
     return baseline::analytic_sweeps<T>(loads);
 }
 
-template <class T> AnalyticSweeps<T> frozen_sweeps_for(Target target, AnalyticLoads loads) {
-    require(target);
-#ifdef BOUGH_HAS_COUNTED
-    if (target == counted_target) return counted::frozen_sweeps<T>(loads);
-#endif
-#ifdef BOUGH_HAS_AVX512
-    if (target == Target::avx512) return avx512::frozen_sweeps<T>(loads);
-#endif
-#ifdef BOUGH_HAS_AVX2
-    if (target == Target::avx2) return avx2::frozen_sweeps<T>(loads);
-#endif
-    return baseline::frozen_sweeps<T>(loads);
-}
-
 template CoupledSweeps<float> coupled_sweeps_for(Target, bool, bool, bool);
 template CoupledSweeps<double> coupled_sweeps_for(Target, bool, bool, bool);
 template EnergySweepOf<float> energy_sweep_for<float>(Target, bool, bool);
@@ -181,7 +163,5 @@ template ArithmeticKernel<float> arithmetic_kernel_for(Target);
 template ArithmeticKernel<double> arithmetic_kernel_for(Target);
 template AnalyticSweeps<float> analytic_sweeps_for(Target, AnalyticLoads);
 template AnalyticSweeps<double> analytic_sweeps_for(Target, AnalyticLoads);
-template AnalyticSweeps<float> frozen_sweeps_for(Target, AnalyticLoads);
-template AnalyticSweeps<double> frozen_sweeps_for(Target, AnalyticLoads);
 
 } // namespace bough::fast

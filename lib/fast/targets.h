@@ -25,6 +25,5 @@ std::optional<Target> target_named(const std::string&);
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, bool wind, bool gravity, bool field);
 template <class T> EnergySweepOf<T> energy_sweep_for(Target, bool wind, bool field);
 template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target, AnalyticLoads);
-template <class T> AnalyticSweeps<T> frozen_sweeps_for(Target, AnalyticLoads);
 
 } // namespace bough::fast

@@ -3,8 +3,7 @@
 // X is a register or a pair of them (wide_pair.h). What lanes do depends on what stands in them alone, never on their neighbours: a branch
 // here leaves out what no lane asks for, and where one does, the others keep theirs by a choice. So registers of all widths come to the same, but
 // for products that compilers fuse with what is added to them in one way or another.
-// Cost about 1100 operations a register with wind and gravity, most of them eigenvectors and oscillators; with frozen coefficients
-// (stages/frozen.h) about 230.
+// Cost about 1100 operations a register with wind and gravity, most of them eigenvectors and oscillators.
 #pragma once
 #include "wide_cholesky.h"
 #include "wide_eigen.h"
@@ -19,7 +18,7 @@ template <class X> struct JointLoad { // in the axes of its body
     V3<X> h, g;                       // [kg m], [m/s^2] first moment, gravity
     V3<X> tau, drag_tau;              // [N m] of forces, and of the air on the body's own velocity
     X drag_row, wind_row, turn_row;   // drag.h
-    V3<X> theta, rate;                // rate: scaled_rate, or the modes' own (frozen.h)
+    V3<X> theta, rate;                // rate: scaled_rate
     V3<X> K;
     X beta, bend, twist, gravity_row, inverse_weight;
 };

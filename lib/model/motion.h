@@ -83,8 +83,6 @@ struct SavedState {
     std::vector<Vec3> scaled_rate;                    // all others: State::scaled_rate; analytic [sqrt(J)]
     std::vector<Vec3> spin_dot;      // analytic with lagged fictitious terms: State::spin_dot [rad/s^2]
     double articulated_step = 0;     // [s] State::articulated_step
-    double refresh = 0;              // analytic: Plan::refresh
-    std::vector<double> frozen;      // analytic with it: saved_frozen of stages/frozen.h
     std::vector<double> free_bodies; // saved_world of free/world.h; empty where nothing is free
     std::vector<double> sleep;       // saved_sleep of fast/sleep.h; empty where nothing has settled
     std::string source;

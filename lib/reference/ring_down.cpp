@@ -129,8 +129,8 @@ RingDown ring_down(const Problem& problem, const Variant& how, double dt, const 
     scene.gravity.setZero();
     scene.pose = Pose::rest;
     scene.joint_inertia = how.inertia;
-    Plan<double> plan = make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme,
-                                          problem.simd, 0, how.refresh);
+    Plan<double> plan =
+        make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd);
     plan.tolerance = how.tolerance;
     for (const Vec3& K : plan.K)
         if (!(K.minCoeff() > 0)) return {};

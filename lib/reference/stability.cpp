@@ -153,7 +153,7 @@ StabilityCell run(const StabilitySetup& setup, const StabilityCase& what, Solver
         return cell;
     }
     const Plan<T> plan = make_plan<T>(setup.tree, setup.ranges, for_solver(setup.scene, solver), {}, setup.dt, solver,
-                                      Scheme::p12, setup.simd, 0, setup.refresh);
+                                      Scheme::p12, setup.simd);
     State<T> state = make_state(plan);
     Audit<T> audit(plan, state, setup.tree, frames);
     MotionStatistics statistics(setup.tree, 1 / setup.dt);

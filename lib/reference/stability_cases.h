@@ -20,7 +20,6 @@ struct StabilitySetup {
     Scene scene;
     double dt = 1.0 / 30;                            // [s]
     std::optional<fast::Target> simd = std::nullopt; // the fast path, for what it holds; none: the plain path
-    double refresh = 0;                              // of the analytic solver (Plan::refresh)
 };
 
 struct StabilityCase {

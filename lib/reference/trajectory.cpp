@@ -46,8 +46,7 @@ Trajectory run(const Problem& problem, const Variant& how, bool all_bodies, int 
     Scene scene = for_solver(problem.scene, how.solver);
     scene.joint_inertia = how.inertia;
     const double dt = 1 / (problem.fps * how.steps_per_frame);
-    Plan<T> plan =
-        make_plan<T>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd, 0, how.refresh);
+    Plan<T> plan = make_plan<T>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd);
     plan.tolerance = how.tolerance;
     const std::vector<std::size_t> tips = tip_bodies(problem.tree);
     const auto stride = std::int64_t(std::max(1.0, 1 / how.steps_per_frame));

@@ -28,7 +28,6 @@ struct Variant {
     double steps_per_frame = 1;                  // 2^k; below 1 a step spans 1 / steps_per_frame frames
     double tolerance = 1e-8;                     // articulated_reference alone
     Scheme scheme = Scheme::p12;                 // coupled alone
-    double refresh = 0;                          // analytic alone (Plan::refresh)
 };
 
 // The branches' tips: pieces that no piece goes on from or leaves; the point meant is the far end (its length along z). Leaves

@@ -1,5 +1,4 @@
 #include "work_precision.h"
-#include "../stages/frozen_rule.h"
 #include "ring_down.h"
 #include "trajectory_difference.h"
 #include <algorithm>
@@ -16,7 +15,7 @@ constexpr double fine_steps = 64;     // a frame, of the coupled solver as the t
 constexpr double fine_ringing = 16;   // the same in the ring-down, which is small and slow
 
 bool same_series(const Variant& a, const Variant& b) {
-    return a.solver == b.solver && a.inertia == b.inertia && a.scheme == b.scheme && a.refresh == b.refresh;
+    return a.solver == b.solver && a.inertia == b.inertia && a.scheme == b.scheme;
 }
 
 // Limit of small steps by a solver's three finest runs; none where they do not converge (work_precision.h).
@@ -132,12 +131,6 @@ void Bench::compare_wood(const Trajectory& run, ErrorRun& r) const {
     r.error_wood = shares(levels.to_one, report.wood_deflection);
 }
 
-std::string tolerance_text(double tolerance) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", tolerance);
-    return text;
-}
-
 Trajectory Bench::timed(const Variant& v) {
     start(v.steps_per_frame >= 1 ? v.steps_per_frame : 1);
     Trajectory run = run_trajectory(problem, v, true, 1, tick());
@@ -156,7 +149,6 @@ ErrorRun Bench::row(const Variant& v, const Trajectory& run, const Trajectory* s
                : v.solver != Solver::analytic      ? "euler"
                : v.inertia == JointInertia::branch ? "inertia-branch"
                                                    : "inertia-paper";
-    if (v.solver == Solver::analytic) r.refresh = v.refresh > 0 ? tolerance_text(v.refresh) : "always";
     r.precision = v.single ? "float" : "double";
     r.steps_per_frame = v.steps_per_frame;
     r.finite = run.finite;
@@ -246,14 +238,8 @@ std::vector<Variant> all_variants() {
     for (const bool single : {false, true}) add(Solver::coupled, Scheme::p12, JointInertia::branch, single);
     for (const Scheme scheme : {Scheme::p34, Scheme::p50, Scheme::lie})
         add(Solver::coupled, scheme, JointInertia::branch, false);
-    const auto add_analytic = [&](JointInertia inertia, bool single, double refresh) {
-        add(Solver::analytic, Scheme::p12, inertia, single);
-        all.back().refresh = refresh;
-    };
-    for (const bool single : {false, true}) add_analytic(JointInertia::branch, single, default_refresh);
-    for (const bool single : {false, true}) add_analytic(JointInertia::branch, single, 0);
-    for (const double refresh : {0.01, 0.5}) add_analytic(JointInertia::branch, false, refresh);
-    for (const bool single : {false, true}) add_analytic(JointInertia::paper, single, 0);
+    for (const JointInertia inertia : {JointInertia::branch, JointInertia::paper})
+        for (const bool single : {false, true}) add(Solver::analytic, Scheme::p12, inertia, single);
     for (const Solver solver : {Solver::articulated_implicit, Solver::articulated_explicit})
         add(solver, Scheme::p12, JointInertia::branch, false);
     return all;

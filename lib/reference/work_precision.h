@@ -39,9 +39,8 @@ struct PointError {
 
 struct ErrorRun {
     std::string solver, precision;
-    std::string scheme,
-        refresh; // coupled: scheme.h's names; analytic: inertia-branch or inertia-paper, and "always" or a tolerance (frozen.h). A
-    // solver's default comes first in the report
+    std::string
+        scheme; // coupled: scheme.h's names; analytic: inertia-branch or inertia-paper. A solver's default comes first in the report
     double steps_per_frame = 1;                // 1/4 ... 64; below 1 it is frames of that many times the length
     bool finite = false;                       // the whole run; the errors are NAN where it is not
     double seconds_per_simulated_second = NAN; // [s/s] run time of the steps alone
@@ -57,7 +56,7 @@ struct ErrorRun {
     double error_arithmetic = NAN, error_arithmetic_max = NAN; // [1] from this run to the same in the widest precision
     std::vector<PointError> error_level;                       // wood by branch level
     PointError error_wood;                                     // wood of levels 0 and 1
-    MotionSummary motion;                                             // where steps_per_frame >= 1
+    MotionSummary motion;                                      // where steps_per_frame >= 1
     double error_spectrum = NAN;                               // [1] of the leaves (spectrum_difference)
     std::string hash;                                          // of the final state
 };
@@ -74,7 +73,7 @@ struct ErrorReport {
     double peak_deflection = 0;               // [m]
     std::vector<Deflection> level_deflection; // of the wood's ends by branch level, in the reference
     Deflection wood_deflection;               // of levels 0 and 1
-    MotionSummary motion;                            // of the reference
+    MotionSummary motion;                     // of the reference
     double frequency = NAN;                   // [Hz] first, in a free ring-down of the reference
     double decay = NAN;                       // [1/s] its decay rate
     double reference_seconds = 0;             // [s/s] run time of the reference per simulated second

@@ -7,9 +7,9 @@ namespace bough {
 
 const char* stage_name(Stage stage) {
     static constexpr const char* names[stage_count] = {
-        "wind_field", "external_forces", "composite",   "drag",     "root_motion", "fictitious",
-        "refresh",    "spring",          "articulated", "midpoint", "body_loads",  "resolvent",
-        "lanes",      "state_update",    "free_flight", "contacts", "fracture",    "walkers"};
+        "wind_field",   "external_forces", "composite", "drag",       "root_motion", "fictitious",
+        "spring",       "articulated",     "midpoint",  "body_loads", "resolvent",   "lanes",
+        "state_update", "free_flight",     "contacts",  "fracture",   "walkers"};
     return names[std::size_t(stage)];
 }
 
@@ -79,14 +79,9 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
     };
     add(Stage::external_forces, joints && plan.forces, plan.forces ? why(forces, own) : forces);
     add(Stage::composite, joints, why("every scene", solver));
-    const bool frozen = plan.refresh > 0;
-    add(Stage::drag, joints && plan.wind && !frozen,
-        !plan.wind         ? "no wind"
-        : joints && frozen ? "with the spring, in frozen modes"
-                           : why("/wind", own));
+    add(Stage::drag, joints && plan.wind, plan.wind ? why("/wind", own) : "no wind");
     add(Stage::root_motion, joints && plan.root_motion, plan.root_motion ? why("/root_motion", own) : "no root motion");
     add(Stage::fictitious, plan.fictitious, plan.fictitious ? "/fictitious" : "no lagged fictitious terms");
-    add(Stage::refresh, joints && frozen, analytic && frozen && !joints ? fused : plan.refresh_reason);
     add(Stage::spring, joints,
         why(std::string("every scene") + (plan.root_motion ? "; the root's term for /root_motion" : "") + limited,
             solver));
@@ -99,11 +94,11 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
                   : solver);
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, plan.lanes.on,
-        plan.lanes.on ? std::string("SIMD ") + fast::target_name(plan.target) + (plan.forces ? "; " + forces : "") +
-                            moved + (frozen ? "; " + plan.refresh_reason : "") +
-                            (plan.lanes.sleep.on ? "; asleep below " + four_digits(plan.lanes.sleep.rate) + " rad/s"
-                                                 : "; no sleep: " + plan.lanes.sleep.reason)
-                      : "plain path: " + plan.lanes.reason);
+        plan.lanes.on
+            ? std::string("SIMD ") + fast::target_name(plan.target) + (plan.forces ? "; " + forces : "") + moved +
+                  (plan.lanes.sleep.on ? "; asleep below " + four_digits(plan.lanes.sleep.rate) + " rad/s"
+                                       : "; no sleep: " + plan.lanes.sleep.reason)
+            : "plain path: " + plan.lanes.reason);
     add(Stage::state_update, !plan.lanes.on,
         !plan.pose ? "nobody reads poses"
         : plan.lanes.on
@@ -141,7 +136,6 @@ template <class T> void explain(Plan<T>& plan, const Wishes& wishes) {
             constexpr int L = fast::Row<T>::lanes;
             const int inward = fast::analytic::inward_count(plan.wind, plan.pushes());
             rows("lanes.now", layout.rows, fast::analytic::motion::count);
-            if (frozen) rows("lanes.frozen", layout.rows, fast::analytic::frozen::count);
             rows("lanes.outward, inward", layout.joints,
                  int(fast::record(fast::analytic::outward_count(plan.field), L) + fast::record(inward, L)) / L);
         } else {

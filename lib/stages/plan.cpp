@@ -206,7 +206,7 @@ void refuse_parts(const Scene& scene, Solver solver) {
 template <class T>
 Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ranges, const Scene& scene,
                   const Wishes& wishes, double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd,
-                  double sleep, double refresh) {
+                  double sleep) {
     require_reduced(tree, scene);
     Plan<T> plan;
     plan.bodies = tree.size_bodies();
@@ -236,17 +236,6 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
         plan_clocks(plan, ranges, wishes.clocks);
     }
     plan.field = plan.wind && (varies_over_ground(*scene.wind) || !plan.clock.empty());
-    plan.refresh_reason = solver != Solver::analytic ? std::string("solver ") + solver_name(solver)
-                          : !(refresh > 0)           ? "not asked for"
-                          : plan.root_motion         ? "/root_motion"
-                          : has_free_bodies(scene)   ? free_part(scene)
-                          : scene.joint_limit        ? "/joint_limit"
-                          : plan.fictitious          ? "/fictitious"
-                                                     : "";
-    if (plan.refresh_reason.empty()) {
-        plan.refresh = refresh;
-        plan.refresh_reason = "frozen coefficients, tolerance " + four_digits(refresh);
-    }
     std::vector<double> weight;
     if (solver == Solver::analytic) weight = plan_modes(plan, tree);
     if (plan.wind) plan_surfaces(plan, tree, scene);
@@ -287,30 +276,27 @@ WindReach wind_reach(const Tree& tree, const std::vector<TreeRange>& ranges, con
 
 template <class T>
 Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
-                  double refresh) {
-    if (!scales(scene))
-        return plan_tree<T>(drawn, nullptr, ranges, scene, wishes, dt, solver, scheme, simd, sleep, refresh);
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep) {
+    if (!scales(scene)) return plan_tree<T>(drawn, nullptr, ranges, scene, wishes, dt, solver, scheme, simd, sleep);
     Tree scaled = drawn;
     scale(scaled, scene);
-    return plan_tree<T>(scaled, &scaled, ranges, scene, wishes, dt, solver, scheme, simd, sleep, refresh);
+    return plan_tree<T>(scaled, &scaled, ranges, scene, wishes, dt, solver, scheme, simd, sleep);
 }
 
 template <class T>
 Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
-                  double refresh) {
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep) {
     if (scales(scene)) scale(tree, scene);
-    return plan_tree<T>(tree, &tree, ranges, scene, wishes, dt, solver, scheme, simd, sleep, refresh);
+    return plan_tree<T>(tree, &tree, ranges, scene, wishes, dt, solver, scheme, simd, sleep);
 }
 
 template Plan<float> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                               Scheme, std::optional<fast::Target>, double, double);
+                               Scheme, std::optional<fast::Target>, double);
 template Plan<double> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                                Scheme, std::optional<fast::Target>, double, double);
+                                Scheme, std::optional<fast::Target>, double);
 template Plan<float> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                               Scheme, std::optional<fast::Target>, double, double);
+                               Scheme, std::optional<fast::Target>, double);
 template Plan<double> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,
-                                Scheme, std::optional<fast::Target>, double, double);
+                                Scheme, std::optional<fast::Target>, double);
 
 } // namespace bough

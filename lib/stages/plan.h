@@ -24,7 +24,6 @@ enum class Stage : std::uint8_t {
     drag,
     root_motion,
     fictitious,
-    refresh,
     spring,
     articulated,
     midpoint,
@@ -37,7 +36,7 @@ enum class Stage : std::uint8_t {
     fracture,
     walkers
 };
-constexpr std::size_t stage_count = 18;
+constexpr std::size_t stage_count = 17;
 const char* stage_name(Stage);
 
 // How a step is made (lib/reference/advance.h). The articulated ones exist in double alone.
@@ -93,9 +92,7 @@ template <class T> struct Plan {
     Solver solver = Solver::analytic;
     Scheme scheme = Scheme::p12; // of the coupled solver
     double tolerance = 1e-8;     // [rad] error allowed in a step of articulated_reference (extrapolation.h)
-    double refresh = 0; // of the analytic solver: how stale frozen coefficients may become (frozen.h); 0: none are kept
-    Scene scene;        // as given, for times and forces
-    std::string refresh_reason; // why they are kept, or why not
+    Scene scene;                 // as given, for times and forces
     bool gravity = false, wind = false, forces = false, velocity = false, torque = false;
     bool root_motion = false, joint_limit = false;
     bool fictitious = false; // of the analytic solver: lagged terms of the joints' own motion (fictitious.h)
@@ -180,16 +177,15 @@ WindReach wind_reach(const Tree&, const std::vector<TreeRange>&, const Scene&);
 // for rigid bodies not yet joined (reduce.h).
 // simd: the fast path in that target's code, where it holds all that the scene has (Plan::lanes says why not); none: the plain path.
 // sleep: [rad/s] the rate below which what has settled is left out of the fast path's steps (fast/sleep.h); 0: never.
-// refresh: of the analytic solver, the tolerance of frozen coefficients (frozen.h); 0: none are kept, every step is worked out in full.
 // Memory: a tree that is handed over (Tree&&) gives each array back as soon as the plan has what it needs of it, so that the two never
 // stand side by side whole; branch numbers, name, material, source and colours stay.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
                   Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
-                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double refresh = 0);
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0);
 template <class T>
 Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
                   Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
-                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double refresh = 0);
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0);
 
 } // namespace bough

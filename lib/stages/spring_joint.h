@@ -1,5 +1,4 @@
-// spring_joint.h: one joint of spring.h at the start of its step and its three oscillators, which the step that works them out anew (spring.cpp)
-// and the one that keeps them (frozen.h) share.
+// spring_joint.h: one joint of spring.h at the start of its step, and its three oscillators.
 #pragma once
 #include "oscillator.h"
 #include "plan.h"

@@ -87,8 +87,7 @@ template <class T> std::size_t State<T>::bytes() const {
     visit_arrays(Plan<T>(), *this, [&](const char*, const auto& array, bool, const std::string&) {
         sum += array.capacity() * sizeof(array[0]);
     });
-    for (const auto* rows :
-         {&lanes.now, &lanes.table, &lanes.frozen, &lanes.outward, &lanes.inward, &lanes.accelerated})
+    for (const auto* rows : {&lanes.now, &lanes.table, &lanes.outward, &lanes.inward, &lanes.accelerated})
         sum += rows->capacity() * sizeof(fast::Row<T>);
     for (const ArticulatedPass& pass : articulated) sum += pass.body.capacity() * sizeof(ArticulatedBody);
     return sum;

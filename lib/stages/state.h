@@ -2,7 +2,6 @@
 #pragma once
 #include "../coupled/coupled_body.h"
 #include "articulated_pass.h"
-#include "frozen_joint.h"
 #include "plan.h"
 #include "wind.h"
 #include <array>
@@ -23,7 +22,6 @@ struct StepFlags {
     std::uint64_t fast_turns =
         0; // bodies' turns of more than a radian a step, bounded in the implicit step (articulated.h)
     std::uint64_t inner_steps = 0; // steps that articulated_reference cut the plan's into, which is no guard
-    std::uint64_t refreshed = 0;   // joint-steps in which frozen coefficients were made anew (frozen.h)
     std::uint64_t asleep = 0;      // body-steps left out, in blocks at rest (fast/sleep.h)
     std::uint64_t unresolved = 0;  // of those, how many missed the tolerance at the smallest length (extrapolation.h)
 };
@@ -86,9 +84,6 @@ template <class T> struct State {
         spin_dot; // [rad/s^2] how the joint's own rate J theta_dot changed at the last step's end, body axes; carried, saved
     std::vector<Vector3<T>> alpha_w, a_w; // [rad/s^2], [m/s^2] of the body, of its own joint, by (9) and (12)
     std::vector<Vector3<T>> fictitious_w; // [N m] about own joint, for the spring
-
-    // refresh
-    std::vector<FrozenJoint<T>> frozen; // frozen.h; where coefficients are kept, scaled_rate is the modes' rates
 
     // spring
     std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for

@@ -66,8 +66,6 @@ template <class T, class StateType, class Visit> void visit_arrays(const Plan<T>
           : plan.joint_limit ? "/joint_limit"
                              : "a scheme of complex poles, no joint limit");
     visit("guard", s.guard, plain, work);
-    visit("frozen", s.frozen, joints && plan.refresh > 0,
-          analytic && plan.refresh > 0 && !joints ? fast : plan.refresh_reason);
     visit("torque_j", s.torque_j, plan.torque, torque);
 }
 

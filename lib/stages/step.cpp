@@ -3,7 +3,6 @@
 #include "drag.h"
 #include "external_forces.h"
 #include "fictitious.h"
-#include "frozen.h"
 #include "root_term.h"
 #include "spring.h"
 #include "state_update.h"
@@ -30,14 +29,10 @@ template <class T> void step(const Plan<T>& plan, State<T>& state, StageClock* c
         run_stage(Stage::wind_field, state, clock, [&] { evaluate_wind(*plan.scene.wind, middle, state.wind); });
     if (plan.forces) run_stage(Stage::external_forces, state, clock, [&] { external_forces(plan, state, middle); });
     run_stage(Stage::composite, state, clock, [&] { composite_update(plan, state); });
-    if (plan.refresh > 0)
-        run_stage(Stage::refresh, state, clock, [&] { refresh_joints(plan, state); });
-    else if (plan.wind)
-        run_stage(Stage::drag, state, clock, [&] { joint_drag(plan, state); });
+    if (plan.wind) run_stage(Stage::drag, state, clock, [&] { joint_drag(plan, state); });
     if (plan.root_motion) run_stage(Stage::root_motion, state, clock, [&] { root_loads(plan, state, time); });
     if (plan.fictitious) run_stage(Stage::fictitious, state, clock, [&] { fictitious_torques(plan, state); });
-    run_stage(Stage::spring, state, clock,
-              [&] { plan.refresh > 0 ? frozen_update(plan, state) : spring_update(plan, state); });
+    run_stage(Stage::spring, state, clock, [&] { spring_update(plan, state); });
     run_stage(Stage::state_update, state, clock, [&] {
         move_ground(plan, state, double(state.step + 1) * plan.dt);
         state_update(plan, state);

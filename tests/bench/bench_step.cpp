@@ -3,7 +3,6 @@
 #include "lib/fast/layout.h"
 #include "lib/fast/targets.h"
 #include "lib/reference/advance.h"
-#include "lib/stages/frozen_rule.h"
 #include <benchmark/benchmark.h>
 #ifdef _OPENMP
 #include <omp.h>
@@ -16,7 +15,7 @@ using namespace bough;
 enum class Path { lanes, plain };
 
 // path: lanes where they hold the solver; the label says which it was.
-template <class T> void step_of(benchmark::State& benchmark, Solver solver, Path path, double refresh) {
+template <class T> void step_of(benchmark::State& benchmark, Solver solver, Path path) {
 #ifdef _OPENMP
     omp_set_num_threads(1);
 #endif
@@ -26,7 +25,7 @@ template <class T> void step_of(benchmark::State& benchmark, Solver solver, Path
     const std::optional<fast::Target> simd =
         path == Path::lanes ? std::optional(fast::best_target()) : std::optional<fast::Target>();
     const Plan<T> plan =
-        make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12, simd, 0, refresh);
+        make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12, simd);
     State<T> state = make_state(plan);
     for (auto _ : benchmark) advance(plan, state);
     benchmark.SetItemsProcessed(benchmark.iterations() * std::int64_t(plan.bodies));
@@ -42,14 +41,12 @@ void layout(benchmark::State& benchmark) {
 
 const bool registered = [] {
     using benchmark::RegisterBenchmark;
-    RegisterBenchmark("step/coupled/lanes/float", step_of<float>, Solver::coupled, Path::lanes, 0);
-    RegisterBenchmark("step/coupled/lanes/double", step_of<double>, Solver::coupled, Path::lanes, 0);
-    RegisterBenchmark("step/coupled/plain/double", step_of<double>, Solver::coupled, Path::plain, 0);
-    RegisterBenchmark("step/analytic/lanes/float", step_of<float>, Solver::analytic, Path::lanes, 0);
-    RegisterBenchmark("step/analytic/lanes/double", step_of<double>, Solver::analytic, Path::lanes, 0);
-    RegisterBenchmark("step/analytic/frozen/float", step_of<float>, Solver::analytic, Path::lanes, default_refresh);
-    RegisterBenchmark("step/analytic/frozen/double", step_of<double>, Solver::analytic, Path::lanes, default_refresh);
-    RegisterBenchmark("step/analytic/plain/double", step_of<double>, Solver::analytic, Path::plain, 0);
+    RegisterBenchmark("step/coupled/lanes/float", step_of<float>, Solver::coupled, Path::lanes);
+    RegisterBenchmark("step/coupled/lanes/double", step_of<double>, Solver::coupled, Path::lanes);
+    RegisterBenchmark("step/coupled/plain/double", step_of<double>, Solver::coupled, Path::plain);
+    RegisterBenchmark("step/analytic/lanes/float", step_of<float>, Solver::analytic, Path::lanes);
+    RegisterBenchmark("step/analytic/lanes/double", step_of<double>, Solver::analytic, Path::lanes);
+    RegisterBenchmark("step/analytic/plain/double", step_of<double>, Solver::analytic, Path::plain);
     RegisterBenchmark("layout", layout)->Arg(16)->Arg(8)->ArgName("lanes");
     return true;
 }();

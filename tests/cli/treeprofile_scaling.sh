@@ -4,7 +4,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 small=(--bodies 200,400 --threads 1,2 --frames 3 --repeat 2 --array 4)
 
 if grep -qs '^BOUGH_COUNTING:BOOL=OFF' "$build/CMakeCache.txt"; then
-    refused 1 "BOUGH_COUNTING=OFF" treeprofile scaling "${small[@]}"
+    refused 1 "make it with -DBOUGH_COUNTING=ON" treeprofile scaling "${small[@]}"
     echo "skipped: this build cannot count what a step computes"
     exit 77
 fi

@@ -18,7 +18,7 @@ python3 -c '
 import json, math
 r = json.load(open("r.json"))
 runs = r["runs"]
-keys = """solver scheme refresh steps_per_frame precision seconds_per_simulated_second error_rms error_max error_rms_peak
+keys = """solver scheme steps_per_frame precision seconds_per_simulated_second error_rms error_max error_rms_peak
 error_max_peak error_rms_height error_step error_model error_arithmetic""".split()
 assert all(k in run for run in runs for k in keys)
 assert 0 <= r["reference_error"] < 1e-3

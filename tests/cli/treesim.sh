@@ -80,43 +80,21 @@ one=$(hash small.json --wind gusty --frames 8 --solver analytic)
     fail "--joint-inertia paper changes nothing"
 treesim small.json --wind gusty --frames 4 --solver analytic --no-output --save-state analytic.state
 
-# Frozen coefficients: each tolerance another motion, one however cut; saved with it, and what cannot keep them says so.
-kept=(small.json --wind gusty --solver analytic)
+# Each precision and code its own motion, the same cut in two by a state of either form.
 seen=
-for refresh in always 0.02 0.3; do
-    for precision in double float; do
-        for simd in auto off; do
-            run=("${kept[@]}" --refresh $refresh --precision $precision --simd $simd)
-            now=$(hash "${run[@]}" --frames 12)
-            [[ -n $now && $seen != *" $now "* ]] || fail "--refresh $refresh, $precision, $simd is the motion of another"
-            seen+=" $now "
-            for form in json safetensors; do
-                treesim "${run[@]}" --frames 5 -q --no-output --save-state kept.$form
-                [[ $(hash "${run[@]}" --frames 7 --resume kept.$form) == "$now" ]] ||
-                    fail "--refresh $refresh in $precision does not go on as it was from a saved state in $form"
-            done
+for precision in double float; do
+    for simd in auto off; do
+        run=(small.json --wind gusty --solver analytic --precision $precision --simd $simd)
+        now=$(hash "${run[@]}" --frames 12)
+        [[ -n $now && $seen != *" $now "* ]] || fail "analytic in $precision, $simd is the motion of another"
+        seen+=" $now "
+        for form in json safetensors; do
+            treesim "${run[@]}" --frames 5 -q --no-output --save-state half.$form
+            [[ $(hash "${run[@]}" --frames 7 --resume half.$form) == "$now" ]] ||
+                fail "analytic in $precision, $simd does not go on as it was from a saved state in $form"
         done
     done
 done
-[[ $(hash "${kept[@]}" --frames 12) == $(hash "${kept[@]}" --frames 12 --refresh always) ]] || fail "in wind coefficients are kept unasked"
-calm=(small.json --solver analytic --pose rest --frames 12)
-[[ $(hash "${calm[@]}") == $(hash "${calm[@]}" --refresh 0.05) && $(hash "${calm[@]}") != $(hash "${calm[@]}" --refresh always) ]] ||
-    fail "without wind 0.05 is not the default"
-kept+=(--refresh 0.05)
-treesim "${kept[@]}" --frames 5 -q --no-output --save-state kept.json
-refused 2 "/refresh: is 0.05, but this run has 0.3" treesim "${kept[@]:0:5}" --frames 5 --refresh 0.3 --resume kept.json
-python3 -c 'import json; d = json.load(open("kept.json")); d["frozen"].pop(); json.dump(d, open("wrong.json", "w"))'
-refused 2 "/frozen: holds" treesim "${kept[@]}" --frames 5 --resume wrong.json
-python3 -c 'import json; d = json.load(open("kept.json")); del d["frozen"]; json.dump(d, open("wrong.json", "w"))'
-refused 2 "/frozen: is missing" treesim "${kept[@]}" --frames 5 --resume wrong.json
-python3 -c 'import json; d = json.load(open("kept.json")); del d["refresh"]; json.dump(d, open("wrong.json", "w"))'
-refused 2 "/frozen: is there, but" treesim "${kept[@]}" --frames 5 --resume wrong.json
-for wrong in 0 -1 4 often; do refused 1 "--refresh is '$wrong', expected" treesim "${kept[@]:0:5}" --refresh=$wrong; done
-refused 1 "--refresh 0.1: only with --solver analytic" treesim small.json --wind gusty --refresh 0.1
-expect 0 treesim small.json --wind gusty --frames 3 --no-output --refresh always
-refused 2 "/refresh: is 0.05, but this run has always" treesim "${kept[@]:0:5}" --frames 5 --refresh always --resume kept.json
-expect 0 treesim "${kept[@]:0:5}" --frames 3 --no-output --joint-limit 90 --refresh 0.1
-grep -q -- "--refresh: nothing is kept in this run: /joint_limit" err || fail "what cannot be kept is not said"
 
 # The coupled solver: a motion for each scheme and precision, the same for any case of its name, cut in two or not.
 seen=" $one "
