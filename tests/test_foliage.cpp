@@ -171,7 +171,7 @@ TEST_CASE("The air takes a blade's turning about its length by exp(-rate t), in 
 TEST_CASE("A clump streams as a pendulum of its drag, and swings no longer at one step a frame than it should") {
     // About the equilibrium along the wind: I theta'' + (D l^2 + k_spin I_c) theta' + (K + F l) theta = 0, F = kappa rho A g U^2 its drag, D = F / U across
     // the wind, l the arm.
-    const double U = 20, g = 1 / (1 + U / 8), L = 0.3;
+    const double U = 20, g = 1 / (1 + U / 7.5), L = 0.3;
     Tree tree = leaf_along(Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()), L, 14);
     tree.damping[0] = 0;
     Scene scene = in_steady(U);
