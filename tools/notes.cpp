@@ -1,5 +1,4 @@
 #include "notes.h"
-#include "lib/fast/shared_constants.h"
 #include "lib/model/counted.h"
 #include <algorithm>
 #include <array>
@@ -7,41 +6,6 @@
 #include <sstream>
 
 namespace bough {
-
-namespace {
-
-template <class T> std::string sharing_text(const Plan<T>& plan) {
-    const fast::PlannedLanes<T>& lanes = plan.lanes;
-    const std::string rows = std::to_string(lanes.layout.rows) + " rows: ";
-    const std::string bytes = std::to_string(lanes.constants.size() * sizeof(fast::Row<T>)) + " bytes, ";
-    if (!lanes.sharing.on) return bytes + rows + "none shared, " + lanes.sharing.reason;
-    return bytes + rows + "shared by instances, " + std::to_string(fast::shared_rows(plan)) + " kept";
-}
-
-} // namespace
-
-template <class T>
-std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes, const RunOptions& run) {
-    std::ostringstream text;
-    text << "plan: " << plan.bodies << " bodies, " << run.precision << ", step " << plan.dt << " s, solver "
-         << solver_name(plan.solver);
-    if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
-    text << "\n";
-    for (const std::string& change : changes) text << "tree changed by " << change << "\n";
-    for (const PlannedStage& stage : plan.stages)
-        text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
-    std::size_t used = 0, left = 0;
-    for (const PlannedArray& array : plan.arrays) {
-        text << "array " << array.name << (array.on ? " on, " : " left out, ") << array.bytes
-             << " bytes: " << array.reason << "\n";
-        (array.on ? used : left) += array.bytes;
-    }
-    text << "constants of bodies in document order "
-         << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
-    if (plan.lanes.on) text << "constants of rows in lanes " << sharing_text(plan) << "\n";
-    text << "state: " << used << " bytes, left out " << left << " bytes\n";
-    return text.str();
-}
 
 // What turned too fast for the step to follow. Where that is a body in a thousand there is nothing to do about it.
 template <class T>
@@ -115,8 +79,6 @@ template <class T> std::string cost_line(const Plan<T>& plan, const RunOptions& 
     return text.str();
 }
 
-template std::string explanation(const Plan<float>&, const std::vector<std::string>&, const RunOptions&);
-template std::string explanation(const Plan<double>&, const std::vector<std::string>&, const RunOptions&);
 template void note_flags(const Plan<float>&, const StepFlags&, std::int64_t, std::vector<std::string>&);
 template void note_flags(const Plan<double>&, const StepFlags&, std::int64_t, std::vector<std::string>&);
 template void note_world(const World<float>&, std::vector<std::string>&);

@@ -1,5 +1,5 @@
-#include "lib/model/fnv.h"
-#include "simulation.h"
+#include "fingerprint.h"
+#include "../model/fnv.h"
 
 namespace bough {
 namespace {
@@ -142,10 +142,10 @@ struct Fingerprint {
 
 } // namespace
 
-std::uint64_t fingerprint(const Setting& setting) {
+std::uint64_t fingerprint(const Tree& joined, const Scene& scene) {
     Fingerprint f;
-    f.add(setting.tree);
-    f.add(setting.scene);
+    f.add(joined);
+    f.add(scene);
     return f.hash.value();
 }
 

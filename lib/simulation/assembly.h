@@ -1,0 +1,54 @@
+// assembly.h: what a run is of: a scene's trees joined into one, with what the scene makes of them put into them.
+//
+//   stand        one tree after another where the scene places it
+//   change_wood  /wood and /load go from the scene into the tree
+//   join_rigid   bodies that are held (/simulate, a tree's own /rigid) become one with what they hang on (reduce.h)
+// in that order; then plan_run (run.h) compiles the result.
+#pragma once
+#include "../stages/reduce.h"
+#include "scene_error.h"
+#include <memory>
+
+namespace bough {
+
+// Which part of a scene's trees a run has, and what it must know of the whole.
+struct Part {
+    std::int32_t part = 1, parts = 1;
+    std::int64_t first_body = 0;  // in the whole scene's order
+    double top = 0, reach = 0;    // Wishes
+    std::vector<double> clocks{}; // likewise
+    std::uint64_t whole = 0;      // of all trees and the whole scene, as fingerprint()
+    bool moved = false; // the ground of some tree moves, of this part or another: what a still ground allows is left out
+};
+
+// What a run of a part of a tree is of, where joints are held.
+struct Whole {
+    Tree tree; // all bodies, none held
+    Scene scene;
+    Reduced places; // where each body is on the tree that runs, which is not in here
+};
+
+struct Assembly {
+    Tree tree;
+    std::vector<TreeRange> ranges; // of the scene's trees in it
+    Scene scene;
+    std::string source; // command lines that made the trees
+    Part part = {};
+    std::vector<std::string> changes{};   // what of the scene is in the tree by now: a line each, for --explain
+    std::shared_ptr<const Whole> whole{}; // where joints are held; tree, ranges and scene are then of what moves
+};
+
+// The first tree, often the only one and large, is taken as it is; others are copied behind it. O(bodies).
+void stand(Assembly&, Tree, const Placement& at);
+
+// Throws SceneError for a selector that names no body. O(bodies).
+void change_wood(Assembly&);
+
+// Nothing changes where nothing is held. Throws SceneError: a selector that names no body, nothing left that moves, free bodies beside rigid
+// ones. O(bodies).
+void join_rigid(Assembly&);
+
+// All of it for a scene that holds its trees (Placement::tree). Throws SceneError, also for what check() finds.
+Assembly assemble(Scene);
+
+} // namespace bough

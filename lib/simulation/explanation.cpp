@@ -1,0 +1,44 @@
+#include "explanation.h"
+#include "../fast/shared_constants.h"
+#include <sstream>
+
+namespace bough {
+namespace {
+
+template <class T> std::string sharing_text(const Plan<T>& plan) {
+    const fast::PlannedLanes<T>& lanes = plan.lanes;
+    const std::string rows = std::to_string(lanes.layout.rows) + " rows: ";
+    const std::string bytes = std::to_string(lanes.constants.size() * sizeof(fast::Row<T>)) + " bytes, ";
+    if (!lanes.sharing.on) return bytes + rows + "none shared, " + lanes.sharing.reason;
+    return bytes + rows + "shared by instances, " + std::to_string(fast::shared_rows(plan)) + " kept";
+}
+
+} // namespace
+
+template <class T>
+std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes) {
+    std::ostringstream text;
+    text << "plan: " << plan.bodies << " bodies, " << (std::is_same_v<T, float> ? "float" : "double") << ", step " << plan.dt << " s, solver "
+         << solver_name(plan.solver);
+    if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
+    text << "\n";
+    for (const std::string& change : changes) text << "tree changed by " << change << "\n";
+    for (const PlannedStage& stage : plan.stages)
+        text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
+    std::size_t used = 0, left = 0;
+    for (const PlannedArray& array : plan.arrays) {
+        text << "array " << array.name << (array.on ? " on, " : " left out, ") << array.bytes
+             << " bytes: " << array.reason << "\n";
+        (array.on ? used : left) += array.bytes;
+    }
+    text << "constants of bodies in document order "
+         << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
+    if (plan.lanes.on) text << "constants of rows in lanes " << sharing_text(plan) << "\n";
+    text << "state: " << used << " bytes, left out " << left << " bytes\n";
+    return text.str();
+}
+
+template std::string explanation(const Plan<float>&, const std::vector<std::string>&);
+template std::string explanation(const Plan<double>&, const std::vector<std::string>&);
+
+} // namespace bough

@@ -1,0 +1,10 @@
+// explanation.h: a plan's account of itself as text: what `treesim --explain` and Simulation::explain() print.
+#pragma once
+#include "../stages/plan.h"
+
+namespace bough {
+
+// changes: Assembly::changes. A line each for the plan, what the scene changed of the tree, every stage and array with its reason.
+template <class T> std::string explanation(const Plan<T>&, const std::vector<std::string>& changes);
+
+} // namespace bough

@@ -1,0 +1,47 @@
+// run.h: one run, step after step: plan, state, and what is free beside the trees. The inside of the door (simulation.h); treesim and
+// treeprofile, which report on plans and states themselves, stand on it too.
+#pragma once
+#include "../free/world.h"
+#include "assembly.h"
+
+namespace bough {
+
+// How the steps are made; make_plan says what each means.
+struct StepChoice {
+    double dt = 1.0 / 30; // [s]
+    Solver solver = Solver::coupled;
+    Scheme scheme = Scheme::p12;
+    std::optional<fast::Target> simd; // none: the plain path
+    double sleep = 0;                 // [rad/s]
+    std::optional<double> tolerance;  // [rad] of articulated_reference; its own unless given
+};
+
+// Throws SceneError. An assembly that is handed over keeps of its tree what make_plan says, and memory low.
+template <class T> Plan<T> plan_run(const Assembly&, const Wishes&, const StepChoice&);
+template <class T> Plan<T> plan_run(Assembly&&, const Wishes&, const StepChoice&);
+
+template <class T> struct Run {
+    Plan<T> plan;
+    State<T> state;
+    World<T> world;
+};
+
+// At the start. Keeps a reference to the assembly's tree where the scene has something free. Throws SceneError.
+template <class T> Run<T> start_run(Plan<T> plan, const Assembly&);
+
+// One step. Returns "", or where the run became non-finite: "stage spring (theta), body 17 (branch 3)".
+template <class T> std::string advance_run(Run<T>&, const Tree&, StageClock* clock = nullptr);
+
+// The same of a state as it stands, whose arrays are brought up to date where that takes it.
+template <class T> std::string non_finite(const Plan<T>&, State<T>&, const Tree&);
+
+// The arrays of a state that is up to date (present()), as far as `fields` asks for them, in the precision of frames. Returns the first body
+// whose numbers are non-finite, if there is one. Allocates nothing once the frame has grown.
+template <class T> std::optional<std::size_t> fill_frame(const State<T>&, const MotionFields& fields, MotionFrame&);
+
+// A frame of the run becomes one of all bodies: those that are held, what fell, balls and walkers.
+template <class T> void show_all(const Assembly&, const Run<T>&, MotionFrame&);
+
+std::string hash_text(std::uint64_t hash); // 16 hex digits
+
+} // namespace bough

@@ -1,0 +1,110 @@
+// simulation.h: the door. One run of a scene, from its trees to their motion:
+//
+//   bough::Scene scene;
+//   scene.add(bough::convert(bough::grow("apple", {.bodies = 10000, .seed = 7})));     // bough/files.h; or read_scene("park.json")
+//   scene.wind = bough::wind_preset("gusty");
+//   bough::Simulation simulation(scene, {.step = 1 / 30., .precision = bough::Precision::single});
+//   for (int frame = 0; frame < 90; ++frame) {
+//       if (bough::StepReport report = simulation.step(); !report.finite()) return 3;  // report.non_finite names stage and body
+//       use(simulation.positions(), simulation.rotations());
+//   }
+//
+// Errors. What cannot be run throws SceneError, once, from the constructor, with the place as treesim prints it. A call with a number that is
+// none, or for a body that is not there, throws it too and changes nothing. After a step that became non-finite, steps do nothing and return the
+// same report; what is read stays what it was. A simulation keeps all that it needs: the scene and its trees may go.
+// Threads. One simulation is used by one thread at a time; several may run side by side. Results do not hang on the number of threads.
+// Frames of reference. World axes, y up, metres, seconds, kilograms; bodies in document order (tree.h), the trees' one after another, then balls,
+// then walkers.
+#pragma once
+#include "../model/motion.h"
+#include "../model/scene.h"
+#include "scene_error.h"
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace bough {
+
+// What numbers a run is made in. Single is twice as fast; tips differ by some millionths of the deflection.
+enum class Precision : std::uint8_t { single, double_ };
+
+// How a step is made: coupled is bough's own, analytic the paper's (lib/README.md).
+enum class Method : std::uint8_t { coupled, analytic };
+
+struct SimulationOptions {
+    double step = 1.0 / 30; // [s] above 0: of one call of step()
+    Precision precision = Precision::double_;
+    Method method = Method::coupled;
+    double sleep = 0;        // [rad/s] slower than this for a while, trees are left out of steps until something moves them; 0: never
+    int threads = 0;         // of a step at most; 0: as many as the machine has
+    bool velocities = false; // velocities() and angular_velocities() are wanted: else empty
+    bool torques = false;    // likewise torques()
+    bool pulls = false;      // pull() will be called: without, the step has no place for it
+    bool portable = false;   // the plain path, one number at a time: the same to the last bit on every machine; several times slower
+};
+
+struct StepReport {
+    std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
+    // Bodies of which the step could not follow the motion, in this step (README.md, "Limits"): none of it is an error.
+    std::uint64_t fast_turns = 0; // turned by more than a radian
+    std::uint64_t guarded = 0;    // were kept from gaining energy
+    std::uint64_t limited = 0;    // ended at a joint's limit, which the scene asks for
+    std::size_t broke = 0, hits = 0, landed = 0; // events() has them
+
+    bool finite() const { return non_finite.empty(); }
+};
+
+class Simulation {
+public:
+    // Compiles the scene; its start is the state at time 0. O(bodies). Throws SceneError.
+    explicit Simulation(Scene, const SimulationOptions& = {});
+    // The same, and each tree that has as many bodies as the tree of the same number had before, connected alike, goes on with its motion. For what
+    // cannot change in a run: wood, trees, kinds of wind. Throws SceneError.
+    Simulation(Scene, const SimulationOptions&, const Simulation& before);
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+    ~Simulation();
+
+    // From now to now + step. O(bodies); allocates nothing once it has run a few times, but where something breaks.
+    StepReport step();
+
+    std::size_t bodies() const;   // that are shown: of trees, balls and walkers
+    std::int64_t steps() const;   // taken
+    double time() const;          // [s]
+    const Tree& tree() const;     // the trees joined, as drawn: names, branches, sizes of bodies. Without balls and walkers
+    std::span<const TreeRange> trees() const; // which of its bodies are whose
+
+    // Present state, a number for each body, valid until the next step. What is not asked for costs nothing; the first call after a step O(bodies).
+    std::span<const Vec3> positions() const;          // [m] of own joints (of balls: centres)
+    std::span<const Quat> rotations() const;          // world from body
+    std::span<const Vec3> velocities() const;         // [m/s] of centres of mass (Options::velocities)
+    std::span<const Vec3> angular_velocities() const; // [rad/s] (Options::velocities)
+    std::span<const Vec3> angles() const;             // [rad] rotation vectors of joints in their joint frames; of trees alone
+    std::span<const Vec3> rates() const;              // [rad/s] how those change
+    std::span<const Vec3> torques() const;            // [N m] of springs and dampers on bodies, joint frames (Options::torques)
+    const MotionEvents& events() const;               // of the last step: what broke, hit, landed
+
+    // What may change between two steps. None of it plans anew or allocates; each is taken from the next step on.
+    // The wind of a scene that has one (of no velocity at all: still air). Its grid, swirl, shelter, profile and period stay. Throws SceneError.
+    void set_wind(const Wind&);
+    // Of a scene that has some, with the coupled method. The drawn pose keeps the springs' rest that it had. Throws SceneError.
+    void set_gravity(const Vec3&); // [m/s^2]
+    // A force [N], world, on a point [m, body frame] of a body of the trees, in the next step alone. Any number of them. Throws SceneError
+    // without Options::pulls, for bodies that are held or not there.
+    void pull(std::size_t body, const Vec3& point, const Vec3& force);
+
+    std::uint64_t hash() const; // of the state: equal hashes, equal motion from here on
+    // A run that goes on from what save() gave ends as this one, bit by bit. restore() throws SceneError where it was another run's.
+    SavedState save() const;
+    void restore(const SavedState&);
+
+    std::string explain() const; // which stages and arrays the scene needs, and why
+    std::size_t bytes() const;   // [B] of the state
+
+private:
+    class Inside;
+    template <class T> class InsideOf;
+    std::unique_ptr<Inside> inside_;
+};
+
+} // namespace bough
