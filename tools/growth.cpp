@@ -1,5 +1,6 @@
 #include "growth.h"
 #include "formats/documents/species.h"
+#include "formats/files.h"
 #include "lib/growth/carry.h"
 #include "parameters.h"
 #include <algorithm>
@@ -104,12 +105,6 @@ void refuse_what_is_foreign(const GrowthOptions& o, const ImportChoice& choice, 
 }
 
 } // namespace
-
-std::vector<std::string> species_names() {
-    std::vector<std::string> names = {default_species().name};
-    for (const SpeciesFile& file : species_files()) names.emplace_back(file.name);
-    return names;
-}
 
 void add_growth_options(CLI::App& app, GrowthOptions& o) {
     app.add_option("--species", o.species, "Which tree to grow (see --list-species)")

@@ -19,9 +19,6 @@ struct GrowthOptions {
 
 void add_growth_options(CLI::App&, GrowthOptions&);
 
-// What --species takes: the default tree and the documents that come with bough.
-std::vector<std::string> species_names();
-
 // Throws UsageError where options contradict each other; with --import, of which only --leaves and --fruit go along.
 void refuse_contradictions(const GrowthOptions&, bool import);
 

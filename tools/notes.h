@@ -4,9 +4,6 @@
 
 namespace bough {
 
-// --explain: each stage and array, on or left out, and why; what changed the tree (Setting::changes).
-template <class T> std::string explanation(const Plan<T>&, const std::vector<std::string>& changes, const RunOptions&);
-
 // Guards that acted in so many steps, and what was left out or kept.
 template <class T>
 void note_flags(const Plan<T>&, const StepFlags&, std::int64_t steps, std::vector<std::string>& notes);

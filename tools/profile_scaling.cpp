@@ -117,14 +117,18 @@ std::vector<RunOptions> chosen_ways(const ScalingCommand& o) {
 std::vector<ScalingTree> chosen_trees(ScalingCommand& o, const Scene& scene, std::string& source) {
     const auto standing = [&](Tree tree) {
         const TreeRange all{0, tree.size_bodies(), 0};
-        return Setting{std::move(tree), {all}, scene, {}};
+        Setting setting;
+        setting.tree = std::move(tree);
+        setting.ranges = {all};
+        setting.scene = scene;
+        return setting;
     };
     std::vector<ScalingTree> trees;
     for (const std::string& file : o.trees) {
         Tree tree = read_tree(Input(file));
         if (!tree.source.empty()) source += (source.empty() ? "" : "\n") + tree.source;
         trees.push_back({file, standing(std::move(tree))});
-        join_rigid(trees.back().setting, file);
+        apply_scene(trees.back().setting, file);
     }
     if (!trees.empty()) return trees;
     for (const std::string& shape : words("--shape", o.shape, shapes))

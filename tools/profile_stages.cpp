@@ -69,13 +69,13 @@ template <class T> Report measure(const StagesOptions& o, const Setting& setting
 
 template <class T> Report fastest(const StagesOptions& o, Setting setting, std::int64_t frames) {
     const bool free = has_free_bodies(setting.scene); // then the tree is needed, and plans change on the way
-    Plan<T> plan = free ? plan_run<T>(setting, {false, false, false}, o.run)
-                        : plan_run<T>(std::move(setting), {false, false, false}, o.run);
+    Plan<T> plan = free ? planned<T>(setting, {false, false, false}, o.run)
+                        : planned<T>(std::move(setting), {false, false, false}, o.run);
     Progress progress(o.common, "run", o.repeat);
     Report best;
     for (int k = 0; k < o.repeat; ++k) {
         progress.at(k);
-        Run<T> run = start_run(free ? Plan<T>(plan) : std::move(plan), setting, o.run);
+        Run<T> run = started(free ? Plan<T>(plan) : std::move(plan), setting, o.run);
         const Report report = measure(o, setting, run, frames);
         if (!free) plan = std::move(run.plan);
         if (k > 0 && report.hash != best.hash)

@@ -1,17 +1,9 @@
-// rigid_parts.h: runs of a part of a tree: what a scene's /simulate and a tree's own /rigid hold is joined to what it hangs on (lib/stages/reduce.h)
-// before anything is planned, and comes back in the frames.
+// rigid_parts.h: what holding joints costs in accuracy and saves in time (treesim --report-rigid).
 #pragma once
 #include "lib/reference/rigid_error.h"
 #include "simulation.h"
 
 namespace bough {
-
-// Setting::tree and scene become those of the reduced tree where joints are held, and Setting::whole keeps what they were; where none is, nothing
-// changes. Throws InputError: a selector that names no body, nothing left that moves, free bodies beside rigid ones.
-void join_rigid(Setting&, const std::string& input);
-
-// A frame of the run becomes one of the whole tree; nothing to do where nothing is held.
-template <class T> void show_whole(const Setting&, const Plan<T>&, const State<T>&, MotionFrame&);
 
 // --report-rigid: the whole tree beside the run, with all its joints.
 template <class T> class RigidReport {

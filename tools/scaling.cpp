@@ -121,7 +121,7 @@ private:
         use_threads(choice.threads.front());
         RunOptions named = way; // for what is said of the tree
         named.input = tree.shape;
-        Plan<T> plan = plan_run<T>(Setting(tree.setting), {false, false, false}, named); // as treesim --no-output
+        Plan<T> plan = planned<T>(Setting(tree.setting), {false, false, false}, named); // as treesim --no-output
         const std::size_t first = at;
         for (const int threads : choice.threads) {
             time_once(tree, way, plan, threads);

@@ -1,12 +1,11 @@
 #include "scene_trees.h"
 #include "formats/documents/tree.h"
 #include "lib/fast/stands.h"
-#include "lib/model/place.h"
+#include "lib/simulation/fingerprint.h"
 #include "lib/stages/wind_field.h"
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <numeric>
 
 namespace bough {
@@ -65,7 +64,7 @@ void measure(const Scene& scene, const std::string& scene_file, const MaterialCh
         sizes.push_back(std::move(size));
         if (!alone.tree.rigid.empty())
             throw UsageError("--shard: not where joints are held (/rigid of " + scene.trees[k].file + ")");
-        part.whole = part.whole * 1099511628211u ^ fingerprint(alone); // FNV's prime
+        part.whole = part.whole * 1099511628211u ^ fingerprint(alone.tree, alone.scene); // FNV's prime
         if (!scene.wind) continue;
         const WindReach reach = wind_reach(alone.tree, alone.ranges, scene_of_tree(scene, k));
         part.top = std::max(part.top, reach.top);
@@ -73,7 +72,7 @@ void measure(const Scene& scene, const std::string& scene_file, const MaterialCh
     }
     Setting all; // what acts on them
     all.scene = scene;
-    part.whole = part.whole * 1099511628211u ^ fingerprint(all);
+    part.whole = part.whole * 1099511628211u ^ fingerprint(all.tree, all.scene);
     part.clocks = wind_clocks(scene);
     part.moved = !scene.root_motion.empty();
 }
@@ -92,23 +91,6 @@ Tree with_material(Tree tree, const MaterialChange& change, const std::string& f
         throw InputError(input_name(file) + ": /material", error.what());
     }
     return tree;
-}
-
-// The first tree, often the only one and large, is taken as it is; others are copied behind it.
-void stand(Setting& setting, Tree tree, const Placement& at) {
-    const std::vector<std::int32_t>& branch = setting.tree.branch;
-    const std::int32_t first_branch = branch.empty() ? 0 : *std::max_element(branch.begin(), branch.end()) + 1;
-    const std::size_t first = setting.tree.size_bodies(), bodies = tree.size_bodies();
-    if (!tree.source.empty() && setting.source.find(tree.source) == std::string::npos)
-        setting.source += (setting.source.empty() ? "" : "\n") + tree.source;
-    const double yaw = at.yaw * std::numbers::pi / 180;
-    if (first == 0) {
-        setting.tree = std::move(tree);
-        place(setting.tree, at.position, yaw);
-    } else {
-        append(setting.tree, tree, at.position, yaw);
-    }
-    setting.ranges.push_back({first, bodies, first_branch});
 }
 
 Part parse_shard(const std::string& text) {

@@ -12,9 +12,6 @@ namespace bough {
 // Reads the trees of setting.scene, each file once, and stands them in setting.tree; of a part, its own alone, and of the scene what
 // concerns them. Throws UsageError for a --shard that is none, InputError.
 void stand_trees(Setting&, const std::string& scene_file, const std::string& shard, const MaterialChange&);
-// A tree on its own.
-void stand(Setting&, Tree tree, const Placement& at);
-
 // Where a scene's tree is read from.
 std::string tree_file(const std::string& scene_file, const Placement&);
 // The tree of this file with its wood changed. Throws InputError where what the wood was is not known.

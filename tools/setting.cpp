@@ -1,14 +1,10 @@
 #include "setting.h"
 #include "formats/documents/scene.h"
 #include "formats/documents/tree.h"
-#include "lib/model/static_load.h"
-#include "lib/model/wood_overrides.h"
-#include "rigid_parts.h"
 #include "scene_trees.h"
 #include "set_option.h"
 #include <filesystem>
 #include <set>
-#include <sstream>
 
 namespace bough {
 namespace {
@@ -62,32 +58,6 @@ SceneDocument chosen_document(const RunOptions& o, std::string_view content, con
     return last.empty() ? document : changed(document, last);
 }
 
-// What a scene makes of its trees themselves: into the tree, before anything is planned or weighed.
-void change_trees(Setting& setting, const std::string& scene_file) {
-    const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + what; };
-    if (setting.scene.wood) {
-        WoodChanges changes;
-        try {
-            changes = override_wood(setting.tree, setting.ranges, *setting.scene.wood);
-        } catch (const std::out_of_range& error) {
-            throw InputError(input_name(scene_file), std::string("/") + error.what());
-        }
-        std::string line = "/wood: stiffness of " + count(changes.stiffness, " joints, damping of ") +
-                           count(changes.damping, ", mass of ") + count(changes.mass, " bodies");
-        if (setting.scene.wood->fork)
-            line += "; " + count(changes.near_forks, " joints near ") + count(changes.forks, " forks");
-        setting.changes.push_back(line);
-        setting.scene.wood.reset();
-    }
-    if (setting.scene.load) {
-        const LoadLaid laid = lay_load(setting.tree, *setting.scene.load);
-        std::ostringstream kilograms;
-        kilograms << laid.mass;
-        setting.changes.push_back("/load: " + kilograms.str() + " kg on " + count(laid.bodies, " bodies"));
-        setting.scene.load.reset();
-    }
-}
-
 // A park has many trees of few files.
 std::vector<std::string> tree_files(const std::string& scene_file, const Scene& scene) {
     std::vector<std::string> files;
@@ -98,6 +68,15 @@ std::vector<std::string> tree_files(const std::string& scene_file, const Scene& 
 }
 
 } // namespace
+
+void apply_scene(Setting& setting, const std::string& input) {
+    try {
+        change_wood(setting);
+        join_rigid(setting);
+    } catch (const SceneError& error) {
+        throw InputError(input_name(input), error.what());
+    }
+}
 
 Setting read_setting(const RunOptions& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
@@ -128,8 +107,7 @@ Setting read_setting(const RunOptions& o) {
     }
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
-    change_trees(setting, o.input);
-    join_rigid(setting, o.input);
+    apply_scene(setting, o.input);
     return setting;
 }
 

@@ -2,6 +2,7 @@
 #include "common.h"
 #include "formats/documents/splines.h"
 #include "formats/exports/skeleton_writer.h"
+#include "formats/files.h"
 #include "growth.h"
 #include "import_file.h"
 #include "import_stats.h"

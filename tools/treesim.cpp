@@ -4,6 +4,8 @@
 #include "frame_queue.h"
 #include "lib/free/shown_tree.h"
 #include "lib/model/counted.h"
+#include "lib/simulation/explanation.h"
+#include "lib/simulation/fingerprint.h"
 #include "notes.h"
 #include "progress.h"
 #include "rigid_parts.h"
@@ -96,8 +98,7 @@ std::int64_t run_frames(const TreesimOptions& o, const Setting& setting, Run<T>&
                 present(plan, state);
                 MotionFrame& frame = queue->next();
                 fill_frame(state, f, o.run.fps, fields, frame);
-                show_whole(setting, plan, state, frame);
-                place_free_bodies(run.world, frame);
+                show_all(setting, run, frame);
                 queue->push();
             }
             done = f;
@@ -180,20 +181,21 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     if (!o.save_tree.empty()) require_one_tree(setting);
     const bool mesh = is_mesh(format);
     const bool needs_tree = loops || o.report_error || !o.save_tree.empty() || mesh || has_free_bodies(setting.scene);
-    if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting);
-    Plan<T> planned = needs_tree ? plan_run<T>(setting, wishes, o.run) : plan_run<T>(std::move(setting), wishes, o.run);
+    if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting.tree, setting.scene);
+    Plan<T> plan_made =
+        needs_tree ? planned<T>(setting, wishes, o.run) : planned<T>(std::move(setting), wishes, o.run);
     interrupt_at_boundary();
     std::optional<SavedState> saved; // read once: it may come from a pipe
     if (!o.resume.empty()) saved = read_state(read_input(o.resume), input_name(o.resume));
     const SavedState* const from = saved ? &*saved : nullptr;
     std::vector<std::uint32_t> broken;
     if (mesh && setting.scene.fracture)
-        broken = what_breaks(o, setting, from, start_run(Plan<T>(planned), setting, o.run), frames);
+        broken = what_breaks(o, setting, from, started(Plan<T>(plan_made), setting, o.run), frames);
     if (is_point_cache(format)) refuse_broken_cache(o, broken.size());
-    Run<T> run = start_run(std::move(planned), setting, o.run);
+    Run<T> run = started(std::move(plan_made), setting, o.run);
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
-    if (o.explain) std::cerr << explanation(plan, setting.changes, o.run);
+    if (o.explain) std::cerr << explanation(plan, setting.changes);
     if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
                                  (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));

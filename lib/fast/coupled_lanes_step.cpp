@@ -192,7 +192,8 @@ Slot<T> motion_of(RowVector<T>& table, const std::vector<std::size_t>& motion_at
 template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
     for (auto* array : {&state.theta, &state.theta_dot, &state.theta_change, &state.theta_dot_change})
         array->resize(plan.bodies); // where they were left out
-    const std::vector<std::size_t> motion_at = motion_of_rows(plan, state);
+    std::vector<std::size_t>& motion_at = state.lanes.motion_at;
+    motion_of_rows(plan, state, motion_at);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Slot<T> row = motion_of(state.lanes.table, motion_at, plan.lanes.layout.slot[i]);
         state.theta[i] = row.vector(motion::theta);

@@ -7,7 +7,7 @@ namespace bough::fast {
 namespace {
 
 // Which trees a fast body belongs to, and which blocks have part in one.
-template <class T> std::vector<bool> watch(const Plan<T>& plan, State<T>& state) {
+template <class T> const std::vector<std::uint8_t>& watch(const Plan<T>& plan, State<T>& state) {
     const Layout& layout = plan.lanes.layout;
     for (EnergyAccount& account : state.account) account = {};
     for (std::size_t k = 0; k < layout.tree.size(); ++k) {
@@ -18,12 +18,13 @@ template <class T> std::vector<bool> watch(const Plan<T>& plan, State<T>& state)
         account.watched = true;
         account.wood = account.wood || (state.lanes.watched[k] & 1);
     }
-    std::vector<bool> blocks(layout.blocks.size(), false);
+    std::vector<std::uint8_t>& blocks = state.lanes.weighed;
+    blocks.assign(layout.blocks.size(), 0);
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)
         for (std::uint32_t g = layout.blocks[b].first_group; g < layout.blocks[b].end_group && !blocks[b]; ++g)
             for (std::size_t l = 0; l < std::size_t(layout.lanes); ++l) {
                 const std::uint32_t tree = layout.tree[layout.groups[g].first_base + l];
-                if (tree != nothing && state.account[tree].watched) blocks[b] = true;
+                if (tree != nothing && state.account[tree].watched) blocks[b] = 1;
             }
     return blocks;
 }
@@ -113,7 +114,7 @@ template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, con
 
 template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
     const Layout& layout = plan.lanes.layout;
-    const std::vector<bool> blocks = watch(plan, state);
+    const std::vector<std::uint8_t>& blocks = watch(plan, state);
     const EnergyRows<T> energies = make_room(plan, state.lanes);
     if (plan.root_motion) place_grounds(plan, state);
     const EnergySweepOf<T> weigh = energy_sweep_for<T>(plan.target, plan.wind, plan.field);

@@ -45,8 +45,10 @@ template <class T> void place_loads(const Plan<T>& plan, State<T>& state) {
         put(pull.force, load.force.template cast<double>());
         lanes.pulls.push_back(pull);
     }
-    std::stable_sort(lanes.pulls.begin(), lanes.pulls.end(),
-                     [](const PullOnLane<T>& a, const PullOnLane<T>& b) { return a.row < b.row; });
+    for (std::size_t k = 0; k < lanes.pulls.size(); ++k) lanes.pulls[k].order = k;
+    std::sort(lanes.pulls.begin(), lanes.pulls.end(), [](const PullOnLane<T>& a, const PullOnLane<T>& b) {
+        return a.row != b.row ? a.row < b.row : a.order < b.order; // stable, and without the memory that that takes
+    });
     for (std::size_t k = lanes.pulls.size(); k-- > 0;) lanes.pull_of_row[lanes.pulls[k].row] = std::int32_t(k);
 }
 
@@ -146,9 +148,9 @@ template <class T> void place_block(const Plan<T>& plan, State<T>& state, const 
     rows.solved_stride = places.solved.stride;
 }
 
-template <class T> std::vector<std::size_t> motion_of_rows(const Plan<T>& plan, const State<T>& state) {
+template <class T> void motion_of_rows(const Plan<T>& plan, const State<T>& state, std::vector<std::size_t>& at) {
     const Layout& layout = plan.lanes.layout;
-    std::vector<std::size_t> at(layout.rows);
+    at.resize(layout.rows);
     for (const Block& block : layout.blocks) {
         const Run now = plan.solver == Solver::analytic
                             ? Run{std::ptrdiff_t(block.first_row) * analytic::motion::count, analytic::motion::count}
@@ -156,6 +158,11 @@ template <class T> std::vector<std::size_t> motion_of_rows(const Plan<T>& plan, 
         for (std::uint32_t row = block.first_row; row < block.end_row; ++row)
             at[row] = std::size_t(now.at(row - block.first_row));
     }
+}
+
+template <class T> std::vector<std::size_t> motion_of_rows(const Plan<T>& plan, const State<T>& state) {
+    std::vector<std::size_t> at;
+    motion_of_rows(plan, state, at);
     return at;
 }
 
@@ -191,6 +198,7 @@ template void place_tables(const Plan<float>&, State<float>&, double, SweepRows<
 template void place_field_change(const Plan<float>&, State<float>&, double, CoupledRows<float>&);
 template void place_block(const Plan<float>&, State<float>&, const Block&, CoupledRows<float>&);
 template std::vector<std::size_t> motion_of_rows(const Plan<float>&, const State<float>&);
+template void motion_of_rows(const Plan<float>&, const State<float>&, std::vector<std::size_t>&);
 template void add_ports(const Plan<float>&, State<float>&, int);
 template std::size_t share_scratch(Lanes<float>&);
 template void put_body(const Plan<double>&, std::size_t, const Slot<double>&);
@@ -200,6 +208,7 @@ template void place_tables(const Plan<double>&, State<double>&, double, SweepRow
 template void place_field_change(const Plan<double>&, State<double>&, double, CoupledRows<double>&);
 template void place_block(const Plan<double>&, State<double>&, const Block&, CoupledRows<double>&);
 template std::vector<std::size_t> motion_of_rows(const Plan<double>&, const State<double>&);
+template void motion_of_rows(const Plan<double>&, const State<double>&, std::vector<std::size_t>&);
 template void add_ports(const Plan<double>&, State<double>&, int);
 template std::size_t share_scratch(Lanes<double>&);
 

@@ -18,6 +18,7 @@ template <class T> CoupledPlaces places_of(const Plan<T>& plan, const State<T>& 
 template <class T> void place_block(const Plan<T>&, State<T>&, const Block&, CoupledRows<T>&);
 // Where each row's motion stands in Lanes::now, or in Lanes::table. O(rows).
 template <class T> std::vector<std::size_t> motion_of_rows(const Plan<T>&, const State<T>&);
+template <class T> void motion_of_rows(const Plan<T>&, const State<T>&, std::vector<std::size_t>& at);
 
 // A record of `count` for each joint of the layout; what is there stays.
 template <class T> void resize_records(const Layout&, RowVector<T>& records, int count);

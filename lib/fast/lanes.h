@@ -100,6 +100,8 @@ template <class T> struct Lanes {
     std::vector<std::int32_t> pull_of_row; // the plan's, and of State::loads, where there may be some
     std::vector<SweepFlags> flags;         // one a block
     std::vector<std::uint8_t> watched;     // CoupledRows
+    std::vector<std::uint8_t> weighed;     // blocks that the energy guard looks at in this step
+    std::vector<std::size_t> motion_at;    // motion_of_rows, once presented
     RowVector<T> energy_records, energy_sums, energy_fast,
         energy_ground;           // EnergyRows; empty until something turns fast
     std::vector<BlockRest> rest; // one a block; empty where nothing may sleep

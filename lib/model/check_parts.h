@@ -6,10 +6,10 @@
 
 namespace bough {
 
-std::optional<Defect> finite(const std::string& field, const Vec3&);
-std::optional<Defect> finite(const std::string& field, double);
-std::optional<Defect> at_least(const std::string& field, double value, double low);
-std::optional<Defect> above_zero(const std::string& field, double value);
+std::optional<Defect> finite(std::string_view field, const Vec3&);
+std::optional<Defect> finite(std::string_view field, double);
+std::optional<Defect> at_least(std::string_view field, double value, double low);
+std::optional<Defect> above_zero(std::string_view field, double value);
 // `trees`: how many the scene has; 0: the caller has the one tree that it is for.
 std::optional<Defect> check(const Selector&, const std::string& at, std::size_t trees);
 std::optional<Defect> check(const Wind&);

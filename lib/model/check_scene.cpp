@@ -3,30 +3,30 @@
 
 namespace bough {
 
-std::optional<Defect> finite(const std::string& field, const Vec3& value) {
+std::optional<Defect> finite(std::string_view field, const Vec3& value) {
     if (value.allFinite()) return std::nullopt;
-    return Defect{field, -1, "is not finite, expected finite numbers"};
+    return Defect{std::string(field), -1, "is not finite, expected finite numbers"};
 }
 
-std::optional<Defect> at_least(const std::string& field, double value, double low) {
+std::optional<Defect> at_least(std::string_view field, double value, double low) {
     if (std::isfinite(value) && value >= low) return std::nullopt;
-    return Defect{field, -1, "is " + shortest_text(value) + ", expected " + shortest_text(low) + " or more"};
+    return Defect{std::string(field), -1, "is " + shortest_text(value) + ", expected " + shortest_text(low) + " or more"};
 }
 
-std::optional<Defect> above_zero(const std::string& field, double value) {
+std::optional<Defect> above_zero(std::string_view field, double value) {
     if (std::isfinite(value) && value > 0) return std::nullopt;
-    return Defect{field, -1, "is " + shortest_text(value) + ", expected more than 0"};
+    return Defect{std::string(field), -1, "is " + shortest_text(value) + ", expected more than 0"};
 }
 
-std::optional<Defect> finite(const std::string& field, double value) {
+std::optional<Defect> finite(std::string_view field, double value) {
     if (std::isfinite(value)) return std::nullopt;
-    return Defect{field, -1, "is not finite, expected a number"};
+    return Defect{std::string(field), -1, "is not finite, expected a number"};
 }
 
 namespace {
 
 std::optional<Defect> check(const Placement& tree, const std::string& at) {
-    if (tree.file.empty()) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
+    if (tree.file.empty() && !tree.tree) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
     if (auto defect = finite(at + "/position", tree.position)) return defect;
     if (!std::isfinite(tree.yaw)) return Defect{at + "/yaw", -1, "is not finite, expected degrees"};
     if (!(std::abs(tree.start) <= 1e9))

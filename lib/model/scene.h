@@ -5,6 +5,7 @@
 #include "tree.h"
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ struct Placement {
     Vec3 position = Vec3::Zero(); // [m]
     double yaw = 0;               // [deg] about +Y
     double start = 0; // [s] how far ahead in the wind this tree is: it sees at t what others see at t + start
+    std::shared_ptr<const Tree> tree; // in memory, in place of the file; several places may share one
 };
 
 // A square grid over the ground, seen from above: the velocity of the wind in each of its cells, the nearest cell's outside. A list holds
@@ -265,6 +267,10 @@ struct Scene {
     std::optional<Fictitious> fictitious;
     std::optional<Simulate> simulate;
     std::vector<Walker> walkers;
+
+    // One more tree, as it stands in memory, at a place on the ground [m], turned by yaw [deg] about +Y. Returns its number in `trees`.
+    std::size_t add(Tree, const Vec3& position = Vec3::Zero(), double yaw = 0);
+    std::size_t add(std::shared_ptr<const Tree>, const Vec3& position = Vec3::Zero(), double yaw = 0);
 };
 
 // The first broken rule, or none. O(keys).

@@ -61,7 +61,7 @@ public:
     // The same, and each tree that has as many bodies as the tree of the same number had before, connected alike, goes on with its motion. For what
     // cannot change in a run: wood, trees, kinds of wind. Throws SceneError.
     Simulation(Scene, const SimulationOptions&, const Simulation& before);
-    Simulation(Simulation&&) noexcept;
+    Simulation(Simulation&&) noexcept; // what was moved from may only be assigned to or destroyed
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
@@ -71,6 +71,8 @@ public:
     std::size_t bodies() const;   // that are shown: of trees, balls and walkers
     std::int64_t steps() const;   // taken
     double time() const;          // [s]
+    const SimulationOptions& options() const;
+    bool has_events() const;      // the scene may have some: something may break, fall, fly or leap
     const Tree& tree() const;     // the trees joined, as drawn: names, branches, sizes of bodies. Without balls and walkers
     std::span<const TreeRange> trees() const; // which of its bodies are whose
 

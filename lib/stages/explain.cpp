@@ -30,6 +30,7 @@ template <class T> std::string forces_text(const Plan<T>& plan) {
     add(plan.contact && !plan.scene.balls.empty(), "/balls");
     add(plan.contact && plan.scene.fracture.has_value(), "/fracture");
     add(!plan.scene.walkers.empty(), "/walkers");
+    add(plan.loads && !plan.contact && plan.scene.walkers.empty(), "forces of the caller");
     return text.empty() ? "no wind, no pulls" : text;
 }
 

@@ -202,6 +202,17 @@ void refuse_parts(const Scene& scene, Solver solver) {
                                     "), and no longer in the scene");
 }
 
+template <class T> void plan_pulls(Plan<T>& plan, const Tree& tree, const std::vector<TreeRange>& ranges) {
+    for (std::size_t k = 0; k < plan.scene.pulls.size(); ++k) {
+        try {
+            for (const Selected& target : select(tree, ranges, plan.scene.pulls[k].on))
+                plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
+        } catch (const std::out_of_range& error) {
+            throw std::out_of_range("/pulls/" + std::to_string(k) + "/on: " + error.what());
+        }
+    }
+}
+
 // tree: scaled. own: the same, where it may be given back array by array; else null. What reads much of the tree stands first.
 template <class T>
 Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ranges, const Scene& scene,
@@ -217,13 +228,11 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.gravity = !scene.gravity.isZero();
     plan.wind = scene.wind.has_value(); // a wind of no velocity is still air, which drags
     if (plan.wind) plan.leaf = leaf_terms<T>(scene);
-    for (std::size_t k = 0; k < scene.pulls.size(); ++k)
-        for (const Selected& target : select(tree, ranges, scene.pulls[k].on))
-            plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
+    plan_pulls(plan, tree, ranges);
     give_back(own, &Tree::level, &Tree::s);
     refuse_parts(scene, solver);
     plan.contact = may_push(scene);
-    plan.loads = plan.contact || !scene.walkers.empty();
+    plan.loads = plan.contact || !scene.walkers.empty() || wishes.loads;
     plan.fictitious = scene.fictitious && lags(*scene.fictitious);
     plan.forces = plan.wind || plan.pushes();
     plan.velocity = (plan.wind && solver == Solver::analytic) || plan.fictitious || wishes.velocity;

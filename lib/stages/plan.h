@@ -61,6 +61,7 @@ struct Wishes {
     // Poses and angles as they go. Without (and without the two above) a fast path keeps neither them nor their constants in document
     // order: a run then has its hash, and the angles that present() brings for a saved state.
     bool pose = true;
+    bool loads = false; // the caller will put forces on bodies into State::loads before steps
     // [m] What the wind's tables reach at least, whatever the tree at hand does: a part of a larger scene looks its wind up in the same.
     double top = 0, reach = 0;
     std::vector<double> clocks{}; // [s] the wind's of the whole, in its order (wind_clocks)

@@ -1,0 +1,167 @@
+#include "files.h"
+#include "documents/motion.h"
+#include "documents/scene.h"
+#include "documents/species.h"
+#include "documents/splines.h"
+#include "documents/tree.h"
+#include "lib/growth/rules.h"
+#include "lib/growth/segment.h"
+#include "lib/growth/species.h"
+#include "lib/model/wood.h"
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+Species species_named(const std::string& name) {
+    if (name == default_species().name) return default_species();
+    for (const SpeciesFile& file : species_files())
+        if (file.name == name) return read_species(file.content, name);
+    std::string names;
+    for (const std::string& known : species_names()) names += (names.empty() ? "" : ", ") + known;
+    throw SceneError("species: is '" + name + "', expected one of " + names);
+}
+
+MotionForm form_of(const std::string& file) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    if (ending == ".safetensors") return MotionForm::safetensors;
+    if (ending == ".json") return MotionForm::json;
+    if (ending == ".jsonl" || file == "-") return MotionForm::jsonl;
+    throw OutputError(file, "ends with '" + ending + "', expected .jsonl, .json or .safetensors");
+}
+
+template <class Write> void write_file(const std::string& file, Write&& write) {
+    Output output(file);
+    write(output, form_of_name(file));
+    output.finish();
+}
+
+} // namespace
+
+std::vector<std::string> species_names() {
+    std::vector<std::string> names = {default_species().name};
+    for (const SpeciesFile& file : species_files()) names.emplace_back(file.name);
+    return names;
+}
+
+Splines grow(const std::string& species, const GrowOptions& o) {
+    const Species kind = species_named(species);
+    const Items items{o.leaves, o.petals, o.fruit};
+    if (o.bodies < 0) throw SceneError("bodies: is " + std::to_string(o.bodies) + ", expected 0 or more");
+    try {
+        Splines splines = o.bodies > 0 ? grow_bodies(kind.growth, o.seed, items, o.bodies)
+                                       : grow(kind.growth, o.seed, items);
+        splines.material = kind.material;
+        splines.color = kind.color;
+        return splines;
+    } catch (const std::invalid_argument& error) {
+        throw SceneError(error.what());
+    }
+}
+
+Tree convert(const Splines& splines) {
+    const Material* const wood = find_wood(splines.material);
+    try {
+        Tree tree = segment(splines, wood ? *wood : wood_presets().front(), SegmentOptions());
+        if (tree.size_bodies() > 0) return tree;
+    } catch (const std::invalid_argument& error) {
+        throw SceneError(error.what());
+    }
+    throw SceneError("splines: hold no branch with a length, expected a tree");
+}
+
+Splines read_splines(const std::string& file) {
+    return read_splines(read_input(file), input_name(file));
+}
+
+Tree read_tree(const std::string& file) {
+    return read_tree(Input(file));
+}
+
+Scene read_scene(const std::string& file) {
+    SceneDocument document = read_scene_document(read_input(file), input_name(file));
+    const std::filesystem::path folder = file == "-" ? "." : std::filesystem::path(file).parent_path();
+    std::map<std::string, std::shared_ptr<const Tree>> known;
+    for (Placement& place : document.scene.trees) {
+        std::shared_ptr<const Tree>& tree = known[place.file];
+        if (!tree) {
+            const std::string path = (folder / place.file).string();
+            Tree read = read_tree(path);
+            try {
+                change_material(read, document.material);
+            } catch (const std::domain_error& error) {
+                throw InputError(input_name(path) + ": /material", error.what());
+            }
+            tree = std::make_shared<const Tree>(std::move(read));
+        }
+        place.tree = tree;
+    }
+    return std::move(document.scene);
+}
+
+void write_splines(const std::string& file, const Splines& splines) {
+    write_file(file, [&](Output& to, Form form) { write_splines(to, splines, form); });
+}
+
+void write_tree(const std::string& file, const Tree& tree) {
+    write_file(file, [&](Output& to, Form form) { write_tree(to, tree, form); });
+}
+
+SavedState read_state(const std::string& file) {
+    return read_state(read_input(file), input_name(file));
+}
+
+void write_state(const std::string& file, const SavedState& saved) {
+    write_file(file, [&](Output& to, Form form) { write_state(to, saved, form); });
+}
+
+struct MotionFile::Inside {
+    Inside(const std::string& file, const MotionHeader& header)
+        : fps(header.fps), fields(header.fields), output(file), writer(output, header, form_of(file)) {}
+    double fps;
+    MotionFields fields;
+    Output output;
+    MotionWriter writer;
+    MotionFrame frame;
+    std::int64_t written = 0;
+};
+
+MotionFile::MotionFile(const std::string& file, const Simulation& simulation, double fps) {
+    MotionHeader header;
+    header.fps = fps > 0 ? fps : 1 / simulation.options().step;
+    header.bodies = std::int64_t(simulation.bodies());
+    header.balls = header.bodies - std::int64_t(simulation.tree().size_bodies());
+    header.events = simulation.has_events();
+    header.fields.velocity = simulation.options().velocities;
+    header.fields.torque = simulation.options().torques;
+    header.name = simulation.tree().name;
+    header.source = simulation.tree().source;
+    inside_ = std::make_unique<Inside>(file, header);
+}
+
+MotionFile::MotionFile(MotionFile&&) noexcept = default;
+MotionFile::~MotionFile() = default;
+
+void MotionFile::write(const Simulation& simulation) {
+    MotionFrame& frame = inside_->frame;
+    const auto copy = [](const auto& from, auto& to) { to.assign(from.begin(), from.end()); };
+    frame.frame = inside_->written;
+    frame.time = double(inside_->written) / inside_->fps;
+    copy(simulation.positions(), frame.position);
+    copy(simulation.rotations(), frame.rotation);
+    copy(simulation.velocities(), frame.velocity);
+    copy(simulation.angular_velocities(), frame.angular_velocity);
+    copy(simulation.torques(), frame.torque);
+    frame.events = simulation.events();
+    inside_->writer.write(frame);
+    ++inside_->written;
+}
+
+void MotionFile::finish() {
+    inside_->writer.finish();
+    inside_->output.finish();
+}
+
+} // namespace bough

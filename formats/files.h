@@ -1,0 +1,58 @@
+// files.h: the door of bough's files: species, documents and motions by file name (bough::files). With bough.h all that a program needs:
+//
+//   bough::Scene scene = bough::read_scene("park.json");          // and its trees, each file once
+//   bough::Simulation simulation(scene);
+//   bough::MotionFile motion("park.jsonl", simulation);
+//   for (int frame = 0; frame < 90; ++frame) {
+//       if (!simulation.step().finite()) return 3;
+//       motion.write(simulation);
+//   }
+//   motion.finish();
+//
+// A name of "-" is stdin or stdout. A document is told by its content, .safetensors as an output's name asks for the binary form.
+// Errors. InputError: a file that is missing, broken or refused, "PLACE: what is wrong, what was expected". OutputError: one that cannot be
+// written; what is not finished does not appear under its name. SceneError: what a call asks for and is not there.
+#pragma once
+#include "bough.h"
+#include "error.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+struct GrowOptions {
+    std::int64_t bodies = 0; // of the tree that convert() makes of it, within 10 %, foliage included; 0: as many as the species has
+    std::uint64_t seed = 0;
+    bool leaves = false, petals = false, fruit = false;
+};
+std::vector<std::string> species_names();
+// A mature tree of a species that comes with bough. The same as `treegen --species NAME`. Throws SceneError for another name.
+Splines grow(const std::string& species, const GrowOptions& = {});
+// Rigid bodies of the splines' own wood, by treeconvert's defaults. Throws SceneError for splines without length.
+Tree convert(const Splines&);
+
+Splines read_splines(const std::string& file); // a bough-splines document
+Tree read_tree(const std::string& file);       // a bough-tree document
+Scene read_scene(const std::string& file);     // a bough-scene document with its trees in memory, their wood changed as it says
+void write_splines(const std::string& file, const Splines&);
+void write_tree(const std::string& file, const Tree&);
+SavedState read_state(const std::string& file); // as `treesim --save-state` and write_state write it
+void write_state(const std::string& file, const SavedState&);
+
+// A run's motion as a bough-motion document: .jsonl, .json or .safetensors.
+class MotionFile {
+public:
+    // Writes no frame yet. fps [1/s]: of the frames that will be written; 0: one a step.
+    MotionFile(const std::string& file, const Simulation&, double fps = 0);
+    MotionFile(MotionFile&&) noexcept;
+    ~MotionFile(); // what is not finished is removed
+    void write(const Simulation&); // its present state as the next frame
+    void finish();
+
+private:
+    struct Inside;
+    std::unique_ptr<Inside> inside_;
+};
+
+} // namespace bough

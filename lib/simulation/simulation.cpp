@@ -1,0 +1,383 @@
+#include "simulation.h"
+#include "../fast/targets.h"
+#include "../model/check_parts.h"
+#include "../model/rotation_maps.h"
+#include "explanation.h"
+#include "fingerprint.h"
+#include "saved.h"
+#include <cmath>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace bough {
+namespace {
+
+// As many threads as asked for while it lives; the caller's own setting comes back.
+class Threads {
+public:
+#ifdef _OPENMP
+    explicit Threads(int threads) : before_(omp_get_max_threads()) {
+        omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs());
+    }
+    ~Threads() { omp_set_num_threads(before_); }
+
+private:
+    int before_;
+#else
+    explicit Threads(int) {}
+#endif
+public:
+    Threads(const Threads&) = delete;
+    Threads& operator=(const Threads&) = delete;
+};
+
+SimulationOptions checked(const SimulationOptions& o) {
+    if (!(o.step > 0) || !std::isfinite(o.step))
+        throw SceneError("step is " + std::to_string(o.step) + " s, expected more than 0");
+    if (!(o.sleep >= 0)) throw SceneError("sleep is " + std::to_string(o.sleep) + " rad/s, expected 0 or more");
+    if (o.threads < 0) throw SceneError("threads is " + std::to_string(o.threads) + ", expected 0 or more");
+    return o;
+}
+
+StepChoice choice_of(const SimulationOptions& o) {
+    StepChoice choice;
+    choice.dt = o.step;
+    choice.solver = o.method == Method::coupled ? Solver::coupled : Solver::analytic;
+    if (!o.portable) choice.simd = fast::best_target();
+    choice.sleep = o.sleep;
+    return choice;
+}
+
+const Vec3& finite_vector(const Vec3& v, const char* name) {
+    if (!v.allFinite()) throw SceneError(std::string(name) + ": is not finite, expected three finite numbers");
+    return v;
+}
+
+// What of a wind is in the tables that a plan was made with.
+bool same_tables(const Wind& a, const Wind& b) {
+    const auto same_grid = [](const WindGrid& x, const WindGrid& y) {
+        return x.x == y.x && x.z == y.z && x.cell == y.cell && x.columns == y.columns && x.rows == y.rows &&
+               x.velocity == y.velocity && x.octaves == y.octaves && x.persistence == y.persistence &&
+               x.phase == y.phase && x.frequency == y.frequency;
+    };
+    const auto same_swirl = [](const WindSwirl& x, const WindSwirl& y) {
+        return x.x == y.x && x.z == y.z && x.radius == y.radius && x.angle == y.angle && x.period == y.period &&
+               x.wavelength == y.wavelength;
+    };
+    const auto same = [](const auto& x, const auto& y, auto equal) {
+        return x.has_value() == y.has_value() && (!x || equal(*x, *y));
+    };
+    return a.reference_height == b.reference_height && a.profile == b.profile && a.period == b.period &&
+           same(a.grid, b.grid, same_grid) && same(a.swirl, b.swirl, same_swirl) &&
+           same(a.shelter, b.shelter, [](const WindShelter& x, const WindShelter& y) { return x.cell == y.cell; });
+}
+
+// How a joint stands and turns, whatever its spring's rest is: in the axes of the body that carries it.
+struct JointMotion {
+    Mat3 R = Mat3::Identity();
+    Vec3 omega = Vec3::Zero(); // [rad/s]
+};
+
+} // namespace
+
+// What is the same for both precisions' runs.
+class Simulation::Inside {
+public:
+    Inside(Scene scene, const SimulationOptions& o) : options(checked(o)), assembly(assemble(std::move(scene))) {}
+    virtual ~Inside() = default;
+
+    virtual StepReport step() = 0;
+    virtual std::size_t bodies() const = 0;
+    virtual std::int64_t steps() const = 0;
+    virtual const MotionFrame& frame() = 0;
+    virtual const MotionEvents& events() const = 0;
+    virtual Scene& scene() = 0; // the plan's
+    virtual void pull(std::size_t body, const Vec3& point, const Vec3& force) = 0;
+    virtual std::uint64_t hash() = 0;
+    virtual void save(SavedState&) = 0;
+    virtual void restore(const SavedState&) = 0;
+    virtual std::string explain() const = 0;
+    virtual std::size_t bytes() const = 0;
+    virtual std::vector<JointMotion> joints() = 0;
+    virtual void go_on(const std::vector<JointMotion>&, const std::vector<std::uint8_t>& known, double time) = 0;
+
+    const Tree& whole_tree() const { return assembly.whole ? assembly.whole->tree : assembly.tree; }
+    const std::vector<TreeRange>& whole_ranges() const {
+        return assembly.whole ? assembly.whole->places.whole : assembly.ranges;
+    }
+
+    SimulationOptions options;
+    Assembly assembly; // stays where it is: the run refers to its tree
+};
+
+template <class T> class Simulation::InsideOf final : public Inside {
+public:
+    InsideOf(Scene scene, const SimulationOptions& o) : Inside(std::move(scene), o) {
+        start();
+        fields_ = {true, options.velocities, options.torques, true};
+        name_ = fingerprint(assembly.tree, assembly.scene);
+    }
+
+    StepReport step() override {
+        if (!broken_.finite()) return broken_;
+        const Threads threads(options.threads);
+        const StepFlags before = run_.state.flags;
+        run_.world.events = {};
+        shown_ = false;
+        StepReport report;
+        report.non_finite = advance_run(run_, assembly.tree);
+        if (!run_.world.on()) run_.state.loads.clear();
+        const StepFlags& now = run_.state.flags;
+        report.fast_turns = now.fast_turns - before.fast_turns;
+        report.guarded = now.energy_guard - before.energy_guard;
+        report.limited = now.limited - before.limited;
+        for (const std::string& what : run_.world.events.what)
+            ++(what == "broke" ? report.broke : what == "hit" ? report.hits : report.landed);
+        if (!report.finite()) broken_ = report;
+        return report;
+    }
+
+    std::size_t bodies() const override {
+        return whole_tree().size_bodies() + run_.world.balls + run_.world.walkers.size();
+    }
+    std::int64_t steps() const override { return run_.state.step; }
+    const MotionEvents& events() const override { return run_.world.events; }
+    Scene& scene() override { return run_.plan.scene; }
+
+    const MotionFrame& frame() override {
+        if (shown_) return frame_;
+        const Threads threads(options.threads);
+        present(run_.plan, run_.state);
+        fill_frame(run_.state, fields_, frame_);
+        show_all(assembly, run_, frame_);
+        shown_ = true;
+        return frame_;
+    }
+
+    void pull(std::size_t body, const Vec3& point, const Vec3& force) override {
+        run_.state.loads.push_back({body, point.cast<T>(), force.cast<T>()});
+    }
+
+    std::uint64_t hash() override { return state_hash(run_.plan, run_.state, run_.world); }
+
+    void save(SavedState& saved) override {
+        save_run(run_, run_.state.step, saved);
+        saved.fps = 1 / options.step;
+        saved.precision = options.precision == Precision::single ? "float" : "double";
+        saved.solver = solver_name(run_.plan.solver);
+        if (run_.plan.solver == Solver::coupled) saved.scheme = scheme_of(run_.plan.scheme).name;
+        saved.fingerprint = name_;
+        saved.source = assembly.source;
+    }
+
+    void restore(const SavedState& saved) override {
+        SavedState own;
+        own.precision = options.precision == Precision::single ? "float" : "double";
+        own.solver = solver_name(run_.plan.solver);
+        const auto refuse = [](const char* field, const std::string& found, const std::string& expected) {
+            if (found != expected)
+                throw SceneError("/" + std::string(field) + ": is " + found + ", but this run has " + expected);
+        };
+        refuse("precision", saved.precision, own.precision);
+        refuse("solver", saved.solver, own.solver);
+        if (std::abs(saved.fps * options.step * saved.substeps - 1) > 1e-12)
+            throw SceneError("/fps: differs from this run's step");
+        refuse("fingerprint", hash_text(saved.fingerprint), hash_text(name_));
+        const Scene changed = run_.plan.scene;
+        start(); // what broke stands again before the saved state says what did
+        run_.plan.scene = changed;
+        restore_run(saved, saved.frame * saved.substeps, run_);
+        broken_ = {};
+        shown_ = false;
+    }
+
+    std::string explain() const override { return explanation(run_.plan, assembly.changes); }
+    std::size_t bytes() const override {
+        return run_.state.bytes() + (run_.world.on() ? run_.world.bytes() : 0);
+    }
+
+    std::vector<JointMotion> joints() override {
+        present(run_.plan, run_.state);
+        std::vector<JointMotion> joints;
+        for (std::size_t i = 0; i < run_.plan.bodies; ++i) {
+            const RotationMaps<double> maps = rotation_maps<double>(run_.state.theta[i].template cast<double>());
+            const Mat3 R = run_.plan.R_pj[i].template cast<double>();
+            joints.push_back({R * maps.R, R * (maps.J * run_.state.theta_dot[i].template cast<double>())});
+        }
+        return joints;
+    }
+
+    void go_on(const std::vector<JointMotion>& joints, const std::vector<std::uint8_t>& known, double time) override {
+        present(run_.plan, run_.state);
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            if (!known[i]) continue;
+            const Mat3 back = run_.plan.R_pj[i].template cast<double>().transpose();
+            const Vec3 theta = vector_from_quaternion<double>(Quat(Mat3(back * joints[i].R)).normalized());
+            const Vec3 eta = rotation_maps<double>(theta).J_inverse * (back * joints[i].omega);
+            run_.state.theta[i] = theta.cast<T>();
+            run_.state.theta_dot[i] = eta.cast<T>();
+            run_.state.theta_change[i] = (options.step * eta).cast<T>(); // as a first step's
+            run_.state.theta_dot_change[i].setZero();
+        }
+        run_.state.step = std::llround(time / options.step);
+        restart(run_.plan, run_.state);
+    }
+
+private:
+    void start() {
+        Wishes wishes;
+        wishes.velocity = options.velocities;
+        wishes.torque = options.torques;
+        wishes.loads = options.pulls;
+        run_ = start_run(plan_run<T>(assembly, wishes, choice_of(options)), assembly);
+    }
+
+    Run<T> run_;
+    MotionFields fields_;
+    MotionFrame frame_;
+    bool shown_ = false;
+    StepReport broken_;      // the step that became non-finite
+    std::uint64_t name_ = 0; // fingerprint
+};
+
+Simulation::Simulation(Scene scene, const SimulationOptions& o) {
+    const Threads threads(o.threads < 0 ? 1 : o.threads);
+    if (o.precision == Precision::single)
+        inside_ = std::make_unique<InsideOf<float>>(std::move(scene), o);
+    else
+        inside_ = std::make_unique<InsideOf<double>>(std::move(scene), o);
+}
+
+Simulation::Simulation(Scene scene, const SimulationOptions& o, const Simulation& before)
+    : Simulation(std::move(scene), o) {
+    if (o.method != Method::coupled || before.inside_->options.method != Method::coupled)
+        throw SceneError("a motion goes on in another run with the coupled method alone");
+    const Assembly &was = before.inside_->assembly, &is = inside_->assembly;
+    const std::vector<JointMotion> there = before.inside_->joints();
+    std::vector<JointMotion> here(is.tree.size_bodies());
+    std::vector<std::uint8_t> known(here.size(), 0);
+    for (std::size_t k = 0; k < std::min(was.ranges.size(), is.ranges.size()); ++k) {
+        const TreeRange &from = was.ranges[k], &to = is.ranges[k];
+        bool alike = from.bodies == to.bodies;
+        for (std::size_t i = 0; alike && i < from.bodies; ++i) {
+            const std::int32_t a = was.tree.parent[from.first_body + i], b = is.tree.parent[to.first_body + i];
+            alike = a < 0 ? b < 0
+                          : b >= 0 && std::size_t(a) - from.first_body == std::size_t(b) - to.first_body;
+        }
+        for (std::size_t i = 0; alike && i < from.bodies; ++i) {
+            here[to.first_body + i] = there[from.first_body + i];
+            known[to.first_body + i] = 1;
+        }
+    }
+    inside_->go_on(here, known, before.time());
+}
+
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+StepReport Simulation::step() {
+    return inside_->step();
+}
+std::size_t Simulation::bodies() const {
+    return inside_->bodies();
+}
+std::int64_t Simulation::steps() const {
+    return inside_->steps();
+}
+double Simulation::time() const {
+    return double(inside_->steps()) * inside_->options.step;
+}
+const SimulationOptions& Simulation::options() const {
+    return inside_->options;
+}
+bool Simulation::has_events() const {
+    return has_free_bodies(inside_->assembly.scene);
+}
+const Tree& Simulation::tree() const {
+    return inside_->whole_tree();
+}
+std::span<const TreeRange> Simulation::trees() const {
+    return inside_->whole_ranges();
+}
+std::span<const Vec3> Simulation::positions() const {
+    return inside_->frame().position;
+}
+std::span<const Quat> Simulation::rotations() const {
+    return inside_->frame().rotation;
+}
+std::span<const Vec3> Simulation::velocities() const {
+    return inside_->frame().velocity;
+}
+std::span<const Vec3> Simulation::angular_velocities() const {
+    return inside_->frame().angular_velocity;
+}
+std::span<const Vec3> Simulation::angles() const {
+    return inside_->frame().theta;
+}
+std::span<const Vec3> Simulation::rates() const {
+    return inside_->frame().theta_dot;
+}
+std::span<const Vec3> Simulation::torques() const {
+    return inside_->frame().torque;
+}
+const MotionEvents& Simulation::events() const {
+    return inside_->events();
+}
+
+void Simulation::set_wind(const Wind& wind) {
+    std::optional<Wind>& own = inside_->scene().wind;
+    if (!own)
+        throw SceneError("/wind: the scene began without one; begin with still air, a wind of velocity 0, where it may rise");
+    if (const std::optional<Defect> defect = check(wind)) throw SceneError("/" + defect->field + " " + defect->message);
+    if (!same_tables(*own, wind))
+        throw SceneError("/wind: its reference_height, profile, period, grid, swirl and shelter stay as the run began; "
+                         "expected changes of velocity, turbulence, gusts and seed");
+    own = wind;
+}
+
+void Simulation::set_gravity(const Vec3& gravity) {
+    finite_vector(gravity, "/gravity");
+    if (inside_->options.method != Method::coupled)
+        throw SceneError("/gravity: changes in a run of the coupled method alone");
+    Vec3& own = inside_->scene().gravity;
+    if (inside_->assembly.scene.gravity.isZero() && !gravity.isZero())
+        throw SceneError("/gravity: the scene began without; begin with some, and set it to zero");
+    own = gravity;
+}
+
+void Simulation::pull(std::size_t body, const Vec3& point, const Vec3& force) {
+    if (!inside_->options.pulls) throw SceneError("pull: SimulationOptions::pulls is not set");
+    if (inside_->assembly.whole) throw SceneError("pull: not where joints are held (/simulate, /rigid)");
+    const std::size_t bodies = inside_->assembly.tree.size_bodies();
+    if (body >= bodies)
+        throw SceneError("pull: body " + std::to_string(body) + " is not there, the trees have " +
+                         std::to_string(bodies));
+    finite_vector(point, "pull: point");
+    finite_vector(force, "pull: force");
+    inside_->pull(body, point, force);
+}
+
+std::uint64_t Simulation::hash() const {
+    return inside_->hash();
+}
+
+SavedState Simulation::save() const {
+    SavedState saved;
+    inside_->save(saved);
+    return saved;
+}
+
+void Simulation::restore(const SavedState& saved) {
+    inside_->restore(saved);
+}
+
+std::string Simulation::explain() const {
+    return inside_->explain();
+}
+std::size_t Simulation::bytes() const {
+    return inside_->bytes();
+}
+
+} // namespace bough
