@@ -1,4 +1,5 @@
 #include "formats/exports/float_range.h"
+#include "exits.h"
 #include "formats/exports/point_cache.h"
 #include "frame_sink.h"
 #include "skin_mover.h"

@@ -1,6 +1,8 @@
 #include "setting.h"
+#include "exits.h"
 #include "formats/documents/scene.h"
 #include "formats/documents/tree.h"
+#include "formats/open.h"
 #include "lib/model/static_load.h"
 #include "lib/model/wood_overrides.h"
 #include "rigid_parts.h"

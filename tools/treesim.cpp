@@ -1,5 +1,6 @@
 // treesim: a timed simulation of a tree or a scene, frame after frame.
 #include "error_line.h"
+#include "file_names.h"
 #include "formats/documents/motion.h"
 #include "frame_queue.h"
 #include "lib/free/shown_tree.h"
@@ -263,10 +264,8 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
 void put_together(const TreesimOptions& o) {
     const std::vector<std::string> known{"--join",      "-o",          "--format", "--hash",
                                          "--no-output", "--no-source", "-q",       "--threads"};
-    for (const CLI::Option* option : o.app->get_options())
-        if (option->count() > 0 &&
-            std::none_of(known.begin(), known.end(), [&](const std::string& name) { return option->check_name(name); }))
-            throw UsageError(option->get_name() + ": not with --join");
+    if (const std::string other = o.list->given_beside(known); !other.empty())
+        throw UsageError(other + ": not with --join");
     const std::string format = o.no_output ? "" : chosen_format(o.common);
     if (is_mesh(format)) throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
     std::vector<NamedFile> parts;
@@ -298,5 +297,5 @@ void work(TreesimOptions& o) {
 int main(int argc, char** argv) {
     TreesimOptions o;
     return run_tool(
-        treesim_info, argc, argv, o.common, [&o](CLI::App& app) { declare(app, o); }, [&o] { work(o); });
+        treesim_info, argc, argv, o.common, [&o](OptionList& list) { declare(list, o); }, [&o] { work(o); });
 }
