@@ -97,19 +97,19 @@ inline Vector centres(const Problem& p, Real s) {
     return all;
 }
 
-// (21)-(23) over kappa rho A; a leaf with a quarter of its drag from all sides, folding at 8 m/s.
+// (21)-(23) over kappa rho A; a leaf with a quarter of its drag from all sides, folding at 7.5 m/s.
 inline V3 air_force(bough::Kind kind, const M3& R, const V3& u) {
     if (kind == bough::Kind::fruit) return u.norm() * u;
     if (bough::is_flat(kind)) {
         const V3 along = u.dot(R.col(1)) * R.col(1);
-        return u.norm() / (1 + u.norm() / 8) * (along + Real(0.25) * (u - along));
+        return u.norm() / (1 + u.norm() / 7.5) * (along + Real(0.25) * (u - along));
     }
     const V3 across = u - u.dot(R.col(2)) * R.col(2);
     return across.norm() * across;
 }
 inline M3 air_damping(bough::Kind kind, const M3& R, const V3& u) {
     if (bough::is_flat(kind)) { // symmetric parts: of the drag from all sides, and along the normal
-        const Real U = u.norm(), g = 1 / (1 + U / 8), along = u.dot(R.col(1));
+        const Real U = u.norm(), g = 1 / (1 + U / 7.5), along = u.dot(R.col(1));
         const M3 n = R.col(1) * R.col(1).transpose();
         return Real(0.25) * (g * U * M3::Identity() + g * g / U * u * u.transpose()) +
                Real(0.75) * (g * U + g * g / U * along * along) * n;
@@ -122,7 +122,7 @@ inline M3 air_damping(bough::Kind kind, const M3& R, const V3& u) {
 
 // [1/s] by which the air takes a leaf's own turning, times its inertia about the centre of mass; area: kappa rho A.
 inline Real spin_rate(bough::Kind kind, Real area, Real mass, const V3& u) {
-    return bough::is_flat(kind) ? 6 * area / mass * u.norm() / (1 + u.norm() / 8) : Real(0);
+    return bough::is_flat(kind) ? 6 * area / mass * u.norm() / (1 + u.norm() / 7.5) : Real(0);
 }
 
 // [kg] First moments of kappa rho A about each joint of what it carries: a leaf counts outboard with its mean over all directions, to its own joint
@@ -145,7 +145,7 @@ inline std::vector<V3> drag_moments(const Problem& p, const Pose& pose, bool& le
 }
 // [N m] What drag that pulls outward resists turning by.
 inline M3 streaming(const V3& moment, const V3& u, bool leaves) {
-    const V3 pull = u.norm() / (leaves ? 1 + u.norm() / 8 : Real(1)) * u;
+    const V3 pull = u.norm() / (leaves ? 1 + u.norm() / 7.5 : Real(1)) * u;
     if (!(moment.dot(pull) > 0)) return M3::Zero();
     return moment.dot(pull) * (M3::Identity() - moment * moment.transpose() / moment.squaredNorm());
 }
@@ -203,7 +203,7 @@ inline Solved solve(const Problem& p) {
                 moment -= p.h * W * (omega[i] + p.h * alpha0[i]);
             }
             if (p.h > 0 && bough::is_flat(p.tree.kind[i])) {
-                const M3 W = Real(1.5) / (1 + u.norm() / 8) * area * Real(p.tree.com[i].norm()) * u.squaredNorm() *
+                const M3 W = Real(1.5) / (1 + u.norm() / 7.5) * area * Real(p.tree.com[i].norm()) * u.squaredNorm() *
                              R.col(0) * R.col(0).transpose();
                 turning += p.h * p.h * W;
                 moment -= p.h * W * (omega[i] + p.h * alpha0[i]);

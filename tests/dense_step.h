@@ -102,7 +102,7 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             D = area * air_damping(tree.kind[b], pose.R[b], u);
             if (bough::is_flat(tree.kind[b])) {
                 const V3 x = pose.R[b].col(0);
-                H += Real(1.5) / (1 + u.norm() / 8) * area * Real(tree.com[b].norm()) * u.squaredNorm() * x *
+                H += Real(1.5) / (1 + u.norm() / 7.5) * area * Real(tree.com[b].norm()) * u.squaredNorm() * x *
                      x.transpose();
             }
             H += streaming(drag[b], u, leaves);

@@ -24,7 +24,7 @@ TEST_CASE("In a steady wind the tree comes to rest where wind, weight and spring
         else if (tree.kind[i] == Kind::fruit)
             force[i] = 0.235 * 1.2 * 3.14159265358979323846 * size[1] * size[1] * 10 * u;
         else
-            force[i] = 0.6 * 1.2 * size[0] * size[1] / 2 * 10 / (1 + 10 / 8.0) * (0.75 * u.dot(y) * y + 0.25 * u);
+            force[i] = 0.6 * 1.2 * size[0] * size[1] / 2 * 10 / (1 + 10 / 7.5) * (0.75 * u.dot(y) * y + 0.25 * u);
         force[i] += tree.mass[i] * scene.gravity;
         for (std::size_t j = i;; j = std::size_t(tree.parent[j])) {
             moment[j] += (com[i] - s.x_w[j]).cross(force[i]);

@@ -153,7 +153,7 @@ TEST_CASE("The air takes a blade's turning about its length by exp(-rate t), in 
         scene.gravity = Vec3::Zero();
         const double share = leaves > 1 ? 0.5 : 1, k = leaves > 1 ? 2 : 6; // of a blade's drag broadside
         const double area = 0.6 * 1.2 * 0.1 * 0.07 / 2 * share;
-        const double rate = k * area / tree.mass[0] * speed / (1 + speed / 8);
+        const double rate = k * area / tree.mass[0] * speed / (1 + speed / 7.5);
         for (const lanes::Simd simd : {lanes::Simd(), lanes::Simd(fast::best_target())}) {
             const Plan<double> plan = plan_of(tree, scene, 1.0 / 240, simd);
             State<double> state = make_state(plan);
@@ -171,7 +171,7 @@ TEST_CASE("The air takes a blade's turning about its length by exp(-rate t), in 
 TEST_CASE("A clump streams as a pendulum of its drag, and swings no longer at one step a frame than it should") {
     // About the equilibrium along the wind: I theta'' + (D l^2 + k_spin I_c) theta' + (K + F l) theta = 0, F = kappa rho A g U^2 its drag, D = F / U across
     // the wind, l the arm.
-    const double U = 20, g = 1 / (1 + U / 8), L = 0.3;
+    const double U = 20, g = 1 / (1 + U / 7.5), L = 0.3;
     Tree tree = leaf_along(Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()), L, 14);
     tree.damping[0] = 0;
     Scene scene = in_steady(U);

@@ -66,7 +66,7 @@ LeafLoad paper_load(const LeafAir& by, const Tree& tree, std::size_t i, const Ma
     const double A = tree.size[i][0] * tree.size[i][1] / 2, phi = by.offset * std::acos(-1.0) / 180;
     const Vec3 v = R.transpose() * u, n(0, 1, 0), vn = v.dot(n) * n, vt = v - vn;
     const Mat3 nx = cross_matrix(n);
-    const double g = 1 / (1 + v.norm() / 8); // folding at 8 m/s; a quarter of the drag from all sides
+    const double g = 1 / (1 + v.norm() / 7.5); // folding at 7.5 m/s; a quarter of the drag from all sides
     const Vec3 f = by.kappa * 1.2 * A * g * v.norm() * (vn + 0.25 * vt) +
                    by.air_resistance * tree.mass[i] * (vn + vt / by.drag_ratio);
     const Vec3 t = by.kappa * 1.2 * A / 2 * std::sqrt(A / std::acos(-1.0)) * v.dot(n) *

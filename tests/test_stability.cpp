@@ -157,8 +157,7 @@ TEST_CASE("a cell moves as the truth does within a quarter, and does not stand s
     CHECK(judge_motion(run, truth, cell).empty());
 }
 
-// May fail: the energy guard brakes trees in leaf from 20 m/s on.
-TEST_CASE("trees in leaf move in wind as the truth does", "[!mayfail]") {
+TEST_CASE("trees in leaf move in wind as the truth does") {
     StabilitySetup setup =
         setup_of(segment(grow_bodies(default_growth(), 1, {true, false, false}, 300), wood_presets().front(), {}));
     setup.simd = fast::best_target();

@@ -5,7 +5,7 @@ namespace bough {
 
 constexpr double cylinder_drag = 1.2, sphere_drag = 0.47, plate_drag = 1.2; // C_d; kappa is half of each
 constexpr double streaming_drag = 0.25;                                     // [1] s
-constexpr double fold_speed = 8;                                            // [m/s]
+constexpr double fold_speed = 7.5;                                          // [m/s]
 constexpr double blade_mean =
     (1 + 2 * streaming_drag) / 3; // [1] a blade's drag over that broadside, mean over all directions
 constexpr double blade_turning = 6, clump_turning = 2; // [1] k

@@ -32,9 +32,9 @@ Vec3 air_force(const Tree& tree, std::size_t i, double density, const Mat3& R, c
         return 0.235 * density * std::numbers::pi * size[1] * size[1] * u.norm() * u;
     default: {
         if (!tree.leaf_count.empty() && tree.leaf_count[i] > 1) // a clump: half a leaf's drag broadside, whichever way
-            return 0.3 * density * (size[0] * size[1] / 2) * u.norm() / (1 + u.norm() / 8) * u;
+            return 0.3 * density * (size[0] * size[1] / 2) * u.norm() / (1 + u.norm() / 7.5) * u;
         const Vec3 normal = R.col(1);
-        const double folded = u.norm() / (1 + u.norm() / 8); // at 8 m/s; a quarter of the drag from all sides
+        const double folded = u.norm() / (1 + u.norm() / 7.5); // at 7.5 m/s; a quarter of the drag from all sides
         return 0.6 * density * (size[0] * size[1] / 2) * folded * (0.75 * u.dot(normal) * normal + 0.25 * u);
     }
     }
@@ -85,7 +85,7 @@ void compute_loads(const Tree& tree, const bough::Scene& scene, const std::vecto
         if (tree.kind[i] != bough::Kind::leaf) continue;
         const double area = 0.6 * scene.air_density * tree.size[i][0] * tree.size[i][1] / 2;
         const double rate = (!tree.leaf_count.empty() && tree.leaf_count[i] > 1 ? 1 : 6) * area / tree.mass[i] *
-                            u.norm() / (1 + u.norm() / 8);
+                            u.norm() / (1 + u.norm() / 7.5);
         const Mat3 I = bodies.R_wb[i] * tree.inertia[i] * bodies.R_wb[i].transpose();
         loads.moment[i] -= rate * I * bodies.omega[i];
     }
