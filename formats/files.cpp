@@ -51,8 +51,8 @@ Splines grow(const std::string& species, const GrowOptions& o) {
     const Items items{o.leaves, o.petals, o.fruit};
     if (o.bodies < 0) throw SceneError("bodies: is " + std::to_string(o.bodies) + ", expected 0 or more");
     try {
-        Splines splines = o.bodies > 0 ? grow_bodies(kind.growth, o.seed, items, o.bodies)
-                                       : grow(kind.growth, o.seed, items);
+        Splines splines =
+            o.bodies > 0 ? grow_bodies(kind.growth, o.seed, items, o.bodies) : grow(kind.growth, o.seed, items);
         splines.material = kind.material;
         splines.color = kind.color;
         return splines;

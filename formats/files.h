@@ -22,7 +22,8 @@
 namespace bough {
 
 struct GrowOptions {
-    std::int64_t bodies = 0; // of the tree that convert() makes of it, within 10 %, foliage included; 0: as many as the species has
+    std::int64_t bodies =
+        0; // of the tree that convert() makes of it, within 10 %, foliage included; 0: as many as the species has
     std::uint64_t seed = 0;
     bool leaves = false, petals = false, fruit = false;
 };
@@ -34,7 +35,8 @@ Tree convert(const Splines&);
 
 Splines read_splines(const std::string& file); // a bough-splines document
 Tree read_tree(const std::string& file);       // a bough-tree document
-Scene read_scene(const std::string& file);     // a bough-scene document with its trees in memory, their wood changed as it says
+Scene read_scene(
+    const std::string& file); // a bough-scene document with its trees in memory, their wood changed as it says
 void write_splines(const std::string& file, const Splines&);
 void write_tree(const std::string& file, const Tree&);
 SavedState read_state(const std::string& file); // as `treesim --save-state` and write_state write it
@@ -46,7 +48,7 @@ public:
     // Writes no frame yet. fps [1/s]: of the frames that will be written; 0: one a step.
     MotionFile(const std::string& file, const Simulation&, double fps = 0);
     MotionFile(MotionFile&&) noexcept;
-    ~MotionFile(); // what is not finished is removed
+    ~MotionFile();                 // what is not finished is removed
     void write(const Simulation&); // its present state as the next frame
     void finish();
 

@@ -1,7 +1,7 @@
 // An input that another program cuts short while it is read: one line, exit 2, and nothing of the output.
 #include "formats/mapped.h"
 #include "formats/open.h"
-#include "tools/common.h"
+#include "tools/tool.h"
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -25,7 +25,7 @@ TEST_CASE("an input cut short while it is read ends the tool in one line, with e
         CommonOptions common;
         volatile char last = 0;
         const int code = run_tool(
-            {"cutter", "reads a file that is cut short", "", {}}, 2, arguments, common, [](CLI::App&) {},
+            {"cutter", "reads a file that is cut short", "", {}}, 2, arguments, common, [](OptionList&) {},
             [&] {
                 Output unfinished(output);
                 unfinished.write("half");

@@ -134,7 +134,7 @@ TEST_CASE("every figure of a scaling report is in its JSON, what is not known as
     CHECK(limits.at("peak_double") == 100e9);
     REQUIRE(j.at("costs").size() == 2);
     const auto& cost = j["costs"][0];
-    CHECK(cost.size() == 23);
+    CHECK(cost.size() == 22);
     CHECK(cost.at("shape") == "bushy");
     CHECK(cost.at("solver") == "coupled");
     CHECK(cost.at("precision") == "float");
@@ -154,7 +154,7 @@ TEST_CASE("every figure of a scaling report is in its JSON, what is not known as
     for (std::size_t k = 0; k < report.runs.size(); ++k) {
         const ScalingRun& run = report.runs[k];
         const auto& row = j["runs"][k];
-        CHECK(row.size() == 18);
+        CHECK(row.size() == 17);
         CHECK(row.at("shape") == run.shape);
         CHECK(row.at("bodies") == run.bodies);
         CHECK(row.at("solver") == "coupled");

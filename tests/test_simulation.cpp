@@ -1,10 +1,10 @@
 // simulation.h, files.h: the door, against plan and state by hand, and against runs begun as it was changed to.
-#include "lib/simulation/simulation.h"
 #include "formats/documents/motion.h"
 #include "formats/files.h"
 #include "lib/fast/present.h"
 #include "lib/fast/targets.h"
 #include "lib/reference/advance.h"
+#include "lib/simulation/simulation.h"
 #include "tests/make_tree.h"
 #include "tests/random_documents.h"
 #include <atomic>
@@ -77,8 +77,8 @@ std::uint64_t run(Simulation& simulation, int steps) {
 }
 
 template <class T> std::uint64_t by_hand(const Tree& tree, const Scene& scene, Solver solver, int steps) {
-    Plan<T> plan = make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12,
-                                fast::best_target());
+    Plan<T> plan =
+        make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12, fast::best_target());
     State<T> state = make_state(plan);
     for (int k = 0; k < steps; ++k) advance(plan, state);
     return state_hash(plan, state);

@@ -1,3 +1,4 @@
+#include "exits.h"
 #include "formats/exports/float_range.h"
 #include "formats/exports/point_cache.h"
 #include "frame_sink.h"

@@ -128,37 +128,35 @@ std::vector<std::pair<std::string, bool>> EnvelopeOptions::given() const {
             {"--tip-radius", tip_radius.has_value()}};
 }
 
-void add_envelope_options(CLI::App& app, EnvelopeOptions& o) {
-    app.add_option(
-           "--envelope", o.envelope,
-           "Grow a tree that fills this volume (space colonization): sphere, cone, box, or a closed mesh from an "
-           "OBJ, FBX, glTF or COLLADA file (- for stdin)")
-        ->option_text("SHAPE|FILE");
-    app.add_option("--envelope-size", o.size, "Its width, height and depth in m (sphere 6,6,6; a file's own)")
-        ->option_text("X,Y,Z");
-    app.add_option("--crown-base", o.crown_base, "Height of its lower end in m (0.3 of its height; a file's own)")
-        ->option_text("M")
-        ->check(not_negative_number());
-    app.add_option("--attractors", o.attractors, "Number of attraction points in it (8000)")
-        ->option_text("N")
-        ->check(whole_number(1, 20'000'000));
-    app.add_option("--influence", o.influence, "Distance in m at which they pull (6 of their mean spacings)")
-        ->option_text("M")
-        ->check(positive_number());
-    app.add_option("--kill", o.kill, "Distance in m at which they count as reached (0.8 of their mean spacing)")
-        ->option_text("M")
-        ->check(positive_number());
-    app.add_option("--step", o.step, "Length in m that a branch grows at a time (half the kill distance)")
-        ->option_text("M")
-        ->check(positive_number());
-    app.add_option("--tropism", o.tropism, "Added to the unit direction of growth (0,0.1,0)")->option_text("X,Y,Z");
-    app.add_option("--leader", o.leader,
-                   "Share of the envelope's height that the trunk rises straight through (0.25; cone 0.8)")
-        ->option_text("F")
-        ->check(not_negative_number());
-    app.add_option("--tip-radius", o.tip_radius, "Radius of twigs in m (such that the trunk's is 1/60 of the height)")
-        ->option_text("M")
-        ->check(positive_number());
+void add_envelope_options(OptionList& list, EnvelopeOptions& o) {
+    list.add("--envelope", o.envelope,
+             "Grow a tree that fills this volume (space colonization): sphere, cone, box, or a closed mesh from an "
+             "OBJ, FBX, glTF or COLLADA file (- for stdin)")
+        .takes("SHAPE|FILE");
+    list.add("--envelope-size", o.size, "Its width, height and depth in m (sphere 6,6,6; a file's own)").takes("X,Y,Z");
+    list.add("--crown-base", o.crown_base, "Height of its lower end in m (0.3 of its height; a file's own)")
+        .takes("M")
+        .check(not_negative_number());
+    list.add("--attractors", o.attractors, "Number of attraction points in it (8000)")
+        .takes("N")
+        .check(whole_number(1, 20'000'000));
+    list.add("--influence", o.influence, "Distance in m at which they pull (6 of their mean spacings)")
+        .takes("M")
+        .check(positive_number());
+    list.add("--kill", o.kill, "Distance in m at which they count as reached (0.8 of their mean spacing)")
+        .takes("M")
+        .check(positive_number());
+    list.add("--step", o.step, "Length in m that a branch grows at a time (half the kill distance)")
+        .takes("M")
+        .check(positive_number());
+    list.add("--tropism", o.tropism, "Added to the unit direction of growth (0,0.1,0)").takes("X,Y,Z");
+    list.add("--leader", o.leader,
+             "Share of the envelope's height that the trunk rises straight through (0.25; cone 0.8)")
+        .takes("F")
+        .check(not_negative_number());
+    list.add("--tip-radius", o.tip_radius, "Radius of twigs in m (such that the trunk's is 1/60 of the height)")
+        .takes("M")
+        .check(positive_number());
 }
 
 Splines grow_in_envelope(const EnvelopeOptions& o, const ImportChoice& choice, const EnvelopeRun& run,

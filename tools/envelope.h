@@ -3,6 +3,7 @@
 #include "common.h"
 #include "import_file.h"
 #include "lib/model/splines.h"
+#include "option_list.h"
 
 namespace bough {
 
@@ -14,7 +15,7 @@ struct EnvelopeOptions {
     std::vector<std::pair<std::string, bool>> given() const; // each option but --envelope, and whether it was given
 };
 
-void add_envelope_options(CLI::App&, EnvelopeOptions&);
+void add_envelope_options(OptionList&, EnvelopeOptions&);
 
 struct EnvelopeRun {
     std::uint64_t seed = 0;

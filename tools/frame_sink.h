@@ -1,11 +1,11 @@
 // frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, a point cache, or an animated glTF file.
 #pragma once
-#include "common.h"
 #include "formats/exports/gltf.h"
 #include "formats/models/driven_model.h"
 #include "lib/growth/rustle.h"
 #include "lib/model/motion.h"
 #include "lib/model/tree.h"
+#include "option_list.h"
 #include <memory>
 
 namespace bough {
@@ -47,9 +47,9 @@ struct GltfChoice {
                                     : nullptr;
     }
 };
-void add_max_joints(CLI::App&, GltfChoice&);
-void add_leaves_as(CLI::App&, GltfChoice&);
-void add_key_tolerance(CLI::App&, GltfChoice&);
+void add_max_joints(OptionList&, GltfChoice&);
+void add_leaves_as(OptionList&, GltfChoice&);
+void add_key_tolerance(OptionList&, GltfChoice&);
 // The groups that --max-joints asks for. Throws UsageError: fewer than roots, more than a .glb can number.
 JointGroups chosen_joints(const Tree&, const GltfChoice&);
 GltfOptions gltf_options(const GltfChoice&, const std::string& source);

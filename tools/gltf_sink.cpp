@@ -1,6 +1,8 @@
+#include "exits.h"
 #include "frame_sink.h"
 #include "lib/growth/skin.h"
 #include "lib/model/counted.h"
+#include "made_with.h"
 #include <algorithm>
 #include <numbers>
 #include <sstream>
@@ -66,36 +68,31 @@ private:
 
 } // namespace
 
-void add_max_joints(CLI::App& app, GltfChoice& choice) {
-    const CLI::Validator number = whole_number(1, joints_most);
-    app.add_option(
-           "--max-joints", choice.max_joints,
-           "Joints of a .glb: deepest levels are merged first until at most N are left (1000); all: none merged")
-        ->option_text("N|all")
-        ->check(CLI::Validator(
-            [number](std::string text) {
-                const std::string wrong = number(text);
-                return text == "all" || wrong.empty() ? std::string() : wrong + ", or all";
-            },
-            "", ""));
+void add_max_joints(OptionList& list, GltfChoice& choice) {
+    const ValueCheck number = whole_number(1, joints_most);
+    list.add("--max-joints", choice.max_joints,
+             "Joints of a .glb: deepest levels are merged first until at most N are left (1000); all: none merged")
+        .takes("N|all")
+        .check([number](const std::string& text) {
+            const std::string wrong = number(text);
+            return text == "all" || wrong.empty() ? std::string() : wrong + ", or all";
+        });
 }
 
-void add_leaves_as(CLI::App& app, GltfChoice& choice) {
-    app.add_option(
-           "--leaves-as", choice.leaves_as,
-           "Leaves and petals of a .glb: skin, part of the skinned mesh, each moved by its own joint where "
-           "--max-joints leaves it one (default); instances: one mesh drawn at each leaf's place "
-           "(EXT_mesh_gpu_instancing), fixed to the joint that bears it: far smaller, but leaves do not flutter")
-        ->option_text("NAME")
-        ->check(CLI::IsMember({"skin", "instances"}));
+void add_leaves_as(OptionList& list, GltfChoice& choice) {
+    list.add("--leaves-as", choice.leaves_as,
+             "Leaves and petals of a .glb: skin, part of the skinned mesh, each moved by its own joint where "
+             "--max-joints leaves it one (default); instances: one mesh drawn at each leaf's place "
+             "(EXT_mesh_gpu_instancing), fixed to the joint that bears it: far smaller, but leaves do not flutter")
+        .takes("NAME")
+        .one_of({"skin", "instances"});
 }
 
-void add_key_tolerance(CLI::App& app, GltfChoice& choice) {
-    app.add_option(
-           "--key-tolerance", choice.key_tolerance,
-           "Keys of a .glb are left out while no joint's world direction is off by more [deg] (0.1); 0: keep all")
-        ->option_text("DEG")
-        ->check(not_negative_number());
+void add_key_tolerance(OptionList& list, GltfChoice& choice) {
+    list.add("--key-tolerance", choice.key_tolerance,
+             "Keys of a .glb are left out while no joint's world direction is off by more [deg] (0.1); 0: keep all")
+        .takes("DEG")
+        .check(not_negative_number());
 }
 
 namespace {

@@ -106,40 +106,33 @@ void refuse_what_is_foreign(const GrowthOptions& o, const ImportChoice& choice, 
 
 } // namespace
 
-void add_growth_options(CLI::App& app, GrowthOptions& o) {
-    app.add_option("--species", o.species, "Which tree to grow (see --list-species)")
-        ->option_text("NAME")
-        ->check(CLI::IsMember(species_names()));
-    app.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
-    app.add_option(
-           "--params", o.params,
-           "Grow by this file's parameters: Arbaro XML, tree-gen, Blender Sapling, ez-tree, or a bough-species\n"
-           "document; - for stdin")
-        ->option_text("FILE");
-    app.add_option(
-           "--radii", o.radii,
-           "With --params of another program: carry (default), thicker than the file says where wood must be to\n"
-           "carry the tree, or file, as it says")
-        ->option_text("carry|file")
-        ->check(CLI::IsMember({"carry", "file"}));
-    app.add_option("--bodies", o.bodies,
-                   "Grow a tree that treeconvert makes N bodies of by default (within 10 %; leaves and fruit count)")
-        ->option_text("N")
-        ->check(whole_number(1));
-    app.add_option("--age", o.age, "Years; the mature tree unless given")
-        ->option_text("YEARS")
-        ->check(positive_number());
-    app.add_option(
-           "--season", o.season,
-           "spring, summer, autumn or winter: leaves, petals and fruit as the species then has them, and leaves'\n"
-           "colour; with --leaves, --petals, --fruit only those asked for")
-        ->option_text("NAME")
-        ->check(CLI::IsMember(season_names));
-    app.add_flag("--leaves", o.leaves, "With leaves or needles; else none unless --season");
-    app.add_flag("--petals", o.petals, "With blossoms");
-    app.add_flag("--fruit", o.fruit, "With fruit");
-    app.add_option("--seed", o.seed, "Seed of every random draw (0)")->option_text("N")->check(whole_number(0));
-    add_envelope_options(app, o.envelope);
+void add_growth_options(OptionList& list, GrowthOptions& o) {
+    list.add("--species", o.species, "Which tree to grow (see --list-species)").takes("NAME").one_of(species_names());
+    list.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
+    list.add("--params", o.params,
+             "Grow by this file's parameters: Arbaro XML, tree-gen, Blender Sapling, ez-tree, or a bough-species\n"
+             "document; - for stdin")
+        .takes("FILE");
+    list.add("--radii", o.radii,
+             "With --params of another program: carry (default), thicker than the file says where wood must be to\n"
+             "carry the tree, or file, as it says")
+        .takes("carry|file")
+        .one_of({"carry", "file"});
+    list.add("--bodies", o.bodies,
+             "Grow a tree that treeconvert makes N bodies of by default (within 10 %; leaves and fruit count)")
+        .takes("N")
+        .check(whole_number(1));
+    list.add("--age", o.age, "Years; the mature tree unless given").takes("YEARS").check(positive_number());
+    list.add("--season", o.season,
+             "spring, summer, autumn or winter: leaves, petals and fruit as the species then has them, and leaves'\n"
+             "colour; with --leaves, --petals, --fruit only those asked for")
+        .takes("NAME")
+        .one_of(season_names);
+    list.add_flag("--leaves", o.leaves, "With leaves or needles; else none unless --season");
+    list.add_flag("--petals", o.petals, "With blossoms");
+    list.add_flag("--fruit", o.fruit, "With fruit");
+    list.add("--seed", o.seed, "Seed of every random draw (0)").takes("N").check(whole_number(0));
+    add_envelope_options(list, o.envelope);
 }
 
 void refuse_contradictions(const GrowthOptions& o, bool import) {

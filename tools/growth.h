@@ -4,6 +4,7 @@
 #include "envelope.h"
 #include "import_file.h"
 #include "lib/model/splines.h"
+#include "option_list.h"
 
 namespace bough {
 
@@ -17,7 +18,7 @@ struct GrowthOptions {
     bool leaves = false, petals = false, fruit = false, list_species = false;
 };
 
-void add_growth_options(CLI::App&, GrowthOptions&);
+void add_growth_options(OptionList&, GrowthOptions&);
 
 // Throws UsageError where options contradict each other; with --import, of which only --leaves and --fruit go along.
 void refuse_contradictions(const GrowthOptions&, bool import);

@@ -4,22 +4,17 @@
 #include "formats/mapped.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
-#include "option_values.h"
 
 namespace bough {
 
-void add_import_options(CLI::App& app, ImportChoice& choice) {
-    app.add_option("--units", choice.units, "Unit of the imported file: m, cm, mm, ft, in or its length in metres")
-        ->option_text("UNIT")
-        ->check(CLI::Validator(
-            [](const std::string& text) {
-                return unit_in_metres(text) ? std::string()
-                                            : "is '" + text + "', expected m, cm, mm, ft, in or a number above 0";
-            },
-            "", ""));
-    app.add_option("--up", choice.up, "Up axis of the imported file: y or z")
-        ->option_text("AXIS")
-        ->check(CLI::IsMember({"y", "z"}, CLI::ignore_case));
+void add_import_options(OptionList& list, ImportChoice& choice) {
+    list.add("--units", choice.units, "Unit of the imported file: m, cm, mm, ft, in or its length in metres")
+        .takes("UNIT")
+        .check([](const std::string& text) {
+            return unit_in_metres(text) ? std::string()
+                                        : "is '" + text + "', expected m, cm, mm, ft, in or a number above 0";
+        });
+    list.add("--up", choice.up, "Up axis of the imported file: y or z").takes("AXIS").one_of_any_case({"y", "z"});
 }
 
 std::optional<double> unit_in_metres(const std::string& units) {

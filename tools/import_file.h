@@ -1,7 +1,7 @@
 // import_file.h: a tree's file of any kind that is known, as --import and INPUT name it.
 #pragma once
 #include "formats/imports/import.h"
-#include <CLI/CLI.hpp>
+#include "option_list.h"
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ namespace bough {
 struct ImportChoice {
     std::string units, up;
 };
-void add_import_options(CLI::App&, ImportChoice&);
+void add_import_options(OptionList&, ImportChoice&);
 std::optional<double> unit_in_metres(const std::string& units);
 
 // The splines of a file ("-": of stdin). `before` is called when it is known whether the file is bough's own splines, before it is read

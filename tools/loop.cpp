@@ -64,24 +64,24 @@ std::string not_closed(const std::string& what, double tolerance) {
 
 } // namespace
 
-void add_loop_options(CLI::App& app, LoopChoice& o) {
-    app.add_option("--loop", o.seconds,
-                   "Write a loop of this length [s], in place of --seconds: the wind repeats after it, whole periods "
-                   "are run until the motion does too, and one is written, frames 0 to S fps - 1; the next would be "
-                   "frame 0 again. A .glb has that one too, so that players go on without a jump")
-        ->option_text("S")
-        ->check(positive_number());
-    app.add_option("--loop-tolerance", o.tolerance,
-                   "How far ends of branches and leaves may be, as a share of the tree's height, from where they were "
-                   "a period before (1e-4); else exit 3")
-        ->option_text("X")
-        ->check(positive_number());
-    app.add_option("--loop-periods", o.periods, "Periods to run at most until it repeats (20; with --loop-blend 5)")
-        ->option_text("N")
-        ->check(whole_number(2, 1000000));
-    app.add_flag("--loop-blend", o.blend,
-                 "Let the motion pass, over the loop's last third, into that of a period before, joint by joint, so "
-                 "that its ends meet also where it does not repeat: leaves that turn over in the wind never do");
+void add_loop_options(OptionList& list, LoopChoice& o) {
+    list.add("--loop", o.seconds,
+             "Write a loop of this length [s], in place of --seconds: the wind repeats after it, whole periods "
+             "are run until the motion does too, and one is written, frames 0 to S fps - 1; the next would be "
+             "frame 0 again. A .glb has that one too, so that players go on without a jump")
+        .takes("S")
+        .check(positive_number());
+    list.add("--loop-tolerance", o.tolerance,
+             "How far ends of branches and leaves may be, as a share of the tree's height, from where they were "
+             "a period before (1e-4); else exit 3")
+        .takes("X")
+        .check(positive_number());
+    list.add("--loop-periods", o.periods, "Periods to run at most until it repeats (20; with --loop-blend 5)")
+        .takes("N")
+        .check(whole_number(2, 1000000));
+    list.add_flag("--loop-blend", o.blend,
+                  "Let the motion pass, over the loop's last third, into that of a period before, joint by joint, so "
+                  "that its ends meet also where it does not repeat: leaves that turn over in the wind never do");
 }
 
 void refuse_contradictions(const LoopChoice& o, const RunOptions& run) {

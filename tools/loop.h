@@ -12,7 +12,9 @@
 // so that poses and velocities are continuous, also from the last frame to the first; each body's pose follows from its parent's. It takes a second
 // copy of the run, which is made again from where the third began a period before.
 #pragma once
+#include "common.h"
 #include "frame_sink.h"
+#include "option_list.h"
 #include "simulation.h"
 
 namespace bough {
@@ -23,7 +25,7 @@ struct LoopChoice {
     std::optional<std::int64_t> periods; // at most, before the one that is written
     bool blend = false;
 };
-void add_loop_options(CLI::App&, LoopChoice&);
+void add_loop_options(OptionList&, LoopChoice&);
 
 // Throws UsageError where --loop, or what only goes with it, does not go with the options of the run.
 void refuse_contradictions(const LoopChoice&, const RunOptions&);

@@ -1,5 +1,4 @@
 #include "machine_limits.h"
-#include "common.h"
 #include "lib/fast/machine_kernels.h"
 #include "lib/fast/row.h"
 #include <algorithm>

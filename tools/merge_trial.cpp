@@ -14,18 +14,16 @@ constexpr const char* wind_default = "gusty";
 
 } // namespace
 
-void add_merge_options(CLI::App& app, MergeChoice& choice) {
-    app.add_option(
-           "--merge-below", choice.below,
-           "Make rigid the joints that hardly move in a trial run: as many as leave the tips of branches within "
-           "ERROR [m] of where the whole tree has them, in every frame of that run (treesim then runs the rest)")
-        ->option_text("ERROR")
-        ->check(positive_number());
-    app.add_option("--wind", choice.wind, "With --merge-below: its wind, as of treesim (gusty)")
-        ->option_text("NAME|FILE");
-    app.add_option("--seconds", choice.seconds, "With --merge-below: its length [s] (10)")
-        ->option_text("S")
-        ->check(positive_number());
+void add_merge_options(OptionList& list, MergeChoice& choice) {
+    list.add("--merge-below", choice.below,
+             "Make rigid the joints that hardly move in a trial run: as many as leave the tips of branches within "
+             "ERROR [m] of where the whole tree has them, in every frame of that run (treesim then runs the rest)")
+        .takes("ERROR")
+        .check(positive_number());
+    list.add("--wind", choice.wind, "With --merge-below: its wind, as of treesim (gusty)").takes("NAME|FILE");
+    list.add("--seconds", choice.seconds, "With --merge-below: its length [s] (10)")
+        .takes("S")
+        .check(positive_number());
 }
 
 void refuse_merge_contradictions(const MergeChoice& choice) {

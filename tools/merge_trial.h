@@ -2,6 +2,7 @@
 #pragma once
 #include "common.h"
 #include "lib/model/tree.h"
+#include "option_list.h"
 
 namespace bough {
 
@@ -11,7 +12,7 @@ struct MergeChoice {
     std::optional<double> seconds;
 };
 
-void add_merge_options(CLI::App&, MergeChoice&);
+void add_merge_options(OptionList&, MergeChoice&);
 
 // Throws UsageError for options that go only with --merge-below, and for a trial of no frame.
 void refuse_merge_contradictions(const MergeChoice&);

@@ -6,13 +6,11 @@
 namespace bough {
 namespace {
 
-CLI::Validator number_check(const char* expected, bool (*accepts)(double)) {
-    return CLI::Validator(
-        [=](const std::string& text) {
-            const std::optional<double> value = parse_number(text);
-            return value && accepts(*value) ? std::string() : "is '" + text + "', expected " + expected;
-        },
-        "", "");
+ValueCheck number_check(const char* expected, bool (*accepts)(double)) {
+    return [=](const std::string& text) {
+        const std::optional<double> value = parse_number(text);
+        return value && accepts(*value) ? std::string() : "is '" + text + "', expected " + expected;
+    };
 }
 
 } // namespace
@@ -26,36 +24,32 @@ std::optional<double> parse_number(const std::string& text) {
     return value;
 }
 
-CLI::Validator positive_number() {
+ValueCheck positive_number() {
     return number_check("a number above 0", [](double v) { return v > 0; });
 }
 
-CLI::Validator not_negative_number() {
+ValueCheck not_negative_number() {
     return number_check("a number, 0 or more", [](double v) { return v >= 0; });
 }
 
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-    return CLI::Validator(
-        [=](const std::string& text) {
-            std::int64_t value = 0;
-            const char* last = text.data() + text.size();
-            const auto [end, error] = std::from_chars(text.data(), last, value);
-            if (error == std::errc() && end == last && value >= least && value <= most) return std::string();
-            return "is '" + text + "', expected a whole number from " + std::to_string(least) +
-                   (most == INT64_MAX ? "" : " to " + std::to_string(most));
-        },
-        "", "");
+ValueCheck whole_number(std::int64_t least, std::int64_t most) {
+    return [=](const std::string& text) {
+        std::int64_t value = 0;
+        const char* last = text.data() + text.size();
+        const auto [end, error] = std::from_chars(text.data(), last, value);
+        if (error == std::errc() && end == last && value >= least && value <= most) return std::string();
+        return "is '" + text + "', expected a whole number from " + std::to_string(least) +
+               (most == INT64_MAX ? "" : " to " + std::to_string(most));
+    };
 }
 
-CLI::Validator file_name() {
-    return CLI::Validator(
-        [](const std::string& text) -> std::string {
-            if (text.empty()) return "is empty, expected a file name";
-            if (text.size() > 1 && text[0] == '-')
-                return "is '" + text + "', which looks like an option (write ./" + text + " for a file of that name)";
-            return {};
-        },
-        "", "");
+ValueCheck file_name() {
+    return [](const std::string& text) -> std::string {
+        if (text.empty()) return "is empty, expected a file name";
+        if (text.size() > 1 && text[0] == '-')
+            return "is '" + text + "', which looks like an option (write ./" + text + " for a file of that name)";
+        return {};
+    };
 }
 
 std::vector<std::string> split_list(const std::string& text) {

@@ -1,3 +1,4 @@
+#include "file_names.h"
 #include "formats/reports/report.h"
 #include "formatted.h"
 #include "profile.h"
@@ -16,12 +17,12 @@ struct CompareOptions {
     double fail_above = 1.1;
 };
 
-void declare_compare(CLI::App& app, CompareOptions& o) {
-    app.add_option("OLD", o.old_report, "Report before");
-    app.add_option("NEW", o.new_report, "Report after");
-    app.add_option("--fail-above", o.fail_above, "Ratio new / old above which it exits with 3 (1.1)")
-        ->option_text("X")
-        ->check(positive_number());
+void declare_compare(OptionList& list, CompareOptions& o) {
+    list.add("OLD", o.old_report, "Report before");
+    list.add("NEW", o.new_report, "Report after");
+    list.add("--fail-above", o.fail_above, "Ratio new / old above which it exits with 3 (1.1)")
+        .takes("X")
+        .check(positive_number());
 }
 
 void refuse_different(const CompareOptions& o, const Report& before, const Report& after) {
@@ -85,7 +86,7 @@ void work_compare(CompareOptions& o) {
 
 Subcommand profile_compare(CommonOptions& common) {
     const auto o = std::make_shared<CompareOptions>(CompareOptions{common, {}, {}});
-    return {"compare", [o](CLI::App& app) { declare_compare(app, *o); }, [o] { work_compare(*o); }, false};
+    return {"compare", [o](OptionList& list) { declare_compare(list, *o); }, [o] { work_compare(*o); }, false};
 }
 
 } // namespace bough

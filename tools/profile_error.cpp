@@ -1,3 +1,4 @@
+#include "file_names.h"
 #include "lib/reference/work_precision.h"
 #include "profile.h"
 #include "progress.h"
@@ -17,25 +18,24 @@ struct ErrorCommand {
     CommonOptions& common;
     RunOptions run;
     std::string steps, report, truth = "reference";
-    CLI::App* app = nullptr;
+    const OptionList* list = nullptr; // for what was given
 };
 
-void declare(CLI::App& app, ErrorCommand& o) {
-    o.app = &app;
-    add_run_options(app, o.run, seconds_default);
-    app.add_option(
-           "--steps", o.steps,
-           "Steps a frame to run with, with commas: powers of two from 1/64 to 4096, the three finest also for the "
-           "limit of small steps (1/4,1/2,1,2,4,8,16,32,64)")
-        ->option_text("LIST");
-    app.add_option("--truth", o.truth,
-                   "What all is held against: articulated-reference, or, for trees of more than some thousand bodies, "
-                   "the coupled solver at 64 steps a frame (reference)")
-        ->option_text("reference|fine")
-        ->check(CLI::IsMember({"reference", "fine"}));
-    app.add_option("--report", o.report, "Also write the figures as .json or .csv, the plot as .svg, both as .html")
-        ->option_text("FILE")
-        ->check(file_name());
+void declare(OptionList& list, ErrorCommand& o) {
+    o.list = &list;
+    add_run_options(list, o.run, seconds_default);
+    list.add("--steps", o.steps,
+             "Steps a frame to run with, with commas: powers of two from 1/64 to 4096, the three finest also for the "
+             "limit of small steps (1/4,1/2,1,2,4,8,16,32,64)")
+        .takes("LIST");
+    list.add("--truth", o.truth,
+             "What all is held against: articulated-reference, or, for trees of more than some thousand bodies, "
+             "the coupled solver at 64 steps a frame (reference)")
+        .takes("reference|fine")
+        .one_of({"reference", "fine"});
+    list.add("--report", o.report, "Also write the figures as .json or .csv, the plot as .svg, both as .html")
+        .takes("FILE")
+        .check(file_name());
 }
 
 // 4, 0.25 or 1/4.
@@ -66,7 +66,7 @@ std::vector<double> chosen_steps(const std::string& text) {
 
 // The usual series, or with --scheme that one's; of these what --solver, --precision, --joint-inertia leave.
 std::vector<Variant> chosen_variants(const ErrorCommand& o) {
-    const auto given = [&](const char* name) { return o.app->get_option(name)->count() > 0; };
+    const auto given = [&](const char* name) { return o.list->given(name); };
     std::vector<Variant> series = all_variants(), chosen;
     if (!o.run.scheme.empty()) {
         Variant v;
@@ -98,7 +98,7 @@ void let_move(ErrorCommand& o, Scene& scene) {
 }
 
 void work(ErrorCommand& o) {
-    if (o.app->get_option("--substeps")->count() > 0) throw UsageError("--substeps: --steps says it here");
+    if (o.list->given("--substeps")) throw UsageError("--substeps: --steps says it here");
     if (o.truth == "fine" && o.run.tolerance)
         throw UsageError("--tolerance: is the reference's, which --truth fine does without");
     if (o.run.joint_limit) throw UsageError("--joint-limit: the reference solution keeps no limits");
@@ -155,7 +155,7 @@ void work(ErrorCommand& o) {
 
 Subcommand profile_error(CommonOptions& common) {
     const auto o = std::make_shared<ErrorCommand>(ErrorCommand{common, {}, {}, {}});
-    return {"error", [o](CLI::App& app) { declare(app, *o); }, [o] { work(*o); }};
+    return {"error", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
 }
 
 } // namespace bough

@@ -1,3 +1,4 @@
+#include "file_names.h"
 #include "formats/documents/tree.h"
 #include "lib/fast/operations.h"
 #include "machine_limits.h"
@@ -7,6 +8,7 @@
 #include "rigid_parts.h"
 #include "scaling.h"
 #include "signals.h"
+#include "threads.h"
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -25,44 +27,39 @@ struct ScalingCommand {
     std::optional<std::int64_t> frames, array;
     int repeat = ScalingChoice().repeat;
     std::string report;
-    CLI::App* app = nullptr;
+    const OptionList* list = nullptr; // for what was given
 };
 
 const std::vector<std::string> shapes = {"bushy", "willow", "chain"};
 
-void declare(CLI::App& app, ScalingCommand& o) {
-    o.app = &app;
-    app.add_option("--bodies", o.bodies, "Sizes, with commas (1000,10000,100000,1000000); trees come within 10 %")
-        ->option_text("LIST");
-    app.add_option("--shape", o.shape,
-                   "Trees to grow, with commas: bushy (default; an apple tree), willow, chain (one unbranched pole)")
-        ->option_text("LIST");
-    app.add_option("--tree", o.trees, "A tree of your own instead of grown ones; once for each")
-        ->option_text("FILE")
-        ->take_all()
-        ->check(file_name())
-        ->expected(1);
-    app.add_option("--threads", o.threads, "Numbers of threads, with commas (1 and all of the machine)")
-        ->option_text("LIST");
-    app.add_option("--precision", o.precision, "float, double, or both (float,double)")->option_text("LIST");
-    app.add_option("--solver", o.solver, std::string("Solvers, with commas (") + o.solver + ")")->option_text("LIST");
-    app.add_option("--simd", o.simd,
-                   "Which SIMD code, with commas: auto (default), avx512, avx2, baseline, or off, the plain step")
-        ->option_text("LIST");
-    app.add_option("--wind", o.run.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file")
-        ->option_text("NAME|FILE");
-    app.add_option("--frames", o.frames, "Frames to measure, after one of warm-up (fewer for larger trees: 240 to 4)")
-        ->option_text("N")
-        ->check(whole_number(1));
-    app.add_option("--repeat", o.repeat, "Rounds, of which the median counts (5)")
-        ->option_text("N")
-        ->check(whole_number(1, 1000));
-    app.add_option("--array", o.array, "Memory to measure the bandwidth over [MB] (four times the last cache)")
-        ->option_text("MB")
-        ->check(whole_number(1, 1 << 24));
-    app.add_option("--report", o.report, "Also write the figures as .json or .csv, the plot as .svg, both as .html")
-        ->option_text("FILE")
-        ->check(file_name());
+void declare(OptionList& list, ScalingCommand& o) {
+    o.list = &list;
+    list.add("--bodies", o.bodies, "Sizes, with commas (1000,10000,100000,1000000); trees come within 10 %")
+        .takes("LIST");
+    list.add("--shape", o.shape,
+             "Trees to grow, with commas: bushy (default; an apple tree), willow, chain (one unbranched pole)")
+        .takes("LIST");
+    list.add("--tree", o.trees, "A tree of your own instead of grown ones; once for each")
+        .takes("FILE")
+        .any_number_of_times()
+        .check(file_name());
+    list.add("--threads", o.threads, "Numbers of threads, with commas (1 and all of the machine)").takes("LIST");
+    list.add("--precision", o.precision, "float, double, or both (float,double)").takes("LIST");
+    list.add("--solver", o.solver, std::string("Solvers, with commas (") + o.solver + ")").takes("LIST");
+    list.add("--simd", o.simd,
+             "Which SIMD code, with commas: auto (default), avx512, avx2, baseline, or off, the plain step")
+        .takes("LIST");
+    list.add("--wind", o.run.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file").takes("NAME|FILE");
+    list.add("--frames", o.frames, "Frames to measure, after one of warm-up (fewer for larger trees: 240 to 4)")
+        .takes("N")
+        .check(whole_number(1));
+    list.add("--repeat", o.repeat, "Rounds, of which the median counts (5)").takes("N").check(whole_number(1, 1000));
+    list.add("--array", o.array, "Memory to measure the bandwidth over [MB] (four times the last cache)")
+        .takes("MB")
+        .check(whole_number(1, 1 << 24));
+    list.add("--report", o.report, "Also write the figures as .json or .csv, the plot as .svg, both as .html")
+        .takes("FILE")
+        .check(file_name());
 }
 
 // The parts of a list, each one of `known`, none twice.
@@ -138,7 +135,7 @@ std::vector<ScalingTree> chosen_trees(ScalingCommand& o, const Scene& scene, std
 }
 
 void work(ScalingCommand& o) {
-    const auto given = [&](const char* name) { return o.app->get_option(name)->count() > 0; };
+    const auto given = [&](const char* name) { return o.list->given(name); };
     if (!o.trees.empty())
         for (const char* option : {"--bodies", "--shape"})
             if (given(option)) throw UsageError(std::string(option) + ": not with --tree, which says what there is");
@@ -187,7 +184,7 @@ void work(ScalingCommand& o) {
 
 Subcommand profile_scaling(CommonOptions& common) {
     const auto o = std::make_shared<ScalingCommand>(common);
-    Subcommand scaling{"scaling", [o](CLI::App& app) { declare(app, *o); }, [o] { work(*o); }};
+    Subcommand scaling{"scaling", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
     scaling.has_threads = false;
     scaling.has_input = false;
     return scaling;

@@ -1,3 +1,4 @@
+#include "file_names.h"
 #include "lib/reference/stability.h"
 #include "profile.h"
 #include "progress.h"
@@ -16,14 +17,14 @@ struct StabilityCommand {
     std::int64_t frames = StabilityOptions().frames;
 };
 
-void declare(CLI::App& app, StabilityCommand& o) {
-    app.add_option("INPUT", o.run.input, "A tree, or a scene whose trees, gravity and air are taken; - for stdin");
-    app.add_option("--frames", o.frames, "Steps a cell (100)")->option_text("N")->check(whole_number(4));
-    add_simd_option(app, o.run);
-    app.add_option("--only", o.only, "Only the cases whose group or name contains this")->option_text("TEXT");
-    app.add_option("--report", o.report, "Also write the figures as .json or .csv, the grid as .svg, both as .html")
-        ->option_text("FILE")
-        ->check(file_name());
+void declare(OptionList& list, StabilityCommand& o) {
+    list.add("INPUT", o.run.input, "A tree, or a scene whose trees, gravity and air are taken; - for stdin");
+    list.add("--frames", o.frames, "Steps a cell (100)").takes("N").check(whole_number(4));
+    add_simd_option(list, o.run);
+    list.add("--only", o.only, "Only the cases whose group or name contains this").takes("TEXT");
+    list.add("--report", o.report, "Also write the figures as .json or .csv, the grid as .svg, both as .html")
+        .takes("FILE")
+        .check(file_name());
 }
 
 void work(StabilityCommand& o) {
@@ -64,7 +65,7 @@ void work(StabilityCommand& o) {
 
 Subcommand profile_stability(CommonOptions& common) {
     const auto o = std::make_shared<StabilityCommand>(StabilityCommand{common, {}, {}, {}});
-    return {"stability", [o](CLI::App& app) { declare(app, *o); }, [o] { work(*o); }};
+    return {"stability", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
 }
 
 } // namespace bough

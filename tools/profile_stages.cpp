@@ -1,5 +1,7 @@
+#include "file_names.h"
 #include "formats/reports/report.h"
 #include "formatted.h"
+#include "made_with.h"
 #include "profile.h"
 #include "progress.h"
 #include "simulation.h"
@@ -20,15 +22,13 @@ struct StagesOptions {
     int repeat = 3;
 };
 
-void declare_stages(CLI::App& app, StagesOptions& o) {
-    add_run_options(app, o.run, seconds_default);
-    add_sleep_option(app, o.run);
-    app.add_option("--report", o.report, "Also write the figures, as JSON or (by its ending) CSV")
-        ->option_text("FILE")
-        ->check(file_name());
-    app.add_option("--repeat", o.repeat, "Runs, of which the fastest counts (3)")
-        ->option_text("N")
-        ->check(whole_number(1, 1000));
+void declare_stages(OptionList& list, StagesOptions& o) {
+    add_run_options(list, o.run, seconds_default);
+    add_sleep_option(list, o.run);
+    list.add("--report", o.report, "Also write the figures, as JSON or (by its ending) CSV")
+        .takes("FILE")
+        .check(file_name());
+    list.add("--repeat", o.repeat, "Runs, of which the fastest counts (3)").takes("N").check(whole_number(1, 1000));
 }
 
 // One timed run. Times are of the steps alone, from the second frame on.
@@ -137,7 +137,7 @@ void work_stages(StagesOptions& o) {
 
 Subcommand profile_stages(CommonOptions& common) {
     const auto o = std::make_shared<StagesOptions>(StagesOptions{common, {}, {}});
-    return {"stages", [o](CLI::App& app) { declare_stages(app, *o); }, [o] { work_stages(*o); }};
+    return {"stages", [o](OptionList& list) { declare_stages(list, *o); }, [o] { work_stages(*o); }};
 }
 
 } // namespace bough

@@ -1,7 +1,9 @@
 #include "report_file.h"
+#include "file_names.h"
 #include "formats/reports/error_plot.h"
 #include "formats/reports/gnuplot.h"
 #include "formats/reports/stability_plot.h"
+#include "made_with.h"
 
 namespace bough {
 namespace {

@@ -1,4 +1,6 @@
 #include "rigid_parts.h"
+#include "exits.h"
+#include "formats/open.h"
 #include "formatted.h"
 #include <chrono>
 

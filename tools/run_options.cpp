@@ -1,4 +1,5 @@
 #include "run_options.h"
+#include "exits.h"
 #include "set_option.h"
 #include <array>
 #include <cmath>
@@ -41,78 +42,74 @@ std::string rate_text(double rate) {
     return text.str();
 }
 
-void add_simd_option(CLI::App& app, RunOptions& o) {
-    app.add_option("--simd", o.simd,
-                   "Which SIMD code coupled and analytic step with: auto (default): the widest of avx512, avx2 and "
-                   "baseline that "
-                   "this machine has; off: the plain step, body by body")
-        ->option_text("NAME")
-        ->check(CLI::IsMember({"auto", "off", "baseline", "avx2", "avx512"}));
+void add_simd_option(OptionList& list, RunOptions& o) {
+    list.add("--simd", o.simd,
+             "Which SIMD code coupled and analytic step with: auto (default): the widest of avx512, avx2 and "
+             "baseline that "
+             "this machine has; off: the plain step, body by body")
+        .takes("NAME")
+        .one_of({"auto", "off", "baseline", "avx2", "avx512"});
 }
 
-void add_sleep_option(CLI::App& app, RunOptions& o) {
-    app.add_option("--sleep", o.sleep,
-                   "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
-                   "[rad/s] for a second, until they are moved again; or off (" +
-                       (o.sleep_default > 0 ? rate_text(o.sleep_default) : "off") + ")")
-        ->option_text("RATE|off");
+void add_sleep_option(OptionList& list, RunOptions& o) {
+    list.add("--sleep", o.sleep,
+             "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
+             "[rad/s] for a second, until they are moved again; or off (" +
+                 (o.sleep_default > 0 ? rate_text(o.sleep_default) : "off") + ")")
+        .takes("RATE|off");
 }
 
-void add_run_options(CLI::App& app, RunOptions& o, double seconds_default) {
+void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
     const std::string seconds_text = std::to_string(int(seconds_default));
-    app.add_option("INPUT", o.input, "A tree or a scene; - for stdin");
-    CLI::Option* seconds = app.add_option("--seconds", o.seconds, "Length of the run [s] (" + seconds_text + ")")
-                               ->option_text("S")
-                               ->check(not_negative_number());
-    app.add_option("--frames", o.frames, "Length of the run in frames, the start included")
-        ->option_text("N")
-        ->check(whole_number(1))
-        ->excludes(seconds);
-    app.add_option("--fps", o.fps, "Frames a second (30)")->option_text("F")->check(positive_number());
-    app.add_option("--substeps", o.substeps, "Steps a frame (1)")->option_text("N")->check(whole_number(1, 1000000));
-    app.add_option("--wind", o.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file")
-        ->option_text("NAME|FILE");
-    app.add_option("--seed", o.seed, "Seed of the wind's turbulence")->option_text("N")->check(whole_number(0));
-    app.add_option("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)")->option_text("X,Y,Z");
-    add_set_option(app, o.set);
+    list.add("INPUT", o.input, "A tree or a scene; - for stdin");
+    OptionEntry seconds = list.add("--seconds", o.seconds, "Length of the run [s] (" + seconds_text + ")")
+                              .takes("S")
+                              .check(not_negative_number());
+    list.add("--frames", o.frames, "Length of the run in frames, the start included")
+        .takes("N")
+        .check(whole_number(1))
+        .excludes(seconds);
+    list.add("--fps", o.fps, "Frames a second (30)").takes("F").check(positive_number());
+    list.add("--substeps", o.substeps, "Steps a frame (1)").takes("N").check(whole_number(1, 1000000));
+    list.add("--wind", o.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file").takes("NAME|FILE");
+    list.add("--seed", o.seed, "Seed of the wind's turbulence").takes("N").check(whole_number(0));
+    list.add("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)").takes("X,Y,Z");
+    add_set_option(list, o.set);
     std::vector<std::string> solvers;
     for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
-    app.add_option("--solver", o.solver, solver_help())->option_text("NAME")->check(CLI::IsMember(solvers));
+    list.add("--solver", o.solver, solver_help()).takes("NAME").one_of(solvers);
     std::vector<std::string> schemes;
     for (const Scheme scheme : all_schemes) schemes.push_back(scheme_of(scheme).name);
-    app.add_option("--scheme", o.scheme,
-                   "Which rational function coupled steps with: " + std::string(scheme_of(Scheme()).name) +
-                       " (default): robust; P.25, P.5: damp less, stiff joints lag more; P34: true to higher "
-                       "frequencies, two solves a step; LIE, for comparison: first order")
-        ->option_text("NAME")
-        ->transform(CLI::IsMember(schemes, CLI::ignore_case)); // to the table's spelling
-    add_simd_option(app, o);
-    app.add_option("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
-        ->option_text("RAD")
-        ->check(positive_number());
-    app.add_option("--precision", o.precision, "float or double (double)")
-        ->option_text("NAME")
-        ->check(CLI::IsMember({"float", "double"}));
-    app.add_option(
-           "--pose", o.pose,
-           "What the drawn tree is: drawn (in equilibrium under gravity), settled (unloaded; starts at its sag), "
-           "rest (unloaded; starts from it)")
-        ->option_text("NAME")
-        ->check(CLI::IsMember({"drawn", "settled", "rest"}));
-    app.add_option("--joint-inertia", o.joint_inertia,
-                   "branch (a branch keeps its frequency under any segmentation) or paper")
-        ->option_text("NAME")
-        ->check(CLI::IsMember({"branch", "paper"}));
-    app.add_option("--stiffness-scale", o.stiffness_scale, "Multiplies every joint's stiffness (1)")
-        ->option_text("X")
-        ->check(not_negative_number());
-    app.add_option("--damping-scale", o.damping_scale, "Multiplies every joint's damping (1)")
-        ->option_text("X")
-        ->check(not_negative_number());
-    app.add_option("--joint-limit", o.joint_limit,
-                   "Largest angle of every joint about each of its axes, from its spring's rest [deg] (none)")
-        ->option_text("DEG")
-        ->check(positive_number());
+    list.add("--scheme", o.scheme,
+             "Which rational function coupled steps with: " + std::string(scheme_of(Scheme()).name) +
+                 " (default): robust; P.25, P.5: damp less, stiff joints lag more; P34: true to higher "
+                 "frequencies, two solves a step; LIE, for comparison: first order")
+        .takes("NAME")
+        .one_of_any_case(schemes); // and then in the table's spelling
+    add_simd_option(list, o);
+    list.add("--tolerance", o.tolerance, "Error allowed in a step of articulated-reference [rad] (1e-8)")
+        .takes("RAD")
+        .check(positive_number());
+    list.add("--precision", o.precision, "float or double (double)").takes("NAME").one_of({"float", "double"});
+    list.add("--pose", o.pose,
+             "What the drawn tree is: drawn (in equilibrium under gravity), settled (unloaded; starts at its sag), "
+             "rest (unloaded; starts from it)")
+        .takes("NAME")
+        .one_of({"drawn", "settled", "rest"});
+    list.add("--joint-inertia", o.joint_inertia,
+             "branch (a branch keeps its frequency under any segmentation) or paper")
+        .takes("NAME")
+        .one_of({"branch", "paper"});
+    list.add("--stiffness-scale", o.stiffness_scale, "Multiplies every joint's stiffness (1)")
+        .takes("X")
+        .check(not_negative_number());
+    list.add("--damping-scale", o.damping_scale, "Multiplies every joint's damping (1)")
+        .takes("X")
+        .check(not_negative_number());
+    list.add("--joint-limit", o.joint_limit,
+             "Largest angle of every joint about each of its axes, from its spring's rest [deg] (none)")
+        .takes("DEG")
+        .check(positive_number());
 }
 
 std::int64_t frames_of(const RunOptions& o, double seconds_default) {

@@ -1,8 +1,8 @@
 // run_options.h: the options that decide how trees move, the same for treesim and treeprofile, and what they choose.
 #pragma once
-#include "common.h"
 #include "lib/model/scene.h"
 #include "lib/stages/plan.h"
+#include "option_list.h"
 
 namespace bough {
 
@@ -27,10 +27,10 @@ struct RunOptions {
 };
 
 // seconds_default: what runs without --seconds and --frames.
-void add_run_options(CLI::App&, RunOptions&, double seconds_default);
+void add_run_options(OptionList&, RunOptions&, double seconds_default);
 
-void add_simd_option(CLI::App&, RunOptions&);
-void add_sleep_option(CLI::App&, RunOptions&); // with sleep_default as it stands
+void add_simd_option(OptionList&, RunOptions&);
+void add_sleep_option(OptionList&, RunOptions&); // with sleep_default as it stands
 
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.
 std::int64_t frames_of(const RunOptions&, double seconds_default);

@@ -1,5 +1,7 @@
 #include "saved_run.h"
+#include "exits.h"
 #include "formats/documents/motion.h"
+#include "formats/open.h"
 #include "lib/simulation/saved.h"
 
 namespace bough {

@@ -1,5 +1,7 @@
 #include "saved_tree.h"
+#include "exits.h"
 #include "formats/documents/tree.h"
+#include "formats/open.h"
 #include "lib/stages/posed_tree.h"
 
 namespace bough {

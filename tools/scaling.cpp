@@ -6,6 +6,7 @@
 #include "lib/growth/segment.h"
 #include "machine_limits.h"
 #include "resident.h"
+#include "threads.h"
 #include <algorithm>
 #include <chrono>
 #include <map>

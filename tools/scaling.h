@@ -1,6 +1,7 @@
 // scaling.h: the measurement of `treeprofile scaling`: every tree with every way of stepping and every number of threads, round after round, so that
 // what else the machine does meets all alike; what the machine can do at most, in each round; what is computed and moved, counted once.
 #pragma once
+#include "common.h"
 #include "formats/reports/scaling_report.h"
 #include "simulation.h"
 #include <functional>

@@ -1,5 +1,7 @@
 #include "scene_trees.h"
+#include "exits.h"
 #include "formats/documents/tree.h"
+#include "formats/open.h"
 #include "lib/fast/stands.h"
 #include "lib/simulation/fingerprint.h"
 #include "lib/stages/wind_field.h"

@@ -1,6 +1,8 @@
 #include "setting.h"
+#include "exits.h"
 #include "formats/documents/scene.h"
 #include "formats/documents/tree.h"
+#include "formats/open.h"
 #include "scene_trees.h"
 #include "set_option.h"
 #include <filesystem>

@@ -1,5 +1,6 @@
 // setting.h: what a run is of: its trees joined into one, and the scene with the options applied.
 #pragma once
+#include "file_names.h"
 #include "lib/simulation/assembly.h"
 #include "run_options.h"
 

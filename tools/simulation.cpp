@@ -1,4 +1,6 @@
 #include "simulation.h"
+#include "exits.h"
+#include "formats/open.h"
 
 namespace bough {
 namespace {

@@ -1,5 +1,5 @@
 // treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
-#include "common.h"
+#include "file_names.h"
 #include "formats/documents/material.h"
 #include "formats/documents/splines.h"
 #include "formats/documents/tree.h"
@@ -16,6 +16,7 @@
 #include "lib/model/sway.h"
 #include "merge_trial.h"
 #include "run_options.h"
+#include "tool.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -48,41 +49,41 @@ const ToolInfo info = {"treeconvert",
                        "Exit: 0 done, 1 usage, 2 bad input (or --strict), 4 output not written, 130 interrupted.",
                        {"json", "safetensors"}};
 
-void declare(CLI::App& app, Options& o) {
-    app.add_option("INPUT", o.input, "Splines or an importable file; - for stdin");
-    app.add_option("--segment-length", o.segment_length, "Longest body of a branch [m]; from the branch unless given")
-        ->option_text("M")
-        ->check(positive_number());
-    app.add_option("--max-bend", o.max_bend, "Most that a branch turns within one body [deg] (20)")
-        ->option_text("DEG")
-        ->check(positive_number());
-    app.add_option("--max-bodies", o.max_bodies, "Lengthen bodies until there are at most N")
-        ->option_text("N")
-        ->check(whole_number(1));
-    app.add_option(
-           "--mesh", o.mesh,
-           "Also write the skin mesh in the drawn pose: FILE.obj with FILE.mtl beside it, or FILE.glb with its joints")
-        ->option_text("FILE")
-        ->check(file_name());
-    app.add_option("--sides", o.sides, "Corners of the thickest branch's rings, with --mesh (8)")
-        ->option_text("N")
-        ->check(whole_number(3, 256));
-    add_max_joints(app, o.gltf);
-    add_leaves_as(app, o.gltf);
-    app.add_option("--wind-groups", o.wind_groups,
-                   "With --mesh FILE.glb: also write its joints' groups for Unreal's Dynamic Wind (JSON), by how many "
-                   "branches they are from the trunk; the joints' x axes then lie along the branches, as it wants them")
-        ->option_text("FILE")
-        ->check(file_name());
-    app.add_option("--material", o.material,
-                   "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
-        ->option_text("NAME|FILE");
-    app.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
-    app.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
-    app.add_flag("--stats", o.stats, "Print what was understood of the input and what was made of it on stderr");
-    app.add_flag("--split", o.split, "One file for each root");
-    add_merge_options(app, o.merge);
-    add_import_options(app, o.choice);
+void declare(OptionList& list, Options& o) {
+    list.add("INPUT", o.input, "Splines or an importable file; - for stdin");
+    list.add("--segment-length", o.segment_length, "Longest body of a branch [m]; from the branch unless given")
+        .takes("M")
+        .check(positive_number());
+    list.add("--max-bend", o.max_bend, "Most that a branch turns within one body [deg] (20)")
+        .takes("DEG")
+        .check(positive_number());
+    list.add("--max-bodies", o.max_bodies, "Lengthen bodies until there are at most N")
+        .takes("N")
+        .check(whole_number(1));
+    list.add(
+            "--mesh", o.mesh,
+            "Also write the skin mesh in the drawn pose: FILE.obj with FILE.mtl beside it, or FILE.glb with its joints")
+        .takes("FILE")
+        .check(file_name());
+    list.add("--sides", o.sides, "Corners of the thickest branch's rings, with --mesh (8)")
+        .takes("N")
+        .check(whole_number(3, 256));
+    add_max_joints(list, o.gltf);
+    add_leaves_as(list, o.gltf);
+    list.add("--wind-groups", o.wind_groups,
+             "With --mesh FILE.glb: also write its joints' groups for Unreal's Dynamic Wind (JSON), by how many "
+             "branches they are from the trunk; the joints' x axes then lie along the branches, as it wants them")
+        .takes("FILE")
+        .check(file_name());
+    list.add("--material", o.material,
+             "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
+        .takes("NAME|FILE");
+    list.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
+    list.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
+    list.add_flag("--stats", o.stats, "Print what was understood of the input and what was made of it on stderr");
+    list.add_flag("--split", o.split, "One file for each root");
+    add_merge_options(list, o.merge);
+    add_import_options(list, o.choice);
 }
 
 void refuse_own_inputs(const Options& o, const std::string& output, const std::string& mesh,
@@ -276,5 +277,5 @@ void work(Options& o) {
 int main(int argc, char** argv) {
     Options o;
     return run_tool(
-        info, argc, argv, o.common, [&o](CLI::App& app) { declare(app, o); }, [&o] { work(o); });
+        info, argc, argv, o.common, [&o](OptionList& list) { declare(list, o); }, [&o] { work(o); });
 }

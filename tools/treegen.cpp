@@ -1,5 +1,5 @@
 // treegen: a tree as splines, grown from parameters or imported from another program's file.
-#include "common.h"
+#include "file_names.h"
 #include "formats/documents/splines.h"
 #include "formats/exports/skeleton_writer.h"
 #include "formats/files.h"
@@ -7,6 +7,7 @@
 #include "import_file.h"
 #include "import_stats.h"
 #include "lib/model/counted.h"
+#include "tool.h"
 #include <iostream>
 
 namespace {
@@ -42,12 +43,12 @@ const ToolInfo info = {
     "Exit: 0 done, 1 usage, 2 bad input, 4 output not written, 130 interrupted.",
     {"json", "safetensors", "swc", "treetools"}};
 
-void declare(CLI::App& app, Options& o) {
-    add_growth_options(app, o.growth);
-    app.add_option("--import", o.import, "Import this file instead of growing; - for stdin")->option_text("FILE");
-    app.add_flag("--strict", o.strict, "With --import: guesses, repairs and omissions of the reader are errors");
-    add_import_options(app, o.choice);
-    app.add_flag("--stats", o.stats, "With --import: print what was understood of the file on stderr");
+void declare(OptionList& list, Options& o) {
+    add_growth_options(list, o.growth);
+    list.add("--import", o.import, "Import this file instead of growing; - for stdin").takes("FILE");
+    list.add_flag("--strict", o.strict, "With --import: guesses, repairs and omissions of the reader are errors");
+    add_import_options(list, o.choice);
+    list.add_flag("--stats", o.stats, "With --import: print what was understood of the file on stderr");
 }
 
 void refuse_contradictions(const Options& o) {
@@ -136,5 +137,5 @@ void work(Options& o) {
 int main(int argc, char** argv) {
     Options o;
     return run_tool(
-        info, argc, argv, o.common, [&o](CLI::App& app) { declare(app, o); }, [&o] { work(o); });
+        info, argc, argv, o.common, [&o](OptionList& list) { declare(list, o); }, [&o] { work(o); });
 }

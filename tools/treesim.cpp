@@ -1,5 +1,6 @@
 // treesim: a timed simulation of a tree or a scene, frame after frame.
 #include "error_line.h"
+#include "file_names.h"
 #include "formats/documents/motion.h"
 #include "frame_queue.h"
 #include "lib/free/shown_tree.h"
@@ -182,8 +183,7 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     const bool mesh = is_mesh(format);
     const bool needs_tree = loops || o.report_error || !o.save_tree.empty() || mesh || has_free_bodies(setting.scene);
     if (!o.save_state.empty() || !o.resume.empty()) setting.fingerprint = fingerprint(setting.tree, setting.scene);
-    Plan<T> plan_made =
-        needs_tree ? planned<T>(setting, wishes, o.run) : planned<T>(std::move(setting), wishes, o.run);
+    Plan<T> plan_made = needs_tree ? planned<T>(setting, wishes, o.run) : planned<T>(std::move(setting), wishes, o.run);
     interrupt_at_boundary();
     std::optional<SavedState> saved; // read once: it may come from a pipe
     if (!o.resume.empty()) saved = read_state(read_input(o.resume), input_name(o.resume));
@@ -265,10 +265,8 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
 void put_together(const TreesimOptions& o) {
     const std::vector<std::string> known{"--join",      "-o",          "--format", "--hash",
                                          "--no-output", "--no-source", "-q",       "--threads"};
-    for (const CLI::Option* option : o.app->get_options())
-        if (option->count() > 0 &&
-            std::none_of(known.begin(), known.end(), [&](const std::string& name) { return option->check_name(name); }))
-            throw UsageError(option->get_name() + ": not with --join");
+    if (const std::string other = o.list->given_beside(known); !other.empty())
+        throw UsageError(other + ": not with --join");
     const std::string format = o.no_output ? "" : chosen_format(o.common);
     if (is_mesh(format)) throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
     std::vector<NamedFile> parts;
@@ -300,5 +298,5 @@ void work(TreesimOptions& o) {
 int main(int argc, char** argv) {
     TreesimOptions o;
     return run_tool(
-        treesim_info, argc, argv, o.common, [&o](CLI::App& app) { declare(app, o); }, [&o] { work(o); });
+        treesim_info, argc, argv, o.common, [&o](OptionList& list) { declare(list, o); }, [&o] { work(o); });
 }

@@ -1,4 +1,5 @@
 #include "treesim_options.h"
+#include "file_names.h"
 #include "formats/exports/obj.h"
 
 namespace bough {
@@ -23,61 +24,61 @@ constexpr double sleep_default = 1e-5; // [rad/s]
 
 } // namespace
 
-void declare(CLI::App& app, TreesimOptions& o) {
+void declare(OptionList& list, TreesimOptions& o) {
     o.run.sleep_default = sleep_default;
-    o.app = &app;
-    add_run_options(app, o.run, seconds_default);
-    add_sleep_option(app, o.run);
-    add_loop_options(app, o.loop);
-    app.add_option("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
-        ->option_text("LIST");
-    app.add_option("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
-        ->option_text("N")
-        ->check(whole_number(3, 256));
-    app.add_option("--skin", o.skin,
-                   "With -o FILE.glb: write this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: "
-                   "its own meshes, skins and materials, with the motion as an animation of its bones. The tree must "
-                   "have been made from it, or stand where its bones do")
-        ->option_text("FILE")
-        ->check(file_name());
-    add_max_joints(app, o.gltf);
-    add_leaves_as(app, o.gltf);
-    add_key_tolerance(app, o.gltf);
-    app.add_flag("--rustle", o.rustle, "In a mesh, clumps' drawn leaves rustle with the wind");
-    app.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
-    app.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
-    app.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
-    app.add_flag("--report-error", o.report_error,
-                 "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at "
-                 "twice the step beside this one (half the time more); with --solver coupled");
-    app.add_flag("--report-cost", o.report_cost,
-                 "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
-    app.add_flag("--report-rigid", o.report_rigid,
-                 "Print `rigid ...` on stderr: how many joints move, what the branches' tips are off by for those that "
-                 "/simulate or the tree's /rigid hold, and both costs, from a run of the whole tree beside this one");
-    app.add_option("--save-state", o.save_state, "Write the last frame's state, for --resume")
-        ->option_text("FILE")
-        ->check(file_name());
-    app.add_option(
-           "--save-tree", o.save_tree,
-           "Write the tree as it stands at the last frame, drawn there: run again with --pose drawn it stays, its "
-           "springs at rest around what forces had bent it to. It stands where the scene put it; /wood and /load "
-           "are in it, the load as its own weight, stiffness_scale and damping_scale are not. For scenes of one tree")
-        ->option_text("FILE")
-        ->check(file_name());
-    app.add_option("--resume", o.resume, "Go on from this state")->option_text("FILE");
-    app.add_option("--shard", o.run.shard,
-                   "Only the i-th of n parts of a scene's trees; bodies move as they do in the whole (--join)")
-        ->option_text("i/n");
-    app.add_option(
-           "--join", o.join.parts,
-           "Put the motions of all parts of a scene together (-o), or their saved states (--hash), and do nothing "
-           "else")
-        ->option_text("PART...")
-        ->expected(1, 1000000);
-    app.add_flag("--watch", o.watch,
-                 "Run, and again whenever the scene, one of its trees or the wind's file has changed, until Ctrl-C; -o "
-                 "FILE is written anew each time, whole or not at all");
+    o.list = &list;
+    add_run_options(list, o.run, seconds_default);
+    add_sleep_option(list, o.run);
+    add_loop_options(list, o.loop);
+    list.add("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
+        .takes("LIST");
+    list.add("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
+        .takes("N")
+        .check(whole_number(3, 256));
+    list.add("--skin", o.skin,
+             "With -o FILE.glb: write this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: "
+             "its own meshes, skins and materials, with the motion as an animation of its bones. The tree must "
+             "have been made from it, or stand where its bones do")
+        .takes("FILE")
+        .check(file_name());
+    add_max_joints(list, o.gltf);
+    add_leaves_as(list, o.gltf);
+    add_key_tolerance(list, o.gltf);
+    list.add_flag("--rustle", o.rustle, "In a mesh, clumps' drawn leaves rustle with the wind");
+    list.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
+    list.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
+    list.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
+    list.add_flag("--report-error", o.report_error,
+                  "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at "
+                  "twice the step beside this one (half the time more); with --solver coupled");
+    list.add_flag("--report-cost", o.report_cost,
+                  "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
+    list.add_flag(
+        "--report-rigid", o.report_rigid,
+        "Print `rigid ...` on stderr: how many joints move, what the branches' tips are off by for those that "
+        "/simulate or the tree's /rigid hold, and both costs, from a run of the whole tree beside this one");
+    list.add("--save-state", o.save_state, "Write the last frame's state, for --resume")
+        .takes("FILE")
+        .check(file_name());
+    list.add("--save-tree", o.save_tree,
+             "Write the tree as it stands at the last frame, drawn there: run again with --pose drawn it stays, its "
+             "springs at rest around what forces had bent it to. It stands where the scene put it; /wood and /load "
+             "are in it, the load as its own weight, stiffness_scale and damping_scale are not. For scenes of one tree")
+        .takes("FILE")
+        .check(file_name());
+    list.add("--resume", o.resume, "Go on from this state").takes("FILE");
+    list.add("--shard", o.run.shard,
+             "Only the i-th of n parts of a scene's trees; bodies move as they do in the whole (--join)")
+        .takes("i/n");
+    list.add("--join", o.join.parts,
+             "Put the motions of all parts of a scene together (-o), or their saved states (--hash), and do nothing "
+             "else")
+        .takes("PART...")
+        .in_a_row();
+    list.add_flag(
+        "--watch", o.watch,
+        "Run, and again whenever the scene, one of its trees or the wind's file has changed, until Ctrl-C; -o "
+        "FILE is written anew each time, whole or not at all");
 }
 
 MotionFields chosen_fields(const TreesimOptions& o) {

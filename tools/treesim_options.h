@@ -4,6 +4,7 @@
 #include "join.h"
 #include "loop.h"
 #include "simulation.h"
+#include "tool.h"
 
 namespace bough {
 
@@ -15,7 +16,7 @@ struct TreesimOptions {
     std::string fields, save_state, save_tree, resume;
     std::string skin; // the user's own model
     JoinOptions join;
-    const CLI::App* app = nullptr; // for what was given
+    const OptionList* list = nullptr; // for what was given
     GltfChoice gltf;
     std::optional<int> sides;
     bool rustle = false;
@@ -25,7 +26,7 @@ struct TreesimOptions {
 };
 
 extern const ToolInfo treesim_info;
-void declare(CLI::App&, TreesimOptions&);
+void declare(OptionList&, TreesimOptions&);
 
 // Throws UsageError for a name that is none.
 MotionFields chosen_fields(const TreesimOptions&);

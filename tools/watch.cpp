@@ -1,4 +1,5 @@
 #include "watch.h"
+#include "file_names.h"
 #include "signals.h"
 #include <chrono>
 #include <ctime>

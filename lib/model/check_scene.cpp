@@ -10,7 +10,8 @@ std::optional<Defect> finite(std::string_view field, const Vec3& value) {
 
 std::optional<Defect> at_least(std::string_view field, double value, double low) {
     if (std::isfinite(value) && value >= low) return std::nullopt;
-    return Defect{std::string(field), -1, "is " + shortest_text(value) + ", expected " + shortest_text(low) + " or more"};
+    return Defect{std::string(field), -1,
+                  "is " + shortest_text(value) + ", expected " + shortest_text(low) + " or more"};
 }
 
 std::optional<Defect> above_zero(std::string_view field, double value) {

@@ -44,7 +44,7 @@ struct Placement {
     Vec3 position = Vec3::Zero(); // [m]
     double yaw = 0;               // [deg] about +Y
     double start = 0; // [s] how far ahead in the wind this tree is: it sees at t what others see at t + start
-    std::shared_ptr<const Tree> tree; // in memory, in place of the file; several places may share one
+    std::shared_ptr<const Tree> tree = nullptr; // in memory, in place of the file; several places may share one
 };
 
 // A square grid over the ground, seen from above: the velocity of the wind in each of its cells, the nearest cell's outside. A list holds

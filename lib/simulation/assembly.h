@@ -18,7 +18,8 @@ struct Part {
     double top = 0, reach = 0;    // Wishes
     std::vector<double> clocks{}; // likewise
     std::uint64_t whole = 0;      // of all trees and the whole scene, as fingerprint()
-    bool moved = false; // the ground of some tree moves, of this part or another: what a still ground allows is left out
+    bool moved =
+        false; // the ground of some tree moves, of this part or another: what a still ground allows is left out
 };
 
 // What a run of a part of a tree is of, where joints are held.

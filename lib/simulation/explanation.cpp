@@ -15,11 +15,10 @@ template <class T> std::string sharing_text(const Plan<T>& plan) {
 
 } // namespace
 
-template <class T>
-std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes) {
+template <class T> std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes) {
     std::ostringstream text;
-    text << "plan: " << plan.bodies << " bodies, " << (std::is_same_v<T, float> ? "float" : "double") << ", step " << plan.dt << " s, solver "
-         << solver_name(plan.solver);
+    text << "plan: " << plan.bodies << " bodies, " << (std::is_same_v<T, float> ? "float" : "double") << ", step "
+         << plan.dt << " s, solver " << solver_name(plan.solver);
     if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
     text << "\n";
     for (const std::string& change : changes) text << "tree changed by " << change << "\n";

@@ -66,7 +66,8 @@ Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, const 
     } catch (const std::out_of_range& error) {
         throw SceneError(error.what());
     } catch (const std::domain_error& error) {
-        throw SceneError(std::string(error.what()) + (assembly.whole ? " (bodies counted without the rigid ones)" : ""));
+        throw SceneError(std::string(error.what()) +
+                         (assembly.whole ? " (bodies counted without the rigid ones)" : ""));
     }
 }
 

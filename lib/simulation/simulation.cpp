@@ -20,7 +20,9 @@ public:
     explicit Threads(int threads) : before_(omp_get_max_threads()) {
         omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs());
     }
-    ~Threads() { omp_set_num_threads(before_); }
+    ~Threads() {
+        omp_set_num_threads(before_);
+    }
 
 private:
     int before_;
@@ -193,9 +195,7 @@ public:
     }
 
     std::string explain() const override { return explanation(run_.plan, assembly.changes); }
-    std::size_t bytes() const override {
-        return run_.state.bytes() + (run_.world.on() ? run_.world.bytes() : 0);
-    }
+    std::size_t bytes() const override { return run_.state.bytes() + (run_.world.on() ? run_.world.bytes() : 0); }
 
     std::vector<JointMotion> joints() override {
         present(run_.plan, run_.state);
@@ -262,8 +262,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& o, const Simulation
         bool alike = from.bodies == to.bodies;
         for (std::size_t i = 0; alike && i < from.bodies; ++i) {
             const std::int32_t a = was.tree.parent[from.first_body + i], b = is.tree.parent[to.first_body + i];
-            alike = a < 0 ? b < 0
-                          : b >= 0 && std::size_t(a) - from.first_body == std::size_t(b) - to.first_body;
+            alike = a < 0 ? b < 0 : b >= 0 && std::size_t(a) - from.first_body == std::size_t(b) - to.first_body;
         }
         for (std::size_t i = 0; alike && i < from.bodies; ++i) {
             here[to.first_body + i] = there[from.first_body + i];
@@ -329,7 +328,8 @@ const MotionEvents& Simulation::events() const {
 void Simulation::set_wind(const Wind& wind) {
     std::optional<Wind>& own = inside_->scene().wind;
     if (!own)
-        throw SceneError("/wind: the scene began without one; begin with still air, a wind of velocity 0, where it may rise");
+        throw SceneError(
+            "/wind: the scene began without one; begin with still air, a wind of velocity 0, where it may rise");
     if (const std::optional<Defect> defect = check(wind)) throw SceneError("/" + defect->field + " " + defect->message);
     if (!same_tables(*own, wind))
         throw SceneError("/wind: its reference_height, profile, period, grid, swirl and shelter stay as the run began; "

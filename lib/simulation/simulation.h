@@ -35,20 +35,22 @@ struct SimulationOptions {
     double step = 1.0 / 30; // [s] above 0: of one call of step()
     Precision precision = Precision::double_;
     Method method = Method::coupled;
-    double sleep = 0;        // [rad/s] slower than this for a while, trees are left out of steps until something moves them; 0: never
+    double sleep =
+        0; // [rad/s] slower than this for a while, trees are left out of steps until something moves them; 0: never
     int threads = 0;         // of a step at most; 0: as many as the machine has
     bool velocities = false; // velocities() and angular_velocities() are wanted: else empty
     bool torques = false;    // likewise torques()
     bool pulls = false;      // pull() will be called: without, the step has no place for it
-    bool portable = false;   // the plain path, one number at a time: the same to the last bit on every machine; several times slower
+    bool portable =
+        false; // the plain path, one number at a time: the same to the last bit on every machine; several times slower
 };
 
 struct StepReport {
     std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
     // Bodies of which the step could not follow the motion, in this step (README.md, "Limits"): none of it is an error.
-    std::uint64_t fast_turns = 0; // turned by more than a radian
-    std::uint64_t guarded = 0;    // were kept from gaining energy
-    std::uint64_t limited = 0;    // ended at a joint's limit, which the scene asks for
+    std::uint64_t fast_turns = 0;                // turned by more than a radian
+    std::uint64_t guarded = 0;                   // were kept from gaining energy
+    std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for
     std::size_t broke = 0, hits = 0, landed = 0; // events() has them
 
     bool finite() const { return non_finite.empty(); }
@@ -68,12 +70,12 @@ public:
     // From now to now + step. O(bodies); allocates nothing once it has run a few times, but where something breaks.
     StepReport step();
 
-    std::size_t bodies() const;   // that are shown: of trees, balls and walkers
-    std::int64_t steps() const;   // taken
-    double time() const;          // [s]
+    std::size_t bodies() const; // that are shown: of trees, balls and walkers
+    std::int64_t steps() const; // taken
+    double time() const;        // [s]
     const SimulationOptions& options() const;
-    bool has_events() const;      // the scene may have some: something may break, fall, fly or leap
-    const Tree& tree() const;     // the trees joined, as drawn: names, branches, sizes of bodies. Without balls and walkers
+    bool has_events() const;  // the scene may have some: something may break, fall, fly or leap
+    const Tree& tree() const; // the trees joined, as drawn: names, branches, sizes of bodies. Without balls and walkers
     std::span<const TreeRange> trees() const; // which of its bodies are whose
 
     // Present state, a number for each body, valid until the next step. What is not asked for costs nothing; the first call after a step O(bodies).
@@ -81,10 +83,10 @@ public:
     std::span<const Quat> rotations() const;          // world from body
     std::span<const Vec3> velocities() const;         // [m/s] of centres of mass (Options::velocities)
     std::span<const Vec3> angular_velocities() const; // [rad/s] (Options::velocities)
-    std::span<const Vec3> angles() const;             // [rad] rotation vectors of joints in their joint frames; of trees alone
-    std::span<const Vec3> rates() const;              // [rad/s] how those change
-    std::span<const Vec3> torques() const;            // [N m] of springs and dampers on bodies, joint frames (Options::torques)
-    const MotionEvents& events() const;               // of the last step: what broke, hit, landed
+    std::span<const Vec3> angles() const;  // [rad] rotation vectors of joints in their joint frames; of trees alone
+    std::span<const Vec3> rates() const;   // [rad/s] how those change
+    std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (Options::torques)
+    const MotionEvents& events() const;    // of the last step: what broke, hit, landed
 
     // What may change between two steps. None of it plans anew or allocates; each is taken from the next step on.
     // The wind of a scene that has one (of no velocity at all: still air). Its grid, swirl, shelter, profile and period stay. Throws SceneError.

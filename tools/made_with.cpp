@@ -1,0 +1,19 @@
+#include "made_with.h"
+#include "lib/fast/targets.h"
+
+namespace bough {
+
+const char* bough_version() {
+    return BOUGH_VERSION;
+}
+const char* compiler_name() {
+    return BOUGH_COMPILER;
+}
+const char* compiler_flags() {
+    return BOUGH_FLAGS;
+}
+const char* simd_target() {
+    return fast::target_name(fast::best_target());
+}
+
+} // namespace bough
