@@ -1,7 +1,7 @@
 // The error that a run tells of itself, against the one it has.
 #include "lib/reference/advance.h"
 #include "lib/reference/error_estimate.h"
-#include "lib/reference/trajectory.h"
+#include "lib/reference/trajectory_difference.h"
 #include "lib/stages/state_update.h"
 #include "tests/paper_trees.h"
 #include <catch2/catch.hpp>
@@ -62,137 +62,139 @@ TipError estimated(const Tree& tree, const Plan<T>& plan, State<T>& state, int f
     return estimate.result();
 }
 
-struct Difference {
-    double rms, worst;
-};
-
-// Of tips at the frames that both have, the start left out.
-Difference difference(const Trajectory& a, const Trajectory& b) {
-    const std::int64_t stride = std::max(a.stride, b.stride);
-    double squares = 0, worst = 0;
-    std::size_t count = 0;
-    for (std::int64_t f = stride; std::size_t(f / a.stride) < a.tip.size() && std::size_t(f / b.stride) < b.tip.size();
-         f += stride)
-        for (std::size_t k = 0; k < a.tip[0].size(); ++k, ++count) {
-            const double d = (a.tip[std::size_t(f / a.stride)][k] - b.tip[std::size_t(f / b.stride)][k]).norm();
-            squares += d * d;
-            worst = std::max(worst, d);
-        }
-    return {std::sqrt(squares / double(count)), worst};
+Trajectory ran(const Tree& tree, const Scene& scene, const Variant& how, double fps = 30, std::int64_t frames = 61) {
+    const std::vector<TreeRange> ranges = range_of(tree);
+    return run_trajectory({tree, ranges, scene, fps, frames}, how, false, 1, [] {});
 }
+
+// At the start, or as another run left it.
+State<double> exact_from(const Plan<double>& exact, const State<double>& run) {
+    State<double> truth = make_state(exact);
+    truth.theta = run.theta;
+    truth.theta_dot = run.theta_dot;
+    for (std::size_t i = 0; i < truth.theta.size(); ++i)
+        truth.scaled_rate[i] = body_rate_jacobian(truth.theta[i]) * truth.theta_dot[i];
+    truth.step = run.step;
+    state_update(exact, truth);
+    return truth;
+}
+
+struct Case {
+    const char* name;
+    bool forked;
+    double E;
+    Scene scene;
+    Scheme scheme;
+    int substeps;
+};
 
 } // namespace
 
-TEST_CASE("the estimate is of the size of the error, against the reference") {
-    struct Case {
-        const char* name;
-        bool forked;
-        double E;
-        Scene scene;
-        Scheme scheme;
-        int substeps;
-        double most; // estimate / error
-    };
+TEST_CASE("the estimate is never far below the error and within a factor of it, against the reference") {
     const auto p12 = Scheme::p12;
-    for (const Case& c : {Case{"soft chain, gravity switched on", false, 2e8, let_go(), p12, 1, 9.6},
-                          Case{"soft chain, gravity switched on, fine", false, 2e8, let_go(), p12, 4, 3.5},
-                          Case{"soft chain, wind", false, 2e8, in_wind(), p12, 1, 7},
-                          Case{"soft chain, storm", false, 2e8, in_wind("storm"), p12, 4, 7},
-                          Case{"soft chain, shaken", false, 2e8, shaken(), p12, 2, 7},
-                          Case{"chain, gravity switched on", false, 2e9, let_go(), p12, 1, 7},
-                          Case{"branched, wind", true, 2e9, in_wind(), p12, 1, 7},
-                          Case{"branched, gravity switched on", true, 2e9, let_go(), p12, 2, 7},
-                          Case{"branched, shaken", true, 2e8, shaken(), p12, 1, 7},
-                          Case{"stiff branched, wind", true, 2e10, in_wind(), p12, 4, 7},
-                          Case{"soft chain, wind, LIE", false, 2e8, in_wind(), Scheme::lie, 4, 1.2}}) {
+    for (const Case& c : {Case{"soft chain, gravity switched on", false, 2e8, let_go(), p12, 1},
+                          Case{"soft chain, gravity switched on, fine", false, 2e8, let_go(), p12, 4},
+                          Case{"soft chain, wind", false, 2e8, in_wind(), p12, 1},
+                          Case{"soft chain, storm", false, 2e8, in_wind("storm"), p12, 4},
+                          Case{"soft chain, shaken", false, 2e8, shaken(), p12, 2},
+                          Case{"chain, gravity switched on", false, 2e9, let_go(), p12, 1},
+                          Case{"branched, wind", true, 2e9, in_wind(), p12, 1},
+                          Case{"branched, gravity switched on", true, 2e9, let_go(), p12, 2},
+                          Case{"branched, shaken", true, 2e8, shaken(), p12, 1},
+                          Case{"branched, shaken, 3.6 Hz", true, 2e9, shaken(), p12, 1},
+                          Case{"stiff branched, wind", true, 2e10, in_wind(), p12, 4},
+                          // too coarse for the run: 17 to 35 % of what the tips move
+                          Case{"stiff branched, wind, coarse", true, 2e10, in_wind(), p12, 1},
+                          Case{"stiff branched, gravity switched on, coarse", true, 2e10, let_go(), p12, 1},
+                          Case{"stiff branched, shaken, coarse", true, 2e10, shaken(), p12, 1},
+                          Case{"soft chain, wind, LIE", false, 2e8, in_wind(), Scheme::lie, 4},
+                          Case{"branched, gravity switched on, LIE", true, 2e9, let_go(), Scheme::lie, 1},
+                          Case{"stiff branched, wind, LIE", true, 2e10, in_wind(), Scheme::lie, 2},
+                          Case{"branched, wind, P.5", true, 2e9, in_wind(), Scheme::p50, 1},
+                          Case{"stiff branched, gravity switched on, P34", true, 2e10, let_go(), Scheme::p34, 2}}) {
         CAPTURE(c.name);
         const Tree tree = rods(c.forked, c.E);
-        const std::vector<TreeRange> ranges = range_of(tree);
-        const Problem problem{tree, ranges, c.scene, 30, 61};
-        const Trajectory truth = run_trajectory(problem, {.solver = Solver::articulated_reference}, false, 1, [] {}),
-                         run = run_trajectory(
-                             problem,
-                             {.solver = Solver::coupled, .steps_per_frame = double(c.substeps), .scheme = c.scheme},
-                             false, 1, [] {});
+        const Trajectory truth = ran(tree, c.scene, {.solver = Solver::articulated_reference}),
+                         run = ran(
+                             tree, c.scene,
+                             {.solver = Solver::coupled, .steps_per_frame = double(c.substeps), .scheme = c.scheme});
         REQUIRE(truth.flags.unresolved == 0);
-        const Difference error = difference(run, truth);
+        const Distance error = distance(run, truth);
         const Plan<double> plan = planned(tree, c.scene, Solver::coupled, 1.0 / 30 / c.substeps, c.scheme);
         State<double> state = make_state(plan);
         const TipError e = estimated(tree, plan, state, 60, c.substeps);
         CHECK(state_hash(state) == run.hash); // being followed changes nothing
-        CHECK(e.resolved());
-        CHECK(e.rms > 0.7 * error.rms);
-        CHECK(e.rms < c.most * error.rms);
-        CHECK(e.worst > 0.55 * error.worst);
-        CHECK(e.worst < 1.3 * c.most * error.worst);
+        CHECK(e.known());
+        CHECK(e.rms > error.rms);
+        CHECK(e.rms < 1.6 * error.rms);
+        CHECK(e.worst > error.most);
+        CHECK(e.worst < 1.8 * error.most);
     }
 }
 
-TEST_CASE("the estimate is the difference of two runs, one at twice the step") {
+TEST_CASE("the estimate is 3/2 of the difference of two runs, one at a quarter of the step") {
     for (const bool moved : {false, true}) {
         const Tree tree = rods(true, 2e9);
-        Scene scene = moved ? shaken() : in_wind();
-        const std::vector<TreeRange> ranges = range_of(tree);
-        const Problem problem{tree, ranges, scene, 30, 62}; // 61 steps: the last frame has no companion
-        const Variant fine{.solver = Solver::coupled, .steps_per_frame = 1},
-            coarse{.solver = Solver::coupled, .steps_per_frame = 0.5};
-        const Trajectory run = run_trajectory(problem, fine, false, 1, [] {});
-        const Difference d = difference(run, run_trajectory(problem, coarse, false, 1, [] {}));
-        double squares = 0;
-        for (std::size_t f = 2; f < 62; f += 2)
-            for (std::size_t k = 0; k < 3; ++k) squares += (run.tip[f][k] - run.tip[0][k]).squaredNorm();
+        const Scene scene = moved ? shaken() : in_wind();
+        const Variant each{.solver = Solver::coupled}, four{.solver = Solver::coupled, .steps_per_frame = 4};
+        const Trajectory run = ran(tree, scene, each);
+        const Distance d = distance(run, ran(tree, scene, four));
         const Plan<double> plan = planned(tree, scene, Solver::coupled, 1.0 / 30);
         State<double> state = make_state(plan);
-        const TipError e = estimated(tree, plan, state, 61, 1);
-        CHECK(e.samples == 30);
+        const TipError e = estimated(tree, plan, state, 60, 1);
+        CHECK(e.samples == 60);
         CHECK(e.tips == 3);
-        CHECK(e.rms == Approx(d.rms).epsilon(1e-12));
-        CHECK(e.worst == Approx(d.worst).epsilon(1e-12));
-        CHECK(e.deflection == Approx(std::sqrt(squares / 90)).epsilon(1e-12));
+        CHECK(e.rms == Approx(1.5 * d.rms).epsilon(1e-12));
+        CHECK(e.worst == Approx(1.5 * d.most).epsilon(1e-12));
+        CHECK(e.deflection == Approx(deflection(run.tip).rms).epsilon(1e-12));
         if (moved) CHECK(e.deflection < 0.01); // the ground goes 50 mm to and fro
+
+        // Fourth differences of the companion's tips from step to step.
+        Points tip = ran(tree, scene, each, 120, 241).tip;
+        for (std::size_t order = 1; order <= 4; ++order)
+            for (std::size_t f = tip.size(); f-- > order;)
+                for (std::size_t k = 0; k < 3; ++k) tip[f][k] -= tip[f - 1][k];
+        double squares = 0;
+        for (std::size_t f = 4; f < tip.size(); ++f)
+            for (const Vec3& x : tip[f]) squares += x.squaredNorm();
+        CHECK(e.rough == Approx(std::sqrt(squares / (237 * 3))).epsilon(1e-8));
+
         // The same in float, but for its rounding.
         const Plan<float> single = planned<float>(tree, scene, Solver::coupled, 1.0 / 30);
         State<float> in_float = make_state(single);
-        CHECK(estimated(tree, single, in_float, 61, 1).rms == Approx(d.rms).epsilon(1e-3));
+        CHECK(estimated(tree, single, in_float, 60, 1).rms == Approx(e.rms).epsilon(1e-3));
     }
 }
 
-TEST_CASE("frames are compared where they end an even number of steps") {
+TEST_CASE("each frame is compared, whatever the number of steps") {
     const Tree tree = rods(false, 2e9);
-    for (const auto& [substeps, samples] : {std::pair{1, 5}, std::pair{2, 10}, std::pair{3, 5}, std::pair{4, 10}}) {
+    for (const int substeps : {1, 2, 3, 4}) {
         const Plan<double> plan = planned(tree, in_wind(), Solver::coupled, 1.0 / 30 / substeps);
         State<double> state = make_state(plan);
-        CHECK(estimated(tree, plan, state, 10, substeps).samples == samples);
+        CHECK(estimated(tree, plan, state, 10, substeps).samples == 10);
     }
 }
 
 // From a state on the way: the error counted is what comes from there on, against a reference that starts from it too.
-// The last run is short: a companion that took its first step as one from rest would be off by 6 errors.
+// The last run is short: a companion that took its first step as one from rest would be off.
 TEST_CASE("a run that goes on from a saved state has the error that it makes from there") {
-    struct Case {
+    struct Part {
         bool forked;
         double E;
         Scene scene;
-        int before, frames; // steps before; after an odd number the companion joins one later
-        double most;        // estimate / error
+        int before, frames; // steps before
     };
-    for (const Case& c : {Case{false, 2e8, in_wind(), 30, 30, 7}, Case{false, 2e8, in_wind(), 31, 30, 7},
-                          Case{true, 2e8, in_wind(), 31, 30, 7}, Case{false, 2e9, let_go(), 30, 8, 4}}) {
+    for (const Part& c : {Part{false, 2e8, in_wind(), 30, 30}, Part{false, 2e8, in_wind(), 31, 30},
+                          Part{true, 2e8, in_wind(), 31, 30}, Part{false, 2e9, let_go(), 30, 8}}) {
         CAPTURE(c.forked, c.before);
         const Tree tree = rods(c.forked, c.E);
         const double dt = 1.0 / 60;
         const Plan<double> plan = planned(tree, c.scene, Solver::coupled, dt),
                            exact = planned(tree, c.scene, Solver::articulated_reference, dt);
-        State<double> state = make_state(plan), truth = make_state(exact);
+        State<double> state = make_state(plan);
         for (int k = 0; k < c.before; ++k) advance(plan, state);
+        State<double> truth = exact_from(exact, state);
         ErrorEstimate<double> estimate(tree, plan, state);
-        for (; state.step % 2 != 0; estimate.follow(state)) advance(plan, state);
-        truth.theta = state.theta;
-        truth.theta_dot = state.theta_dot;
-        for (std::size_t i = 0; i < truth.theta.size(); ++i)
-            truth.scaled_rate[i] = body_rate_jacobian(truth.theta[i]) * truth.theta_dot[i];
-        truth.step = state.step;
-        state_update(exact, truth);
         double squares = 0;
         std::size_t count = 0;
         for (int f = 0; f < c.frames; ++f) {
@@ -206,21 +208,33 @@ TEST_CASE("a run that goes on from a saved state has the error that it makes fro
                 ++count;
             }
         }
+        const double error = std::sqrt(squares / double(count));
         const TipError e = estimate.result();
         CHECK(e.samples == c.frames);
-        CHECK(e.rms > 0.7 * std::sqrt(squares / double(count)));
-        CHECK(e.rms < c.most * std::sqrt(squares / double(count)));
+        CHECK(e.known());
+        CHECK(e.rms > error);
+        CHECK(e.rms < 1.6 * error);
     }
 }
 
-TEST_CASE("what a step is too coarse for, or cannot run, is not resolved") {
+// 114 Hz under gravity switched on: either run damps away in a few steps what rings on in truth.
+TEST_CASE("what a quarter of the step is too coarse for is not known") {
+    const Tree tree = rods(true, 2e12);
+    for (const auto& [scene, substeps] : {std::pair{let_go(), 1}, std::pair{let_go(), 2}, std::pair{in_wind(), 1}}) {
+        const Trajectory truth = ran(tree, scene, {.solver = Solver::articulated_reference}),
+                         run = ran(tree, scene, {.solver = Solver::coupled, .steps_per_frame = double(substeps)});
+        const Plan<double> plan = planned(tree, scene, Solver::coupled, 1.0 / 30 / substeps);
+        State<double> state = make_state(plan);
+        const TipError e = estimated(tree, plan, state, 60, substeps);
+        CHECK(e.finite);
+        CHECK(e.rms < 0.3 * distance(run, truth).rms);
+        CHECK_FALSE(e.known());
+    }
+}
+
+TEST_CASE("what cannot be run is not known") {
     const Tree tree = rods(true, 2e10);
     const Plan<double> plan = planned(tree, shaken(), Solver::coupled, 1.0 / 30);
-    State<double> state = make_state(plan);
-    const TipError e = estimated(tree, plan, state, 60, 1);
-    CHECK(e.finite);
-    CHECK_FALSE(e.resolved());
-
     State<double> broken = make_state(plan);
     broken.theta_dot[3].x() = NAN; // the companion's start
     ErrorEstimate<double> estimate(tree, plan, broken);
@@ -230,6 +244,6 @@ TEST_CASE("what a step is too coarse for, or cannot run, is not resolved") {
         estimate.follow(whole);
     }
     CHECK_FALSE(estimate.result().finite);
-    CHECK_FALSE(estimate.result().resolved());
+    CHECK_FALSE(estimate.result().known());
     CHECK(estimate.result().samples == 0);
 }

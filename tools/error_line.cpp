@@ -1,6 +1,5 @@
 #include "error_line.h"
 #include "formatted.h"
-#include <limits>
 
 namespace bough {
 namespace {
@@ -17,18 +16,16 @@ std::string length(double metres) {
 
 } // namespace
 
-std::string error_line(const TipError& e, bool in_float) {
-    const double epsilon = in_float ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+std::string error_line(const TipError& e) {
     if (e.tips == 0) return "error unknown: there is no branch whose tip could be compared";
-    if (!e.finite) return "error unknown: the same run at twice the step became non-finite (--substeps)";
+    if (!e.finite) return "error unknown: the same run at a quarter of the step became non-finite (--substeps)";
     if (e.samples == 0) return "error unknown: too few frames to compare";
-    if (!(e.deflection > 1000 * epsilon * e.extent)) return "error none: no tip moves";
-    const std::string found = rounded(100 * e.rms / e.deflection) + " % of the tips' RMS deflection (" + length(e.rms) +
-                              "; worst " + length(e.worst) + ")";
-    if (!e.resolved())
-        return "error unknown: at twice the step the motion is another by " + found +
-               ": too coarse to tell (--substeps), or chaotic";
-    return "error up to about " + found + ", estimated from the same run at twice the step";
+    if (!(e.deflection > 1000 * e.rounding)) return "error none: no tip moves";
+    if (!e.known())
+        return "error unknown: at a quarter of the step the tips still swing to and fro by " + length(e.rough) +
+               ", more than the two runs are apart: too coarse to tell (--substeps)";
+    return "error up to about " + rounded(100 * e.rms / e.deflection) + " % of the tips' RMS deflection (" +
+           length(e.rms) + "; worst " + length(e.worst) + "), estimated from the same run at a quarter of the step";
 }
 
 } // namespace bough

@@ -1,11 +1,11 @@
 // error_line.h: what treesim --report-error prints: one line that begins with `error` and says what the tips are off
-// by, or why that is not known. No line feed. in_float: the run's precision, which decides what is rest.
+// by, or why that is not known. No line feed.
 #pragma once
 #include "lib/reference/error_estimate.h"
 #include <string>
 
 namespace bough {
 
-std::string error_line(const TipError&, bool in_float);
+std::string error_line(const TipError&);
 
 } // namespace bough

@@ -235,7 +235,7 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     if (!o.save_tree.empty()) save_tree(o.save_tree, setting, run, o.common);
     if (o.hash) std::cerr << "hash " << hash_text(state_hash(plan, state, run.world)) << "\n";
     if (rigid) std::cerr << rigid->line(cost.count(), done - std::max<std::int64_t>(first, 1) + 1) << "\n";
-    if (estimate) std::cerr << error_line(estimate->result(), o.run.precision == "float") << "\n";
+    if (estimate) std::cerr << error_line(estimate->result()) << "\n";
     note_flags(plan, state.flags, state.step - started, o.common.notes);
     note_world(run.world, o.common.notes);
     return done - first + 1;

@@ -49,8 +49,8 @@ void declare(OptionList& list, TreesimOptions& o) {
     list.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
     list.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
     list.add_flag("--report-error", o.report_error,
-                  "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at "
-                  "twice the step beside this one (half the time more); with --solver coupled");
+                  "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at a "
+                  "quarter of the step beside this one (about five times the time more); with --solver coupled");
     list.add_flag("--report-cost", o.report_cost,
                   "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
     list.add_flag(

@@ -4,59 +4,79 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace bough {
 namespace {
 
-template <class T> Plan<T> at_twice_the_step(Plan<T> plan) {
+constexpr int finer = TipError::finer;
+constexpr double of_difference = 1.5;
+
+template <class T> Plan<T> at_finer_steps(Plan<T> plan) {
     assert(plan.solver == Solver::coupled);
-    plan.dt *= 2;
+    plan.dt /= finer;
+    if (plan.scheme == Scheme::lie) plan.scheme = Scheme::p12; // what LIE damps away it does at either step
     plan.lanes.sleep.on = false; // depends on the step; and what it loses is a part of the error
     plan.torque = false;
     return plan;
 }
 
-template <class T> std::vector<Vector3<T>> twice(const std::vector<Vector3<T>>& from) {
-    std::vector<Vector3<T>> to = from;
-    for (Vector3<T>& v : to) v *= 2;
-    return to;
+template <class T> std::vector<Vector3<T>> in_finer_steps(const std::vector<Vector3<T>>& change) {
+    std::vector<Vector3<T>> part = change;
+    for (Vector3<T>& v : part) v /= T(finer);
+    return part;
+}
+
+double rms(double squares, double count) {
+    return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
 } // namespace
 
 template <class T>
 ErrorEstimate<T>::ErrorEstimate(const Tree& tree, const Plan<T>& plan, const State<T>& start)
-    : tree_(tree), plan_(at_twice_the_step(plan)), state_(make_state(plan_)), tips_(tip_bodies(tree)) {
+    : tree_(tree), plan_(at_finer_steps(plan)), state_(make_state(plan_)), tips_(tip_bodies(tree)) {
     found_.tips = tips_.size();
+    double extent = 0;
     for (const std::size_t i : tips_) {
         start_tips_.push_back(tip_position(plan_, state_, tree, i));
-        found_.extent = std::max(found_.extent, start_tips_.back().norm());
+        extent = std::max(extent, start_tips_.back().norm());
     }
-    if (start.step % 2 == 0) begin(start);
-}
-
-template <class T> void ErrorEstimate<T>::begin(const State<T>& run) {
-    state_.theta = run.theta;
-    state_.theta_dot = run.theta_dot;
-    // The last changes stand for the motion's rates: over twice the step they are twice as large.
-    state_.theta_change = twice(run.theta_change);
-    state_.theta_dot_change = twice(run.theta_dot_change);
-    state_.step = run.step / 2;
+    found_.rounding = extent * double(std::numeric_limits<T>::epsilon());
+    state_.theta = start.theta;
+    state_.theta_dot = start.theta_dot;
+    state_.theta_change = in_finer_steps(start.theta_change); // of the last step: they stand for the motion's rates
+    state_.theta_dot_change = in_finer_steps(start.theta_dot_change);
+    state_.step = finer * start.step;
     restart(plan_, state_);
-    begun_ = true;
+    past_.resize(4 * tips_.size());
+    note_roughness();
 }
 
 template <class T> void ErrorEstimate<T>::follow(const State<T>& run) {
-    if (!begun_) {
-        if (run.step % 2 == 0) begin(run);
-        return;
-    }
-    while (found_.finite && 2 * state_.step + 2 <= run.step) {
+    while (found_.finite && state_.step < finer * run.step) {
         advance(plan_, state_);
         present(plan_, state_);
         found_.finite = !first_non_finite(state_);
+        if (found_.finite) note_roughness();
     }
-    if (found_.finite && 2 * state_.step == run.step) compare(run);
+    if (found_.finite) compare(run);
+}
+
+template <class T> void ErrorEstimate<T>::note_roughness() {
+    const auto of_step = [&](std::int64_t step) { return past_.begin() + (step & 3) * std::int64_t(tips_.size()); };
+    const std::int64_t now = state_.step;
+    for (std::size_t k = 0; k < tips_.size(); ++k) {
+        const auto at = std::int64_t(k);
+        const Vec3 x = tip_position(plan_, state_, tree_, tips_[k]);
+        Vec3& oldest = of_step(now)[at]; // of four steps before
+        if (steps_ >= 4) {
+            const Vec3 even = x + 6 * of_step(now - 2)[at] + oldest, odd = of_step(now - 1)[at] + of_step(now - 3)[at];
+            rough_squares_ += (even - 4 * odd).squaredNorm();
+        }
+        oldest = x;
+    }
+    ++steps_;
 }
 
 template <class T> void ErrorEstimate<T>::compare(const State<T>& run) {
@@ -73,11 +93,11 @@ template <class T> void ErrorEstimate<T>::compare(const State<T>& run) {
 template <class T> TipError ErrorEstimate<T>::result() const {
     TipError result = found_;
     const double count = double(found_.samples) * double(found_.tips);
-    if (count > 0) {
-        result.rms = std::sqrt(squares_ / count);
-        result.worst = std::sqrt(worst_);
-        result.deflection = std::sqrt(deflection_squares_ / count);
-    }
+    result.rms = of_difference * rms(squares_, count);
+    result.worst = of_difference * std::sqrt(worst_);
+    result.deflection = rms(deflection_squares_, count);
+    if (scheme_of(plan_.scheme).poles == 1)
+        result.rough = rms(rough_squares_, double(steps_ - 4) * double(found_.tips));
     return result;
 }
 
