@@ -240,6 +240,47 @@ TEST_CASE("gravity that is changed pulls as one that the run began with") {
     CHECK_THROWS_AS(good.set_gravity(Vec3(0, NAN, 0)), SceneError);
 }
 
+TEST_CASE("wood that is changed moves as wood that the run began with, and allocates nothing") {
+    const Tree tree = leafy();
+    for (const bool portable : {false, true})
+        for (const Precision precision : {Precision::single, Precision::double_}) {
+            SimulationOptions o = with(precision);
+            o.portable = portable;
+            Scene own = one(tree, "gusty");
+            own.pose = Pose::rest; // where the springs' rest does not hang on them
+            Scene other = own;
+            other.stiffness_scale = 1.7;
+            other.damping_scale = 0.4;
+            Simulation changed(own, o), begun(other, o), left(own, o);
+            const std::size_t before = allocations;
+            changed.set_wood(3, 1);
+            changed.set_wood(1.7, 0.4);
+            const std::size_t after = allocations;
+            CHECK(after == before);
+            run(changed, 15), run(begun, 15), run(left, 15);
+            const double moved = apart(left.positions(), begun.positions());
+            REQUIRE(moved > 1e-3);
+            CHECK(apart(changed.positions(), begun.positions()) <
+                  (precision == Precision::single ? 1e-3 : 1e-10) * moved);
+            const SavedState saved = changed.save(); // goes on with the wood that is set
+            const std::uint64_t hash = run(changed, 5);
+            left.set_wood(1.7, 0.4);
+            left.restore(saved);
+            CHECK(left.steps() == 15);
+            run(left, 5);
+            CHECK(apart(left.positions(), changed.positions()) < 1e-3 * moved);
+            CHECK(hash != 0);
+        }
+    Simulation good(one(tree));
+    for (const double bad : {0.0, -1.0, double(NAN), double(INFINITY)})
+        CHECK_THROWS_AS(good.set_wood(bad, 1), SceneError);
+    for (const double bad : {-1.0, double(NAN), double(INFINITY)}) CHECK_THROWS_AS(good.set_wood(1, bad), SceneError);
+    good.set_wood(1, 0);
+    CHECK_THROWS_WITH(good.set_wood(1, 1), Catch::Contains("back"));
+    Simulation paper(one(tree), with(Precision::double_, Method::analytic));
+    CHECK_THROWS_AS(paper.set_wood(2, 1), SceneError);
+}
+
 TEST_CASE("a pull in each step is the scene's pull of that force, and ends with the step") {
     const Tree tree = make_tree::branched();
     const std::size_t body = tree.size_bodies() - 1;

@@ -148,6 +148,15 @@ template <class T> void place_block(const Plan<T>& plan, State<T>& state, const 
     rows.solved_stride = places.solved.stride;
 }
 
+template <class T> void scale_wood(Plan<T>& plan, T stiffness, T damping) {
+    RowVector<T>& constants = plan.lanes.constants;
+    for (std::size_t row = 0; row + constant::count <= constants.size(); row += constant::count)
+        for (std::size_t l = 0; l < Row<T>::lanes; ++l) {
+            for (int k = 0; k < 3; ++k) constants[row + constant::K + k].lane[l] *= stiffness;
+            constants[row + constant::beta].lane[l] *= damping;
+        }
+}
+
 template <class T> void motion_of_rows(const Plan<T>& plan, const State<T>& state, std::vector<std::size_t>& at) {
     const Layout& layout = plan.lanes.layout;
     at.resize(layout.rows);
@@ -197,6 +206,8 @@ template void pack_pulls(const Plan<float>&, State<float>&);
 template void place_tables(const Plan<float>&, State<float>&, double, SweepRows<float>&);
 template void place_field_change(const Plan<float>&, State<float>&, double, CoupledRows<float>&);
 template void place_block(const Plan<float>&, State<float>&, const Block&, CoupledRows<float>&);
+template void scale_wood(Plan<float>&, float, float);
+template void scale_wood(Plan<double>&, double, double);
 template std::vector<std::size_t> motion_of_rows(const Plan<float>&, const State<float>&);
 template void motion_of_rows(const Plan<float>&, const State<float>&, std::vector<std::size_t>&);
 template void add_ports(const Plan<float>&, State<float>&, int);

@@ -17,6 +17,9 @@ template <class T> CoupledPlaces places_of(const Plan<T>& plan, const State<T>& 
 // The block's part of it, for a sweep over the block.
 template <class T> void place_block(const Plan<T>&, State<T>&, const Block&, CoupledRows<T>&);
 // Where each row's motion stands in Lanes::now, or in Lanes::table. O(rows).
+// Of a plan of the coupled step: every row's stiffness and damping times these.
+template <class T> void scale_wood(Plan<T>&, T stiffness, T damping);
+
 template <class T> std::vector<std::size_t> motion_of_rows(const Plan<T>&, const State<T>&);
 template <class T> void motion_of_rows(const Plan<T>&, const State<T>&, std::vector<std::size_t>& at);
 

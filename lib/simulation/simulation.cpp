@@ -1,4 +1,5 @@
 #include "simulation.h"
+#include "../fast/lane_tables.h"
 #include "../fast/targets.h"
 #include "../model/check_parts.h"
 #include "../model/rotation_maps.h"
@@ -94,7 +95,9 @@ public:
     virtual std::int64_t steps() const = 0;
     virtual const MotionFrame& frame() = 0;
     virtual const MotionEvents& events() const = 0;
-    virtual Scene& scene() = 0; // the plan's
+    virtual Scene& scene() = 0;                                    // the plan's
+    virtual void scale_wood(double stiffness, double damping) = 0; // factors on what they are now
+    virtual bool pushed() const = 0;                               // free bodies may push the trees
     virtual void pull(std::size_t body, const Vec3& point, const Vec3& force) = 0;
     virtual std::uint64_t hash() = 0;
     virtual void save(SavedState&) = 0;
@@ -110,7 +113,8 @@ public:
     }
 
     SimulationOptions options;
-    Assembly assembly; // stays where it is: the run refers to its tree
+    double stiffness = 1, damping = 1; // set_wood
+    Assembly assembly;                 // stays where it is: the run refers to its tree
 };
 
 template <class T> class Simulation::InsideOf final : public Inside {
@@ -157,6 +161,14 @@ public:
         return frame_;
     }
 
+    void scale_wood(double stiffness_factor, double damping_factor) override {
+        Plan<T>& plan = run_.plan;
+        for (Vector3<T>& K : plan.K) K *= T(stiffness_factor);
+        for (T& beta : plan.beta) beta *= T(damping_factor);
+        if (plan.lanes.on) fast::scale_wood(plan, T(stiffness_factor), T(damping_factor));
+    }
+    bool pushed() const override { return run_.plan.contact; }
+
     void pull(std::size_t body, const Vec3& point, const Vec3& force) override {
         run_.state.loads.push_back({body, point.cast<T>(), force.cast<T>()});
     }
@@ -189,6 +201,7 @@ public:
         const Scene changed = run_.plan.scene;
         start(); // what broke stands again before the saved state says what did
         run_.plan.scene = changed;
+        scale_wood(stiffness, damping);
         restore_run(saved, saved.frame * saved.substeps, run_);
         broken_ = {};
         shown_ = false;
@@ -345,6 +358,21 @@ void Simulation::set_gravity(const Vec3& gravity) {
     if (inside_->assembly.scene.gravity.isZero() && !gravity.isZero())
         throw SceneError("/gravity: the scene began without; begin with some, and set it to zero");
     own = gravity;
+}
+
+void Simulation::set_wood(double stiffness, double damping) {
+    if (!(stiffness > 0) || !std::isfinite(stiffness))
+        throw SceneError("set_wood: stiffness is " + std::to_string(stiffness) + ", expected more than 0");
+    if (!(damping >= 0) || !std::isfinite(damping))
+        throw SceneError("set_wood: damping is " + std::to_string(damping) + ", expected 0 or more");
+    if (inside_->options.method != Method::coupled)
+        throw SceneError("set_wood: wood changes in a run of the coupled method alone");
+    if (inside_->pushed()) throw SceneError("set_wood: not with balls, or what breaks off, that meet the trees");
+    if (inside_->damping == 0 && damping > 0)
+        throw SceneError("set_wood: damping is 0 by now, from which no factor leads back; keep it above");
+    inside_->scale_wood(stiffness / inside_->stiffness, inside_->damping > 0 ? damping / inside_->damping : 1);
+    inside_->stiffness = stiffness;
+    inside_->damping = damping;
 }
 
 void Simulation::pull(std::size_t body, const Vec3& point, const Vec3& force) {

@@ -93,6 +93,9 @@ public:
     void set_wind(const Wind&);
     // Of a scene that has some, with the coupled method. The drawn pose keeps the springs' rest that it had. Throws SceneError.
     void set_gravity(const Vec3&); // [m/s^2]
+    // [1] All joints' stiffness and damping over what they had when the run began; above 0, 0 or more. The coupled method, nothing that is thrown at
+    // trees. Springs keep their rest: softer wood sags further. Each change rounds. Throws SceneError.
+    void set_wood(double stiffness, double damping);
     // A force [N], world, on a point [m, body frame] of a body of the trees, in the next step alone. Any number of them. Throws SceneError
     // without Options::pulls, for bodies that are held or not there.
     void pull(std::size_t body, const Vec3& point, const Vec3& force);
