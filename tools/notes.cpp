@@ -14,9 +14,10 @@ void note_fast_turns(const Plan<T>& plan, const StepFlags& flags, std::int64_t s
     const std::uint64_t most = std::max({flags.half_turns, flags.energy_guard, flags.fast_turns});
     if (!(double(most) > 1e-3 * all)) return;
     std::ostringstream text;
-    text << std::setprecision(2) << 100 * double(most) / all << " % of the bodies' steps turned too fast for the step ("
+    const double share = std::min(100.0, 100 * double(most) / all); // a turn may count about several axes
+    text << std::setprecision(share < 10 ? 2 : 3) << share << " % of the bodies' steps turned too fast for the step ("
          << flags.fast_turns << " by more than a radian, " << flags.half_turns << " past half a turn, "
-         << flags.energy_guard << " held from gaining energy): --substeps 2 shows whether it matters";
+         << flags.energy_guard << " held from gaining energy): smaller steps (--substeps) show whether it matters";
     notes.push_back(text.str());
 }
 

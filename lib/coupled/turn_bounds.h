@@ -5,7 +5,7 @@
 namespace bough {
 
 // [rad] that a joint turned by in the last step, above which its way on cannot be told (midpoint.h); for its body twice that.
-constexpr double extrapolated_turn = 0.3;
+constexpr double extrapolated_turn = 0.15;
 
 // [rad] that a body turns by in a step, from which on the energy guard looks at its tree (energy_guard.h).
 constexpr double watched_turn = 0.3;
