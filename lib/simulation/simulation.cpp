@@ -170,7 +170,7 @@ public:
     bool pushed() const override { return run_.plan.contact; }
 
     void pull(std::size_t body, const Vec3& point, const Vec3& force) override {
-        run_.state.loads.push_back({body, point.cast<T>(), force.cast<T>()});
+        run_.state.loads.push_back({body, point.template cast<T>(), force.template cast<T>()});
     }
 
     std::uint64_t hash() override { return state_hash(run_.plan, run_.state, run_.world); }
@@ -228,9 +228,9 @@ public:
             const Mat3 back = run_.plan.R_pj[i].template cast<double>().transpose();
             const Vec3 theta = vector_from_quaternion<double>(Quat(Mat3(back * joints[i].R)).normalized());
             const Vec3 eta = rotation_maps<double>(theta).J_inverse * (back * joints[i].omega);
-            run_.state.theta[i] = theta.cast<T>();
-            run_.state.theta_dot[i] = eta.cast<T>();
-            run_.state.theta_change[i] = (options.step * eta).cast<T>(); // as a first step's
+            run_.state.theta[i] = theta.template cast<T>();
+            run_.state.theta_dot[i] = eta.template cast<T>();
+            run_.state.theta_change[i] = (options.step * eta).template cast<T>(); // as a first step's
             run_.state.theta_dot_change[i].setZero();
         }
         run_.state.step = std::llround(time / options.step);
