@@ -16,9 +16,7 @@ namespace bough {
 namespace {
 
 Species species_named(const std::string& name) {
-    if (name == default_species().name) return default_species();
-    for (const SpeciesFile& file : species_files())
-        if (file.name == name) return read_species(file.content, name);
+    if (std::optional<Species> species = find_species(name)) return std::move(*species);
     std::string names;
     for (const std::string& known : species_names()) names += (names.empty() ? "" : ", ") + known;
     throw SceneError("species: is '" + name + "', expected one of " + names);
@@ -82,19 +80,12 @@ Tree read_tree(const std::string& file) {
 
 Scene read_scene(const std::string& file) {
     SceneDocument document = read_scene_document(read_input(file), input_name(file));
-    const std::filesystem::path folder = file == "-" ? "." : std::filesystem::path(file).parent_path();
     std::map<std::string, std::shared_ptr<const Tree>> known;
     for (Placement& place : document.scene.trees) {
         std::shared_ptr<const Tree>& tree = known[place.file];
         if (!tree) {
-            const std::string path = (folder / place.file).string();
-            Tree read = read_tree(path);
-            try {
-                change_material(read, document.material);
-            } catch (const std::domain_error& error) {
-                throw InputError(input_name(path) + ": /material", error.what());
-            }
-            tree = std::make_shared<const Tree>(std::move(read));
+            const std::string path = tree_file(file, place);
+            tree = std::make_shared<const Tree>(with_material(read_tree(path), document.material, path));
         }
         place.tree = tree;
     }

@@ -4,49 +4,11 @@
 #include "lib/stages/plan.h"
 #include "lib/stages/state_arrays.h"
 #include "lib/stages/step.h"
+#include "tests/count_allocations.h"
 #include "tests/solver_support.h"
-#include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <map>
-#include <new>
 #include <set>
-
-namespace {
-
-#ifndef BOUGH_SANITIZED
-std::atomic<std::size_t> allocations{0};
-
-void* counted(std::size_t bytes) {
-    ++allocations;
-    if (void* p = std::malloc(bytes ? bytes : 1)) return p;
-    throw std::bad_alloc();
-}
-#endif
-
-} // namespace
-
-// The address sanitizer has its own; there nothing is counted.
-#ifndef BOUGH_SANITIZED
-void* operator new(std::size_t bytes) {
-    return counted(bytes);
-}
-void* operator new[](std::size_t bytes) {
-    return counted(bytes);
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p, std::size_t) noexcept {
-    std::free(p);
-}
-#endif
 
 using namespace bough;
 using namespace solver;

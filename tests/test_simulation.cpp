@@ -5,48 +5,10 @@
 #include "lib/fast/targets.h"
 #include "lib/reference/advance.h"
 #include "lib/simulation/simulation.h"
+#include "tests/count_allocations.h"
 #include "tests/make_tree.h"
 #include "tests/random_documents.h"
-#include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <new>
-
-// Every allocation of this program is counted. The address sanitizer has its own allocator; there nothing is.
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-#ifndef BOUGH_SANITIZED
-void* counted(std::size_t bytes) {
-    ++allocations;
-    if (void* p = std::malloc(bytes ? bytes : 1)) return p;
-    throw std::bad_alloc();
-}
-#endif
-
-} // namespace
-
-#ifndef BOUGH_SANITIZED
-void* operator new(std::size_t bytes) {
-    return counted(bytes);
-}
-void* operator new[](std::size_t bytes) {
-    return counted(bytes);
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p, std::size_t) noexcept {
-    std::free(p);
-}
-#endif
 
 using namespace bough;
 using bough::test::Folder;
@@ -263,13 +225,12 @@ TEST_CASE("wood that is changed moves as wood that the run began with, and alloc
             CHECK(apart(changed.positions(), begun.positions()) <
                   (precision == Precision::single ? 1e-3 : 1e-10) * moved);
             const SavedState saved = changed.save(); // goes on with the wood that is set
-            const std::uint64_t hash = run(changed, 5);
+            run(changed, 5);
             left.set_wood(1.7, 0.4);
             left.restore(saved);
             CHECK(left.steps() == 15);
             run(left, 5);
             CHECK(apart(left.positions(), changed.positions()) < 1e-3 * moved);
-            CHECK(hash != 0);
         }
     Simulation good(one(tree));
     for (const double bad : {0.0, -1.0, double(NAN), double(INFINITY)})
@@ -365,7 +326,13 @@ TEST_CASE("a run that is cut ends as the whole one, also with what broke off and
     CHECK_THROWS_WITH(coarse.restore(cut.save()), Catch::Contains("/fps"));
     SavedState short_one = cut.save();
     short_one.theta_change.pop_back();
+    const std::uint64_t there = again.hash();
     CHECK_THROWS_WITH(again.restore(short_one), Catch::Contains("/theta_change"));
+    CHECK(again.hash() == there); // what is refused changes nothing
+    CHECK(again.steps() == 30);
+    SavedState other_scheme = cut.save();
+    other_scheme.scheme = "P34";
+    CHECK_THROWS_WITH(again.restore(other_scheme), Catch::Contains("/scheme"));
 }
 
 TEST_CASE("another run takes a motion over where trees agree, whatever their wood") {
@@ -393,6 +360,61 @@ TEST_CASE("another run takes a motion over where trees agree, whatever their woo
     const std::size_t first = rods.size_bodies(), there = tree.size_bodies();
     CHECK((mixed.positions()[first + 2] - before.positions()[there + 2]).norm() < 1e-9);
     CHECK((mixed.positions()[2] - Simulation(changed).positions()[2]).norm() < 1e-12);
+}
+
+TEST_CASE("trees that sleep wake with what is changed, and with pulls do not sleep") {
+    const Tree tree = make_tree::branched();
+    SimulationOptions o;
+    o.sleep = 1e-3;
+    Scene scene = one(tree);
+    scene.wind.emplace(); // still air
+    const auto asleep = [&] {
+        auto simulation = std::make_unique<Simulation>(scene, o);
+        run(*simulation, 60);
+        const std::uint64_t hash = simulation->hash();
+        REQUIRE(run(*simulation, 5) == hash);
+        return simulation;
+    };
+    const auto moved = [](Simulation& simulation) {
+        const std::vector<Vec3> before(simulation.positions().begin(), simulation.positions().end());
+        run(simulation, 20);
+        return apart(before, simulation.positions());
+    };
+    Wind breeze;
+    breeze.velocity = Vec3(8, 0, 0);
+    const auto windy = asleep(), heavy = asleep(), soft = asleep();
+    windy->set_wind(breeze);
+    CHECK(moved(*windy) > 1e-4);
+    heavy->set_gravity(Vec3(3, -9.81, 0));
+    CHECK(moved(*heavy) > 1e-4);
+    soft->set_wood(0.3, 1);
+    CHECK(moved(*soft) > 1e-6);
+    CHECK_THROWS_WITH(windy->set_wind(*wind_preset("gusty")), Catch::Contains("sleep"));
+    o.pulls = true;
+    Simulation pulled(scene, o);
+    run(pulled, 60);
+    pulled.pull(tree.size_bodies() - 1, Vec3::Zero(), Vec3(2, 0, 0));
+    CHECK(moved(pulled) > 1e-7);
+    CHECK(pulled.explain().find("forces of the caller") != std::string::npos);
+}
+
+TEST_CASE("what has broken off is not pulled") {
+    Scene scene = one(leafy(), "storm");
+    scene.fracture = Fracture();
+    scene.fracture->leaf = 1e-3;
+    SimulationOptions o;
+    o.pulls = true;
+    Simulation simulation(scene, o);
+    std::int64_t gone = -1;
+    for (int k = 0; k < 30 && gone < 0; ++k) {
+        REQUIRE(simulation.step().finite());
+        for (std::size_t e = 0; e < simulation.events().what.size(); ++e)
+            if (simulation.events().what[e] == "broke") gone = simulation.events().body[e];
+    }
+    REQUIRE(gone >= 0);
+    CHECK_THROWS_WITH(simulation.pull(std::size_t(gone), Vec3::Zero(), Vec3(1, 0, 0)), Catch::Contains("broken off"));
+    simulation.pull(0, Vec3::Zero(), Vec3(1, 0, 0));
+    CHECK(simulation.step().finite());
 }
 
 TEST_CASE("what became non-finite is said once more, and is not gone on with") {

@@ -11,10 +11,9 @@ namespace {
 const std::vector<std::string> season_names = {"spring", "summer", "autumn", "winter"};
 constexpr double foreign_sag = 0.5; // [rad] of branches drawn by other programs' rules, which are for pictures
 
+// --species takes known names alone.
 Species chosen_species(const GrowthOptions& o) {
-    for (const SpeciesFile& file : species_files())
-        if (file.name == o.species) return read_species(file.content, o.species);
-    return default_species();
+    return find_species(o.species).value_or(default_species());
 }
 
 Items chosen_items(const GrowthOptions& o) {

@@ -14,7 +14,8 @@ void note_fast_turns(const Plan<T>& plan, const StepFlags& flags, std::int64_t s
     const std::uint64_t most = std::max({flags.half_turns, flags.energy_guard, flags.fast_turns});
     if (!(double(most) > 1e-3 * all)) return;
     std::ostringstream text;
-    const double share = std::min(100.0, 100 * double(most) / all); // a turn may count about several axes
+    const double share =
+        std::min(100.0, 100 * double(most) / all); // a body's turn counts where it is its own and where it carries
     text << std::setprecision(share < 10 ? 2 : 3) << share << " % of the bodies' steps turned too fast for the step ("
          << flags.fast_turns << " by more than a radian, " << flags.half_turns << " past half a turn, "
          << flags.energy_guard << " held from gaining energy): smaller steps (--substeps) show whether it matters";

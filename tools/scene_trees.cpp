@@ -1,5 +1,6 @@
 #include "scene_trees.h"
 #include "exits.h"
+#include "formats/documents/scene.h"
 #include "formats/documents/tree.h"
 #include "formats/open.h"
 #include "lib/fast/stands.h"
@@ -80,20 +81,6 @@ void measure(const Scene& scene, const std::string& scene_file, const MaterialCh
 }
 
 } // namespace
-
-std::string tree_file(const std::string& scene_file, const Placement& place) {
-    const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
-    return (folder / place.file).string();
-}
-
-Tree with_material(Tree tree, const MaterialChange& change, const std::string& file) {
-    try {
-        change_material(tree, change);
-    } catch (const std::domain_error& error) {
-        throw InputError(input_name(file) + ": /material", error.what());
-    }
-    return tree;
-}
 
 Part parse_shard(const std::string& text) {
     const std::size_t slash = text.find('/');

@@ -12,11 +12,6 @@ namespace bough {
 // Reads the trees of setting.scene, each file once, and stands them in setting.tree; of a part, its own alone, and of the scene what
 // concerns them. Throws UsageError for a --shard that is none, InputError.
 void stand_trees(Setting&, const std::string& scene_file, const std::string& shard, const MaterialChange&);
-// Where a scene's tree is read from.
-std::string tree_file(const std::string& scene_file, const Placement&);
-// The tree of this file with its wood changed. Throws InputError where what the wood was is not known.
-Tree with_material(Tree, const MaterialChange&, const std::string& file);
-
 // "i/n", 1 <= i <= n. Throws UsageError.
 Part parse_shard(const std::string&);
 // What is cut apart: bodies of each unit. First and last + 1 of a part's units: those whose middle body is in the part's share of all bodies, moved on so that each part

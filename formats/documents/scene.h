@@ -21,6 +21,11 @@ struct SceneOverride {
 // "wind.velocity=[8,0,0]". Throws std::invalid_argument with what is wrong.
 SceneOverride parse_override(const std::string& option, const std::string& text);
 
+// Where a scene's tree is read from.
+std::string tree_file(const std::string& scene_file, const Placement&);
+// The tree of this file with its wood changed. Throws InputError where what the wood was is not known.
+Tree with_material(Tree, const MaterialChange&, const std::string& file);
+
 bool is_scene(std::string_view content);
 // Paths in it as written, relative to the scene. Overrides one after another: objects and lists on the way to a field are made where
 // they are absent, a list's next element too; a wind that is a preset becomes its fields. What is wrong with the result, and comes of an override, is

@@ -1,4 +1,6 @@
 #include "scene_parts.h"
+#include <filesystem>
+#include <stdexcept>
 
 namespace bough {
 
@@ -67,6 +69,20 @@ ordered_json value_of(const Walker& walker) {
         fields["stops"].push_back(entry);
     }
     return fields;
+}
+
+std::string tree_file(const std::string& scene_file, const Placement& place) {
+    const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
+    return (folder / place.file).string();
+}
+
+Tree with_material(Tree tree, const MaterialChange& change, const std::string& file) {
+    try {
+        change_material(tree, change);
+    } catch (const std::domain_error& error) {
+        throw InputError(input_name(file) + ": /material", error.what());
+    }
+    return tree;
 }
 
 } // namespace bough

@@ -163,4 +163,11 @@ Species read_species(std::string_view content, const std::string& name) {
     return s;
 }
 
+std::optional<Species> find_species(const std::string& name) {
+    if (name == default_species().name) return default_species();
+    for (const SpeciesFile& file : species_files())
+        if (file.name == name) return read_species(file.content, name);
+    return std::nullopt;
+}
+
 } // namespace bough

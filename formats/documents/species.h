@@ -2,6 +2,7 @@
 #pragma once
 #include "formats/open.h"
 #include "lib/growth/species.h"
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,5 +17,7 @@ struct SpeciesFile {
     std::string_view name, content;
 };
 const std::vector<SpeciesFile>& species_files(); // by name
+// Of this name: the default tree or one of these; nullopt for another.
+std::optional<Species> find_species(const std::string& name);
 
 } // namespace bough

@@ -28,6 +28,7 @@ template <class T> std::string reason_against(const Plan<T>& plan) {
     }
     if (!scene.root_motion.empty()) return "/root_motion";
     if (has_free_bodies(scene)) return free_part(scene); // whatever breaks, hits or treads would have to wake it
+    if (plan.loads) return "forces of the caller";       // likewise
     return {};
 }
 
@@ -123,6 +124,11 @@ template <class T> void wake_blocks(const Plan<T>& plan, State<T>& state, double
             if (carried(blocks[b]) && rest[b].rest != Rest::awake) wake(plan, state, b);
     for (std::size_t b = 0; b < blocks.size(); ++b)
         if (rest[b].rest == Rest::asleep) state.flags.asleep += sleep.bodies[b];
+}
+
+template <class T> void wake_all(const Plan<T>& plan, State<T>& state) {
+    for (std::size_t b = 0; b < state.lanes.rest.size(); ++b) wake(plan, state, b);
+    state.lanes.carried_turn = 0;
 }
 
 template <class T> void rest_blocks(const Plan<T>& plan, State<T>& state, const std::vector<SweepFlags>& met) {
@@ -239,6 +245,8 @@ template <class T> void restore_sleep(const Plan<T>& plan, State<T>& state, cons
 }
 
 template void plan_sleep(Plan<float>&, double);
+template void wake_all(const Plan<float>&, State<float>&);
+template void wake_all(const Plan<double>&, State<double>&);
 template void wake_blocks(const Plan<float>&, State<float>&, double);
 template void rest_blocks(const Plan<float>&, State<float>&, const std::vector<SweepFlags>&);
 template void keep_motion(const Plan<float>&, State<float>&, const Block&);

@@ -4,12 +4,13 @@
 // the plan's rate [rad/s], and so have the bodies above that it stands on, under forces that stay as they are. Its rates and
 // their changes are set to zero, it is swept once more, and what it hands inward (articulated inertia and force, at that
 // pose) stands from then on for the block: what carries it feels it as before. Asleep it costs nothing: no sweep, no memory.
-//   wakes     when a pull on one of its bodies changes, when what it stands on turns faster than the rate, or has turned by
+//   wakes     when what acts on it is changed from outside (wake_all), when a pull on one of its bodies changes, when what it stands on turns faster than the rate, or has turned by
 //             more than ten seconds of the rate since blocks sleep on it. The top sleeps when all that stands on it does, and
 //             wakes with the first of it
 //   drift     a mode of angular frequency w that is put to rest had an amplitude of at most r / w, or where a second is short
 //             beside it, 2 r / w^2 (its bodies turned by less than r for a second): 1e-6 rad at 0.7 Hz with treesim's 1e-5
-//   left out  with the analytic step, and where forces never stay as they are: a wind with gusts or turbulence, moved roots
+//   left out  with the analytic step, and where forces never stay as they are: a wind with gusts or turbulence, moved roots,
+//             forces that the caller may put on bodies
 // What stands in balance, though it would buckle once touched, sleeps as it stands.
 // Decided by block from numbers that do not depend on threads, so the hash does not. What a sleeper hands inward cannot be
 // made again from theta alone: saved_sleep is what a saved state carries of it.
@@ -26,6 +27,8 @@ template <class T> void plan_sleep(Plan<T>&, double rate);
 
 // At a step's start: who wakes, by its pulls or by who else is awake. Counts the bodies that sleep through the step.
 template <class T> void wake_blocks(const Plan<T>&, State<T>&, double time);
+// All of them, between two steps: after gravity, wind or wood was changed. Allocates nothing.
+template <class T> void wake_all(const Plan<T>&, State<T>&);
 // At its end: who has settled. met: of each block.
 template <class T> void rest_blocks(const Plan<T>&, State<T>&, const std::vector<SweepFlags>& met);
 // Its motion at the step's end is that at its start.

@@ -1,5 +1,6 @@
 #include "simulation.h"
 #include "../fast/lane_tables.h"
+#include "../fast/sleep.h"
 #include "../fast/targets.h"
 #include "../model/check_parts.h"
 #include "../model/rotation_maps.h"
@@ -52,9 +53,14 @@ StepChoice choice_of(const SimulationOptions& o) {
     return choice;
 }
 
-const Vec3& finite_vector(const Vec3& v, const char* name) {
+void require_finite(const Vec3& v, const char* name) {
     if (!v.allFinite()) throw SceneError(std::string(name) + ": is not finite, expected three finite numbers");
-    return v;
+}
+
+template <class T> void scale(Plan<T>& plan, double stiffness, double damping) {
+    for (Vector3<T>& K : plan.K) K *= T(stiffness);
+    for (T& beta : plan.beta) beta *= T(damping);
+    if (plan.lanes.on) fast::scale_wood(plan, T(stiffness), T(damping));
 }
 
 // What of a wind is in the tables that a plan was made with.
@@ -98,6 +104,9 @@ public:
     virtual Scene& scene() = 0;                                    // the plan's
     virtual void scale_wood(double stiffness, double damping) = 0; // factors on what they are now
     virtual bool pushed() const = 0;                               // free bodies may push the trees
+    virtual bool sleeps() const = 0;                               // trees may
+    virtual void wake() = 0;
+    virtual bool gone(std::size_t body) const = 0; // has broken off
     virtual void pull(std::size_t body, const Vec3& point, const Vec3& force) = 0;
     virtual std::uint64_t hash() = 0;
     virtual void save(SavedState&) = 0;
@@ -120,7 +129,7 @@ public:
 template <class T> class Simulation::InsideOf final : public Inside {
 public:
     InsideOf(Scene scene, const SimulationOptions& o) : Inside(std::move(scene), o) {
-        start();
+        run_ = started();
         fields_ = {true, options.velocities, options.torques, true};
         name_ = fingerprint(assembly.tree, assembly.scene);
     }
@@ -162,12 +171,15 @@ public:
     }
 
     void scale_wood(double stiffness_factor, double damping_factor) override {
-        Plan<T>& plan = run_.plan;
-        for (Vector3<T>& K : plan.K) K *= T(stiffness_factor);
-        for (T& beta : plan.beta) beta *= T(damping_factor);
-        if (plan.lanes.on) fast::scale_wood(plan, T(stiffness_factor), T(damping_factor));
+        scale(run_.plan, stiffness_factor, damping_factor);
     }
     bool pushed() const override { return run_.plan.contact; }
+    bool sleeps() const override { return run_.plan.lanes.sleep.on; }
+    void wake() override { fast::wake_all(run_.plan, run_.state); }
+    bool gone(std::size_t body) const override {
+        const std::vector<std::uint8_t>& gone = run_.world.remaining.gone;
+        return body < gone.size() && gone[body];
+    }
 
     void pull(std::size_t body, const Vec3& point, const Vec3& force) override {
         run_.state.loads.push_back({body, point.template cast<T>(), force.template cast<T>()});
@@ -177,32 +189,28 @@ public:
 
     void save(SavedState& saved) override {
         save_run(run_, run_.state.step, saved);
-        saved.fps = 1 / options.step;
-        saved.precision = options.precision == Precision::single ? "float" : "double";
-        saved.solver = solver_name(run_.plan.solver);
-        if (run_.plan.solver == Solver::coupled) saved.scheme = scheme_of(run_.plan.scheme).name;
-        saved.fingerprint = name_;
+        name(saved);
         saved.source = assembly.source;
     }
 
     void restore(const SavedState& saved) override {
         SavedState own;
-        own.precision = options.precision == Precision::single ? "float" : "double";
-        own.solver = solver_name(run_.plan.solver);
+        name(own);
         const auto refuse = [](const char* field, const std::string& found, const std::string& expected) {
             if (found != expected)
                 throw SceneError("/" + std::string(field) + ": is " + found + ", but this run has " + expected);
         };
         refuse("precision", saved.precision, own.precision);
         refuse("solver", saved.solver, own.solver);
+        refuse("scheme", saved.scheme, own.scheme);
         if (std::abs(saved.fps * options.step * saved.substeps - 1) > 1e-12)
             throw SceneError("/fps: differs from this run's step");
-        refuse("fingerprint", hash_text(saved.fingerprint), hash_text(name_));
-        const Scene changed = run_.plan.scene;
-        start(); // what broke stands again before the saved state says what did
-        run_.plan.scene = changed;
-        scale_wood(stiffness, damping);
-        restore_run(saved, saved.frame * saved.substeps, run_);
+        refuse("fingerprint", hash_text(saved.fingerprint), hash_text(own.fingerprint));
+        Run<T> run = started(); // what broke stands again before the saved state says what did
+        run.plan.scene = run_.plan.scene;
+        scale(run.plan, stiffness, damping);
+        restore_run(saved, saved.frame * saved.substeps, run);
+        run_ = std::move(run);
         broken_ = {};
         shown_ = false;
     }
@@ -238,12 +246,21 @@ public:
     }
 
 private:
-    void start() {
+    Run<T> started() const {
         Wishes wishes;
         wishes.velocity = options.velocities;
         wishes.torque = options.torques;
         wishes.loads = options.pulls;
-        run_ = start_run(plan_run<T>(assembly, wishes, choice_of(options)), assembly);
+        return start_run(plan_run<T>(assembly, wishes, choice_of(options)), assembly);
+    }
+
+    // What a saved state must have been saved by.
+    void name(SavedState& saved) const {
+        saved.fps = 1 / options.step;
+        saved.precision = options.precision == Precision::single ? "float" : "double";
+        saved.solver = solver_name(run_.plan.solver);
+        if (run_.plan.solver == Solver::coupled) saved.scheme = scheme_of(run_.plan.scheme).name;
+        saved.fingerprint = name_;
     }
 
     Run<T> run_;
@@ -279,7 +296,7 @@ Simulation::Simulation(Scene scene, const SimulationOptions& o, const Simulation
         }
         for (std::size_t i = 0; alike && i < from.bodies; ++i) {
             here[to.first_body + i] = there[from.first_body + i];
-            known[to.first_body + i] = 1;
+            known[to.first_body + i] = !before.inside_->gone(from.first_body + i);
         }
     }
     inside_->go_on(here, known, before.time());
@@ -347,17 +364,23 @@ void Simulation::set_wind(const Wind& wind) {
     if (!same_tables(*own, wind))
         throw SceneError("/wind: its reference_height, profile, period, grid, swirl and shelter stay as the run began; "
                          "expected changes of velocity, turbulence, gusts and seed");
+    if (inside_->sleeps() && (wind.turbulence > 0 || wind.gust_factor > 1))
+        throw SceneError(
+            "/wind: has gusts or turbulence, in which nothing sleeps; expected a steady one, or a run without "
+            "SimulationOptions::sleep");
     own = wind;
+    inside_->wake();
 }
 
 void Simulation::set_gravity(const Vec3& gravity) {
-    finite_vector(gravity, "/gravity");
+    require_finite(gravity, "/gravity");
     if (inside_->options.method != Method::coupled)
         throw SceneError("/gravity: changes in a run of the coupled method alone");
     Vec3& own = inside_->scene().gravity;
     if (inside_->assembly.scene.gravity.isZero() && !gravity.isZero())
         throw SceneError("/gravity: the scene began without; begin with some, and set it to zero");
     own = gravity;
+    inside_->wake();
 }
 
 void Simulation::set_wood(double stiffness, double damping) {
@@ -373,6 +396,7 @@ void Simulation::set_wood(double stiffness, double damping) {
     inside_->scale_wood(stiffness / inside_->stiffness, inside_->damping > 0 ? damping / inside_->damping : 1);
     inside_->stiffness = stiffness;
     inside_->damping = damping;
+    inside_->wake();
 }
 
 void Simulation::pull(std::size_t body, const Vec3& point, const Vec3& force) {
@@ -382,8 +406,9 @@ void Simulation::pull(std::size_t body, const Vec3& point, const Vec3& force) {
     if (body >= bodies)
         throw SceneError("pull: body " + std::to_string(body) + " is not there, the trees have " +
                          std::to_string(bodies));
-    finite_vector(point, "pull: point");
-    finite_vector(force, "pull: force");
+    if (inside_->gone(body)) throw SceneError("pull: body " + std::to_string(body) + " has broken off");
+    require_finite(point, "pull: point");
+    require_finite(force, "pull: force");
     inside_->pull(body, point, force);
 }
 

@@ -11,7 +11,7 @@
 //
 // Errors. What cannot be run throws SceneError, once, from the constructor, with the place as treesim prints it. A call with a number that is
 // none, or for a body that is not there, throws it too and changes nothing. After a step that became non-finite, steps do nothing and return the
-// same report; what is read stays what it was. A simulation keeps all that it needs: the scene and its trees may go.
+// same report; what is read is the state that it left, where numbers may be none. A simulation keeps all that it needs: the scene and its trees may go.
 // Threads. One simulation is used by one thread at a time; several may run side by side. Results do not hang on the number of threads.
 // Frames of reference. World axes, y up, metres, seconds, kilograms; bodies in document order (tree.h), the trees' one after another, then balls,
 // then walkers.
@@ -28,7 +28,7 @@ namespace bough {
 // What numbers a run is made in. Single is twice as fast; tips differ by some millionths of the deflection.
 enum class Precision : std::uint8_t { single, double_ };
 
-// How a step is made: coupled is bough's own, analytic the paper's (lib/README.md).
+// How a step is made: coupled is bough's own, analytic the paper's (README.md, "Error against run time").
 enum class Method : std::uint8_t { coupled, analytic };
 
 struct SimulationOptions {
@@ -42,12 +42,12 @@ struct SimulationOptions {
     bool torques = false;    // likewise torques()
     bool pulls = false;      // pull() will be called: without, the step has no place for it
     bool portable =
-        false; // the plain path, one number at a time: the same to the last bit on every machine; several times slower
+        false; // the plain path, one number at a time, whose rounding does not hang on the machine's SIMD; several times slower
 };
 
 struct StepReport {
     std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
-    // Bodies of which the step could not follow the motion, in this step (README.md, "Limits"): none of it is an error.
+    // Bodies of which the step could not follow the motion, in this step (README.md, "Conventions and limits"): none of it is an error.
     std::uint64_t fast_turns = 0;                // turned by more than a radian
     std::uint64_t guarded = 0;                   // were kept from gaining energy
     std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for
@@ -88,8 +88,9 @@ public:
     std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (Options::torques)
     const MotionEvents& events() const;    // of the last step: what broke, hit, landed
 
-    // What may change between two steps. None of it plans anew or allocates; each is taken from the next step on.
-    // The wind of a scene that has one (of no velocity at all: still air). Its grid, swirl, shelter, profile and period stay. Throws SceneError.
+    // What may change between two steps. None of it plans anew or allocates; each is taken from the next step on, and wakes what sleeps.
+    // The wind of a scene that has one (of no velocity at all: still air). Its grid, swirl, shelter, profile and period stay; where trees may
+    // sleep it stays without gusts and turbulence. Throws SceneError.
     void set_wind(const Wind&);
     // Of a scene that has some, with the coupled method. The drawn pose keeps the springs' rest that it had. Throws SceneError.
     void set_gravity(const Vec3&); // [m/s^2]
@@ -97,11 +98,12 @@ public:
     // trees. Springs keep their rest: softer wood sags further. Each change rounds. Throws SceneError.
     void set_wood(double stiffness, double damping);
     // A force [N], world, on a point [m, body frame] of a body of the trees, in the next step alone. Any number of them. Throws SceneError
-    // without Options::pulls, for bodies that are held or not there.
+    // without Options::pulls (with which nothing sleeps), where joints are held, for bodies that are not there or have broken off.
     void pull(std::size_t body, const Vec3& point, const Vec3& force);
 
-    std::uint64_t hash() const; // of the state: equal hashes, equal motion from here on
-    // A run that goes on from what save() gave ends as this one, bit by bit. restore() throws SceneError where it was another run's.
+    std::uint64_t hash() const; // of angles and rates, broken joints and free bodies: what `treesim --hash` prints
+    // A run that goes on from what save() gave ends as this one, bit by bit; wind, gravity and wood are those that this run has by now. restore() throws
+    // SceneError where it was another run's, and then changes nothing.
     SavedState save() const;
     void restore(const SavedState&);
 
