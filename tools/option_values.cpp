@@ -39,7 +39,7 @@ ValueCheck whole_number(std::int64_t least, std::int64_t most) {
         const auto [end, error] = std::from_chars(text.data(), last, value);
         if (error == std::errc() && end == last && value >= least && value <= most) return std::string();
         return "is '" + text + "', expected a whole number from " + std::to_string(least) +
-               (most == INT64_MAX ? "" : " to " + std::to_string(most));
+               (most == INT64_MAX && error != std::errc::result_out_of_range ? "" : " to " + std::to_string(most));
     };
 }
 

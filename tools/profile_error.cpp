@@ -56,7 +56,6 @@ double step_count(const std::string& text) {
 }
 
 std::vector<double> chosen_steps(const std::string& text) {
-    if (text.empty()) return ErrorOptions().steps_per_frame;
     std::vector<double> steps;
     for (const std::string& part : split_list(text)) steps.push_back(step_count(part));
     std::sort(steps.begin(), steps.end());
@@ -110,9 +109,16 @@ void work(ErrorCommand& o) {
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
     require_report(o.report);
     ErrorOptions options;
-    options.steps_per_frame = chosen_steps(o.steps);
+    if (o.list->given("--steps")) options.steps_per_frame = chosen_steps(o.steps);
     options.variants = chosen_variants(o);
     options.truth = o.truth == "fine" ? Truth::fine : Truth::reference;
+    if (options.truth == Truth::fine) {
+        constexpr double fine = 64; // the truth itself
+        if (o.list->given("--steps") && options.steps_per_frame.back() >= fine)
+            throw UsageError("--steps: --truth fine is 64 steps a frame, which tells nothing of as many or more; "
+                             "name fewer, or leave --truth out");
+        std::erase_if(options.steps_per_frame, [](double steps) { return steps >= fine; });
+    }
     if (o.run.tolerance) options.tolerance = *o.run.tolerance;
     RunOptions reading = o.run; // what is a series' own is not the scene's
     reading.tolerance.reset();

@@ -10,7 +10,10 @@ template <class Make> auto as_input(const RunOptions& o, Make&& make) {
     try {
         return make();
     } catch (const SceneError& error) {
-        throw InputError(input_name(o.input), error.what());
+        const std::string what = error.what(), file = wind_file(o.wind), wind = "/wind/";
+        if (!file.empty() && what.compare(0, wind.size(), wind) == 0) // it stands there without that folder
+            throw InputError(input_name(file), what.substr(wind.size() - 1));
+        throw InputError(input_name(o.input), what);
     }
 }
 

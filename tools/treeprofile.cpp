@@ -1,5 +1,8 @@
 // treeprofile: what a run costs, stage by stage, and whether it has become slower. The first word chooses the subcommand.
+#include "exits.h"
 #include "profile.h"
+#include <filesystem>
+#include <iostream>
 
 namespace {
 
@@ -27,6 +30,13 @@ const ToolInfo info = {
     "interrupted.",
     {}};
 
+// A word that can only be meant as a subcommand's name: letters alone, and no file is called so.
+bool is_no_file(const std::string& word) {
+    std::error_code none;
+    return !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos &&
+           !std::filesystem::exists(word, none);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -43,6 +53,14 @@ int main(int argc, char** argv) {
             chosen = &subcommand;
             arguments.erase(arguments.begin() + 1);
         }
+    if (chosen == &subcommands.front() && word != chosen->name && is_no_file(word)) {
+        std::string names;
+        for (const Subcommand& subcommand : subcommands)
+            names += (names.empty() ? "" : ", ") + std::string(subcommand.name);
+        std::cerr << profile_name << ": '" << word << "' is neither a file nor one of " << names << "; see "
+                  << profile_name << " --help\n";
+        return exit_usage;
+    }
     ToolInfo own = info;
     own.has_source = chosen->has_source;
     own.has_threads = chosen->has_threads;
