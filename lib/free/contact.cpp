@@ -21,6 +21,8 @@ double distance2(const Vec3& point, const Vec3& x, const Vec3& d) {
     return Vec3(x + s * d - point).squaredNorm();
 }
 
+constexpr double slack = 1e-4; // [m] so near, what grazes may count as met (shape.h)
+
 bool yields(const Contact& contact, Kind kind) {
     return is_flat(kind) && !contact.leaves;
 }
@@ -104,8 +106,14 @@ void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees,
                 if (distance2(before.x, x, d - (after.x - before.x)) > near * near) return false;
             }
             if (yields(contact, tree.kind[i])) return true;
-            ++tests.bodies;
             const Capsule own = capsule_of(tree.kind[i], tree.size[i]);
+            if (!brute_force) {
+                const Bound bound = bound_of(own);
+                const Vec3 from = before.at(bound.middle), to = after.at(bound.middle);
+                const double near = bound.radius + free.bound + slack;
+                if (distance2(from, x, d - (to - from)) > near * near) return true;
+            }
+            ++tests.bodies;
             const Capsule start = placed(own, Quat(before.R), before.x), stop = placed(own, Quat(after.R), after.x);
             for (const FreePart& part : free.parts) {
                 const Capsule from = placed(free.motion, part), to = placed(end, part);

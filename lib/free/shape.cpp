@@ -42,6 +42,10 @@ Capsule capsule_of(Kind kind, const Vec3& size) {
     return {Vec3::Zero(), Vec3(0, 0, size[0]), size[1], size[2]};
 }
 
+Bound bound_of(const Capsule& c) {
+    return {0.5 * (c.a + c.b), 0.5 * Vec3(c.b - c.a).norm() + std::max(c.radius_a, c.radius_b)};
+}
+
 Nearest nearest(const Capsule& first, const Capsule& second) {
     const auto [s, t] = nearest_parameters(first, second);
     const Vec3 p = first.a + s * (first.b - first.a), q = second.a + t * (second.b - second.a);
@@ -69,12 +73,9 @@ Meeting meet(const Capsule& first, const Capsule& first_end, const Capsule& seco
     for (const Vec3& p : {Vec3(first_end.a - first.a), Vec3(first_end.b - first.b)})
         for (const Vec3& q : {Vec3(second_end.a - second.a), Vec3(second_end.b - second.b)})
             fastest = std::max(fastest, Vec3(p - q).norm());
-    // Most pairs never come near: by their bounding spheres.
-    const auto middle = [](const Capsule& c) { return Vec3(0.5 * (c.a + c.b)); };
-    const auto bound = [](const Capsule& c) { return 0.5 * Vec3(c.b - c.a).norm() + std::max(c.radius_a, c.radius_b); };
     Meeting meeting;
-    const double apart = Vec3(middle(first) - middle(second)).norm();
-    if (apart > bound(first) + bound(second) + fastest) return meeting;
+    const Bound one = bound_of(first), other = bound_of(second); // most pairs never come near
+    if (Vec3(one.middle - other.middle).norm() > one.radius + other.radius + fastest) return meeting;
     double way = 0;
     constexpr int most_advances = 64;
     for (int advance = 0;; ++advance) {

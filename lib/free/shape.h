@@ -17,6 +17,13 @@ struct Capsule {
 // In the body's frame. size: as in Tree.
 Capsule capsule_of(Kind kind, const Vec3& size);
 
+// The sphere about a capsule's middle that holds it.
+struct Bound {
+    Vec3 middle; // [m]
+    double radius;
+};
+Bound bound_of(const Capsule&);
+
 // How near two capsules are: along the line between the nearest points of their axes, where their radii are those of these points (exact for
 // equal radii; for a branch's taper of a few per cent off by the square of it).
 struct Nearest {
