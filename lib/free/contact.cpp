@@ -5,15 +5,6 @@
 namespace bough {
 namespace {
 
-Capsule placed(const Capsule& c, const Quat& q, const Vec3& x) {
-    return {x + q * c.a, x + q * c.b, c.radius_a, c.radius_b};
-}
-
-Capsule placed(const FreeMotion& motion, const FreePart& part) {
-    const Capsule own = placed(capsule_of(part.kind, part.size), part.q, part.joint);
-    return placed(own, motion.q, motion.x);
-}
-
 // Squared distance of a point from the way x ... x + d.
 double distance2(const Vec3& point, const Vec3& x, const Vec3& d) {
     const double length2 = d.squaredNorm();
@@ -85,6 +76,27 @@ void find_ground(const FreeBody& free, std::size_t k, const FreeMotion& end, dou
         }
 }
 
+// A body of the tree through the step.
+struct BodyWay {
+    std::size_t body;
+    Capsule own, start, stop; // in its frame, and placed
+    const BodyPose& after;
+
+    BodyWay(const Tree& tree, std::size_t i, const BodyPose& before, const BodyPose& pose)
+        : body(i), own(capsule_of(tree.kind[i], tree.size[i])), start(placed(own, Quat(before.R), before.x)),
+          stop(placed(own, Quat(pose.R), pose.x)), after(pose) {}
+};
+
+void meet_part(const BodyWay& tree, const FreeBody& free, std::size_t k, const FreeMotion& end, const FreePart& part,
+               std::vector<ContactPoint>& found) {
+    const Capsule from = placed(free.motion, part), to = placed(end, part);
+    const Meeting m = meet(from, to, tree.start, tree.stop);
+    if (!m.meets) return;
+    add_meeting(free, k, std::int64_t(tree.body), Vec3(end.x - free.motion.x), m, found);
+    found.back().closing = std::max(0.0, m.at.gap - nearest(to, tree.stop).gap);
+    carry_along(found.back(), tree.own, tree.start, tree.stop, tree.after);
+}
+
 } // namespace
 
 template <class T>
@@ -114,17 +126,25 @@ void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees,
                 if (distance2(from, x, d - (to - from)) > near * near) return true;
             }
             ++tests.bodies;
-            const Capsule start = placed(own, Quat(before.R), before.x), stop = placed(own, Quat(after.R), after.x);
-            for (const FreePart& part : free.parts) {
-                const Capsule from = placed(free.motion, part), to = placed(end, part);
-                const Meeting m = meet(from, to, start, stop);
-                if (!m.meets) continue;
-                add_meeting(free, k, std::int64_t(i), d, m, found);
-                found.back().closing = std::max(0.0, m.at.gap - nearest(to, stop).gap);
-                carry_along(found.back(), own, start, stop, after);
-            }
+            const BodyWay body(tree, i, before, after);
+            for (const FreePart& part : free.parts) meet_part(body, free, k, end, part, found);
             return true;
         });
+}
+
+template <class T>
+void find_contacts(const Tree& tree, const NearPairs<T>& near, std::span<const NearPair> pairs, TreeWay<T> tree_way,
+                   const Contact& contact, const FreeBody& free, std::size_t k, const FreeMotion& end,
+                   std::vector<ContactPoint>& found, ContactTests& tests) {
+    if (contact.ground && !free.leaf()) find_ground(free, k, end, contact.ground_height, found);
+    for (std::size_t p = 0; p < pairs.size();) {
+        const std::uint32_t rank = pairs[p].rank;
+        const std::size_t i = near.body_of(rank);
+        ++tests.bodies;
+        const BodyWay body(tree, i, tree_way.before.of(i), tree_way.after.of(i));
+        for (; p < pairs.size() && pairs[p].rank == rank; ++p)
+            meet_part(body, free, k, end, free.parts[pairs[p].part], found);
+    }
 }
 
 Mat3 mobility_of(const FreeBody& free, const Vec3& arm) {
@@ -223,6 +243,9 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void find_contacts(const Tree&, const NearPairs<T>&, std::span<const NearPair>, TreeWay<T>,               \
+                                const Contact&, const FreeBody&, std::size_t, const FreeMotion&,                       \
+                                std::vector<ContactPoint>&, ContactTests&);                                            \
     template void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreeWay<T>, const Contact&,              \
                                 const FreeBody&, std::size_t, const FreeMotion&, bool, std::vector<ContactPoint>&,     \
                                 ContactTests&);                                                                        \

@@ -15,8 +15,10 @@
 // Cost       finding: O(bodies that are not pruned); solving: O(contacts x bodies on their ways to the root) a round.
 #pragma once
 #include "free_body.h"
+#include "near_pairs.h"
 #include "response.h"
 #include "shape.h"
+#include <span>
 
 namespace bough {
 
@@ -47,6 +49,12 @@ template <class T> struct TreeWay { TreePoses<T>&before, &after; };
 template <class T>
 void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreeWay<T>, const Contact&, const FreeBody&,
                    std::size_t k, const FreeMotion& end, bool brute_force, std::vector<ContactPoint>& found,
+                   ContactTests&);
+
+// The same, where its pairs with the trees' bodies are known (near_pairs.h): `pairs` are its own.
+template <class T>
+void find_contacts(const Tree&, const NearPairs<T>&, std::span<const NearPair> pairs, TreeWay<T>, const Contact&,
+                   const FreeBody&, std::size_t k, const FreeMotion& end, std::vector<ContactPoint>& found,
                    ContactTests&);
 
 // Velocity [m/s] of a free body's point by a unit impulse there, `arm` [m] from its centre of mass [1/kg]; and what an impulse [N s] there does.

@@ -25,6 +25,11 @@ void finish(FreeBody& body) {
     }
 }
 
+Capsule placed(const FreeMotion& motion, const FreePart& part) {
+    const Capsule own = placed(capsule_of(part.kind, part.size), part.q, part.joint);
+    return placed(own, motion.q, motion.x);
+}
+
 FreeBody free_ball(const Ball& ball, double air_density) {
     FreeBody body;
     body.motion.x = ball.position;

@@ -2,6 +2,7 @@
 #pragma once
 #include "../model/tree.h"
 #include "free_motion.h"
+#include "shape.h"
 
 namespace bough {
 
@@ -38,6 +39,9 @@ struct FreeBody {
         return motion.v + motion.omega.cross(arm);
     } // arm from the centre of mass, world
 };
+
+// [m] World, of a part of a body that stands so.
+Capsule placed(const FreeMotion&, const FreePart&);
 
 // Sets inverse_inertia, axes, moments and bound from inertia and parts. A body without extent about some axis is given four roundings of the trace there.
 void finish(FreeBody&);

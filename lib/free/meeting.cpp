@@ -16,15 +16,31 @@ std::int64_t name_of(const FreeBody& free, std::size_t k, const Tree& tree) {
 }
 
 // All that each meets, and how fast it may still come nearer to what it meets after the first.
-template <class T> std::vector<ContactPoint> meet_all(const Plan<T>& plan, World<T>& world, std::vector<Way>& ways) {
+template <class T>
+std::vector<ContactPoint> meet_all(const Plan<T>& plan, State<T>& state, World<T>& world, std::vector<Way>& ways) {
     std::vector<ContactPoint> points;
+    std::span<const NearPair> pairs;
+    if (world.many) {
+        std::vector<FreeMotion> ends;
+        for (const Way& way : ways) ends.push_back(way.next);
+        pairs = world.near.find(plan, state, *world.tree, world.contact, world.free, ends);
+    }
+    const TreeWay<T> tree_way{world.before, world.poses};
     for (std::size_t k = 0; k < world.free.size(); ++k) {
         FreeBody& free = world.free[k];
         Way& way = ways[k];
         way.from = way.to = points.size();
         if (free.at_rest || (free.leaf() && !world.contact.leaves)) continue;
-        find_contacts(plan, *world.tree, world.subtrees, TreeWay<T>{world.before, world.poses}, world.contact, free, k,
-                      way.next, world.brute_force, points, world.counts.tests);
+        if (world.many) {
+            std::size_t own = 0; // they are in the free bodies' order
+            while (own < pairs.size() && pairs[own].free == k) ++own;
+            find_contacts(*world.tree, world.near, pairs.first(own), tree_way, world.contact, free, k, way.next, points,
+                          world.counts.tests);
+            pairs = pairs.subspan(own);
+        } else {
+            find_contacts(plan, *world.tree, world.subtrees, tree_way, world.contact, free, k, way.next,
+                          world.brute_force, points, world.counts.tests);
+        }
         for (std::size_t c = way.from; c < points.size(); ++c) way.first = std::min(way.first, points[c].way);
         const double left = plan.dt * (1 - way.first);
         for (std::size_t c = way.from; c < points.size(); ++c) {
@@ -172,7 +188,7 @@ template <class T> void fly_all(const Plan<T>& plan, World<T>& world, std::vecto
 
 template <class T>
 std::vector<ContactPoint> meet_and_go(const Plan<T>& plan, State<T>& state, World<T>& world, std::vector<Way>& ways) {
-    std::vector<ContactPoint> points = meet_all(plan, world, ways);
+    std::vector<ContactPoint> points = meet_all(plan, state, world, ways);
     for (std::size_t k = 0; k < ways.size(); ++k) { // turned, and as fast, as they would be: omega is of that q
         world.free[k].motion = ways[k].next;
         world.free[k].motion.x = ways[k].start.x;

@@ -42,6 +42,10 @@ Capsule capsule_of(Kind kind, const Vec3& size) {
     return {Vec3::Zero(), Vec3(0, 0, size[0]), size[1], size[2]};
 }
 
+Capsule placed(const Capsule& c, const Quat& q, const Vec3& x) {
+    return {x + q * c.a, x + q * c.b, c.radius_a, c.radius_b};
+}
+
 Bound bound_of(const Capsule& c) {
     return {0.5 * (c.a + c.b), 0.5 * Vec3(c.b - c.a).norm() + std::max(c.radius_a, c.radius_b)};
 }

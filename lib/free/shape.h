@@ -17,6 +17,8 @@ struct Capsule {
 // In the body's frame. size: as in Tree.
 Capsule capsule_of(Kind kind, const Vec3& size);
 
+Capsule placed(const Capsule&, const Quat&, const Vec3&);
+
 // The sphere about a capsule's middle that holds it.
 struct Bound {
     Vec3 middle; // [m]

@@ -28,6 +28,16 @@ template <class T> void tread(const Plan<T>& plan, State<T>& state, World<T>& wo
     }
 }
 
+// Whether looking at every body once takes less than looking along the trees for each that flies.
+template <class T> bool many_fly(const Plan<T>& plan, const World<T>& world) {
+    constexpr std::size_t along = 250; // bodies looked at, of which a test along the tree takes the time
+    if (world.brute_force) return false;
+    std::size_t fly = 0;
+    for (const FreeBody& free : world.free)
+        if (!free.at_rest && (world.contact.leaves || !free.leaf())) fly += free.parts.size();
+    return fly * along > plan.bodies;
+}
+
 } // namespace
 
 template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, const std::vector<TreeRange>& ranges) {
@@ -60,7 +70,12 @@ template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world,
     if (!world.on()) return advance(plan, state, clock);
     const double middle = (double(state.step) + 0.5) * plan.dt;
     const bool moves = std::any_of(world.free.begin(), world.free.end(), [](const FreeBody& f) { return !f.at_rest; });
-    if (moves && plan.contact) run_stage(Stage::contacts, state, clock, [&] { world.before.begin_copy(plan, state); });
+    world.many = plan.contact && many_fly(plan, world);
+    if (moves && plan.contact)
+        run_stage(Stage::contacts, state, clock, [&] {
+            world.before.begin_copy(plan, state);
+            if (world.many) world.near.begin(plan, state, *world.tree, world.subtrees);
+        });
     if (!world.walkers.empty()) run_stage(Stage::walkers, state, clock, [&] { tread(plan, state, world); });
     advance(plan, state, clock);
     state.loads.clear();
@@ -91,7 +106,7 @@ template <class T> std::size_t World<T>::bytes() const {
            remaining.gone.capacity() + remaining.c_mass.capacity() * sizeof(double) +
            remaining.moment.capacity() * sizeof(Vec3) + response.bytes() + rigid.bytes() +
            sizeof(std::uint32_t) * (subtrees.first_child.capacity() + subtrees.child.capacity()) +
-           sizeof(float) * subtrees.reach.capacity();
+           sizeof(float) * subtrees.reach.capacity() + near.bytes();
 }
 
 template <class T> std::optional<std::size_t> first_non_finite(const World<T>& world) {

@@ -43,6 +43,8 @@ template <class T> struct World {
     Subtrees subtrees;                // with /fracture, or where trees are pushed
     TreePoses<T> poses, before;       // at a step's end; where trees are met, at its start
     TreeResponse<T> response, rigid;  // where trees are pushed: with their springs, and without
+    NearPairs<T> near;                // where many fly
+    bool many = false;                // in this step
     WindTable<double> wind;
     MotionEvents events; // since the caller last cleared them
     WorldCounts counts;

@@ -160,6 +160,7 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
         finish(free);
     }
     in.finish();
+    world.near.forget();
     if (world.broken.empty()) return;
     if (!plan.scene.fracture) throw std::invalid_argument("has broken joints, but this scene has no fracture");
     detach(plan, state, world.subtrees, world.broken, world.remaining);
