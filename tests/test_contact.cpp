@@ -46,6 +46,9 @@ TEST_CASE("A capsule on its way meets another where their axes are their radii a
     CHECK_FALSE(meet(ball, moved(ball, Vec3(10, 0.6, 0)), rod, rod).meets);
     CHECK_FALSE(meet(ball, moved(ball, Vec3(2.5, 0, 0)), rod, rod).meets);
     CHECK(meet({rod.a, rod.b, 0.1, 0.1}, moved({rod.a, rod.b, 0.1, 0.1}, Vec3(1, 0, 0)), rod, rod).way == 0);
+    // What slides along a hundredth of a millimetre beside it does not touch it.
+    const Capsule beside = moved(rod, Vec3(rod.radius_a + rod.radius_b + 1e-5, 0, 0));
+    CHECK_FALSE(meet(beside, moved(beside, Vec3(0, 1, 1)), rod, rod).meets);
 }
 
 TEST_CASE("A ball on the ground bounces back with its restitution, and rests at its radius") {

@@ -12,7 +12,7 @@ double distance2(const Vec3& point, const Vec3& x, const Vec3& d) {
     return Vec3(x + s * d - point).squaredNorm();
 }
 
-constexpr double slack = 1e-4; // [m] so near, what grazes may count as met (shape.h)
+constexpr double slack = 1e-5; // [m] what counts as touching (shape.h), and rounding
 
 bool yields(const Contact& contact, Kind kind) {
     return is_flat(kind) && !contact.leaves;

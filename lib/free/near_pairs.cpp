@@ -21,7 +21,7 @@ template <class T> typename NearPairs<T>::Box NearPairs<T>::box_of(const Ends& f
     Box box{from.a.cwiseMin(from.b).cwiseMin(to.a).cwiseMin(to.b),
             from.a.cwiseMax(from.b).cwiseMax(to.a).cwiseMax(to.b)};
     const float far = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
-    const float wider = float(radius) + 1e-4f + 1e-5f * far; // where it is, and what grazes (shape.h)
+    const float wider = float(radius) + 1e-4f + 1e-5f * far; // where it is, and what counts as touching (shape.h)
     box.low.array() -= wider;
     box.high.array() += wider;
     return box;

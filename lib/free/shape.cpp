@@ -26,6 +26,27 @@ std::pair<double, double> nearest_parameters(const Capsule& p, const Capsule& q)
 
 constexpr double touching = 1e-6; // [m] gap that counts as none
 
+// The part of their ways for which two capsules stay on their sides of a plane across `normal`: no end of the one comes nearer to an end of the other along
+// it than half of what counts as touching. 0 where they are not parted by one.
+double apart_for(const Capsule& first, const Capsule& first_end, const Capsule& second, const Capsule& second_end,
+                 const Vec3& normal) {
+    double part = 1;
+    const auto end = [&](const Vec3& p, const Vec3& p_end, double p_radius, const Vec3& q, const Vec3& q_end,
+                         double q_radius) {
+        const double radii = p_radius + q_radius + 0.5 * touching;
+        const double gap = normal.dot(p - q) - radii, later = normal.dot(p_end - q_end) - radii;
+        if (gap <= 0)
+            part = 0;
+        else if (later < 0)
+            part = std::min(part, gap / (gap - later));
+    };
+    end(first.a, first_end.a, first.radius_a, second.a, second_end.a, second.radius_a);
+    end(first.a, first_end.a, first.radius_a, second.b, second_end.b, second.radius_b);
+    end(first.b, first_end.b, first.radius_b, second.a, second_end.a, second.radius_a);
+    end(first.b, first_end.b, first.radius_b, second.b, second_end.b, second.radius_b);
+    return part;
+}
+
 } // namespace
 
 Capsule capsule_of(Kind kind, const Vec3& size) {
@@ -80,18 +101,20 @@ Meeting meet(const Capsule& first, const Capsule& first_end, const Capsule& seco
     Meeting meeting;
     const Bound one = bound_of(first), other = bound_of(second); // most pairs never come near
     if (Vec3(one.middle - other.middle).norm() > one.radius + other.radius + fastest) return meeting;
-    double way = 0;
-    constexpr int most_advances = 64;
-    for (int advance = 0;; ++advance) {
-        meeting.at = nearest(between(first, first_end, way), between(second, second_end, way));
-        if (meeting.at.gap <= touching || advance == most_advances) {
+    for (double way = 0;;) {
+        const Capsule one_now = between(first, first_end, way), other_now = between(second, second_end, way);
+        meeting.at = nearest(one_now, other_now);
+        if (meeting.at.gap <= touching) {
             meeting.way = way;
             meeting.meets = true;
             return meeting;
         }
         // What is left of the way does not close the gap.
         if (way >= 1 || (1 - way) * fastest < meeting.at.gap) return meeting;
-        way = std::min(1.0, way + meeting.at.gap / fastest);
+        const double by_speed = meeting.at.gap / fastest;
+        const double by_plane = (1 - way) * apart_for(one_now, first_end, other_now, second_end, meeting.at.normal);
+        if (by_plane >= 1 - way) return meeting;
+        way = std::min(1.0, way + std::max(by_speed, by_plane));
     }
 }
 

@@ -35,9 +35,9 @@ struct Nearest {
 };
 Nearest nearest(const Capsule& first, const Capsule& second);
 
-// The part of their ways that two capsules go before they meet, by conservative advancement: each advance is at most the gap over the
-// fastest approach of any of their points, so that nothing is passed through. Ends go straight, from where they are to first_end, second_end. at:
-// the nearest points then. What is so near after 64 advances that these no longer bring it nearer (it grazes) counts as met.
+// The part of their ways that two capsules go before they meet, by conservative advancement: each advance goes as far as a plane
+// between the two keeps them apart, or by the gap over the fastest approach of any of their points where that is more, so that nothing is passed
+// through and nothing that only grazes counts as met. Ends go straight, from where they are to first_end, second_end. at: the nearest points then.
 struct Meeting {
     double way = 1; // 0..1; 1 where they do not meet
     bool meets = false;
