@@ -132,7 +132,7 @@ grep -q '^plan: .* solver coupled, scheme LIE$' plan && grep -q '^array resolven
     grep -q '^calls resolvent 2$' plan && grep -q '^calls spring 0$' plan || fail "--explain does not tell the coupled step"
 
 # The error that a run tells of itself: one line, also with -q, whatever is written; the run is none the wiser. What it is
-# worth is test_error_estimate's and tests/goals' row i; here the line is held against two runs of small.json at the two steps.
+# worth is tests/lib/simulation/error_estimate.cpp's and tests/goals' row i; here the line is held against two runs of small.json at the two steps.
 run=(small.json --wind gusty --solver coupled)
 reported() { treesim "${run[@]}" --report-error "$@" 2>&1 >/dev/null | grep '^error '; }
 treesim "${run[@]}" --frames 16 --substeps 2 --fields pose -o coarse.jsonl
