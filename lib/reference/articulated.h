@@ -27,7 +27,7 @@
 // Digits. Every body is computed in its own axes: there a thin rod's small inertia about itself stands apart from the rest,
 // where in world axes the rounding of what hangs on it would cover it (three hundred bodies with twigs of 0.1 mm lost ten
 // digits to that). What is left to lose is what rounding the result costs: in a chain 1e5 deep that is a moment of 1e-2
-// of those that act, because the joints' accelerations nearly cancel in the bodies'. tests/test_articulated.cpp.
+// of those that act, because the joints' accelerations nearly cancel in the bodies'. tests/lib/study/articulated.cpp.
 // A body without extent about an axis (below 1e-7 of its length) would make A singular: four roundings of its trace are added.
 // Reads   plan constants, theta and rate in pass.body. Writes all of pass. O(n), about 0.4 us a body. Errors none; non-finite
 //         in, non-finite out.

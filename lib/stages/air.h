@@ -15,7 +15,7 @@
 //   a clump of 14, 30 cm              0.170    0.486    1.24     -0.57
 //   maple of 20 000 bodies            3400     10100    27300    -0.50     its foliage alone -0.57
 //   maple of 1 000, birch of 1 000    511 146  1680 523 5380 1866 -0.30 -0.16, foliage -0.57
-// The fewer bodies a tree has, the fewer leaves and the more of its drag is bare wood's, which does not fold. tests/test_foliage.cpp holds leaf,
+// The fewer bodies a tree has, the fewer leaves and the more of its drag is bare wood's, which does not fold. tests/lib/laws/foliage.cpp holds leaf,
 // clump and a crown's foliage within -0.5 and -1.
 // Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges: a torque
 //   -k g |u| (kappa rho A / m) I w,   I the inertia about the centre of mass

@@ -31,7 +31,7 @@
 // is instead w = L^T omega_b, S = L L^T: |w|^2 / 2 is the joint's kinetic energy, so that the change of S does no work.
 //
 // Together: with constant K and beta, in still air or none, kinetic (|w|^2 / 2) + elastic + potential energy does not grow,
-// for any K >= 0, beta >= 0 and step, up to the third order of a step's rotations under gravity (tests/test_energy.cpp).
+// for any K >= 0, beta >= 0 and step, up to the third order of a step's rotations under gravity (tests/lib/analytic/energy.cpp).
 //
 // Solution. A = L^-1 (K_b + G) L^-T = X Lambda X^T by Jacobi rotations, U = L^-T X, so that U^T S U = 1 and row i is
 // q'' + b q' + lambda q = r with b = beta (U^T K_b U)_ii, v = X^T w (oscillator.h). Where G is not 0, U^T K_b U has small

@@ -49,6 +49,9 @@ absent() {
     [[ -z $(find . -name '.bough-*' -print -quit) ]] || fail "an unfinished file was left behind: $(find . -name '.bough-*')"
 }
 
+# hash ARGUMENT...: the line that tells the hash where treesim ends.
+hash() { treesim "$@" --hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
+
 same() {
     cmp -s "$1" "$2" || fail "$1 and $2 differ"
 }

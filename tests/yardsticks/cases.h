@@ -1,7 +1,7 @@
 // cases.h: trees, scenes and random motions on which accelerations are compared, and the measure of the difference.
 #pragma once
 #include "loads.h"
-#include "tests/paper_trees.h"
+#include "tests/support/paper_trees.h"
 #include <string>
 
 namespace yardstick {

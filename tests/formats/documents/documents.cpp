@@ -1,0 +1,548 @@
+// Documents written and read again, in both forms, against what was in memory; and small documents written by hand.
+#include "formats/documents/document.h"
+#include "formats/documents/material.h"
+#include "formats/documents/motion.h"
+#include "formats/documents/scene.h"
+#include "formats/documents/species.h"
+#include "formats/documents/splines.h"
+#include "formats/documents/tree.h"
+#include "tests/support/random_documents.h"
+#include <chrono>
+#include <clocale>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+using namespace bough;
+using namespace bough::test;
+
+namespace {
+
+std::string tree_text(const Tree& tree, Form form) {
+    return written([&](Output& o) { write_tree(o, tree, form); });
+}
+std::string splines_text(const Splines& splines, Form form) {
+    return written([&](Output& o) { write_splines(o, splines, form); });
+}
+std::string scene_text(const Scene& scene, Form form) {
+    return written([&](Output& o) { write_scene(o, scene, form); });
+}
+std::string motion_text(const Motion& motion, MotionForm form) {
+    return written([&](Output& o) {
+        MotionWriter writer(o, motion.header, form);
+        for (const MotionFrame& frame : motion.frame) writer.write(frame);
+        writer.finish();
+    });
+}
+
+const char* one_body = R"({"format": "bough-tree", "version": 1, "parent": [-1], "mass": [2], "com": [0, 0, 0.5],
+"inertia": [0.2, 0.2, 0.01, 0.001, 0.002, 0.003], "joint_position": [1, 2, 3], "joint_rotation": [0, 0.6, 0, 0.8],
+"stiffness": [10, 10, 5], "size": [1, 0.1, 0.05], "branch": [0], "level": [0], "s": [0]})";
+
+} // namespace
+
+TEST_CASE("trees come back bit by bit from both forms") {
+    Random random;
+    for (const std::size_t bodies : {1u, 2u, 57u, 5000u}) {
+        const Tree tree = random_tree(bodies, random);
+        for (const Form form : {Form::json, Form::safetensors}) {
+            const std::string text = tree_text(tree, form);
+            CHECK(is_tree(text));
+            CHECK_FALSE(is_splines(text));
+            CHECK(same(read_tree(text, "t"), tree));
+        }
+    }
+}
+
+TEST_CASE("a tree read from its file is the one read from its content, and in the binary form not wholly in memory") {
+    Random random;
+    const Folder folder;
+    const std::string file = folder / "tree";
+    for (const std::size_t bodies : {1u, 57u, 5000u, 10000u}) {
+        const Tree tree = random_tree(bodies, random);
+        for (const Form form : {Form::json, Form::safetensors}) {
+            const std::string text = tree_text(tree, form);
+            std::ofstream(file, std::ios::binary) << text;
+            const Input input(file);
+            CHECK(input.size() == text.size());
+            CHECK(input.all() == text);
+            CHECK(is_tree(input.content()));
+            std::uint64_t header = 0; // as the form has it: its length in 8 bytes, little-endian, and itself
+            std::memcpy(&header, text.data(), 8);
+            CHECK(input.content() == (form == Form::json ? text : text.substr(0, 8 + header)));
+            CHECK(same(read_tree(input), tree));
+        }
+    }
+}
+
+TEST_CASE("what is wrong with a file is said as of its content") {
+    Random random;
+    const Folder folder;
+    const std::string file = folder / "tree";
+    const Tree tree = random_tree(300, random);
+    const std::string good = tree_text(tree, Form::safetensors);
+    const auto swapped = [&](const std::string& from, const std::string& to) {
+        std::string text = good;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    std::string infinite = good;
+    const double inf = INFINITY; // the last bytes of F64 stand before I32 and U8: 3 and 1 numbers a body
+    std::memcpy(infinite.data() + infinite.size() - 300 * (3 * 4 + 1) - 8, &inf, sizeof inf);
+    for (const std::string& text :
+         {std::string(), std::string("x"), std::string("\x08\0\0\0\0\0\0\0{", 9), good.substr(0, 40),
+          good.substr(0, good.size() - 1), good + "x", swapped("\"mass\"", "\"maze\""), swapped("F64", "F32"),
+          swapped("bough-tree", "bough-wind"), swapped("\"version\":\"1", "\"version\":\"7"), infinite}) {
+        std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
+        const std::string expected = error_of([&] { read_tree(text, file); });
+        CAPTURE(expected);
+        CHECK_FALSE(expected.empty());
+        CHECK(error_of([&] { read_tree(Input(file)); }) == expected);
+    }
+    // Cut short once it is open.
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << good;
+    const Input input(file);
+    std::filesystem::resize_file(file, good.size() - 5);
+    CHECK_THROWS_WITH(read_tree(input), Catch::Matchers::Contains("ended at byte " + std::to_string(good.size() - 5)));
+    CHECK_THROWS_AS(Input(folder / "none"), InputError);
+    CHECK_THROWS_AS(Input(folder / "."), InputError);
+}
+
+TEST_CASE("splines come back bit by bit from both forms") {
+    Random random;
+    for (const std::size_t branches : {1u, 2u, 900u}) {
+        const Splines splines = random_splines(branches, random);
+        for (const Form form : {Form::json, Form::safetensors}) {
+            const std::string text = splines_text(splines, form);
+            CHECK(is_splines(text));
+            CHECK(same(read_splines(text, "s"), splines));
+        }
+    }
+}
+
+TEST_CASE("motions come back bit by bit from all three forms") {
+    Random random;
+    const MotionFields all{true, true, true, true}, pose{}, torque{false, false, true, false};
+    for (const MotionFields& fields : {all, pose, torque})
+        for (const std::int64_t frames : {0, 1, 7})
+            for (const std::int64_t bodies : {0, 1, 12}) {
+                const Motion motion = random_motion(fields, bodies, frames, random);
+                for (const MotionForm form : {MotionForm::jsonl, MotionForm::json, MotionForm::safetensors}) {
+                    INFO(frames << " frames of " << bodies << " bodies, form " << int(form));
+                    const std::string text = motion_text(motion, form);
+                    CHECK(is_motion(text));
+                    CHECK(same(read_motion(text, "m"), motion));
+                }
+            }
+}
+
+TEST_CASE("a motion as JSON may stand on one line") {
+    Random random;
+    const Motion motion = random_motion({}, 3, 4, random);
+    std::string text = motion_text(motion, MotionForm::json);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    CHECK(same(read_motion(text, "m"), motion));
+}
+
+TEST_CASE("saved states come back from both forms") {
+    Random random;
+    SavedState state;
+    state.frame = 299;
+    state.fps = 59.94;
+    state.substeps = 4;
+    state.precision = "float";
+    state.solver = "articulated-reference";
+    state.articulated_step = 0.1 / 3;
+    state.fingerprint = 0xfedcba9876543210u;
+    state.free_bodies = {0.1 / 3, -1, 1e300};
+    for (int i = 0; i < 20; ++i) {
+        state.theta.push_back(random.vector());
+        state.theta_dot.push_back(random.vector());
+        state.scaled_rate.push_back(random.vector());
+    }
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_state(o, state, form); });
+        CHECK(is_state(text));
+        const SavedState read = read_state(text, "s");
+        CHECK(read.frame == state.frame);
+        CHECK(same(read.fps, state.fps));
+        CHECK(read.substeps == state.substeps);
+        CHECK(read.precision == state.precision);
+        CHECK(read.solver == state.solver);
+        CHECK(read.fingerprint == state.fingerprint);
+        CHECK(same(read.theta, state.theta));
+        CHECK(same(read.theta_dot, state.theta_dot));
+        CHECK(same(read.scaled_rate, state.scaled_rate));
+        CHECK(same(read.articulated_step, state.articulated_step));
+        CHECK(same(read.free_bodies, state.free_bodies));
+        CHECK(read.scheme.empty());
+        CHECK(read.theta_change.empty());
+        CHECK(read.theta_dot_change.empty());
+    }
+    // The coupled solver carries its last changes instead.
+    state.solver = "coupled";
+    state.scheme = "P.25";
+    state.articulated_step = 0;
+    state.theta_change = state.scaled_rate;
+    state.scaled_rate.clear();
+    for (std::size_t i = 0; i < state.theta.size(); ++i) state.theta_dot_change.push_back(random.vector());
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_state(o, state, form); });
+        CHECK(text.find("scaled_rate") == std::string::npos);
+        const SavedState read = read_state(text, "s");
+        CHECK(read.solver == state.solver);
+        CHECK(read.scheme == state.scheme);
+        CHECK(same(read.theta, state.theta));
+        CHECK(same(read.theta_dot, state.theta_dot));
+        CHECK(same(read.theta_change, state.theta_change));
+        CHECK(same(read.theta_dot_change, state.theta_dot_change));
+        CHECK(read.scaled_rate.empty());
+    }
+}
+
+TEST_CASE("rigid bodies come back from both forms, and are left out where there are none") {
+    Random random;
+    Tree tree = random_tree(5000, random);
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) tree.rigid.push_back(std::uint8_t(random.below(2)));
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_tree(o, tree, form); });
+        const Tree read = read_tree(text, "t");
+        CHECK(read.rigid == tree.rigid);
+        CHECK(same(read, tree));
+    }
+    tree.rigid.clear();
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_tree(o, tree, form); });
+        CHECK(text.find("rigid") == std::string::npos);
+        CHECK(read_tree(text, "t").rigid.empty());
+    }
+}
+
+TEST_CASE("what a scene simulates comes back from both forms") {
+    Random random;
+    Scene scene;
+    Simulate simulate;
+    simulate.first_level = 1;
+    simulate.last_level = 3;
+    simulate.radius = random.fraction();
+    Selector at;
+    at.body = 4;
+    at.point = random.vector();
+    simulate.subtrees = {at, {}};
+    simulate.box = Simulate::Box{Vec3(-1, 0.1, -3), Vec3(2, 5, 1e-3)};
+    simulate.error = random.fraction();
+    simulate.view = Simulate::View{random.vector(), 35.5, 2160};
+    scene.simulate = simulate;
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const Scene read = read_scene(scene_text(scene, form), "s");
+        REQUIRE(read.simulate);
+        const Simulate& s = *read.simulate;
+        CHECK((s.first_level == 1 && s.last_level == 3));
+        CHECK(same(s.radius, simulate.radius));
+        REQUIRE(s.subtrees.size() == 2);
+        REQUIRE(s.subtrees[0].point);
+        CHECK(same(*s.subtrees[0].point, *at.point));
+        CHECK((s.subtrees[0].body == 4 && !s.subtrees[1].point));
+        REQUIRE((s.box && s.view));
+        CHECK((same(s.box->least, simulate.box->least) && same(s.box->most, simulate.box->most)));
+        CHECK(same(s.error, simulate.error));
+        CHECK((same(s.view->from, simulate.view->from) && s.view->angle == 35.5 && s.view->pixels == 2160));
+    }
+    const Scene few = read_scene(R"({"format": "bough-scene", "version": 1, "simulate": {"last_level": 1}})", "s");
+    REQUIRE(few.simulate);
+    CHECK((!few.simulate->first_level && few.simulate->last_level == 1 && !few.simulate->box && !few.simulate->view));
+    CHECK_FALSE(read_scene(R"({"format": "bough-scene", "version": 1})", "s").simulate);
+}
+
+TEST_CASE("scenes come back from both forms") {
+    Random random;
+    Scene scene;
+    scene.trees = {{"oak.json", {1, 0, -0.1}, 30}, {"birch.safetensors", {0, 0, 1e-300}, -7.5}};
+    scene.gravity = {0, -1.62, 0};
+    Wind wind;
+    wind.velocity = {3, 0, 1};
+    wind.reference_height = 8;
+    wind.profile = 0.2;
+    wind.turbulence = 0.3;
+    wind.gust_factor = 1.5;
+    wind.gust_period = 4;
+    wind.seed = 18446744073709551615u;
+    scene.wind = wind;
+    WindGrid grid;
+    grid.x = -3.5;
+    grid.z = 0.1;
+    grid.cell = 2;
+    grid.columns = 2;
+    grid.rows = 1;
+    grid.velocity = {Vec3(1, 0.1, 1e-300), Vec3(-4, 0, 2)};
+    grid.octaves = {3};
+    grid.persistence = {0.25, 0.1};
+    grid.frequency = 0.7;
+    scene.wind->grid = grid;
+    WindSwirl swirl;
+    swirl.x = 0.3;
+    swirl.z = -0.2;
+    swirl.radius = {1};
+    swirl.angle = {12.5};
+    swirl.period = 2.5;
+    swirl.wavelength = 6;
+    scene.wind->swirl = swirl;
+    scene.wind->shelter = WindShelter{0.7};
+    scene.wind->period = 60;
+    scene.air_density = 1.1;
+    scene.pose = Pose::settled;
+    scene.joint_inertia = JointInertia::paper;
+    scene.stiffness_scale = 0.5;
+    scene.damping_scale = 2;
+    scene.joint_limit = random_joint_limit(random);
+    scene.fracture = Fracture();
+    scene.fracture->leaf = 1e-4;
+    scene.fracture->strength = 4e7;
+    scene.fracture->spread = 0.3;
+    scene.fracture->seed = 18446744073709551615u;
+    scene.fracture->joints = {{{Selector::By::level, 0, 0, {}, 0, 1, Vec3::Zero(), 2}, 3.5}, {{}, Fracture::never}};
+    scene.balls.resize(2);
+    scene.balls[1].position = random.vector();
+    scene.balls[1].velocity = random.vector();
+    scene.balls[1].angular_velocity = random.vector();
+    scene.balls[1].radius = 0.1 / 3;
+    scene.balls[1].mass = 7;
+    scene.contact = Contact{ContactModel::penalty, 0.7, 0.1, 0.05, 20, false, true, false, -1.5};
+    scene.leaves = LeafAir{random.fraction(), random.fraction(), 1 + random.fraction(), random.fraction()};
+    scene.wood.emplace();
+    scene.wood->branch = {1.0 / 3, 0, 1e-300};
+    scene.wood->petal = {random.fraction(), random.fraction(), 1 + random.fraction()};
+    scene.wood->curves.resize(2);
+    scene.wood->curves[0] = {
+        Selector{Selector::By::level, 0, 0, {}, 0, 1, Vec3::Zero(), 2}, {0, 0.1}, {0, 1.0 / 3}, {}, true};
+    scene.wood->curves[1] = {std::nullopt, {0.7}, {}, {random.fraction()}, false};
+    scene.wood->fork = WoodFork{1 / 0.7, 0.1 / 3};
+    scene.load = StaticLoad{random.fraction(), 1e-300, 0, 7};
+    scene.fictitious = Fictitious{random.fraction(), 0, 0.1 / 3};
+    Pull pull;
+    pull.time = {0, 1.5};
+    pull.force = {{0, 0, 1}, {0.1, 0.2, 0.3}};
+    pull.on.by = Selector::By::branch;
+    pull.on.tree = 1, pull.on.branch = 12, pull.on.at = 0.8;
+    scene.pulls.push_back(pull);
+    pull.on = {};
+    pull.on.by = Selector::By::nearest;
+    pull.on.nearest = {1, 2, 3};
+    scene.pulls.push_back(pull);
+    pull.on = {};
+    pull.on.by = Selector::By::level;
+    pull.on.level = 2;
+    scene.pulls.push_back(pull);
+    pull.on = {};
+    pull.on.body = 57;
+    scene.pulls.push_back(pull);
+    scene.root_motion.resize(2);
+    scene.root_motion[0] = random_root_motion(1, 5, true, true, random);
+    scene.root_motion[1] = random_root_motion(0, 2, false, true, random);
+
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = scene_text(scene, form);
+        INFO(text);
+        CHECK(is_scene(text));
+        const Scene read = read_scene(text, "s");
+        REQUIRE(read.trees.size() == 2);
+        CHECK(read.trees[1].file == "birch.safetensors");
+        CHECK(same(read.trees[1].position, scene.trees[1].position));
+        CHECK(read.trees[0].yaw == 30);
+        CHECK(same(read.gravity, scene.gravity));
+        REQUIRE((read.wood && read.load && read.fictitious));
+        const auto factors = [](const WoodFactors& f) { return Vec3(f.stiffness, f.damping, f.density); };
+        CHECK(same(factors(read.wood->branch), factors(scene.wood->branch)));
+        CHECK(same(factors(read.wood->leaf), Vec3(1, 1, 1)));
+        CHECK(same(factors(read.wood->petal), factors(scene.wood->petal)));
+        REQUIRE(read.wood->curves.size() == 2);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const WoodCurve &a = read.wood->curves[k], &b = scene.wood->curves[k];
+            CHECK((same(a.radius, b.radius) && same(a.stiffness, b.stiffness) && same(a.damping, b.damping)));
+            CHECK((a.relative == b.relative && a.on.has_value() == b.on.has_value()));
+        }
+        CHECK(read.wood->curves[0].on->level == 2);
+        CHECK((same(read.wood->fork->factor, 1 / 0.7) && same(read.wood->fork->length, 0.1 / 3)));
+        CHECK((same(read.load->branch, scene.load->branch) && same(read.load->leaf, 1e-300) && read.load->fruit == 7));
+        CHECK(same(read.fictitious->acceleration, scene.fictitious->acceleration));
+        CHECK((read.fictitious->turning == 0 && same(read.fictitious->gyroscopic, 0.1 / 3)));
+        REQUIRE(read.wind);
+        CHECK(same(read.wind->velocity, scene.wind->velocity));
+        CHECK(read.wind->reference_height == 8);
+        CHECK(read.wind->profile == 0.2);
+        CHECK(read.wind->turbulence == 0.3);
+        CHECK(read.wind->gust_factor == 1.5);
+        CHECK(read.wind->gust_period == 4);
+        CHECK(read.wind->seed == scene.wind->seed);
+        REQUIRE((read.wind->grid && read.wind->swirl && read.wind->shelter));
+        const WindGrid& cells = *read.wind->grid;
+        CHECK((cells.x == grid.x && cells.z == grid.z && cells.cell == 2 && cells.columns == 2 && cells.rows == 1));
+        CHECK((cells.velocity == grid.velocity && cells.octaves == grid.octaves && cells.phase == grid.phase));
+        CHECK((cells.persistence == grid.persistence && cells.frequency == grid.frequency));
+        const WindSwirl& turn = *read.wind->swirl;
+        CHECK((turn.x == swirl.x && turn.z == swirl.z && turn.radius == swirl.radius && turn.angle == swirl.angle));
+        CHECK((turn.period == swirl.period && turn.wavelength == swirl.wavelength));
+        CHECK(read.wind->shelter->cell == 0.7);
+        CHECK(read.wind->period == 60);
+        CHECK(read.air_density == 1.1);
+        CHECK(read.pose == Pose::settled);
+        CHECK(read.joint_inertia == JointInertia::paper);
+        CHECK(read.stiffness_scale == 0.5);
+        CHECK(read.damping_scale == 2);
+        REQUIRE(read.leaves);
+        CHECK(same(read.leaves->kappa, scene.leaves->kappa));
+        CHECK(same(read.leaves->air_resistance, scene.leaves->air_resistance));
+        CHECK(same(read.leaves->drag_ratio, scene.leaves->drag_ratio));
+        CHECK(same(read.leaves->offset, scene.leaves->offset));
+        REQUIRE(read.joint_limit);
+        CHECK(same(*read.joint_limit, *scene.joint_limit));
+        REQUIRE((read.fracture && read.contact));
+        CHECK((read.fracture->leaf == 1e-4 && read.fracture->strength == 4e7 && read.fracture->spread == 0.3));
+        CHECK((read.fracture->branch == Fracture::never && read.fracture->fruit == Fracture::never));
+        CHECK(read.fracture->seed == scene.fracture->seed);
+        REQUIRE(read.fracture->joints.size() == 2);
+        CHECK(read.fracture->joints[0].on.by == Selector::By::level);
+        CHECK(read.fracture->joints[0].on.level == 2);
+        CHECK(read.fracture->joints[0].torque == 3.5);
+        CHECK(read.fracture->joints[1].torque == Fracture::never);
+        REQUIRE(read.balls.size() == 2);
+        const Ball &thrown = read.balls[1], &meant = scene.balls[1];
+        CHECK((same(thrown.position, meant.position) && same(thrown.velocity, meant.velocity)));
+        CHECK((same(thrown.angular_velocity, meant.angular_velocity) && same(thrown.radius, meant.radius)));
+        CHECK(thrown.mass == 7);
+        CHECK((read.contact->model == ContactModel::penalty && read.contact->restitution == 0.7));
+        CHECK((read.contact->friction == 0.1 && read.contact->penalty == 20 && read.contact->ground_height == -1.5));
+        CHECK((!read.contact->trees && read.contact->leaves && !read.contact->ground));
+        REQUIRE(read.pulls.size() == 4);
+        CHECK(same(read.pulls[0].time, pull.time));
+        CHECK(same(read.pulls[0].force, pull.force));
+        CHECK(read.pulls[0].on.by == Selector::By::branch);
+        CHECK(read.pulls[0].on.tree == 1);
+        CHECK(read.pulls[0].on.branch == 12);
+        CHECK(read.pulls[0].on.at == 0.8);
+        CHECK(read.pulls[1].on.by == Selector::By::nearest);
+        CHECK(same(read.pulls[1].on.nearest, Vec3(1, 2, 3)));
+        CHECK(read.pulls[2].on.by == Selector::By::level);
+        CHECK(read.pulls[2].on.level == 2);
+        CHECK(read.pulls[3].on.by == Selector::By::body);
+        CHECK(read.pulls[3].on.body == 57);
+        REQUIRE(read.root_motion.size() == 2);
+        for (std::size_t k = 0; k < 2; ++k) CHECK(same(read.root_motion[k], scene.root_motion[k]));
+    }
+}
+
+TEST_CASE("a scene of two lines has the defaults") {
+    const Scene defaults, read = read_scene(R"({"format": "bough-scene", "version": 1})", "s");
+    CHECK(read.trees.empty());
+    CHECK_FALSE(read.wind);
+    CHECK(read.pulls.empty());
+    CHECK(read.root_motion.empty());
+    CHECK_FALSE(read.joint_limit);
+    CHECK_FALSE(read.fracture);
+    CHECK_FALSE(read.contact);
+    CHECK(read.balls.empty());
+    CHECK_FALSE(read.leaves);
+    CHECK(read.gravity == defaults.gravity);
+    CHECK(read.pose == Pose::drawn);
+
+    const Scene gusty = read_scene(R"({"format": "bough-scene", "version": 1, "wind": "gusty"})", "s");
+    REQUIRE(gusty.wind);
+    CHECK(gusty.wind->velocity.norm() == Approx(8));
+    const Wind wind = read_wind(R"({"format": "bough-wind", "version": 1, "velocity": [3, 0, 4]})", "w");
+    CHECK(wind.velocity == Vec3(3, 0, 4));
+    CHECK(wind.gust_factor == 1);
+}
+
+TEST_CASE("a joint limit may be one number, or one for a kind") {
+    const auto read = [](const std::string& limit) {
+        return read_scene(R"({"format": "bough-scene", "version": 1, "joint_limit": )" + limit + "}", "s").joint_limit;
+    };
+    const Vec3 none = Vec3::Constant(180), all = Vec3::Constant(30.5);
+    REQUIRE(read("30.5"));
+    CHECK(same(*read("30.5"), JointLimit{all, all, all}));
+    CHECK(same(*read(R"({"branch": 30.5})"), JointLimit{all, none, none}));
+    CHECK(same(*read(R"({"leaf": [10, 20, 180], "fruit": 30.5})"), JointLimit{none, Vec3(10, 20, 180), all}));
+    CHECK(same(*read("{}"), JointLimit{}));
+}
+
+TEST_CASE("a tree written by hand is read as it says") {
+    const Tree tree = read_tree(one_body, "t");
+    REQUIRE(tree.size_bodies() == 1);
+    CHECK(tree.kind[0] == Kind::branch);
+    CHECK(tree.damping[0] == 0);
+    CHECK(tree.joint_rotation[0].y() == 0.6);
+    CHECK(tree.joint_rotation[0].w() == 0.8);
+    CHECK(tree.inertia[0](2, 2) == 0.01);
+    CHECK(tree.inertia[0](0, 1) == 0.001);
+    CHECK(tree.inertia[0](2, 0) == 0.002);
+    CHECK(tree.inertia[0](1, 2) == 0.003);
+    CHECK(same(read_tree(std::string("\xef\xbb\xbf \r\n") + one_body, "t"), tree)); // as Windows programs save it
+}
+
+TEST_CASE("content decides which form it is") {
+    Random random;
+    const Tree tree = random_tree(3, random);
+    const std::string indented = "        " + tree_text(tree, Form::json); // '{' where a safetensors header has it
+    CHECK(is_tree(indented));
+    CHECK(same(read_tree(indented, "t.safetensors"), tree));
+    for (const char* other :
+         {"", "{", "<xml/>", "{}", "[]", "{\"format\": 3}", "{\"a\": {\"format\": \"bough-tree\"}}"})
+        CHECK_FALSE(is_tree(other));
+}
+
+TEST_CASE("numbers do not depend on the locale") {
+    const char* old = std::setlocale(LC_ALL, nullptr);
+    const std::string before = old;
+    for (const char* name : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8"})
+        if (std::setlocale(LC_ALL, name)) break;
+    Random random;
+    const Tree tree = random_tree(20, random);
+    const std::string text = tree_text(tree, Form::json);
+    const bool equal = same(read_tree(text, "t"), tree);
+    if (std::string(std::setlocale(LC_ALL, nullptr)) == before) WARN("no locale with a decimal comma is installed");
+    std::setlocale(LC_ALL, before.c_str());
+    CHECK(equal);
+    CHECK(text == tree_text(tree, Form::json));
+}
+
+TEST_CASE("what cannot be read again is not written") {
+    Random random;
+    Tree tree = random_tree(3, random);
+    tree.com[1].y() = std::numeric_limits<double>::quiet_NaN();
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const Folder folder;
+        Output output(folder / "t");
+        CHECK_THROWS_WITH(write_tree(output, tree, form), Catch::Contains("/com/4") && Catch::Contains("not finite"));
+    }
+}
+
+TEST_CASE("the examples of formats/README.md are documents") {
+    const std::string page = read_input(BOUGH_DATA_DIR "/../formats/README.md");
+    std::size_t examples = 0;
+    for (std::size_t at = page.find("\n    {\"format\""); at != std::string::npos;
+         at = page.find("\n    {\"format\"", at)) {
+        std::string text;
+        for (std::size_t line = at + 1; page.compare(line, 4, "    ") == 0; line = at + 1) {
+            at = page.find('\n', line);
+            text += page.substr(line + 4, at + 1 - line - 4);
+        }
+        INFO(text);
+        ++examples;
+        if (is_splines(text))
+            CHECK_NOTHROW(read_splines(text, "README.md"));
+        else if (is_tree(text))
+            CHECK_NOTHROW(read_tree(text, "README.md"));
+        else if (is_scene(text))
+            CHECK_NOTHROW(read_scene_document(text, "README.md"));
+        else if (is_motion(text))
+            CHECK(read_motion(text, "README.md").frame.size() == 1);
+        else if (is_state(text))
+            CHECK_NOTHROW(read_state(text, "README.md"));
+        else if (document_format(text) == "bough-material")
+            CHECK_NOTHROW(read_material(text, "README.md"));
+        else if (is_species(text))
+            CHECK_NOTHROW(grow(read_species(text, "README.md").growth, 1, {true, true, true}));
+        else
+            CHECK_NOTHROW(read_wind(text, "README.md"));
+    }
+    CHECK(examples == 16);
+}

@@ -1,0 +1,436 @@
+#include "tests/support/import_support.h"
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+using namespace bough;
+using namespace bough::test;
+
+TEST_CASE("spines of two trunks in centimetres: local points, radii in another scale, decimal commas, BOM") {
+    const Imported in = imported(fixture("two_trunks_spines.xml"), "two_trunks_spines.xml");
+    const Splines& s = in.splines;
+    CHECK(s.name == "Pair");
+    CHECK(s.source == "SpeedTree raw XML 10.0 two_trunks_spines.xml (pair.spm)");
+    REQUIRE(s.branches() == 3); // the branch stands before its trunk in the file
+    CHECK(s.parent == std::vector<std::int32_t>{-1, 0, -1});
+    CHECK(s.level == std::vector<std::int32_t>{0, 1, 0});
+    CHECK(s.first_point == std::vector<std::int32_t>{0, 4, 7, 9});
+    CHECK(near(s.point[0], {0.2, 0, 0.1}));
+    CHECK(near(s.point[3], {0.2, 4, 0.1}));
+    CHECK(near(s.point[7], {-1, 0, 0}));
+    // The joint stays 10 cm off the trunk's axis, 150 cm up its 400.
+    CHECK(near(s.point[4], {0.3, 1.5, 0.1}));
+    CHECK(s.parent_at[1] == Approx(0.375));
+    const std::vector<double> radius{0.1, 0.08, 0.05, 0.02, 0.03, 0.02, 0.01, 0.06, 0.03};
+    for (std::size_t k = 0; k < radius.size(); ++k) CHECK(s.radius[k] == Approx(radius[k]));
+    CHECK(in.notes_hold("multiplied by 100"));
+    CHECK(in.notes_hold("taken as cm, because the tree is 400 units high"));
+    CHECK(in.notes_hold("taken as Z"));
+}
+
+TEST_CASE("leaf references: absolute positions, degrees, Scale times the mesh's bounds") {
+    const Splines s = imported(fixture("two_trunks_spines.xml"), "two_trunks_spines.xml").splines;
+    REQUIRE(s.leaves() == 2);
+    CHECK(s.leaf_branch == std::vector<std::int32_t>{1, 2});
+    // 50 of 50 + 50 sqrt(2) along the branch; 240 of 250 up the second trunk, found without a bone.
+    CHECK(s.leaf_at[0] == Approx(1 / (1 + std::sqrt(2.0))));
+    CHECK(s.leaf_at[1] == Approx(0.96));
+    CHECK(near(s.leaf_position[0], {0.8, 1.5, 0.1}));
+    CHECK(near(s.leaf_position[1], {-1, 2.4, -0.05}));
+    CHECK(s.leaf_length[0] == Approx(0.12));
+    CHECK(s.leaf_width[0] == Approx(0.06));
+    CHECK(s.leaf_length[1] == Approx(0.06));
+    // 90 degrees about the file's z turn the mesh's y to -x; its thin z stays up. Not turned, y is -z in Y up.
+    CHECK(near(s.leaf_rotation[0] * Vec3::UnitZ(), {-1, 0, 0}));
+    CHECK(near(s.leaf_rotation[0] * Vec3::UnitY(), {0, 1, 0}));
+    CHECK(near(s.leaf_rotation[1] * Vec3::UnitZ(), {0, 0, -1}));
+    CHECK(near(s.leaf_rotation[1] * Vec3::UnitY(), {0, 1, 0}));
+}
+
+TEST_CASE("options override what a file states or leaves open") {
+    ImportOptions options;
+    options.unit = 0.5;
+    options.up = 'y';
+    const Imported spines = imported(fixture("two_trunks_spines.xml"), "a.xml", options);
+    CHECK(near(spines.splines.point[0], {10, -5, 0}));
+    CHECK(spines.splines.radius[0] == Approx(5));
+    CHECK_FALSE(spines.notes_hold("--units"));
+    options.up = 'z';
+    CHECK(near(imported(fixture("forked_bones.xml"), "b.xml", options).splines.point[1], {0, 0, -5}));
+}
+
+TEST_CASE("without bones the bark measures the spine's radii, without both they are metres") {
+    const std::string bark = fixture("spines_and_bark.xml");
+    const Imported measured = imported(bark, "bark.xml");
+    CHECK(measured.splines.radius[0] == Approx(0.2));
+    CHECK(measured.notes_hold("bark points over spine radius is 100"));
+    const Imported bare = imported(replaced(replaced(bark, "<Points", "<Dots"), "</Points", "</Dots"), "bare.xml");
+    CHECK(bare.splines.radius[0] == Approx(0.2));
+    CHECK(bare.notes_hold("taken as metres"));
+}
+
+TEST_CASE("radii are scaled by the nearest known conversion also where bones are thinner than spines") {
+    std::string thin = fixture("two_trunks_spines.xml");
+    for (const auto& [from, to] : std::map<std::string, std::string>{{"Radius=\"3\"", "Radius=\"2.52\""},
+                                                                     {"Radius=\"2\"", "Radius=\"1.68\""},
+                                                                     {"Radius=\"6\"", "Radius=\"5.04\""}})
+        thin = replaced(thin, from, to);
+    CHECK(imported(thin, "thin.xml").splines.radius[0] == Approx(0.1));
+}
+
+TEST_CASE("bones alone are grouped into branches") {
+    const Imported in = imported(fixture("forked_bones.xml"), "forked_bones.xml");
+    const Splines& s = in.splines;
+    constexpr double ft = 0.3048;
+    REQUIRE(s.branches() == 5);
+    // In file order: the trunk, its crooked continuation, the two twigs (parents first), the second trunk.
+    CHECK(s.parent == std::vector<std::int32_t>{-1, 0, 0, 0, -1});
+    CHECK(s.first_point == std::vector<std::int32_t>{0, 4, 6, 8, 10, 12});
+    CHECK(s.parent_at[1] == Approx(1.0 / 3)); // of two that go on, the straight one is the trunk
+    CHECK(s.parent_at[2] == Approx(0.5));     // 15 of 30, half a foot off the axis
+    CHECK(s.parent_at[3] == Approx(2.0 / 3)); // begins at a bone's end but has another Generator
+    CHECK(near(s.point[6], ft * Vec3(0.5, 15, 0)));
+    CHECK(near(s.point[3], ft * Vec3(0, 30, 0)));
+    // Radius is at each bone's start; the tip's goes on with the taper 0.8 to 0.4, down to a tenth of the last.
+    for (const auto& [k, radius] : std::map<int, double>{{0, 1}, {1, 0.8}, {2, 0.4}, {3, 0.04}, {4, 0.5}, {5, 0.5}})
+        CHECK(s.radius[k] == Approx(ft * radius));
+    REQUIRE(s.leaves() == 1);
+    CHECK(s.leaf_branch[0] == 2);
+    CHECK(s.leaf_at[0] == Approx(4.5 / 9.5));
+    CHECK(s.leaf_length[0] == Approx(0.5 * ft));
+    CHECK(s.leaf_width[0] == Approx(0.25 * ft));
+    CHECK(in.notes_hold("1 leaf without a mesh"));
+    CHECK(in.notes.lines.size() == 1); // unit and up axis are stated
+}
+
+TEST_CASE("bones with neither end nor radius get both") {
+    const Imported in = imported(fixture("bare_bones.xml"), "bare_bones.xml");
+    const Splines& s = in.splines;
+    REQUIRE(s.branches() == 2);
+    CHECK(near(s.point[s.first_point[1] - 1], {0, 3, 0})); // the tip is as long as the step from its parent
+    CHECK(near(s.point[s.first_point[1]], {0.05, 1.5, 0}));
+    CHECK(near(s.point.back(), {0.1, 2, 0}));
+    CHECK(s.parent_at[1] == Approx(0.5));
+    // 300 cm high: 2.5 cm at the ground; wood beyond: 300 + side, 200 + side, 100, side.
+    const double side = std::sqrt(25.0 + 2500.0);
+    CHECK(s.radius[0] == Approx(0.025));
+    CHECK(s.radius[1] == Approx(0.025 * std::sqrt((200 + side) / (300 + side))));
+    CHECK(s.radius[2] == Approx(0.025 * std::sqrt(100 / (300 + side))));
+    CHECK(s.radius[s.first_point[1]] == Approx(0.025 * std::sqrt(side / (300 + side))));
+    CHECK(in.notes_hold("4 bones without End"));
+    CHECK(in.notes_hold("4 bones without Radius"));
+}
+
+TEST_CASE("a branch without length is left out and what it carries moves to its parent") {
+    const std::string flat = replaced(fixture("two_trunks_spines.xml"), "<X>0. 50. 100. </X>", "<X>0. 0. 0. </X>");
+    const Imported in = imported(replaced(flat, "<Z>0. 0. 5e+001 </Z>", "<Z>0. 0. 0. </Z>"), "flat.xml");
+    REQUIRE(in.splines.branches() == 2);
+    CHECK(in.splines.leaf_branch == std::vector<std::int32_t>{0, 1});
+    CHECK(in.splines.leaf_at[0] == Approx(0.375));
+    CHECK(in.notes_hold("1 branch without length"));
+}
+
+TEST_CASE("a leaf of Scale 0 is left out, spines without radii have those of their bones") {
+    const std::string good = fixture("two_trunks_spines.xml");
+    const Imported bare = imported(replaced(good, "<Scale>12. </Scale>", "<Scale>0 </Scale>"), "s.xml");
+    CHECK(bare.splines.leaves() == 1);
+    CHECK(bare.notes_hold("1 leaf of Scale 0 left out"));
+    std::string thin = good;
+    for (int spine = 0; spine < 3; ++spine)
+        thin = replaced(replaced(thin, "<Radius>", "<Girth>"), "</Radius>", "</Girth>");
+    const Imported filled = imported(thin, "s.xml");
+    CHECK(filled.notes_hold("points of spines without radii given the Radius of their bones"));
+    CHECK_FALSE(filled.notes_hold("multiplied"));
+    CHECK(filled.splines.radius[7] == Approx(0.06)); // the second trunk's bone has Radius 6, in cm
+    for (const double r : filled.splines.radius) CHECK(r > 0);
+}
+
+TEST_CASE("units and axes in the words that exporters use") {
+    const std::string good = fixture("forked_bones.xml");
+    for (const auto& [word, metres] :
+         std::map<std::string, double>{{"Feet", 0.3048}, {"inches", 0.0254}, {"Meter", 1}, {"CM", 0.01}})
+        CHECK(imported(replaced(good, "units=\"ft\"", "units=\"" + word + "\""), "u.xml").splines.point[3].y() ==
+              Approx(30 * metres));
+    for (const char* word : {"y", "Y-Up", "+Y", "y_up"})
+        CHECK(imported(replaced(good, "upAxis=\"Y\"", "upAxis=\"" + std::string(word) + "\""), "u.xml")
+                  .splines.point[3]
+                  .y() == Approx(30 * 0.3048));
+}
+
+TEST_CASE("wrong SpeedTree files are refused with their line") {
+    const std::string good = fixture("two_trunks_spines.xml"), bones = fixture("forked_bones.xml");
+    const auto error = [&](const std::string& from, const std::string& to) {
+        return error_of(replaced(good, from, to), "s.xml");
+    };
+    CHECK(error("<Z>0. 0. 5e+001 </Z>", "<Z>0. 0. 5e+001x </Z>") ==
+          "s.xml:21: <Spine> Z holds \"5e+001x\", expected finite numbers");
+    CHECK(error("3e-002 0,02", "3e-002 0,0,2").find("s.xml:22: <Spine> Radius holds \"0,0,2\"") == 0);
+    CHECK(error("3e-002 0,02", "-3e-002 0,02").find("s.xml:18: <Spine> Radius holds -0.03") == 0);
+    CHECK(error("<X>0. 50. 100. </X>", "<X>0. 50. nan </X>").find("\"nan\"") != std::string::npos);
+    CHECK(error("<X>0. 50. 100. </X>", "<X>0. 50. 1e999 </X>").find("\"1e999\"") != std::string::npos);
+    CHECK(error("<X>0. 50. 100. </X>", "<X>0. 50. </X>").find("s.xml:18: <Spine> Y holds 3 values, expected 2") == 0);
+    CHECK(error("<Spine Count=\"3\">", "<Spine Count=\"4\">").find("s.xml:18: <Spine> says Count 4 but holds 3") == 0);
+    CHECK(error("ID=\"3\" ParentID=\"1\"", "ID=\"3\" ParentID=\"11\"")
+              .find("s.xml:17: <Object> ParentID 11 does not exist") == 0);
+    CHECK(error("ID=\"3\" ParentID=\"1\"", "ID=\"2\" ParentID=\"1\"").find("ID 2 is used twice") != std::string::npos);
+    CHECK(error("ID=\"1\" ParentID=\"0\"", "ID=\"1\" ParentID=\"3\"").find("is its own ancestor") != std::string::npos);
+    CHECK(error("<BoneID>3 </BoneID>", "<BoneID>99 </BoneID>") ==
+          "s.xml:44: <LeafReferences> BoneID 99 does not exist, expected the ID of a Bone or -1");
+    CHECK(error("<Scale>12. </Scale>", "<Scale>-1 </Scale>").find("Scale holds -1") != std::string::npos);
+    CHECK(error("<Scale>12. </Scale>", "").find("Scale holds 0 values, expected 1") != std::string::npos);
+    CHECK(error("<RotAxisZ>1. </RotAxisZ>", "<RotAxisZ>0 </RotAxisZ>").find("axis of no length") != std::string::npos);
+    CHECK(error("Radius=\"8,4\"", "Radius=\"8,4.\"").find("s.xml:61: <Bone> Radius is \"8,4.\"") == 0);
+    CHECK(error("</Objects>", "</Object>").find("s.xml:59: XML is broken") == 0);
+    CHECK(error_of(replaced(bones, "units=\"ft\"", "units=\"cubit\""), "b.xml")
+              .find("b.xml:2: <SpeedTreeRaw> units is \"cubit\"") == 0);
+    CHECK(error_of(replaced(bones, "upAxis=\"Y\"", "upAxis=\"X\""), "b.xml").find("upAxis is \"X\"") !=
+          std::string::npos);
+    CHECK(error_of(replaced(bones, " StartY=\"10\"", ""), "b.xml").find("b.xml:15: <Bone> has no StartY") == 0);
+    CHECK(error_of(replaced(bones, "ID=\"14\" ParentID=\"11\"", "ID=\"14\" ParentID=\"14\""), "b.xml")
+              .find("b.xml:18: <Bone> is its own ancestor") == 0);
+    CHECK(error_of("<SpeedTreeRaw><Objects/></SpeedTreeRaw>", "s.xml").find("Raw XML with spines or bones") !=
+          std::string::npos);
+}
+
+TEST_CASE("files that hold no skeleton are refused with what to do instead") {
+    const auto says = [](const std::string& content, const std::string& name, const std::string& text) {
+        INFO(name);
+        CHECK(error_of(content, name).find(text) != std::string::npos);
+    };
+    const std::string binary("\0\1\2", 3);
+    says("", "a.xml", "is empty");
+    says(" \n\t", "a.xml", "is blank");
+    for (const char* name : {"oak.srt", "oak.SPM", "oak.st", "oak.st9"})
+        says(binary, name, "export it from SpeedTree as Raw XML");
+    says("SRT 07.0.0", "oak", "export it from SpeedTree as Raw XML");
+    says("Ogawa" + binary, "oak.abc", "Alembic");
+    says("PXR-USDC" + binary, "oak.usd", "USD");
+    says("#usda 1.0\n", "oak.usda", "USD");
+    says("<Trees/>", "a.xml", "not SpeedTree raw XML");
+    says("<?xml version='1.0'?><arbaro/>", "a.xml", "Arbaro");
+    says("{\"format\": \"bough-tree\", \"version\": 1}", "oak.tree.json", "\"bough-tree\"");
+    says("once upon a time", "a.txt", "unknown format");
+    says(binary, "a", "binary");
+}
+
+TEST_CASE("damaged SpeedTree files are read or refused in one line") {
+    damage(fixture("two_trunks_spines.xml"), "damaged.xml", 3);
+    damage(fixture("forked_bones.xml"), "damaged.xml", 1);
+    damage(fixture("bare_bones.xml"), "damaged.xml", 1);
+}
+
+TEST_CASE("a chain of 1e5 bones is grouped without recursion") {
+    std::string text = "<SpeedTreeRaw units=\"m\" upAxis=\"Y\"><Bones>";
+    for (int i = 100000; i-- > 0;)
+        text += "<Bone ID=\"" + std::to_string(i) + "\" ParentID=\"" + std::to_string(i - 1) +
+                "\" Radius=\"0.1\" StartX=\"0\" StartY=\"" + std::to_string(i) +
+                "e-3\" StartZ=\"0\" EndX=\"0\" EndY=\"" + std::to_string(i + 1) + "e-3\" EndZ=\"0\"/>";
+    const Splines s = imported(text + "</Bones></SpeedTreeRaw>", "deep.xml").splines;
+    CHECK(s.branches() == 1);
+    CHECK(s.points() == 100001);
+    CHECK(top_of(s) == Approx(100));
+}
+
+TEST_CASE("very many spines that begin at one place are found by their bones") {
+    constexpr int count = 60000; // each looked at by each would be a minute
+    std::string objects =
+        "<Object ID=\"0\"><Spine><X>0 0</X><Y>0 0</Y><Z>0 10</Z><Radius>1 1</Radius></Spine></Object>";
+    std::string bones = "<Bone ID=\"0\" ParentID=\"-1\" Radius=\"1\" StartX=\"0\" StartY=\"0\" StartZ=\"0\" EndX=\"0\" "
+                        "EndY=\"0\" EndZ=\"10\"/>";
+    for (int i = 1; i <= count; ++i) {
+        const std::string id = std::to_string(i);
+        objects += "<Object ID=\"" + id + "\" ParentID=\"0\"><Spine><X>0 1</X><Y>0 0</Y><Z>5 5</Z><Radius>.1 " +
+                   ".1</Radius></Spine></Object>";
+        bones += "<Bone ID=\"" + id + "\" ParentID=\"0\" Radius=\".1\" StartX=\"0\" StartY=\"0\" StartZ=\"5.000001\" " +
+                 "EndX=\"1\" EndY=\"0\" EndZ=\"5\"/>";
+    }
+    const Imported in = imported(
+        "<SpeedTreeRaw><Objects>" + objects + "</Objects><Bones>" + bones + "</Bones></SpeedTreeRaw>", "fan.xml");
+    CHECK(in.splines.branches() == count + 1);
+}
+
+TEST_CASE(
+    "spines without radii have those of the bones that begin nearest to them, as a search through all finds them") {
+    // Spines side by side that fill a wide, deep and low space, many of them at one place or in one plane; each has a bone, which
+    // begins a little off and says a thickness of its own.
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> unit(0, 1);
+    constexpr int count = 400;
+    std::vector<Vec3> start;
+    std::string objects, bones;
+    std::vector<Vec3> bone_start;
+    const auto number = [](double v) { return std::to_string(v); }; // of six places, which are read back
+    const auto rounded = [&](double v) { return std::stod(number(v)); };
+    for (int i = 0; i < count; ++i) {
+        Vec3 p(rounded(9 * unit(random)), rounded(5 * unit(random)), rounded(2 * unit(random)));
+        if (i % 4 == 1) p.x() = 3;
+        if (i % 4 == 2) p = start[random() % start.size()];
+        start.push_back(p);
+        bone_start.emplace_back(rounded(p.x() + 0.3 * unit(random)), rounded(p.y()),
+                                rounded(p.z() + 0.3 * unit(random)));
+        const Vec3& b = bone_start.back();
+        objects += "<Object ID=\"" + std::to_string(i) + "\" AbsX=\"" + number(p.x()) + "\" AbsY=\"" + number(p.y()) +
+                   "\" AbsZ=\"" + number(p.z()) + "\"><Spine><X>0 0</X><Y>0 0</Y><Z>0 1</Z></Spine></Object>";
+        bones += "<Bone ID=\"" + std::to_string(i) + "\" ParentID=\"-1\" Radius=\"" + number(0.01 + 0.001 * i) +
+                 "\" StartX=\"" + number(b.x()) + "\" StartY=\"" + number(b.y()) + "\" StartZ=\"" + number(b.z()) +
+                 "\" EndX=\"" + number(b.x()) + "\" EndY=\"" + number(b.y()) + "\" EndZ=\"" + number(b.z() + 1) +
+                 "\"/>";
+    }
+    ImportOptions options;
+    options.unit = 1;
+    options.up = 'y';
+    const Splines s =
+        imported("<SpeedTreeRaw><Objects>" + objects + "</Objects><Bones>" + bones + "</Bones></SpeedTreeRaw>", "x.xml",
+                 options)
+            .splines;
+    REQUIRE(s.branches() == count);
+    // Of bones that are nearest to one spine the last one's radius counts.
+    std::vector<double> radius(count, 0);
+    for (int i = 0; i < count; ++i) {
+        int nearest = 0;
+        for (int k = 0; k < count; ++k)
+            if ((start[k] - bone_start[i]).norm() < (start[nearest] - bone_start[i]).norm()) nearest = k;
+        radius[nearest] = 0.01 + 0.001 * i;
+    }
+    std::size_t told = 0;
+    for (int k = 0; k < count; ++k) {
+        if (radius[k] == 0) continue; // by the pipe rule
+        ++told;
+        const std::int32_t first = s.first_point[k];
+        CHECK(s.radius[first] == Approx(radius[k]));
+    }
+    CHECK(told > 200);
+}
+
+TEST_CASE("the young maple of data is a tree of three levels with leaves") {
+    const Imported in = imported(content_of(std::string(BOUGH_DATA_DIR) + "/young_maple.xml"), "young_maple.xml");
+    const Splines& s = in.splines;
+    CHECK(*std::max_element(s.level.begin(), s.level.end()) == 2);
+    CHECK(s.leaves() >= 60);
+    CHECK(s.leaves() <= 110);
+    CHECK(top_of(s) > 3.5);
+    CHECK(top_of(s) < 5);
+    CHECK(s.radius[0] == Approx(0.032));
+    CHECK(in.notes_hold("multiplied by 100"));
+    // Every leaf sits on its branch.
+    for (std::size_t l = 0; l < s.leaves(); ++l) {
+        double nearest = 1e9;
+        const std::int32_t b = s.leaf_branch[l];
+        for (std::int32_t k = s.first_point[b]; k < s.first_point[b + 1]; ++k)
+            nearest = std::min(nearest, (s.point[k] - s.leaf_position[l]).norm());
+        CHECK(nearest < 0.15);
+    }
+}
+
+namespace {
+
+// How far leaves point along the wood that carries them, on average.
+double mean_cosine(const Splines& s) {
+    double sum = 0;
+    for (std::size_t l = 0; l < s.leaves(); ++l) {
+        const std::int32_t b = s.leaf_branch[l];
+        const double length = branch_length(s, b);
+        double arc = 0;
+        for (std::int32_t k = s.first_point[b]; k + 1 < s.first_point[b + 1]; ++k) {
+            const Vec3 piece = s.point[k + 1] - s.point[k];
+            arc += piece.norm();
+            if (arc / length < s.leaf_at[l] - 1e-9 && k + 2 < s.first_point[b + 1]) continue;
+            sum += piece.normalized().dot(s.leaf_rotation[l] * Vec3::UnitZ());
+            break;
+        }
+    }
+    return sum / double(s.leaves());
+}
+
+std::int32_t leaf_nearest(const Splines& s, const Vec3& p) {
+    std::size_t best = 0;
+    for (std::size_t l = 0; l < s.leaves(); ++l)
+        if ((s.leaf_position[l] - p).norm() < (s.leaf_position[best] - p).norm()) best = l;
+    return std::int32_t(best);
+}
+
+} // namespace
+
+TEST_CASE("one tree in centimetres with spines, in metres with bones, merged: the same tree") {
+    const auto spines_file = foreign_case("speedtree/SimpleTree_01_spines_cm.xml");
+    const auto bones_file = foreign_case("speedtree/SimpleTree_01_groups_m.xml");
+    const auto merged_file = foreign_case("speedtree/SimpleTree_03_merged_cm.xml");
+    if (!spines_file || !bones_file || !merged_file) return;
+    const Splines spines = imported(*spines_file, "spines.xml").splines,
+                  bones = imported(*bones_file, "bones.xml").splines,
+                  merged = imported(*merged_file, "merged.xml").splines;
+    CHECK(spines.points() == 436);
+    CHECK(bones.points() == 105 + 23);
+    for (const Splines* s : {&spines, &bones, &merged}) {
+        CHECK(s->branches() == 23);
+        CHECK(s->leaves() == 39);
+        CHECK(std::count(s->parent.begin(), s->parent.end(), -1) == 1);
+        CHECK(std::count(s->level.begin(), s->level.end(), 1) == 6);
+        CHECK(std::count(s->level.begin(), s->level.end(), 2) == 16);
+        CHECK(top_of(*s) == Approx(11.6444).margin(1e-3));
+        CHECK(s->radius[0] == Approx(0.2).epsilon(0.17)); // bones of the trunk have 0.84 of its radius
+        CHECK(total_length(*s) == Approx(total_length(spines)).epsilon(0.03));
+    }
+    // Branches: same joint, same place on the parent, same tip, same radius at the joint; spines only have more points.
+    std::vector<std::int32_t> spine_of_bone_branch;
+    for (std::size_t b = 0; b < bones.branches(); ++b) {
+        const Vec3 joint = bones.point[bones.first_point[b]];
+        std::size_t same = 0;
+        for (std::size_t c = 0; c < spines.branches(); ++c)
+            if ((spines.point[spines.first_point[c]] - joint).norm() <
+                (spines.point[spines.first_point[same]] - joint).norm())
+                same = c;
+        spine_of_bone_branch.push_back(std::int32_t(same));
+        CHECK(near(spines.point[spines.first_point[same]], joint, 1e-4));
+        CHECK(near(spines.point[spines.first_point[same + 1] - 1], bones.point[bones.first_point[b + 1] - 1], 1e-4));
+        CHECK(spines.parent_at[same] == Approx(bones.parent_at[b]).margin(0.02));
+        if (b > 0)
+            CHECK(spines.radius[spines.first_point[same]] == Approx(bones.radius[bones.first_point[b]]).epsilon(1e-4));
+        if (b > 0)
+            CHECK(spines.radius[spines.first_point[same + 1] - 1] ==
+                  Approx(bones.radius[bones.first_point[b + 1] - 1]).epsilon(0.35));
+        if (bones.parent[b] >= 0) CHECK(spines.parent[same] == spine_of_bone_branch[bones.parent[b]]);
+    }
+    for (std::size_t l = 0; l < bones.leaves(); ++l) {
+        for (const Splines* other : {&spines, &merged}) {
+            const std::int32_t same = leaf_nearest(*other, bones.leaf_position[l]);
+            CHECK(near(other->leaf_position[same], bones.leaf_position[l], 1e-4));
+            CHECK(other->leaf_length[same] == Approx(bones.leaf_length[l]).epsilon(1e-4));
+            CHECK(other->leaf_width[same] == Approx(bones.leaf_width[l]).epsilon(1e-4));
+            // By the object tree here, by the bone's ID there.
+            if (other == &spines) CHECK(other->leaf_branch[same] == spine_of_bone_branch[bones.leaf_branch[l]]);
+        }
+    }
+    // Leaves were turned a little between the two exports, but grow outward in both.
+    CHECK(mean_cosine(bones) > 0.8);
+    CHECK(mean_cosine(spines) > 0.75);
+}
+
+TEST_CASE("a small hand-written export with units, axis and bare bones") {
+    const auto content = foreign_case("speedtree/leafrefs_on_trunk.xml");
+    if (!content) return;
+    const Splines s = imported(*content, "leafrefs.xml").splines;
+    CHECK(s.branches() == 1);
+    CHECK(near(s.point[1], {0, 1, 0}));
+    REQUIRE(s.leaves() == 1);
+    CHECK(near(s.leaf_position[0], {0.1, 1.25, 0.1}));
+    CHECK(s.leaf_length[0] == Approx(0.3));
+}
+
+TEST_CASE("every foreign file is read or refused in one line") {
+    const char* folder = std::getenv("BOUGH_CASES_DIR");
+    if (folder == nullptr) {
+        WARN("BOUGH_CASES_DIR is not set: foreign files not tested");
+        return;
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        const std::string name = entry.path().filename().string();
+        INFO(name);
+        error_of(content_of(entry.path().string()), name); // which are read: cli/import.sh
+    }
+    CHECK(error_of(*foreign_case("invalid/speedtree_invalid_leaf_bone.xml"), "x")
+              .find("x:24: <LeafReferences> BoneID 99") == 0);
+    CHECK(error_of(*foreign_case("invalid/speedtree_missing_skeleton.xml"), "x").find("no skeleton") !=
+          std::string::npos);
+}

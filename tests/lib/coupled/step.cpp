@@ -1,0 +1,152 @@
+// One coupled step against the same step by dense algebra.
+#include "lib/coupled/body_load.h"
+#include "lib/coupled/midpoint.h"
+#include "lib/coupled/resolvent.h"
+#include "lib/stages/wind.h"
+#include "tests/support/coupled_cases.h"
+#include "tests/support/coupled_support.h"
+#include "tests/support/dense_step.h"
+#include "tests/support/sanitized.h"
+#include <catch2/catch.hpp>
+
+using namespace bough;
+using namespace coupled;
+using solver::empty_scene;
+using solver::random_vector;
+
+namespace {
+
+constexpr double h = 1.0 / 30;
+
+struct Named {
+    std::string name;
+    Scene scene;
+    dense::GroundMotion ground{};
+};
+
+std::vector<Named> scenes() {
+    Scene bare = empty_scene(), heavy = bare, blown = bare, pulled = bare;
+    heavy.gravity = Vec3(1, -9.81, 2);
+    blown.wind = wind_preset("breeze");
+    blown.wind->profile = 0; // the dense solve has one wind everywhere
+    pulled.pulls = {pull_on(3, Vec3(1, 0, -4), Vec3(-8, 1, 2)), pull_on(9, Vec3(0, 0.1, 0), Vec3(0.2, 0.1, 0.5))};
+    Scene all = blown;
+    all.gravity = heavy.gravity;
+    all.pulls = pulled.pulls;
+    dense::GroundMotion driven, turning;
+    driven.v = {3, -1, 2};
+    driven.a = {4, 5, -6};
+    turning.omega = {0.5, 2, -1};
+    dense::GroundMotion both = driven;
+    both.omega = turning.omega;
+    return {{"nothing", bare},
+            {"gravity", heavy},
+            {"wind", blown},
+            {"pulls", pulled},
+            {"all", all},
+            {"driven ground", bare, driven},
+            {"turning ground", bare, turning},
+            {"all, driven and turning", all, both}};
+}
+
+// In random motion at 0.7 s, with random last changes.
+struct Bench : Run<double> {
+    Bench(const Tree& tree, const Named& named, Scheme scheme) : Run(tree, moved(named), scheme, h) {
+        if (plan.root_motion)
+            plan.splines = {steady_ground(named.ground.v.cast<double>(), named.ground.a.cast<double>(),
+                                          named.ground.omega.cast<double>())};
+        state.step = 21;
+        make_tree::Dice dice{std::mt19937(5)};
+        for (std::size_t i = 0; i < plan.bodies; ++i) {
+            state.theta[i] = random_vector(dice, 0.6);
+            state.theta_dot[i] = random_vector(dice, 0.8);
+            state.theta_change[i] = random_vector(dice, 0.02);
+            state.theta_dot_change[i] = random_vector(dice, 0.5);
+        }
+    }
+    static Scene moved(const Named& named) {
+        Scene scene = named.scene;
+        if (named.ground.v.isZero() && named.ground.omega.isZero()) return scene;
+        scene.root_motion = {two_keys()};
+        return scene;
+    }
+};
+
+dense::Step step_of(const Tree& tree, const Named& named, const Bench& bench) {
+    const double t = double(bench.state.step) * h;
+    dense::Step step{
+        {tree, bench.plan, bench.state.theta, {}}, bench.state.theta_dot, bench.state.theta, bench.state.theta_dot};
+    step.h = h;
+    dense::Problem& p = step.middle;
+    p.time = t + h / 2;
+    p.ground = named.ground;
+    for (std::size_t i = 0; i < bench.plan.bodies; ++i) {
+        p.theta[i] += bench.state.theta_change[i] / 2;
+        step.eta[i] += bench.state.theta_dot_change[i] / 2;
+        p.rate.push_back(body_rate_jacobian(p.theta[i]) * step.eta[i]);
+    }
+    const Scene& scene = bench.plan.scene;
+    if (scene.wind) {
+        p.air = true;
+        p.wind = wind_velocity(*scene.wind, t + h / 2).cast<dense::Real>();
+        step.wind_change = (wind_velocity(*scene.wind, t + h) - wind_velocity(*scene.wind, t)).cast<dense::Real>();
+    }
+    for (const Pull& pull : scene.pulls) {
+        const Vec3 rise = (pull.force[1] - pull.force[0]) / 2; // a second
+        p.pulls.push_back((pull.force[0] + (t + h / 2) * rise).cast<dense::Real>());
+        step.pull_change.push_back((h * rise).cast<dense::Real>());
+    }
+    return step;
+}
+
+// The step's stages up to its changes: what the energy guard makes of them is no part of the equations.
+void solve(Bench& bench) {
+    const double time = double(bench.state.step) * h;
+    const RationalScheme& scheme = scheme_of(bench.plan.scheme);
+    if (bench.plan.wind) wind_over_step(bench.plan, bench.state, time);
+    ground_over_step(bench.plan, bench.state, time);
+    midpoint(bench.plan, bench.state, scheme.extrapolates);
+    body_loads(bench.plan, bench.state, time);
+    for (Vec3& change : bench.state.theta_change) change.setZero();
+    for (Vec3& change : bench.state.theta_dot_change) change.setZero();
+    for (int k = 0; k < scheme.poles; ++k) resolvent(bench.plan, bench.state, scheme.pole[std::size_t(k)]);
+}
+
+// Of the changes of theta and of theta_dot, each relative to its largest: the worst.
+double difference(const Bench& after, const dense::Vector& truth) {
+    double worst = 0;
+    const auto n = Eigen::Index(after.plan.bodies);
+    for (const bool rates : {false, true}) {
+        double off = 0, size = 0;
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const Vec3 expected = truth.segment<3>(3 * (rates ? n + i : i)).cast<double>();
+            const Vec3& found = (rates ? after.state.theta_dot_change : after.state.theta_change)[std::size_t(i)];
+            off = std::max(off, (found - expected).norm());
+            size = std::max(size, expected.norm());
+        }
+        worst = std::max(worst, off / size);
+    }
+    return worst;
+}
+
+} // namespace
+
+TEST_CASE(
+    "One step is the dense one: of every scheme, under every load, from a random state with random last changes") {
+    for (const bool leaves : ::cases(1, {1, 0})) {
+        // Wood that gravity and wind bend as much as its springs do.
+        Tree tree = leaves ? leafy(2e7, 0.01) : paper_trees::branched(2e7, 0.01);
+        tree.joint_position[0] = Vec3(0.7, 0.2, -0.4); // off the point that the ground turns about
+        for (const Named& named : scenes())
+            for (const Scheme scheme : extrapolating) {
+                Bench bench(tree, named, scheme);
+                const dense::Vector truth = dense::take(step_of(tree, named, bench), scheme);
+                solve(bench);
+                CAPTURE(leaves, named.name, scheme_of(scheme).name);
+                REQUIRE(bench.state.flags.fast_turns == 0);
+                REQUIRE(bench.state.flags.half_turns == 0);
+                // (P34's denominator is a polynomial of fourth degree in a matrix with entries to 1e4.)
+                CHECK(difference(bench, truth) < (scheme == Scheme::p34 ? 1e-8 : 1e-10));
+            }
+    }
+}

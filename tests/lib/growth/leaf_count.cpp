@@ -1,0 +1,165 @@
+// How many leaves a leaf stands for: where the number comes from, and that no tool on its way loses one.
+#include "lib/growth/leaf_count.h"
+#include "formats/documents/splines.h"
+#include "formats/documents/tree.h"
+#include "lib/free/shown_tree.h"
+#include "lib/growth/grow.h"
+#include "lib/growth/lop.h"
+#include "lib/model/split.h"
+#include "lib/stages/reduce.h"
+#include "tests/support/hand_made.h"
+#include "tests/support/random_documents.h"
+#include <numeric>
+
+using namespace bough;
+using namespace bough::test;
+using namespace hand_made;
+
+namespace {
+
+std::int64_t sum(const std::vector<std::int32_t>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+}
+
+double leaf_area(const Splines& s) {
+    double area = 0;
+    for (std::size_t k = 0; k < s.leaves(); ++k) area += s.leaf_length[k] * s.leaf_width[k];
+    return area;
+}
+
+Splines trunk_with_leaves(const std::vector<double>& lengths) {
+    Splines s;
+    add_branch(s, -1, 0, {Vec3::Zero(), Vec3(0, 2, 0)}, {0.05, 0.03});
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+        add_leaf(s, 0, 0.5, Vec3(0.05, 1, 0));
+        s.leaf_length[k] = lengths[k];
+    }
+    return s;
+}
+
+// Leaves of a trunk with clumps among them.
+Tree clumps() {
+    return segment(trunk_with_leaves({0.05, 0.5, 0.1, 0.9}), wood(), {});
+}
+
+} // namespace
+
+TEST_CASE("a leaf that is not spoken of is one up to 0.2 m, then as many as have its area") {
+    Splines s = trunk_with_leaves({0.01, 0.2, 0.21, 0.4, 1, 1});
+    s.leaf_kind = {0, 0, 0, 0, 0, 1};
+    CHECK(leaf_counts(s) == std::vector<std::int32_t>{1, 1, 7, 25, 156, 1});
+    s.leaf_width.assign(6, 3e-3); // proportions make no difference
+    CHECK(leaf_counts(s) == std::vector<std::int32_t>{1, 1, 7, 25, 156, 1});
+    s.leaf_count = {1, 1, 1, 3, 1, 1};
+    CHECK(leaf_counts(s) == s.leaf_count);
+}
+
+TEST_CASE("what is said is said where it changes something") {
+    Splines s = trunk_with_leaves({0.1, 0.15});
+    say_leaf_count(s);
+    CHECK(s.leaf_count.empty());
+    say_leaf_count(s, 2.95);
+    CHECK(s.leaf_count == std::vector<std::int32_t>{9, 9});
+    s.leaf_length[1] = 0.25;
+    say_leaf_count(s);
+    CHECK(s.leaf_count == std::vector<std::int32_t>{1, 1});
+    s.leaf_kind = {0, 1};
+    say_leaf_count(s, 0.5);
+    CHECK(s.leaf_count.empty());
+    say_leaf_count(s, 3);
+    CHECK(s.leaf_count == std::vector<std::int32_t>{9, 1});
+}
+
+TEST_CASE("trees of few bodies stand for as many leaves as have their leaf area") {
+    GrowthParameters p = default_growth();
+    p.leaf_scale = 0.07;
+    p.leaf_scale_v = 0.02;
+    const Splines all = grow(p, 3, {true, false, false});
+    CHECK(all.leaf_count.empty());
+    for (const std::int64_t bodies : {300, 1500}) {
+        const Splines few = grow_bodies(p, 3, {true, false, false}, bodies);
+        REQUIRE(few.leaf_count.size() == few.leaves());
+        // A leaf's mean area: length is uniform about leaf_scale, width goes with it.
+        const double one = p.leaf_scale_x * (p.leaf_scale * p.leaf_scale + p.leaf_scale_v * p.leaf_scale_v / 3);
+        CHECK(double(sum(few.leaf_count)) == Approx(leaf_area(few) / one).epsilon(0.06));
+        CHECK(few.leaf_count[0] > 1);
+        const Tree tree = segment(few, wood(), {});
+        REQUIRE(tree.leaf_count.size() == tree.size_bodies());
+        CHECK(sum(tree.leaf_count) == sum(few.leaf_count) + std::int64_t(tree.size_bodies() - few.leaves()));
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+            if (tree.kind[i] != Kind::leaf) REQUIRE(tree.leaf_count[i] == 1);
+    }
+    p.leaf_scale = 0.6; // a palm's
+    const Splines long_ones = grow(p, 3, {true, false, false});
+    CHECK(sum(long_ones.leaf_count) == std::int64_t(long_ones.leaves()));
+    CHECK(segment(long_ones, wood(), {}).leaf_count.empty());
+}
+
+TEST_CASE("twigs that are lopped take their leaves' numbers along") {
+    Splines s = small_tree();
+    for (std::size_t k = 0; k < s.leaves(); ++k) s.leaf_count.push_back(10 + s.leaf_branch[k]);
+    const Splines less = without_twigs(s, 1, 1);
+    REQUIRE(less.leaves() < s.leaves());
+    REQUIRE(less.leaf_count.size() == less.leaves());
+    for (std::size_t k = 0; k < less.leaves(); ++k) CHECK(less.leaf_count[k] == 10 + less.leaf_branch[k]);
+}
+
+TEST_CASE("clumps keep through joining, splitting, reducing and what is shown") {
+    const Tree a = clumps(), plain = segment(trunk_with_leaves({0.1, 0.1}), wood(), {});
+    REQUIRE(plain.leaf_count.empty());
+    REQUIRE(sum(a.leaf_count) == std::int64_t(a.size_bodies()) - 2 + 39 + 127);
+    Tree joined;
+    append(joined, plain, Vec3::Zero(), 0);
+    CHECK(joined.leaf_count.empty());
+    append(joined, a, Vec3(3, 0, 0), 1);
+    append(joined, plain, Vec3(6, 0, 0), 0);
+    REQUIRE(joined.leaf_count.size() == joined.size_bodies());
+    CHECK(sum(joined.leaf_count) == sum(a.leaf_count) + 2 * std::int64_t(plain.size_bodies()));
+    CHECK_FALSE(check(joined));
+    const std::vector<Tree> parts = split_roots(joined);
+    CHECK(parts[1].leaf_count == a.leaf_count);
+
+    Tree held = a;
+    held.rigid.assign(a.size_bodies(), 0);
+    held.rigid[1] = 1; // a piece of the trunk
+    const Reduced r = reduce(held, {{0, held.size_bodies(), 0}}, 0.6);
+    for (std::size_t g = 0; g < r.leader.size(); ++g)
+        CHECK(r.tree.leaf_count[g] == a.leaf_count[std::size_t(r.leader[g])]);
+
+    const Tree shown = shown_tree(a, {2}, {Ball{}});
+    REQUIRE(shown.leaf_count.size() == a.size_bodies() + 1);
+    CHECK(sum(shown.leaf_count) == sum(a.leaf_count) + 1);
+}
+
+TEST_CASE("counts below 1, and of what is no leaf, are refused") {
+    Tree tree = clumps();
+    tree.leaf_count[0] = 2;
+    REQUIRE(check(tree));
+    CHECK(check(tree)->field == "leaf_count");
+    CHECK(check(tree)->message == "is 2, expected 1 (only a leaf stands for more)");
+    tree.leaf_count[0] = 1;
+    tree.leaf_count.back() = 0;
+    CHECK(check(tree)->message == "is 0, expected 1 or more");
+    tree.leaf_count.pop_back();
+    CHECK(check(tree)->field == "leaf_count");
+    Splines s = trunk_with_leaves({0.1, 0.1});
+    s.leaf_count = {3, -1};
+    CHECK(check(s)->index == 1);
+    s.leaf_count = {3, 2};
+    CHECK_FALSE(check(s));
+    s.leaf_kind = {0, 1};
+    CHECK(check(s)->message == "is 2, expected 1 (only a leaf stands for more)");
+}
+
+TEST_CASE("counts come back from both forms, and are left out where there are none") {
+    const Tree tree = clumps();
+    Tree bare = tree;
+    bare.leaf_count.clear();
+    for (const Form form : {Form::json, Form::safetensors}) {
+        const std::string text = written([&](Output& o) { write_tree(o, tree, form); });
+        CHECK(read_tree(text, "t").leaf_count == tree.leaf_count);
+        const std::string without = written([&](Output& o) { write_tree(o, bare, form); });
+        CHECK(without.find("leaf_count") == std::string::npos);
+        CHECK(read_tree(without, "t").leaf_count.empty());
+    }
+}

@@ -1,0 +1,477 @@
+// simulation.h, files.h: the door, against plan and state by hand, and against runs begun as it was changed to.
+#include "lib/simulation/simulation.h"
+#include "formats/documents/motion.h"
+#include "formats/files.h"
+#include "lib/fast/present.h"
+#include "lib/fast/targets.h"
+#include "lib/reference/advance.h"
+#include "tests/support/count_allocations.h"
+#include "tests/support/make_tree.h"
+#include "tests/support/random_documents.h"
+#include <catch2/catch.hpp>
+
+using namespace bough;
+using bough::test::Folder;
+
+namespace {
+
+Tree leafy() {
+    return convert(grow("birch", {.bodies = 300, .seed = 2, .leaves = true}));
+}
+
+Scene one(const Tree& tree, const char* wind = nullptr) {
+    Scene scene;
+    scene.add(tree);
+    if (wind) scene.wind = wind_preset(wind);
+    return scene;
+}
+
+SimulationOptions with(Precision precision, Method method = Method::coupled) {
+    SimulationOptions o;
+    o.precision = precision;
+    o.method = method;
+    return o;
+}
+
+std::uint64_t run(Simulation& simulation, int steps) {
+    for (int k = 0; k < steps; ++k) REQUIRE(simulation.step().finite());
+    return simulation.hash();
+}
+
+template <class T> std::uint64_t by_hand(const Tree& tree, const Scene& scene, Solver solver, int steps) {
+    Plan<T> plan =
+        make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12, fast::best_target());
+    State<T> state = make_state(plan);
+    for (int k = 0; k < steps; ++k) advance(plan, state);
+    return state_hash(plan, state);
+}
+
+double apart(std::span<const Vec3> a, std::span<const Vec3> b) {
+    REQUIRE(a.size() == b.size());
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+    return most;
+}
+
+std::string refusal(Scene scene, const SimulationOptions& o = {}) {
+    try {
+        const Simulation simulation(std::move(scene), o);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("the door's steps are those of plan and state by hand, in both precisions and methods") {
+    const Tree tree = leafy();
+    const Scene scene = one(tree, "gusty");
+    Scene alone;
+    alone.wind = scene.wind;
+    Simulation a(scene, with(Precision::double_)), b(scene, with(Precision::single)),
+        c(scene, with(Precision::double_, Method::analytic)), d(scene, with(Precision::single, Method::analytic));
+    CHECK(run(a, 20) == by_hand<double>(tree, alone, Solver::coupled, 20));
+    CHECK(run(b, 20) == by_hand<float>(tree, alone, Solver::coupled, 20));
+    CHECK(run(c, 20) == by_hand<double>(tree, alone, Solver::analytic, 20));
+    CHECK(run(d, 20) == by_hand<float>(tree, alone, Solver::analytic, 20));
+    CHECK(a.steps() == 20);
+    CHECK(a.time() == Approx(20 / 30.0));
+    // What is read, presented or not, and how many threads there are, change nothing.
+    SimulationOptions two = with(Precision::double_);
+    two.threads = 2;
+    two.velocities = two.torques = true;
+    Simulation e(scene, two);
+    for (int k = 0; k < 20; ++k) {
+        e.step();
+        CHECK(e.positions().size() == tree.size_bodies());
+        CHECK(e.velocities().size() == tree.size_bodies());
+        CHECK(e.torques().size() == tree.size_bodies());
+    }
+    CHECK(e.hash() == a.hash());
+    CHECK(apart(e.positions(), a.positions()) == 0);
+    CHECK(a.velocities().empty());
+    CHECK(apart(a.positions(), b.positions()) < 1e-4);
+}
+
+TEST_CASE("a simulation keeps what it needs: scene and trees may go") {
+    std::optional<Simulation> simulation;
+    {
+        auto scene = std::make_unique<Scene>(one(leafy(), "gusty"));
+        scene->fracture = Fracture();
+        scene->fracture->leaf = 1e-3;
+        simulation.emplace(*scene);
+    }
+    std::size_t broke = 0;
+    for (int k = 0; k < 30; ++k) {
+        const StepReport report = simulation->step();
+        REQUIRE(report.finite());
+        CHECK(report.broke + report.hits + report.landed == simulation->events().what.size());
+        broke += report.broke;
+    }
+    CHECK(broke > 0);
+    Simulation moved = std::move(*simulation);
+    simulation.reset();
+    CHECK(moved.step().finite());
+    CHECK(moved.positions().size() == moved.tree().size_bodies());
+}
+
+TEST_CASE("what cannot be run is refused once, with its place") {
+    const Tree tree = make_tree::branched();
+    CHECK(refusal(Scene()).find("/trees: is empty") == 0);
+    CHECK(refusal(one(Tree())).find("/trees/0: the tree's") == 0);
+    Tree broken = tree;
+    broken.mass[3] = NAN;
+    CHECK(refusal(one(broken)).find("mass") != std::string::npos);
+    Scene named;
+    named.trees.push_back({"oak.json", Vec3::Zero(), 0, 0, nullptr});
+    CHECK(refusal(named).find("/trees/0: only names a file, 'oak.json'") == 0);
+    Scene wind = one(tree, "gusty");
+    wind.wind->velocity.x() = NAN;
+    CHECK(refusal(wind).find("wind") != std::string::npos);
+    Scene pulled = one(tree);
+    pulled.pulls.push_back({});
+    pulled.pulls[0].on.body = 1000000;
+    pulled.pulls[0].time = {0, 1};
+    pulled.pulls[0].force = {Vec3::Zero(), Vec3::Zero()};
+    CHECK_THAT(refusal(pulled), Catch::Contains("pulls/0"));
+    for (const double step : {0.0, -1.0, double(NAN), double(INFINITY)}) {
+        SimulationOptions o;
+        o.step = step;
+        CHECK(refusal(one(tree), o).find("step is") == 0);
+    }
+    SimulationOptions o;
+    o.sleep = NAN;
+    CHECK(refusal(one(tree), o).find("sleep is") == 0);
+    o = {};
+    o.threads = -1;
+    CHECK(refusal(one(tree), o).find("threads is") == 0);
+    CHECK(refusal(one(tree)).empty());
+}
+
+TEST_CASE("a wind that is changed blows as one that the run began with, and allocates nothing") {
+    const Tree tree = leafy();
+    Wind other = *wind_preset("storm");
+    other.seed = 9;
+    for (const bool portable : {false, true}) {
+        SimulationOptions o;
+        o.portable = portable;
+        Scene there = one(tree, "gusty"), here = one(tree);
+        here.wind = other;
+        Simulation changed(there, o), begun(here, o), left(there, o);
+        changed.set_wind(other);
+        const std::uint64_t hash = run(begun, 15);
+        CHECK(run(changed, 15) == hash);
+        CHECK(run(left, 15) != hash);
+        const Wind back = *wind_preset("gusty");
+        const std::size_t before = allocations;
+        changed.set_wind(back);
+        const std::size_t after = allocations; // before CHECK, which allocates itself
+        CHECK(after == before);
+    }
+    Simulation still(one(tree));
+    CHECK_THROWS_WITH(still.set_wind(other), Catch::Contains("began without one"));
+    Simulation windy(one(tree, "gusty"));
+    Wind gridded = other;
+    gridded.profile = 0.3;
+    CHECK_THROWS_WITH(windy.set_wind(gridded), Catch::Contains("profile"));
+    other.velocity.x() = NAN;
+    CHECK_THROWS_AS(windy.set_wind(other), SceneError);
+    CHECK(windy.step().finite());
+}
+
+TEST_CASE("gravity that is changed pulls as one that the run began with") {
+    const Tree tree = make_tree::branched();
+    for (const bool portable : {false, true}) {
+        SimulationOptions o;
+        o.portable = portable;
+        Scene full = one(tree), tilted = one(tree);
+        full.pose = tilted.pose = Pose::rest; // where the springs' rest does not hang on gravity
+        tilted.gravity = Vec3(1, -3, 0);
+        Simulation changed(full, o), begun(tilted, o);
+        changed.set_gravity(tilted.gravity);
+        CHECK(run(changed, 30) == run(begun, 30));
+    }
+    Scene none = one(tree);
+    none.gravity.setZero();
+    Simulation floating(none);
+    CHECK_THROWS_AS(floating.set_gravity(Vec3(0, -1, 0)), SceneError);
+    Simulation paper(one(tree), with(Precision::double_, Method::analytic));
+    CHECK_THROWS_AS(paper.set_gravity(Vec3(0, -1, 0)), SceneError);
+    Simulation good(one(tree));
+    CHECK_THROWS_AS(good.set_gravity(Vec3(0, NAN, 0)), SceneError);
+}
+
+TEST_CASE("wood that is changed moves as wood that the run began with, and allocates nothing") {
+    const Tree tree = leafy();
+    for (const bool portable : {false, true})
+        for (const Precision precision : {Precision::single, Precision::double_}) {
+            SimulationOptions o = with(precision);
+            o.portable = portable;
+            Scene own = one(tree, "gusty");
+            own.pose = Pose::rest; // where the springs' rest does not hang on them
+            Scene other = own;
+            other.stiffness_scale = 1.7;
+            other.damping_scale = 0.4;
+            Simulation changed(own, o), begun(other, o), left(own, o);
+            const std::size_t before = allocations;
+            changed.set_wood(3, 1);
+            changed.set_wood(1.7, 0.4);
+            const std::size_t after = allocations;
+            CHECK(after == before);
+            run(changed, 15), run(begun, 15), run(left, 15);
+            const double moved = apart(left.positions(), begun.positions());
+            REQUIRE(moved > 1e-3);
+            CHECK(apart(changed.positions(), begun.positions()) <
+                  (precision == Precision::single ? 1e-3 : 1e-10) * moved);
+            const SavedState saved = changed.save(); // goes on with the wood that is set
+            run(changed, 5);
+            left.set_wood(1.7, 0.4);
+            left.restore(saved);
+            CHECK(left.steps() == 15);
+            run(left, 5);
+            CHECK(apart(left.positions(), changed.positions()) < 1e-3 * moved);
+        }
+    Simulation good(one(tree));
+    for (const double bad : {0.0, -1.0, double(NAN), double(INFINITY)})
+        CHECK_THROWS_AS(good.set_wood(bad, 1), SceneError);
+    for (const double bad : {-1.0, double(NAN), double(INFINITY)}) CHECK_THROWS_AS(good.set_wood(1, bad), SceneError);
+    good.set_wood(1, 0);
+    CHECK_THROWS_WITH(good.set_wood(1, 1), Catch::Contains("back"));
+    Simulation paper(one(tree), with(Precision::double_, Method::analytic));
+    CHECK_THROWS_AS(paper.set_wood(2, 1), SceneError);
+}
+
+TEST_CASE("a pull in each step is the scene's pull of that force, and ends with the step") {
+    const Tree tree = make_tree::branched();
+    const std::size_t body = tree.size_bodies() - 1;
+    const Vec3 force(0.3, 0.1, -0.2), point(0, 0, tree.size[body][0]);
+    for (const bool portable : {false, true}) {
+        SimulationOptions o;
+        o.portable = portable;
+        Scene pulled = one(tree);
+        Pull pull;
+        pull.on.body = std::int64_t(body);
+        pull.on.point = point;
+        pull.time = {0, 100};
+        pull.force = {force, force};
+        pulled.pulls = {pull};
+        Simulation begun(pulled, o);
+        o.pulls = true;
+        Simulation by_hand(one(tree), o), still(one(tree), o);
+        for (int k = 0; k < 20; ++k) {
+            by_hand.pull(body, point, force);
+            REQUIRE(by_hand.step().finite());
+            REQUIRE(begun.step().finite());
+            REQUIRE(still.step().finite());
+        }
+        CHECK(apart(by_hand.positions(), begun.positions()) < 1e-12);
+        CHECK(apart(by_hand.positions(), still.positions()) > 1e-4);
+        const std::size_t before = allocations;
+        by_hand.pull(body, point, force);
+        const std::size_t after = allocations;
+        CHECK(after == before);
+        for (int k = 0; k < 900; ++k) by_hand.step(); // let go, it comes back
+        CHECK(apart(by_hand.positions(), still.positions()) < 1e-6);
+        CHECK_THROWS_AS(by_hand.pull(tree.size_bodies(), point, force), SceneError);
+        CHECK_THROWS_AS(by_hand.pull(body, point, Vec3(NAN, 0, 0)), SceneError);
+        CHECK_THROWS_AS(begun.pull(body, point, force), SceneError);
+    }
+}
+
+TEST_CASE("steps allocate nothing once they have run") {
+#ifdef BOUGH_SANITIZED
+    return; // nothing is counted
+#endif
+    const Tree tree = leafy();
+    for (const Precision precision : {Precision::single, Precision::double_}) {
+        SimulationOptions o = with(precision);
+        o.pulls = o.velocities = true;
+        Simulation simulation(one(tree, "gusty"), o);
+        const auto frame = [&] {
+            simulation.pull(5, Vec3::Zero(), Vec3(0.01, 0, 0));
+            simulation.step();
+            CHECK(simulation.positions().size() == tree.size_bodies());
+        };
+        for (int k = 0; k < 3; ++k) frame();
+        const std::size_t before = allocations;
+        simulation.pull(5, Vec3::Zero(), Vec3(0.01, 0, 0));
+        const StepReport report = simulation.step();
+        const std::size_t shown = simulation.positions().size() + simulation.velocities().size();
+        const std::size_t after = allocations;
+        CHECK(after == before);
+        CHECK(report.finite());
+        CHECK(shown == 2 * tree.size_bodies());
+    }
+}
+
+TEST_CASE("a run that is cut ends as the whole one, also with what broke off and through a file") {
+    Scene scene = one(leafy(), "storm");
+    scene.fracture = Fracture();
+    scene.fracture->leaf = 2e-3;
+    Simulation whole(scene), cut(scene);
+    const std::uint64_t hash = run(whole, 30);
+    run(cut, 14);
+    const Folder folder;
+    write_state(folder / "state.json", cut.save());
+    Simulation again(scene);
+    run(again, 3); // it need not be at its start
+    again.restore(read_state(folder / "state.json"));
+    CHECK(again.steps() == 14);
+    CHECK(run(again, 16) == hash);
+    CHECK(apart(again.positions(), whole.positions()) == 0);
+    Simulation other(one(leafy(), "gusty"));
+    CHECK_THROWS_WITH(other.restore(cut.save()), Catch::Contains("/fingerprint"));
+    Simulation coarse(scene, {.step = 1.0 / 15});
+    CHECK_THROWS_WITH(coarse.restore(cut.save()), Catch::Contains("/fps"));
+    SavedState short_one = cut.save();
+    short_one.theta_change.pop_back();
+    const std::uint64_t there = again.hash();
+    CHECK_THROWS_WITH(again.restore(short_one), Catch::Contains("/theta_change"));
+    CHECK(again.hash() == there); // what is refused changes nothing
+    CHECK(again.steps() == 30);
+    SavedState other_scheme = cut.save();
+    other_scheme.scheme = "P34";
+    CHECK_THROWS_WITH(again.restore(other_scheme), Catch::Contains("/scheme"));
+}
+
+TEST_CASE("another run takes a motion over where trees agree, whatever their wood") {
+    const Tree tree = leafy(), rods = make_tree::branched();
+    Scene scene = one(tree, "gusty");
+    scene.add(rods, Vec3(20, 0, 0));
+    Simulation before(scene);
+    run(before, 40);
+    Scene stiffer = scene;
+    stiffer.stiffness_scale = 2;
+    Simulation same(scene, {}, before), after(stiffer, {}, before);
+    CHECK(same.steps() == 40);
+    CHECK(apart(same.positions(), before.positions()) < 1e-12);
+    CHECK(apart(after.positions(), before.positions()) < 1e-12);
+    Simulation at_rest(scene);
+    const double moved = apart(at_rest.positions(), before.positions());
+    run(same, 1), run(before, 1);
+    CHECK(apart(same.positions(), before.positions()) < 0.02 * moved); // the last step's change is not known
+    // Of two trees the one that is another begins at rest.
+    Scene changed;
+    changed.add(rods);
+    changed.add(rods, Vec3(20, 0, 0));
+    changed.wind = scene.wind;
+    Simulation mixed(changed, {}, before);
+    const std::size_t first = rods.size_bodies(), there = tree.size_bodies();
+    CHECK((mixed.positions()[first + 2] - before.positions()[there + 2]).norm() < 1e-9);
+    CHECK((mixed.positions()[2] - Simulation(changed).positions()[2]).norm() < 1e-12);
+}
+
+TEST_CASE("trees that sleep wake with what is changed, and with pulls do not sleep") {
+    const Tree tree = make_tree::branched();
+    SimulationOptions o;
+    o.sleep = 1e-3;
+    Scene scene = one(tree);
+    scene.wind.emplace(); // still air
+    const auto asleep = [&] {
+        auto simulation = std::make_unique<Simulation>(scene, o);
+        run(*simulation, 60);
+        const std::uint64_t hash = simulation->hash();
+        REQUIRE(run(*simulation, 5) == hash);
+        return simulation;
+    };
+    const auto moved = [](Simulation& simulation) {
+        const std::vector<Vec3> before(simulation.positions().begin(), simulation.positions().end());
+        run(simulation, 20);
+        return apart(before, simulation.positions());
+    };
+    Wind breeze;
+    breeze.velocity = Vec3(8, 0, 0);
+    const auto windy = asleep(), heavy = asleep(), soft = asleep();
+    windy->set_wind(breeze);
+    CHECK(moved(*windy) > 1e-4);
+    heavy->set_gravity(Vec3(3, -9.81, 0));
+    CHECK(moved(*heavy) > 1e-4);
+    soft->set_wood(0.3, 1);
+    CHECK(moved(*soft) > 1e-6);
+    CHECK_THROWS_WITH(windy->set_wind(*wind_preset("gusty")), Catch::Contains("sleep"));
+    o.pulls = true;
+    Simulation pulled(scene, o);
+    run(pulled, 60);
+    pulled.pull(tree.size_bodies() - 1, Vec3::Zero(), Vec3(2, 0, 0));
+    CHECK(moved(pulled) > 1e-7);
+    CHECK(pulled.explain().find("forces of the caller") != std::string::npos);
+}
+
+TEST_CASE("what has broken off is not pulled") {
+    Scene scene = one(leafy(), "storm");
+    scene.fracture = Fracture();
+    scene.fracture->leaf = 1e-3;
+    SimulationOptions o;
+    o.pulls = true;
+    Simulation simulation(scene, o);
+    std::int64_t gone = -1;
+    for (int k = 0; k < 30 && gone < 0; ++k) {
+        REQUIRE(simulation.step().finite());
+        for (std::size_t e = 0; e < simulation.events().what.size(); ++e)
+            if (simulation.events().what[e] == "broke") gone = simulation.events().body[e];
+    }
+    REQUIRE(gone >= 0);
+    CHECK_THROWS_WITH(simulation.pull(std::size_t(gone), Vec3::Zero(), Vec3(1, 0, 0)), Catch::Contains("broken off"));
+    simulation.pull(0, Vec3::Zero(), Vec3(1, 0, 0));
+    CHECK(simulation.step().finite());
+}
+
+TEST_CASE("what became non-finite is said once more, and is not gone on with") {
+    Tree tree = make_tree::branched();
+    SimulationOptions o = with(Precision::single);
+    o.pulls = true;
+    Simulation simulation(one(tree), o);
+    simulation.pull(3, Vec3::Zero(), Vec3(1e38, 1e38, 0));
+    simulation.pull(3, Vec3(0, 0, 0.1), Vec3(-1e38, 3e38, 1e38));
+    StepReport report = simulation.step();
+    for (int k = 0; k < 3 && report.finite(); ++k) report = simulation.step();
+    REQUIRE_FALSE(report.finite());
+    CHECK(report.non_finite.find("stage ") == 0);
+    CHECK(report.non_finite.find("body ") != std::string::npos);
+    const std::int64_t steps = simulation.steps();
+    CHECK(simulation.step().non_finite == report.non_finite);
+    CHECK(simulation.steps() == steps);
+}
+
+TEST_CASE("joints that are held are shown with all bodies, and the plan says why") {
+    Scene scene = one(leafy(), "gusty");
+    scene.simulate = Simulate();
+    scene.simulate->last_level = 1;
+    Simulation simulation(scene);
+    run(simulation, 5);
+    CHECK(simulation.bodies() == leafy().size_bodies());
+    CHECK(simulation.positions().size() == simulation.bodies());
+    CHECK(simulation.explain().find("/simulate") != std::string::npos);
+    CHECK(simulation.explain().find("stage ") != std::string::npos);
+    CHECK(simulation.bytes() > 0);
+}
+
+TEST_CASE("a motion file holds what the simulation shows, and does not appear before it is whole") {
+    const Folder folder;
+    Simulation simulation(one(make_tree::branched(), "gusty"));
+    const std::string file = folder / "motion.json";
+    {
+        MotionFile motion(file, simulation);
+        simulation.step();
+        motion.write(simulation);
+    }
+    CHECK_THROWS_AS(read_state(file), InputError); // nothing there
+    std::vector<Vec3> shown;
+    {
+        MotionFile motion(file, simulation);
+        for (int k = 0; k < 4; ++k) {
+            simulation.step();
+            motion.write(simulation);
+            shown.assign(simulation.positions().begin(), simulation.positions().end());
+        }
+        motion.finish();
+    }
+    const Motion motion = read_motion(read_input(file), file);
+    REQUIRE(motion.frame.size() == 4);
+    CHECK(motion.header.fps == Approx(30));
+    CHECK(apart(motion.frame[3].position, shown) < 1e-12);
+    CHECK_THROWS_AS(MotionFile(folder / "motion.xyz", simulation), OutputError);
+    CHECK_THROWS_WITH(grow("elm"), Catch::Contains("expected one of") && Catch::Contains("apple"));
+    CHECK_THROWS_AS(read_scene(folder / "none.json"), InputError);
+}

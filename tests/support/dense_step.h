@@ -1,0 +1,140 @@
+// dense_step.h: one step of the coupled solver (coupled_step.h) by dense algebra in long double: a truth for its sweeps
+// that shares with them the statement of the step alone.
+//
+// At y* = (theta*, eta*), t* = t + h/2, over all joints at once, a system with constant coefficients in d = (theta - theta_0,
+// eta - eta_0):  d' = L d + f~ + (t - h/2)/h slope.  From dense_dynamics.h: accelerations and mass matrix. From here:
+//   rates of turning Phi_b and of moving V_b of body b with eta, in y*'s pose; D = sum V^T D_b V, H = sum Phi^T H_b Phi
+//   H_b    gravity's, by second differences of the potential of what body b turns; the air's bound on plates (air.h)
+//   slope  M^-1 of what wind and pulls change by, and of what D makes of the ground's going on
+// The step is R(h W) of the matrix W that makes the system autonomous, R by its polynomials: no poles, no residues.
+// For grounds of steady acceleration and angular velocity, turning about the world's origin.
+#pragma once
+#include "tests/support/dense_dynamics.h"
+#include "tests/support/rational.h"
+#include <Eigen/LU>
+
+namespace dense {
+
+inline Matrix polynomial(const std::vector<Real>& c, const Matrix& W) {
+    Matrix sum = c.back() * Matrix::Identity(W.rows(), W.cols());
+    for (std::size_t k = c.size() - 1; k-- > 0;) {
+        sum = (sum * W).eval();
+        sum.diagonal().array() += c[k];
+    }
+    return sum;
+}
+
+struct Step {
+    Problem middle;               // at y*, t*: theta, and rate = J eta*, body axes; h = 0
+    std::vector<bough::Vec3> eta; // eta*
+    std::vector<bough::Vec3> theta_0, eta_0;
+    V3 wind_change = V3::Zero();   // over the step
+    std::vector<V3> pull_change{}; // of middle.pulls
+    Real h = 0;
+};
+
+// theta(t + h) - theta_0, then eta(t + h) - eta_0.
+inline Vector take(const Step& taken, bough::Scheme scheme) {
+    const Problem& p = taken.middle;
+    const bough::Tree& tree = p.tree;
+    const std::size_t n = tree.size_bodies();
+    const auto N = 3 * Eigen::Index(n);
+    const Pose pose = pose_at(p, 0);
+    const Vector v = first_derivative([&](Real s) { return centres(p, s); });
+    const Solved solved = solve(p);
+
+    // The chart: body rates J eta, and their change J_dot eta.
+    Matrix J = Matrix::Zero(N, N);
+    Vector bias(N), theta_ahead(N), eta_ahead(N), eta_0(N), stiffness(N), damping(N);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Eigen::Index at = 3 * Eigen::Index(i);
+        const V3 theta = p.theta[i].cast<Real>(), eta = taken.eta[i].cast<Real>();
+        const auto back = turned(theta).conjugate();
+        const auto turning = [&](const V3& along) {
+            return [&theta, back, along](Real s) { return logarithm(back * turned(V3(theta + s * along))); };
+        };
+        for (int k = 0; k < 3; ++k) J.block<3, 1>(at, at + k) = first_derivative(turning(V3::Unit(k)));
+        bias.segment<3>(at) = second_derivative(turning(eta));
+        theta_ahead.segment<3>(at) = theta - taken.theta_0[i].cast<Real>();
+        eta_0.segment<3>(at) = taken.eta_0[i].cast<Real>();
+        eta_ahead.segment<3>(at) = eta - taken.eta_0[i].cast<Real>();
+        stiffness.segment<3>(at) = tree.stiffness[i].cast<Real>() * Real(p.plan.scene.stiffness_scale);
+        damping.segment<3>(at) = stiffness.segment<3>(at) * Real(tree.damping[i]) * Real(p.plan.scene.damping_scale);
+    }
+
+    // What each body turns: its own first moment and its children's places times the mass outboard.
+    std::vector<Real> outboard(n);
+    std::vector<V3> carried(n, V3::Zero());
+    bool leaves = false;
+    const std::vector<V3> drag = p.air ? drag_moments(p, pose, leaves) : std::vector<V3>();
+    for (std::size_t i = n; i-- > 0;) {
+        outboard[i] += tree.mass[i];
+        carried[i] += Real(tree.mass[i]) * (pose.c[i] - pose.x[i]);
+        if (tree.parent[i] < 0) continue;
+        const auto q = std::size_t(tree.parent[i]);
+        outboard[q] += outboard[i];
+        carried[q] += outboard[i] * (pose.x[i] - pose.x[q]);
+    }
+
+    Matrix K = stiffness.asDiagonal(), C = damping.asDiagonal();
+    Vector slope = Vector::Zero(N), force = Vector::Zero(N);
+    const V3 g = p.plan.scene.gravity.cast<Real>();
+    for (std::size_t b = 0; b < n; ++b) {
+        Matrix turn = Matrix::Zero(3, N), move = Matrix::Zero(3, N);
+        for (std::int32_t k = std::int32_t(b); k >= 0; k = tree.parent[std::size_t(k)]) {
+            const auto q = std::size_t(k);
+            turn.block<3, 3>(0, 3 * k) = pose.R[q] * J.block<3, 3>(3 * k, 3 * k);
+            move.block<3, 3>(0, 3 * k) = -cross(pose.c[b] - pose.x[q]) * turn.block<3, 3>(0, 3 * k);
+        }
+        const auto curvature = [&](const V3& along) { // of -g . (turned P) as it turns
+            const auto potential = [&](Real s) {
+                return Vector::Constant(1, -g.dot(turned(V3(s * along)) * carried[b]));
+            };
+            return Real(second_derivative(potential)[0]);
+        };
+        M3 H = M3::Zero(), D = M3::Zero();
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+                H(r, c) = (curvature(V3::Unit(r) + V3::Unit(c)) - curvature(V3::Unit(r) - V3::Unit(c))) / 4;
+        if (p.air) {
+            const Real area = p.plan.drag_area[b];
+            const V3 u = p.wind - v.segment<3>(3 * Eigen::Index(b));
+            D = area * air_damping(tree.kind[b], pose.R[b], u);
+            if (bough::is_flat(tree.kind[b])) {
+                const V3 x = pose.R[b].col(0);
+                H += Real(1.5) / (1 + u.norm() / 7.5) * area * Real(tree.com[b].norm()) * u.squaredNorm() * x *
+                     x.transpose();
+            }
+            H += streaming(drag[b], u, leaves);
+            const M3 I = pose.R[b] * tree.inertia[b].cast<Real>() * pose.R[b].transpose();
+            C += turn.transpose() * spin_rate(tree.kind[b], area, tree.mass[b], u) * I * turn;
+        }
+        K += turn.transpose() * H * turn;
+        C += move.transpose() * D * move;
+        slope += move.transpose() * D * (taken.wind_change - p.ground.a * taken.h);
+        for (std::size_t k = 0; k < p.pulls.size(); ++k) {
+            if (p.plan.pulls[k].body != b) continue;
+            const V3 arm = pose.R[b] * (p.plan.pulls[k].point_b - tree.com[b]).cast<Real>();
+            slope += (move - cross(arm) * turn).transpose() * taken.pull_change[k];
+        }
+    }
+    const Matrix M = J.transpose() * solved.M * J;
+    const auto inverse = M.ldlt();
+    const Vector eta_dot = J.partialPivLu().solve(solved.rate_dot - bias);
+
+    Matrix W = Matrix::Zero(2 * N + 2, 2 * N + 2);
+    W.block(0, N, N, N).setIdentity();
+    W.block(N, 0, N, N) = -inverse.solve(K);
+    W.block(N, N, N, N) = -inverse.solve(C);
+    const Vector rise = inverse.solve(slope);
+    W.block(N, 2 * N, N, 1) = rise;
+    W.block(0, 2 * N + 1, N, 1) = eta_0;
+    W.block(N, 2 * N + 1, N, 1) = eta_dot + inverse.solve(K * theta_ahead + C * eta_ahead) - rise / 2;
+    W(2 * N, 2 * N + 1) = 1 / taken.h;
+    W *= taken.h;
+    const rational::Function R = rational::of(scheme);
+    const Vector last = polynomial(R.N, W).col(2 * N + 1);
+    return polynomial(R.D, W).partialPivLu().solve(last).head(2 * N);
+}
+
+} // namespace dense
