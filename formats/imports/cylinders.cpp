@@ -80,16 +80,16 @@ private:
     const Cylinders& c_;
     std::vector<ImportedBranch> branches_;
     std::vector<std::int32_t> branch_of_, end_; // of each cylinder; the point of that branch where it ends
-    struct Place {
+    struct JointOnParent {
         std::int32_t point; // of the parent's branch, before the joint
         double t;           // fraction of the piece from that point to the next
     };
-    std::vector<Place> place_; // of each branch on its parent
+    std::vector<JointOnParent> place_; // of each branch on its parent
 };
 
 void Grouping::begin(std::int32_t i) {
     ImportedBranch b;
-    Place place{0, 0};
+    JointOnParent place{0, 0};
     const std::int32_t p = c_.parent[i];
     if (p >= 0) {
         b.parent = branch_of_[p];

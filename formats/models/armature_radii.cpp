@@ -4,7 +4,7 @@
 namespace bough {
 namespace {
 
-struct Place {
+struct VertexByBone {
     double along, off; // of the bone's length; [file unit] from its axis
 };
 
@@ -14,9 +14,9 @@ double median(std::vector<double>& values) {
     return *middle;
 }
 
-double radius_of(const std::vector<Place>& places) {
+double radius_of(const std::vector<VertexByBone>& places) {
     std::vector<double> first_half, all;
-    for (const Place& p : places) {
+    for (const VertexByBone& p : places) {
         all.push_back(p.off);
         if (p.along <= 0.5) first_half.push_back(p.off);
     }
@@ -29,7 +29,7 @@ void measure_radii(const ModelScene& scene, const std::vector<Vec3>& vertex, Arm
     if (vertex.empty()) return;
     std::vector<std::int32_t> bone_of(scene.parent.size(), -1);
     for (std::size_t b = 0; b < armature.bones.size(); ++b) bone_of[armature.node[b]] = std::int32_t(b);
-    std::vector<std::vector<Place>> places(armature.bones.size());
+    std::vector<std::vector<VertexByBone>> places(armature.bones.size());
     for (std::size_t v = 0; v < vertex.size(); ++v) {
         const std::int32_t b = bone_of[scene.vertex_node[v]];
         if (b < 0) continue;

@@ -6,7 +6,7 @@ namespace bough {
 namespace {
 
 // Between point `index` and the next, `share` of the way.
-struct Place {
+struct PointOnBranch {
     std::size_t index;
     double share;
 };
@@ -16,7 +16,7 @@ class BranchArc {
 public:
     explicit BranchArc(const Splines& s) : s_(s) {}
     // Where fraction `at` of a branch lies. O(points) for another branch than before, then O(log points).
-    Place find(std::int32_t branch, double at) {
+    PointOnBranch find(std::int32_t branch, double at) {
         if (branch != branch_) measure(branch);
         const double length = at * arc_.back();
         const auto after = std::upper_bound(arc_.begin() + 1, arc_.end() - 1, length);
@@ -41,12 +41,12 @@ private:
     std::vector<double> arc_;
 };
 
-template <class T> T between(const std::vector<T>& values, const Place& place) {
+template <class T> T between(const std::vector<T>& values, const PointOnBranch& place) {
     return values[place.index] + place.share * (values[place.index + 1] - values[place.index]);
 }
 
 // How far an item at `position` moves so that it stands off the branch's axis as before, but from the grown radius.
-Vec3 outward(const Splines& s, const std::vector<double>& drawn, const Place& place, const Vec3& position) {
+Vec3 outward(const Splines& s, const std::vector<double>& drawn, const PointOnBranch& place, const Vec3& position) {
     const double growth = between(s.radius, place) - between(drawn, place);
     const Vec3 off = position - between(s.point, place);
     const double distance = off.norm();

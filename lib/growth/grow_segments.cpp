@@ -58,7 +58,7 @@ private:
     void set_density(SegmentStem&, bool leaves) const;
     void draw(const SegmentStem&, const SegmentLine&);
     void bear(const SegmentStem&, const GrownStem&, const SegmentLine&);
-    SegmentStem child_of(const SegmentStem&, const GrownStem&, std::size_t index, const Place&) const;
+    SegmentStem child_of(const SegmentStem&, const GrownStem&, std::size_t index, const Insertion&) const;
 
     const GrowthParameters& p_;
     Splines& out_;
@@ -229,7 +229,7 @@ void SegmentGrower::draw(const SegmentStem& stem, const SegmentLine& line) {
 }
 
 void SegmentGrower::bear(const SegmentStem& stem, const GrownStem& grown, const SegmentLine& line) {
-    const std::vector<Place> all = segment_places(p_, stem, line, p_.level[std::size_t(stem.level) + 1]);
+    const std::vector<Insertion> all = segment_places(p_, stem, line, p_.level[std::size_t(stem.level) + 1]);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const SegmentStem child = child_of(stem, grown, i, all[i]);
         if (!arbaro_ && child.most_radius < kThinnestParent) continue;
@@ -238,7 +238,7 @@ void SegmentGrower::bear(const SegmentStem& stem, const GrownStem& grown, const 
 }
 
 SegmentStem SegmentGrower::child_of(const SegmentStem& stem, const GrownStem& grown, std::size_t index,
-                                    const Place& place) const {
+                                    const Insertion& place) const {
     const LevelParameters& l = p_.level[std::size_t(stem.level)];
     const double z = std::min(1.0, place.offset / stem.length);
     SegmentStem child;

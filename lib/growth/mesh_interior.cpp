@@ -8,7 +8,7 @@
 namespace bough {
 namespace {
 
-std::tuple<double, double, double> place(const Vec3& p) {
+std::tuple<double, double, double> coordinates(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
@@ -51,7 +51,7 @@ void MeshInterior::weld(const std::vector<Vec3>& vertex, const std::vector<Trian
     std::vector<std::int32_t> order(vertex.size()), corner(vertex.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-        return place(vertex[static_cast<std::size_t>(a)]) < place(vertex[static_cast<std::size_t>(b)]);
+        return coordinates(vertex[static_cast<std::size_t>(a)]) < coordinates(vertex[static_cast<std::size_t>(b)]);
     });
     for (const std::int32_t i : order) {
         const Vec3& p = vertex[static_cast<std::size_t>(i)];

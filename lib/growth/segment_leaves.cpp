@@ -63,7 +63,7 @@ void grow_segment_leaves(const GrowthParameters& p, const SegmentStem& stem, con
         if (items.leaves) fan(p, stem, grown, l, out);
         return;
     }
-    const std::vector<Place> all = segment_places(p, stem, line, l);
+    const std::vector<Insertion> all = segment_places(p, stem, line, l);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const RandomKey key = random_key(stem.key, Draw::leaf, i);
         const Quat turned = grown.segment_at(all[i].offset).frame * about(Vec3::UnitZ(), all[i].turn * kDegree) *

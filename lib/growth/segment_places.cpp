@@ -37,7 +37,7 @@ void arbaro_places(const GrowthParameters& p, const SegmentStem& stem, int segme
 }
 
 void tree_gen_places(const GrowthParameters& p, const SegmentStem& stem, int segment, int count,
-                     const LevelParameters& child, std::vector<Place>& result, double& turn) {
+                     const LevelParameters& child, std::vector<Insertion>& result, double& turn) {
     const LevelParameters& l = p.level[std::size_t(stem.level)];
     const double step = stem.length / l.curve_res, bare = l.base_size * stem.length;
     const auto vary = [&] { return child.rotate_v * random_sign(stem.key, Draw::rotate, result.size()); };
@@ -88,9 +88,9 @@ double segment_leaves(const GrowthParameters& p, const SegmentStem& stem) {
     return p.leaves * stem.scale / p.scale * stem.length / (stem.parent_child_length * stem.parent_length);
 }
 
-std::vector<Place> segment_places(const GrowthParameters& p, const SegmentStem& stem, const SegmentLine& line,
-                                  const LevelParameters& child) {
-    std::vector<Place> result;
+std::vector<Insertion> segment_places(const GrowthParameters& p, const SegmentStem& stem, const SegmentLine& line,
+                                      const LevelParameters& child) {
+    std::vector<Insertion> result;
     std::vector<double> offsets;
     const bool last = stem.level + 1 >= p.levels;
     double dealt = arbaro(p) ? random_unit(stem.key, Draw::children) : 0;

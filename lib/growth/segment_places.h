@@ -7,7 +7,7 @@
 namespace bough {
 
 // Where a child or leaf grows on its stem, and how it is turned about it.
-struct Place {
+struct Insertion {
     double offset; // [m]
     double turn;   // [deg]
 };
@@ -17,8 +17,8 @@ double segment_children(const GrowthParameters&, const SegmentStem&);
 double segment_leaves(const GrowthParameters&, const SegmentStem&);
 
 // The places of a stem's children, whose level is `child`, or of its leaves.
-std::vector<Place> segment_places(const GrowthParameters&, const SegmentStem&, const SegmentLine&,
-                                  const LevelParameters& child);
+std::vector<Insertion> segment_places(const GrowthParameters&, const SegmentStem&, const SegmentLine&,
+                                      const LevelParameters& child);
 
 // [deg] of a child or leaf of that level at `offset` [m] of its parent.
 double segment_down_angle(const GrowthParameters&, const SegmentStem& parent, const LevelParameters&, double offset,
