@@ -1,15 +1,9 @@
 // threads.h: how many threads a tool works with.
 #pragma once
+#include "lib/base/parallel.h"
 
 namespace bough {
 
-// --threads takes up to this many; 1 where built without OpenMP.
-#ifdef _OPENMP
-constexpr int most_threads = 4096;
-#else
-constexpr int most_threads = 1;
-#endif
-int machine_threads();
-void use_threads(int); // from now on, in parallel loops of the calling thread
+void use_threads(int); // from now on, in loops of the calling thread: a step's (parallel.h) and OpenMP's
 
 } // namespace bough

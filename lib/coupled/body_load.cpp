@@ -1,4 +1,5 @@
 #include "body_load.h"
+#include "../base/parallel.h"
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
 #include "../stages/external_forces.h"
@@ -111,9 +112,7 @@ template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double t
 } // namespace
 
 template <class T> void body_loads(const Plan<T>& plan, State<T>& state, double time) {
-    const auto n = std::int64_t(plan.bodies);
-#pragma omp parallel for schedule(static) if (n > 2000)
-    for (std::int64_t i = 0; i < n; ++i) load(plan, state, std::size_t(i));
+    parallel_for(plan.bodies, 100, [&](std::size_t i) { load(plan, state, i); });
     add_pulls(plan, state, time);
 }
 

@@ -1,4 +1,5 @@
 #include "resolvent.h"
+#include "../base/parallel.h"
 #include "../stages/leaf_air.h"
 #include "articulated_algebra.h"
 #include "midpoint.h"
@@ -89,9 +90,7 @@ template <class T, class S> struct Solve {
     }
 
     void run() {
-        const auto n = std::int64_t(plan.bodies);
-#pragma omp parallel for schedule(static) if (n > 2000)
-        for (std::int64_t i = 0; i < n; ++i) start(std::size_t(i));
+        parallel_for(plan.bodies, 50, [this](std::size_t i) { start(i); });
         for (std::size_t i = plan.bodies; i-- > 0;) eliminate(i);
         for (std::size_t i = 0; i < plan.bodies; ++i)
             if (plan.parent[i] < 0)

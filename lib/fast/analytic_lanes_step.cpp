@@ -1,4 +1,5 @@
 #include "analytic_lanes_step.h"
+#include "../base/parallel.h"
 #include "clear_lanes.h"
 #include "lane_tables.h"
 #include "shared_constants.h"
@@ -32,20 +33,20 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     const AnalyticSweeps<T> sweeps = analytic_sweeps_for<T>(plan.target, loads);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
-    const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
     const std::size_t count =
         std::size_t(analytic::loaded::count + (plan.foliage ? analytic::leaf_torque_count : 0)); // a row
+    share_scratch(plan.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * count,
+                  largest_block(plan.lanes.layout) * count);
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
-    T* top_scratch = room(lanes.scratch[threads], (blocks[0].end_row - blocks[0].first_row) * count);
+    T* top_scratch = data(lanes.scratch[0]);
     sweeps.outward(rows, blocks[0], top_scratch, flags[0]);
-    const auto n = std::int64_t(blocks.size());
-#pragma omp parallel for schedule(dynamic, 1) if (n > 2)
-    for (std::int64_t b = 1; b < n; ++b) {
-        T* scratch = room(lanes.scratch[std::size_t(this_thread())], most * count);
-        sweeps.outward(rows, blocks[std::size_t(b)], scratch, flags[std::size_t(b)]);
-        sweeps.inward(rows, blocks[std::size_t(b)], scratch, flags[std::size_t(b)]);
-    }
+    parallel_blocks(blocks.size() - 1, block_cost(plan.lanes.layout), [&](std::size_t k, int worker) {
+        const std::size_t b = 1 + k;
+        T* scratch = data(lanes.scratch[1 + std::size_t(worker)]);
+        sweeps.outward(rows, blocks[b], scratch, flags[b]);
+        sweeps.inward(rows, blocks[b], scratch, flags[b]);
+    });
     add_ports(plan, state, record_inward(plan));
     sweeps.inward(rows, blocks[0], top_scratch, flags[0]);
     SweepFlags met;

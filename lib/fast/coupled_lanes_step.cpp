@@ -1,4 +1,5 @@
 #include "coupled_lanes_step.h"
+#include "../base/parallel.h"
 #include "../coupled/half_turn.h"
 #include "../coupled/midpoint.h"
 #include "../stages/air_constants.h"
@@ -107,13 +108,14 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(plan.target, plan.wind, plan.gravity, plan.field);
     const std::vector<Block>& blocks = plan.lanes.layout.blocks;
     Lanes<T>& lanes = state.lanes;
-    const std::size_t most = largest_block(plan.lanes.layout), threads = share_scratch(lanes);
+    const std::size_t most = largest_block(plan.lanes.layout);
     constexpr std::size_t count = std::size_t(loaded::count) + solved::count; // a row
+    share_scratch(plan.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * count, most * count);
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
     SweepFlags& top = flags[0];
     const Rest rest_of_top = rest_of(state, 0);
-    T* top_scratch = room(lanes.scratch[threads], (blocks[0].end_row - blocks[0].first_row) * count);
+    T* top_scratch = data(lanes.scratch[0]);
     const auto rows_of_block = [&](const Block& block) {
         CoupledRows<T> mine = rows;
         place_block(plan, state, block, mine);
@@ -122,15 +124,21 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
     const CoupledRows<T> top_rows = rows_of_block(blocks[0]);
     if (rest_of_top == Rest::awake) sweeps.outward(top_rows, blocks[0], top_scratch, top);
     if (rest_of_top == Rest::settling) keep_motion(plan, state, blocks[0]); // not swept
-    const auto n = std::int64_t(blocks.size());
-#pragma omp parallel for schedule(dynamic, 1) if (n > 2)
-    for (std::int64_t b = 1; b < n; ++b) {
-        const Block& block = blocks[std::size_t(b)];
-        const Rest rest = rest_of(state, std::size_t(b));
+    std::size_t awake = 0, wait = 0; // blocks; of them those that are solved once the top is
+    for (std::size_t b = 1; b < blocks.size(); ++b)
+        if (rest_of(state, b) != Rest::asleep) {
+            ++awake;
+            wait += !blocks[b].whole;
+        }
+    const double cost = block_cost(plan.lanes.layout) / double(blocks.size());
+    parallel_blocks(blocks.size() - 1, cost * double(awake), [&](std::size_t k, int worker) {
+        const std::size_t b = 1 + k;
+        const Block& block = blocks[b];
+        const Rest rest = rest_of(state, b);
         if (rest == Rest::settling && block.whole) keep_motion(plan, state, block);
-        if (rest == Rest::asleep || (rest == Rest::settling && block.whole)) continue;
-        SweepFlags& met = flags[std::size_t(b)];
-        T* scratch = room(lanes.scratch[std::size_t(this_thread())], most * count);
+        if (rest == Rest::asleep || (rest == Rest::settling && block.whole)) return;
+        SweepFlags& met = flags[b];
+        T* scratch = data(lanes.scratch[1 + std::size_t(worker)]);
         CoupledRows<T> mine = rows_of_block(block);
         if (block.whole) { // nothing to wait for: what is solved stays in the cache
             mine.solved_rows = scratch + most * std::size_t(loaded::count) * Row<T>::lanes;
@@ -141,16 +149,18 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         sweeps.inward(mine, block, scratch);
         if (block.whole) sweeps.accelerate(mine, block, met);
         if (rest == Rest::settling) keep_motion(plan, state, block); // now that what is solved has gone in
-    }
+    });
     if (rest_of_top == Rest::awake) {
         add_ports(plan, state, inward::count);
         sweeps.inward(top_rows, blocks[0], top_scratch);
         sweeps.accelerate(top_rows, blocks[0], top);
     }
-#pragma omp parallel for schedule(dynamic, 1) if (n > 2)
-    for (std::int64_t b = n - 1; b > 0; --b)
-        if (!blocks[std::size_t(b)].whole && rest_of(state, std::size_t(b)) == Rest::awake)
-            sweeps.accelerate(rows_of_block(blocks[std::size_t(b)]), blocks[std::size_t(b)], flags[std::size_t(b)]);
+    // From the last on, which is in the caches still.
+    parallel_blocks(blocks.size() - 1, cost * double(wait) / 5, [&](std::size_t k, int) {
+        const std::size_t b = blocks.size() - 1 - k;
+        if (!blocks[b].whole && rest_of(state, b) == Rest::awake)
+            sweeps.accelerate(rows_of_block(blocks[b]), blocks[b], flags[b]);
+    });
     SweepFlags all;
     for (const SweepFlags& f : flags) all += f;
     return all;

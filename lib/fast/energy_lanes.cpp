@@ -1,4 +1,5 @@
 #include "energy_lanes.h"
+#include "../base/parallel.h"
 #include "../coupled/energy_guard.h"
 #include "lane_tables.h"
 #include "targets.h"
@@ -124,10 +125,10 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
         weigh(mine, energies, block);
     };
     if (blocks[0]) weigh_block(layout.blocks[0]);
-    const auto n = std::int64_t(layout.blocks.size());
-#pragma omp parallel for schedule(dynamic, 1) if (n > 2)
-    for (std::int64_t b = 1; b < n; ++b)
-        if (blocks[std::size_t(b)]) weigh_block(layout.blocks[std::size_t(b)]);
+    const double part = double(std::count(blocks.begin(), blocks.end(), 1)) / double(blocks.size());
+    parallel_blocks(layout.blocks.size() - 1, block_cost(layout) * part / 4, [&](std::size_t k, int) {
+        if (blocks[1 + k]) weigh_block(layout.blocks[1 + k]);
+    });
     constexpr std::size_t L = Row<T>::lanes;
     for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
         if (!blocks[b]) continue;

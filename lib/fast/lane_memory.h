@@ -3,26 +3,8 @@
 #include "../model/math.h"
 #include "coupled_rows.h"
 #include "row.h"
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace bough::fast {
-
-inline int most_threads() {
-#ifdef _OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-}
-inline int this_thread() {
-#ifdef _OPENMP
-    return omp_get_thread_num();
-#else
-    return 0;
-#endif
-}
 
 template <class T> T* data(RowVector<T>& rows) {
     return rows.empty() ? nullptr : rows.front().lane;

@@ -1,4 +1,5 @@
 #include "lane_tables.h"
+#include "../base/parallel.h"
 #include "../stages/external_forces.h"
 #include "../stages/wind.h"
 #include "analytic_rows.h"
@@ -194,10 +195,16 @@ std::size_t largest_block(const Layout& layout) {
     return most;
 }
 
-template <class T> std::size_t share_scratch(Lanes<T>& lanes) {
-    const auto threads = std::size_t(most_threads());
+double block_cost(const Layout& layout) {
+    return row_cost * double(layout.rows) / double(layout.blocks.size());
+}
+
+template <class T> void share_scratch(const Layout& layout, Lanes<T>& lanes, std::size_t top, std::size_t each) {
+    const std::size_t blocks = layout.blocks.size() - 1;
+    const auto threads = std::size_t(threads_for(blocks, block_cost(layout) * double(blocks)));
     if (lanes.scratch.size() < threads + 1) lanes.scratch.resize(threads + 1);
-    return threads;
+    room(lanes.scratch[0], top);
+    for (std::size_t thread = 0; thread < threads; ++thread) room(lanes.scratch[1 + thread], each);
 }
 
 template void put_body(const Plan<float>&, std::size_t, const Slot<float>&);
@@ -211,7 +218,7 @@ template void scale_wood(Plan<double>&, double, double);
 template std::vector<std::size_t> motion_of_rows(const Plan<float>&, const State<float>&);
 template void motion_of_rows(const Plan<float>&, const State<float>&, std::vector<std::size_t>&);
 template void add_ports(const Plan<float>&, State<float>&, int);
-template std::size_t share_scratch(Lanes<float>&);
+template void share_scratch(const Layout&, Lanes<float>&, std::size_t, std::size_t);
 template void put_body(const Plan<double>&, std::size_t, const Slot<double>&);
 template void resize_records(const Layout&, RowVector<double>&, int);
 template void pack_pulls(const Plan<double>&, State<double>&);
@@ -221,6 +228,6 @@ template void place_block(const Plan<double>&, State<double>&, const Block&, Cou
 template std::vector<std::size_t> motion_of_rows(const Plan<double>&, const State<double>&);
 template void motion_of_rows(const Plan<double>&, const State<double>&, std::vector<std::size_t>&);
 template void add_ports(const Plan<double>&, State<double>&, int);
-template std::size_t share_scratch(Lanes<double>&);
+template void share_scratch(const Layout&, Lanes<double>&, std::size_t, std::size_t);
 
 } // namespace bough::fast

@@ -44,7 +44,11 @@ template <class T> T* room(RowVector<T>& scratch, std::size_t rows) {
     if (scratch.size() < rows) scratch.resize(rows);
     return data(scratch);
 }
-// One scratch a thread, and one more, the last, for the top. Returns the number of threads.
-template <class T> std::size_t share_scratch(Lanes<T>&);
+// About what a sweep out and in of a row, and the way in between, take one thread, in float and double alike [ns].
+constexpr double row_cost = 1000;
+// The same of one of the layout's blocks but the top, on average.
+double block_cost(const Layout&);
+// Lanes::scratch: `top` rows for the top, the first, then `each` for every thread that sweeps blocks.
+template <class T> void share_scratch(const Layout&, Lanes<T>&, std::size_t top, std::size_t each);
 
 } // namespace bough::fast

@@ -1,4 +1,5 @@
 #include "meeting.h"
+#include "../base/parallel.h"
 #include "flight.h"
 #include "landing.h"
 #include <algorithm>
@@ -175,15 +176,13 @@ template <class T> void resist_rolling(World<T>& world, const std::vector<Contac
 
 template <class T> void fly_all(const Plan<T>& plan, World<T>& world, std::vector<Way>& ways) {
     const WindTable<double>* wind = plan.wind ? &world.wind : nullptr;
-    const auto n = std::int64_t(world.free.size());
-#pragma omp parallel for schedule(static) if (n > 500)
-    for (std::int64_t k = 0; k < n; ++k) {
-        const FreeBody& free = world.free[std::size_t(k)];
-        Way& way = ways[std::size_t(k)];
+    parallel_for(world.free.size(), 300, [&](std::size_t k) {
+        const FreeBody& free = world.free[k];
+        Way& way = ways[k];
         way.start = way.next = free.motion;
         const bool lying = free.leaf() && free.quiet > 0; // lie_down turns it
         if (!free.at_rest && !lying) way.next = fly(free, plan.scene, wind, plan.dt);
-    }
+    });
 }
 
 template <class T>

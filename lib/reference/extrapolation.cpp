@@ -1,4 +1,5 @@
 #include "extrapolation.h"
+#include "../base/parallel.h"
 #include "articulated_step.h"
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,6 @@ Vec3 extrapolate(std::array<Vec3, rows>& T) {
 
 void extrapolated_step(const Plan<double>& plan, State<double>& state, double time) {
     const double dt = plan.dt, least = smallest * dt;
-    const auto n = std::int64_t(plan.bodies);
     double done = 0, H = state.articulated_step > 0 ? state.articulated_step : dt;
     while (done < dt) {
         const double start = time + done, rest = dt - done;
@@ -60,8 +60,10 @@ void extrapolated_step(const Plan<double>& plan, State<double>& state, double ti
         // What is left in one step or in two even ones: no sliver at the end.
         const double taken = H >= left ? left : H > left / 2 ? left / 2 : H;
         for (ArticulatedPass& pass : state.articulated) pass.fast = 0;
-#pragma omp parallel for schedule(dynamic, 1) if (n > 100)
-        for (int j = rows; j >= 1; --j) run_row(plan, state, state.articulated[std::size_t(j - 1)], j, start, taken);
+        parallel_blocks(rows, rows / 2 * 1000. * double(plan.bodies), [&](std::size_t k, int) { // the longest first
+            const std::size_t j = rows - k;
+            run_row(plan, state, state.articulated[j - 1], int(j), start, taken);
+        });
         double squares = 0, size = 0;
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             std::array<Vec3, rows> theta, rate;

@@ -1,4 +1,5 @@
 #include "simulation.h"
+#include "../base/parallel.h"
 #include "../fast/lane_tables.h"
 #include "../fast/sleep.h"
 #include "../fast/targets.h"
@@ -8,33 +9,9 @@
 #include "fingerprint.h"
 #include "saved.h"
 #include <cmath>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace bough {
 namespace {
-
-// As many threads as asked for while it lives; the caller's own setting comes back.
-class Threads {
-public:
-#ifdef _OPENMP
-    explicit Threads(int threads) : before_(omp_get_max_threads()) {
-        omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs());
-    }
-    ~Threads() {
-        omp_set_num_threads(before_);
-    }
-
-private:
-    int before_;
-#else
-    explicit Threads(int) {}
-#endif
-public:
-    Threads(const Threads&) = delete;
-    Threads& operator=(const Threads&) = delete;
-};
 
 SimulationOptions checked(const SimulationOptions& o) {
     if (!(o.step > 0) || !std::isfinite(o.step))
@@ -136,7 +113,7 @@ public:
 
     StepReport step() override {
         if (!broken_.finite()) return broken_;
-        const Threads threads(options.threads);
+        const ThreadLimit threads(options.threads);
         const StepFlags before = run_.state.flags;
         run_.world.events = {};
         shown_ = false;
@@ -162,7 +139,7 @@ public:
 
     const MotionFrame& frame() override {
         if (shown_) return frame_;
-        const Threads threads(options.threads);
+        const ThreadLimit threads(options.threads);
         present(run_.plan, run_.state);
         fill_frame(run_.state, fields_, frame_);
         show_all(assembly, run_, frame_);
@@ -272,7 +249,7 @@ private:
 };
 
 Simulation::Simulation(Scene scene, const SimulationOptions& o) {
-    const Threads threads(o.threads < 0 ? 1 : o.threads);
+    const ThreadLimit threads(o.threads < 0 ? 1 : o.threads);
     if (o.precision == Precision::single)
         inside_ = std::make_unique<InsideOf<float>>(std::move(scene), o);
     else

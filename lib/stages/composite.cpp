@@ -1,4 +1,5 @@
 #include "composite.h"
+#include "../base/parallel.h"
 
 namespace bough {
 namespace {
@@ -51,9 +52,7 @@ template <class T> void add_to_parent(const Plan<T>& plan, State<T>& s, std::siz
 } // namespace
 
 template <class T> void composite_update(const Plan<T>& plan, State<T>& state) {
-    const auto n = std::int64_t(plan.bodies);
-#pragma omp parallel for schedule(static) if (n > 2000)
-    for (std::int64_t i = 0; i < n; ++i) start_from_own_body(plan, state, std::size_t(i));
+    parallel_for(plan.bodies, 30, [&](std::size_t i) { start_from_own_body(plan, state, i); });
     for (std::size_t i = plan.bodies; i-- > 0;)
         if (plan.parent[i] >= 0) add_to_parent(plan, state, i, std::size_t(plan.parent[i]));
 }

@@ -1,4 +1,5 @@
 #include "drag.h"
+#include "../base/parallel.h"
 #include "joint.h"
 #include <Eigen/Cholesky>
 
@@ -16,9 +17,7 @@ template <class T> void joint_drag(const Plan<T>& plan, State<T>& state, std::si
 }
 
 template <class T> void joint_drag(const Plan<T>& plan, State<T>& state) {
-    const auto n = std::int64_t(plan.bodies);
-#pragma omp parallel for schedule(static) if (n > 2000)
-    for (std::int64_t i = 0; i < n; ++i) joint_drag(plan, state, std::size_t(i));
+    parallel_for(plan.bodies, 100, [&](std::size_t i) { joint_drag(plan, state, i); });
 }
 
 template void joint_drag(const Plan<float>&, State<float>&, std::size_t);

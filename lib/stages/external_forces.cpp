@@ -1,4 +1,5 @@
 #include "external_forces.h"
+#include "../base/parallel.h"
 #include "air.h"
 #include "leaf_air.h"
 #include "root_term.h"
@@ -88,10 +89,8 @@ template <class T> void wind_on_body(const Plan<T>& plan, State<T>& state, std::
 } // namespace
 
 template <class T> void external_forces(const Plan<T>& plan, State<T>& state, double time) {
-    const auto n = std::int64_t(plan.bodies);
     if (plan.wind) {
-#pragma omp parallel for schedule(static) if (n > 2000)
-        for (std::int64_t i = 0; i < n; ++i) wind_on_body(plan, state, std::size_t(i));
+        parallel_for(plan.bodies, 50, [&](std::size_t i) { wind_on_body(plan, state, i); });
     } else {
         std::fill(state.f_w.begin(), state.f_w.end(), Vector3<T>::Zero());
         std::fill(state.tau_w.begin(), state.tau_w.end(), Vector3<T>::Zero());

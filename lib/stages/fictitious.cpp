@@ -1,4 +1,5 @@
 #include "fictitious.h"
+#include "../base/parallel.h"
 #include "root_term.h"
 
 namespace bough {
@@ -39,12 +40,9 @@ template <class T> void accelerations(const Plan<T>& plan, State<T>& s) {
 template <class T> void fictitious_torques(const Plan<T>& plan, State<T>& s) {
     const T A = T(plan.scene.fictitious->acceleration), turning = T(plan.scene.fictitious->turning),
             G = T(plan.scene.fictitious->gyroscopic);
-    const auto n = std::int64_t(plan.bodies);
-#pragma omp parallel for schedule(static) if (n > 2000)
-    for (std::int64_t k = 0; k < n; ++k) {
-        const auto i = std::size_t(k);
+    parallel_for(plan.bodies, 50, [&](std::size_t i) {
         s.fictitious_w[i].setZero();
-        if (plan.mass[i] == 0) continue; // broke off
+        if (plan.mass[i] == 0) return; // broke off
         const Carrier<T> ground = ground_carrier(plan, s, i);
         const bool root = plan.parent[i] < 0;
         const auto p = std::size_t(plan.parent[i]);
@@ -54,7 +52,7 @@ template <class T> void fictitious_torques(const Plan<T>& plan, State<T>& s) {
         const Vector3<T> turned = alpha_p - ground.alpha + omega_p.cross(omega);
         const Vector3<T> whirled = omega.cross(J * omega) - ground.omega.cross(J * ground.omega);
         s.fictitious_w[i] = -A * s.c_h_w[i].cross(s.a_w[i] - ground.a) - turning * (J * turned) - G * whirled;
-    }
+    });
 }
 
 template void accelerations(const Plan<float>&, State<float>&);

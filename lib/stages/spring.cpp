@@ -1,7 +1,9 @@
 #include "spring.h"
+#include "../base/parallel.h"
 #include "joint_limit.h"
 #include "spring_joint.h"
 #include <Eigen/Cholesky>
+#include <atomic>
 
 namespace bough {
 
@@ -71,22 +73,17 @@ template <class T> StepFlags spring_update(const Plan<T>& plan, State<T>& s, std
 }
 
 template <class T> void spring_update(const Plan<T>& plan, State<T>& state) {
-    const auto n = std::int64_t(plan.bodies);
-    std::uint64_t buckling = 0, bounded = 0, half_turns = 0, guarded = 0, limited = 0;
-#pragma omp parallel for schedule(static) reduction(+ : buckling, bounded, half_turns, guarded, limited) if (n > 2000)
-    for (std::int64_t i = 0; i < n; ++i) {
-        const StepFlags flags = spring_update(plan, state, std::size_t(i));
-        buckling += flags.buckling;
-        bounded += flags.bounded_lambda;
-        half_turns += flags.half_turns;
-        guarded += flags.energy_guard;
-        limited += flags.limited;
-    }
-    state.flags.buckling += buckling;
-    state.flags.bounded_lambda += bounded;
-    state.flags.half_turns += half_turns;
-    state.flags.energy_guard += guarded;
-    state.flags.limited += limited;
+    const auto add = [](std::uint64_t& to, std::uint64_t count) { // rare: all threads add to one number
+        if (count) std::atomic_ref(to).fetch_add(count, std::memory_order_relaxed);
+    };
+    parallel_for(plan.bodies, 500, [&](std::size_t i) {
+        const StepFlags flags = spring_update(plan, state, i);
+        add(state.flags.buckling, flags.buckling);
+        add(state.flags.bounded_lambda, flags.bounded_lambda);
+        add(state.flags.half_turns, flags.half_turns);
+        add(state.flags.energy_guard, flags.energy_guard);
+        add(state.flags.limited, flags.limited);
+    });
 }
 
 template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {

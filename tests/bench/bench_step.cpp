@@ -1,12 +1,10 @@
 // One step of 10 000 bodies in a gusty wind, on one thread, and what the fast path is laid out by. Items are bodies.
 #include "bench_tree.h"
+#include "lib/base/parallel.h"
 #include "lib/fast/layout.h"
 #include "lib/fast/targets.h"
 #include "lib/reference/advance.h"
 #include <benchmark/benchmark.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace {
 
@@ -16,9 +14,7 @@ enum class Path { lanes, plain };
 
 // path: lanes where they hold the solver; the label says which it was.
 template <class T> void step_of(benchmark::State& benchmark, Solver solver, Path path) {
-#ifdef _OPENMP
-    omp_set_num_threads(1);
-#endif
+    const ThreadLimit one(1);
     const Tree& tree = bench::tree();
     Scene scene;
     scene.wind = *wind_preset("gusty");

@@ -1,5 +1,6 @@
 // The state's hash against FNV-1a written here; the same hash for any number of threads and for a run cut in two.
 #include "lib/stages/state.h"
+#include "lib/base/parallel.h"
 #include "lib/reference/advance.h"
 #include "lib/stages/root_term.h"
 #include "lib/stages/step.h"
@@ -7,9 +8,6 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <limits>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 using namespace bough;
 using namespace solver;
@@ -79,14 +77,12 @@ TEST_CASE("a new state stands at the plan's start, at rest, at step 0") {
     }
 }
 
-#ifdef _OPENMP
 TEMPLATE_TEST_CASE("the number of threads does not change a bit", "", float, double) {
     const Tree tree = make_tree::random_tree(5000, 1);
     const auto plan = plan_of<TestType>(tree, gusty());
-    const int threads_before = omp_get_max_threads();
     std::uint64_t one_thread = 0;
     for (int threads : {1, 2, 3, 8, 15}) {
-        omp_set_num_threads(threads);
+        const ThreadLimit limit(threads);
         State<TestType> state = make_state(plan);
         for (int k = 0; k < 10; ++k) step(plan, state);
         if (threads == 1) {
@@ -97,18 +93,16 @@ TEMPLATE_TEST_CASE("the number of threads does not change a bit", "", float, dou
         CAPTURE(threads);
         CHECK(state_hash(state) == one_thread);
     }
-    omp_set_num_threads(threads_before);
 }
 
 TEMPLATE_TEST_CASE("nor does it with the coupled solver, whatever the scheme's poles", "", float, double) {
     const Tree tree = make_tree::forest(std::vector<Tree>(10, make_tree::random_tree(300, 2)));
-    const int threads_before = omp_get_max_threads();
     for (const Scheme scheme : {Scheme::p12, Scheme::p34, Scheme::lie}) {
         const auto plan = make_plan<TestType>(tree, {{0, tree.size_bodies(), 0}}, stiff_gusty(), {}, 1.0 / 30,
                                               Solver::coupled, scheme);
         std::uint64_t one_thread = 0;
         for (int threads : {1, 2, 8, 15}) {
-            omp_set_num_threads(threads);
+            const ThreadLimit limit(threads);
             State<TestType> state = make_state(plan);
             for (int k = 0; k < 5; ++k) advance(plan, state);
             if (threads == 1) {
@@ -120,9 +114,7 @@ TEMPLATE_TEST_CASE("nor does it with the coupled solver, whatever the scheme's p
             CHECK(state_hash(state) == one_thread);
         }
     }
-    omp_set_num_threads(threads_before);
 }
-#endif
 
 TEMPLATE_TEST_CASE("a run cut in two goes on as if it had not been", "", float, double) {
     const Tree tree = make_tree::random_tree(300, 2);

@@ -1,10 +1,8 @@
 // The coupled step's bits: the same for any number of threads, for a run cut in two, and for the same run twice.
+#include "lib/base/parallel.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "tests/support/coupled_support.h"
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 using namespace bough;
 using namespace coupled;
@@ -73,14 +71,12 @@ TEMPLATE_TEST_CASE("a run cut in two goes on as if it had not been", "", float, 
     }
 }
 
-#ifdef _OPENMP
 TEMPLATE_TEST_CASE("the number of threads does not change a bit", "", float, double) {
     const Tree tree = grown(5000); // enough for the step to use several
-    const int threads_before = omp_get_max_threads();
     for (const Scheme scheme : kinds) {
         std::uint64_t one_thread = 0;
         for (const int threads : {1, 2, 3, 8}) {
-            omp_set_num_threads(threads);
+            const ThreadLimit limit(threads);
             Run<TestType> run(tree, everything(), scheme);
             run.steps(10);
             CAPTURE(scheme_of(scheme).name, threads);
@@ -92,6 +88,4 @@ TEMPLATE_TEST_CASE("the number of threads does not change a bit", "", float, dou
             CHECK(state_hash(run.state) == one_thread);
         }
     }
-    omp_set_num_threads(threads_before);
 }
-#endif

@@ -1,9 +1,7 @@
 // The bits of a step in lanes, coupled and analytic: the same for any number of threads, for a run cut in two, for the same run twice, and
 // whenever the arrays in document order are brought up to date.
+#include "lib/base/parallel.h"
 #include "tests/support/lanes_support.h"
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 using namespace bough;
 using namespace lanes;
@@ -112,13 +110,11 @@ TEMPLATE_TEST_CASE("a run in lanes cut in two goes on as if it had not been", ""
     }
 }
 
-#ifdef _OPENMP
 TEMPLATE_TEST_CASE("the number of threads does not change a bit of what lanes find", "", float, double) {
-    const int threads_before = omp_get_max_threads();
     for (const Case* c : {&large(), &flapping(), &paper()}) {
         std::uint64_t one_thread = 0, guarded = 0;
         for (const int threads : {1, 2, 3, 8, 15}) {
-            omp_set_num_threads(threads);
+            const ThreadLimit limit(threads);
             Run<TestType> run = run_of<TestType>(*c);
             run.steps(frames);
             CAPTURE(c->name, threads);
@@ -131,6 +127,4 @@ TEMPLATE_TEST_CASE("the number of threads does not change a bit of what lanes fi
             CHECK(run.state.flags.energy_guard == guarded);
         }
     }
-    omp_set_num_threads(threads_before);
 }
-#endif

@@ -1,12 +1,10 @@
 // Blocks that have settled sleep: where the tree's equilibrium is, at no cost, until something moves them; and the bits do not
 // depend on threads or on a run being cut.
 #include "lib/fast/sleep.h"
+#include "lib/base/parallel.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"
 #include <set>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 using namespace bough;
 using namespace lanes;
@@ -148,16 +146,12 @@ TEMPLATE_TEST_CASE("sleep's bits: any number of threads, a run cut anywhere", ""
         hashes.push_back(run.hash());
     }
     REQUIRE(sleepers.size() > 2);
-#ifdef _OPENMP
-    const int before = omp_get_max_threads();
     for (const int threads : ::cases<int>(2, {3, 1, 2, 8, 15})) {
-        omp_set_num_threads(threads);
+        const ThreadLimit limit(threads);
         Run<T> other = sleeping<T>(c, loose);
         other.steps(frames);
         CHECK(other.hash() == hashes.back());
     }
-    omp_set_num_threads(before);
-#endif
     Run<T> first = sleeping<T>(c, loose);
     for (int cut = 1; cut < frames; ++cut) {
         first.steps(1);

@@ -283,9 +283,10 @@ TEST_CASE("steps allocate nothing once they have run") {
 #ifdef BOUGH_SANITIZED
     return; // nothing is counted
 #endif
-    const Tree tree = leafy();
+    const Tree tree = segment(grow_bodies(default_growth(), 5, {true, false, true}, 6000), wood_presets().front(), {});
     for (const Precision precision : {Precision::single, Precision::double_}) {
         SimulationOptions o = with(precision);
+        o.threads = precision == Precision::single ? 3 : 1;
         o.pulls = o.velocities = true;
         Simulation simulation(one(tree, "gusty"), o);
         const auto frame = [&] {

@@ -1,14 +1,12 @@
 // Trajectories of the articulated solvers: closed forms, conserved quantities, orders of convergence, what the reference
 // says of its own error, and the same bits however a run is cut and shared out.
+#include "lib/base/parallel.h"
 #include "lib/reference/advance.h"
 #include "lib/reference/articulated.h"
 #include "lib/stages/energy.h"
 #include "tests/support/integrate.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 using namespace bough;
 using namespace solver;
@@ -356,13 +354,11 @@ TEST_CASE("on a steadily accelerated root, rest is where the analytic step has i
     CHECK(most < 1e-7);
 }
 
-#ifdef _OPENMP
 TEST_CASE("the number of threads does not change a bit of the reference") {
     const Tree tree = make_tree::random_tree(40, 4);
-    const int threads_before = omp_get_max_threads();
     std::uint64_t one_thread = 0;
     for (const int threads : {1, 2, 3, 8}) {
-        omp_set_num_threads(threads);
+        const ThreadLimit limit(threads);
         Run run(tree, windy(), Solver::articulated_reference, 1.0 / 30, 1e-5);
         for (int k = 0; k < 3; ++k) advance(run.plan, run.state);
         if (threads == 1) {
@@ -372,6 +368,4 @@ TEST_CASE("the number of threads does not change a bit of the reference") {
         CAPTURE(threads);
         CHECK(state_hash(run.state) == one_thread);
     }
-    omp_set_num_threads(threads_before);
 }
-#endif
