@@ -1,5 +1,8 @@
 #include "explanation.h"
+#include "../base/parallel.h"
+#include "../fast/lane_tables.h"
 #include "../fast/shared_constants.h"
+#include <cmath>
 #include <sstream>
 
 namespace bough {
@@ -11,6 +14,17 @@ template <class T> std::string sharing_text(const Plan<T>& plan) {
     const std::string bytes = std::to_string(lanes.constants.size() * sizeof(fast::Row<T>)) + " bytes, ";
     if (!lanes.sharing.on) return bytes + rows + "none shared, " + lanes.sharing.reason;
     return bytes + rows + "shared by instances, " + std::to_string(fast::shared_rows(plan)) + " kept";
+}
+
+// How many threads the largest loop of a step runs on.
+template <class T> std::string threads_text(const Plan<T>& plan) {
+    const std::string most = "of at most " + std::to_string(thread_limit()) + ": ";
+    if (!plan.lanes.on) return most + "as many as each stage's loop over bodies pays for";
+    const fast::Layout& layout = plan.lanes.layout;
+    const std::size_t blocks = layout.blocks.size() - 1;
+    const double ns = fast::block_cost(layout) * double(blocks);
+    return std::to_string(threads_for(blocks, ns)) + " " + most + std::to_string(blocks) + " blocks, about " +
+           std::to_string(std::llround(ns / 1000)) + " us of work";
 }
 
 } // namespace
@@ -33,6 +47,7 @@ template <class T> std::string explanation(const Plan<T>& plan, const std::vecto
     text << "constants of bodies in document order "
          << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
     if (plan.lanes.on) text << "constants of rows in lanes " << sharing_text(plan) << "\n";
+    text << "threads " << threads_text(plan) << "\n";
     text << "state: " << used << " bytes, left out " << left << " bytes\n";
     return text.str();
 }

@@ -12,7 +12,10 @@
 // Errors. What cannot be run throws SceneError, once, from the constructor, with the place as treesim prints it. A call with a number that is
 // none, or for a body that is not there, throws it too and changes nothing. After a step that became non-finite, steps do nothing and return the
 // same report; what is read is the state that it left, where numbers may be none. A simulation keeps all that it needs: the scene and its trees may go.
-// Threads. One simulation is used by one thread at a time; several may run side by side. Results do not hang on the number of threads.
+// Threads. One simulation is used by one thread at a time; several may run side by side, and share helpers. Results do not hang on the number of
+// threads. A step takes as many as its work pays for: one below about 2 000 bodies, then one more for each thousand or so, to the limit. A helper whose
+// core is busy is not waited for, so more threads than are free cost next to nothing; nothing has to be set for that, and a program's own OpenMP,
+// signals and forked children are let alone (lib/base/parallel.h).
 // Frames of reference. World axes, y up, metres, seconds, kilograms; bodies in document order (tree.h), the trees' one after another, then balls,
 // then walkers.
 #pragma once
@@ -37,7 +40,8 @@ struct SimulationOptions {
     Method method = Method::coupled;
     double sleep =
         0; // [rad/s] slower than this for a while, trees are left out of steps until something moves them; 0: never
-    int threads = 0;         // of a step at most; 0: as many as the machine has
+    int threads =
+        0; // of a step at most, the caller's among them; 0: as many as the process has cores. Small work takes fewer ("Threads")
     bool velocities = false; // velocities() and angular_velocities() are wanted: else empty
     bool torques = false;    // likewise torques()
     bool pulls = false;      // pull() will be called: without, the step has no place for it

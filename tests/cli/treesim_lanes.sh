@@ -9,6 +9,7 @@ for simd in auto off baseline; do
     [[ $(hash tree.json --frames 20 --simd $simd) == $(hash tree.json --frames 20 --simd $simd --threads 1) ]] || fail "--simd $simd: threads"
 done
 treesim tree.json --frames 3 --no-output --explain --simd baseline 2>err && grep -q '^stage lanes on: SIMD baseline' err || fail "--simd baseline"
+grep -q '^threads [0-9]* of at most [0-9]*: ' err || fail "--explain does not say how many threads"
 treesim tree.json --frames 3 --no-output --explain --simd off 2>err && grep -q '^stage lanes left out: plain path' err || fail "--simd off"
 treesim tree.json --frames 3 --no-output --explain --scheme LIE 2>err && grep -q '^stage lanes left out: plain path: scheme LIE' err || fail "LIE"
 treesim tree.json --frames 3 --no-output --explain --solver analytic 2>err && grep -q '^stage lanes on: SIMD ' err || fail "analytic in lanes"
