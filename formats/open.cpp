@@ -265,6 +265,7 @@ void Output::write_out(std::string_view bytes) {
 
 void Output::write(std::string_view bytes) {
     if (file_ < 0) throw OutputError(name_, "cannot be written: it is closed");
+    bytes_ += bytes.size();
     if (buffer_.size() + bytes.size() > buffer_size) flush();
     if (bytes.size() > buffer_size) return write_out(bytes);
     if (buffer_.capacity() < buffer_size) buffer_.reserve(buffer_size);

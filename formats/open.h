@@ -57,6 +57,7 @@ public:
     void replace(std::uint64_t at, std::string_view bytes); // from byte `at` on, within what was written
     void take_out(std::uint64_t at, std::uint64_t count);   // what follows moves up; O(what follows), 1 MiB of memory
     const std::string& name() const { return name_; }
+    std::uint64_t bytes() const { return bytes_; } // written so far, taken out or not
 
 private:
     void open_direct();
@@ -66,6 +67,7 @@ private:
 
     std::string name_, path_, temporary_; // in messages; after links; being written ("" for direct output)
     std::string buffer_;
+    std::uint64_t bytes_ = 0;
     int file_ = -1;
     void* registered_ = nullptr; // temporary_'s entry in the list of remove_unfinished_outputs()
 };

@@ -25,6 +25,7 @@ public:
         writer_.finish();
         output_.finish();
     }
+    std::uint64_t bytes() const override { return output_.bytes(); }
 
 private:
     PointCacheShape with_vertices(PointCacheShape shape) const {

@@ -17,6 +17,7 @@ public:
         writer_.finish();
         output_.finish();
     }
+    std::uint64_t bytes() const override { return output_.bytes(); }
 
 private:
     Output output_;
@@ -38,12 +39,14 @@ public:
             Output output(sequence_name(pattern_, frame.frame));
             write_obj(output, skin_, position_, normal_, mtl_);
             output.finish();
+            bytes_ += output.bytes();
         } catch (const OutputError& error) {
             throw OutputError(pattern_, "stopped after " + counted(written_, "frame", "frames") + ": " + error.what());
         }
         ++written_;
     }
     void finish() override {}
+    std::uint64_t bytes() const override { return bytes_; }
 
 private:
     std::string pattern_;
@@ -52,6 +55,7 @@ private:
     std::string mtl_;
     std::vector<Vec3> position_, normal_;
     std::int64_t written_ = 0;
+    std::uint64_t bytes_ = 0;
 };
 
 } // namespace

@@ -15,6 +15,9 @@ public:
     virtual ~FrameSink() = default;
     virtual void write(const MotionFrame&) = 0; // throws OutputError
     virtual void finish() = 0;                  // everything written so far is a valid output; throws OutputError
+    virtual std::uint64_t bytes() const {
+        return 0;
+    } // of the frames so far; 0 where finish() writes them. By the thread that writes
 };
 
 // `format`: jsonl, json or safetensors.

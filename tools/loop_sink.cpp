@@ -53,6 +53,7 @@ public:
         }
         to_->finish();
     }
+    std::uint64_t bytes() const override { return to_->bytes(); }
 
 private:
     const MotionFrame& blended(const MotionFrame& frame) {

@@ -14,6 +14,7 @@
 #include "saved_run.h"
 #include "saved_tree.h"
 #include "signals.h"
+#include "sized_sink.h"
 #include "watch.h"
 #include <algorithm>
 #include <chrono>
@@ -213,6 +214,12 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     o.gltf.loose = broken.size() + balls.size();
     std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, setting.whole ? shown.size_bodies() : plan.bodies,
                                                 format, fields, first, last, std::move(model));
+    if (sink && o.common.output != "-")
+        sink = sized_sink(std::move(sink), format, last - first + 1, [&o](const std::string& text) {
+            if (o.common.quiet) return;
+            clear_progress();
+            std::cerr << treesim_info.name << ": " << text << "\n";
+        });
     if (is_point_cache(format)) note_cache(o, setting, balls.size());
     LoopStart loop;
     if (loops) {
