@@ -1,4 +1,5 @@
 #include "notes.h"
+#include "lib/fast/lane_steppers.h"
 #include "lib/model/counted.h"
 #include <algorithm>
 #include <array>
@@ -34,8 +35,8 @@ void note_flags(const Plan<T>& plan, const StepFlags& flags, std::int64_t steps,
         notes.push_back(counted(flags.limited, "time", "times") + " a joint was stopped at its limit, as asked");
     if (flags.asleep > 0)
         notes.push_back(std::to_string(flags.asleep) + " of " + std::to_string(std::uint64_t(steps) * plan.bodies) +
-                        " steps of a body were left out: at rest below " + rate_text(plan.lanes.sleep.rate) +
-                        " rad/s (--sleep)");
+                        " steps of a body were left out: at rest below " +
+                        rate_text(fast::planned_lanes(plan)->sleep.rate) + " rad/s (--sleep)");
     if (flags.unresolved > 0)
         notes.push_back(std::to_string(flags.unresolved) + " of " + std::to_string(flags.inner_steps) +
                         " inner steps missed the tolerance: this is no reference solution");

@@ -53,7 +53,8 @@ template <class T> Report measure(const StagesOptions& o, const Setting& setting
     report.bodies = std::int64_t(plan.bodies);
     report.frames = frames - 2;
     report.hash = hash_text(state_hash(plan, state, run.world));
-    report.simd = plan.lanes.on ? fast::target_name(plan.target) : "none";
+    const fast::PlannedLanes<T>* const lanes = fast::planned_lanes(plan);
+    report.simd = lanes ? fast::target_name(lanes->target) : "none";
     const double ns = 1e9 / double(report.bodies) / double(report.frames);
     double inside = 0;
     const auto add = [&](const char* name, std::uint64_t calls, double seconds) {

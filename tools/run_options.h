@@ -1,7 +1,7 @@
 // run_options.h: the options that decide how trees move, the same for treesim and treeprofile, and what they choose.
 #pragma once
 #include "lib/model/scene.h"
-#include "lib/stages/plan.h"
+#include "lib/reference/solvers.h"
 #include "option_list.h"
 
 namespace bough {

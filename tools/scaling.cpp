@@ -1,5 +1,6 @@
 #include "scaling.h"
 #include "growth.h"
+#include "lib/fast/lane_steppers.h"
 #include "lib/fast/operations.h"
 #include "lib/fast/shared_constants.h"
 #include "lib/fast/step_bytes.h"
@@ -23,22 +24,24 @@ double median(std::vector<double> values) {
 
 // What code `plan` runs with, and by which target's limits it is held.
 template <class T> std::string simd_of(const Plan<T>& plan) {
-    return plan.lanes.on ? fast::target_name(plan.target) : "none";
+    const auto* const lanes = fast::planned_lanes(plan);
+    return lanes ? fast::target_name(lanes->target) : "none";
 }
 fast::Target target_of(const RunOptions& way) {
     return chosen_simd(way).value_or(fast::Target::baseline); // what the plain step is compiled for
 }
 
 template <class T> void count_operations(Plan<T>& plan, std::int64_t frames, ScalingCost& cost) {
-    const fast::Target target = plan.target;
+    fast::PlannedLanes<T>& lanes = *fast::planned_lanes(plan);
+    const fast::Target target = lanes.target;
     use_threads(1);
     State<T> state = make_state(plan);
     advance(plan, state); // the one of warm-up
-    plan.target = fast::counted_target;
+    lanes.target = fast::counted_target;
     fast::counted_operations() = {};
     const std::int64_t steps = std::clamp<std::int64_t>(400000 / std::int64_t(plan.bodies), 1, frames);
     for (std::int64_t k = 0; k < steps; ++k) advance(plan, state);
-    plan.target = target;
+    lanes.target = target;
     const fast::Operations& done = fast::counted_operations();
     const double each = 1 / (double(plan.bodies) * double(steps));
     cost.additions = double(done.additions) * each;
@@ -48,12 +51,13 @@ template <class T> void count_operations(Plan<T>& plan, std::int64_t frames, Sca
 }
 
 template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
-    const fast::Layout& layout = plan.lanes.layout;
+    const fast::PlannedLanes<T>& lanes = *fast::planned_lanes(plan);
+    const fast::Layout& layout = lanes.layout;
     // wide.h writes past the caches where a register is a line.
-    const bool streamed = plan.target == fast::Target::avx512 && fast::streams(layout);
-    const std::uint64_t shared = fast::shared_rows(plan);
+    const bool streamed = lanes.target == fast::Target::avx512 && fast::streams(layout);
+    const std::uint64_t shared = fast::shared_rows(lanes);
     const fast::StepBytes bytes =
-        plan.solver == Solver::coupled
+        fast::coupled_plan(plan)
             ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed, shared)
             : fast::analytic_step_bytes(layout, plan.wind, plan.pushes(), plan.gravity, sizeof(T), plan.field, shared);
     const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
@@ -136,7 +140,7 @@ private:
         c.precision = way.precision;
         c.simd = simd_of(plan);
         c.bodies = std::int64_t(plan.bodies);
-        if (plan.lanes.on) {
+        if (fast::planned_lanes(plan)) {
             count_operations(plan, report.runs[first].frames, c);
             count_bytes(plan, c);
         }

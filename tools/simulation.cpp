@@ -22,29 +22,33 @@ template <class Make> auto as_input(const RunOptions& o, Make&& make) {
 }
 
 template <class T> std::string advice(const Plan<T>& plan) {
-    if (plan.solver != Solver::articulated_explicit) return "";
+    if (plan.stepper->name() != std::string(solver_name(Solver::articulated_explicit))) return "";
     return "; explicit Euler needs far smaller steps (--substeps), or take --solver articulated-implicit";
+}
+
+template <class T> std::unique_ptr<Stepper<T>> stepper_of(const Setting& setting, const RunOptions& o) {
+    StepChoice choice;
+    choice.simd = chosen_simd(o);
+    choice.sleep = chosen_sleep(o);
+    const Solver solver = chosen_solver(o);
+    keep_to_the_whole(setting.part, solver == Solver::analytic ? Method::analytic : Method::coupled, choice);
+    return make_stepper<T>({solver, chosen_scheme(o), choice.simd, choice.sleep, o.tolerance.value_or(1e-8)},
+                           setting.scene);
 }
 
 } // namespace
 
-StepChoice step_choice(const RunOptions& o) {
-    StepChoice choice;
-    choice.dt = 1 / (o.fps * o.substeps);
-    choice.solver = chosen_solver(o);
-    choice.scheme = chosen_scheme(o);
-    choice.simd = chosen_simd(o);
-    choice.sleep = chosen_sleep(o);
-    choice.tolerance = o.tolerance;
-    return choice;
+double step_length(const RunOptions& o) {
+    return 1 / (o.fps * o.substeps);
 }
 
 template <class T> Plan<T> planned(const Setting& setting, const Wishes& wishes, const RunOptions& o) {
-    return as_input(o, [&] { return plan_run<T>(setting, wishes, step_choice(o)); });
+    return as_input(o, [&] { return plan_run<T>(setting, wishes, step_length(o), stepper_of<T>(setting, o)); });
 }
 
 template <class T> Plan<T> planned(Setting&& setting, const Wishes& wishes, const RunOptions& o) {
-    return as_input(o, [&] { return plan_run<T>(std::move(setting), wishes, step_choice(o)); });
+    std::unique_ptr<Stepper<T>> stepper = stepper_of<T>(setting, o);
+    return as_input(o, [&] { return plan_run<T>(std::move(setting), wishes, step_length(o), std::move(stepper)); });
 }
 
 template <class T> Run<T> started(Plan<T> plan, const Setting& setting, const RunOptions& o) {

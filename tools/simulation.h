@@ -1,12 +1,13 @@
 // simulation.h: what treesim and treeprofile share: one run as frames.
 #pragma once
+#include "lib/fast/lane_steppers.h"
+#include "lib/reference/solvers.h"
 #include "lib/simulation/run.h"
 #include "setting.h"
 
 namespace bough {
 
-// How the options make the steps. Throws UsageError.
-StepChoice step_choice(const RunOptions&);
+double step_length(const RunOptions&); // [s]
 
 // plan_run and start_run with their errors as the tool's.
 template <class T> Plan<T> planned(const Setting&, const Wishes&, const RunOptions&);

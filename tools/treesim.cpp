@@ -197,9 +197,10 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     const Plan<T>& plan = run.plan;
     State<T>& state = run.state;
     if (o.explain) std::cerr << explanation(plan, setting.changes);
-    if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.lanes.sleep.on)
+    const fast::PlannedLanes<T>* const lanes = fast::planned_lanes(plan);
+    if (!o.run.sleep.empty() && o.run.sleep != "off" && !plan.stepper->sleeps())
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " +
-                                 (plan.lanes.on ? plan.lanes.sleep.reason : "plain path: " + plan.lanes.reason));
+                                 (lanes ? lanes->sleep.reason : "plain path: " + plan.stepper->plainly()));
     const auto [first, last] = frames_to_make(o, setting, from, run, frames);
     const std::int64_t started = state.step;
     std::optional<ErrorEstimate<T>> estimate;

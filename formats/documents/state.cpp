@@ -1,5 +1,4 @@
 #include "document_parts.h"
-#include "lib/stages/plan.h"
 #include "motion.h"
 #include <charconv>
 
@@ -57,7 +56,7 @@ bool read_hexadecimal(const std::string& text, std::uint64_t& value) {
 
 // What is carried from step to step is the solver's own: all of it, and nothing of another's.
 void check_carried(const SavedState& state, const std::string& name) {
-    const bool coupled = state.solver == solver_name(Solver::coupled);
+    const bool coupled = state.solver == "coupled";
     const auto check = [&](const char* field, bool there, bool wanted) {
         if (there && !wanted)
             throw InputError(name + ": /" + field, "is there, but solver " + in_quotes(state.solver) + " has none");
@@ -68,8 +67,7 @@ void check_carried(const SavedState& state, const std::string& name) {
     check("theta_change", !state.theta_change.empty(), coupled && bodies);
     check("theta_dot_change", !state.theta_dot_change.empty(), coupled && bodies);
     check("scaled_rate", !state.scaled_rate.empty(), !coupled && bodies);
-    check("spin_dot", !state.spin_dot.empty(),
-          !state.spin_dot.empty() && state.solver == solver_name(Solver::analytic));
+    check("spin_dot", !state.spin_dot.empty(), !state.spin_dot.empty() && state.solver == "analytic");
 }
 
 void check_state(const SavedState& state, const std::string& name) {

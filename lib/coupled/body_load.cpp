@@ -2,34 +2,34 @@
 #include "../base/parallel.h"
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
-#include "../stages/external_forces.h"
 #include "../stages/leaf_air.h"
+#include "../stages/pushes.h"
 #include "../stages/shelter.h"
 #include "own_inertia.h"
 
 namespace bough {
 
-template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, double time) {
+template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, CoupledState<T>& work, double time) {
     const Wind& wind = *plan.scene.wind;
     if (plan.field) {
-        evaluate_field(wind, time, state.wind_start);
-        evaluate_field(wind, time + plan.dt, state.wind_end);
+        evaluate_field(wind, time, work.wind_start);
+        evaluate_field(wind, time + plan.dt, work.wind_end);
         return evaluate_wind(wind, time + plan.dt / 2, state.wind);
     }
     evaluate_wind(wind, time, state.wind);
-    evaluate_wind(wind, time + plan.dt, state.wind_change);
-    for (std::size_t k = 0; k < state.wind.velocity.size(); ++k)
-        state.wind_change.velocity[k] -= state.wind.velocity[k];
+    evaluate_wind(wind, time + plan.dt, work.wind_change);
+    for (std::size_t k = 0; k < state.wind.velocity.size(); ++k) work.wind_change.velocity[k] -= state.wind.velocity[k];
     evaluate_wind(wind, time + plan.dt / 2, state.wind);
 }
 
 namespace {
 
 // What the wind at a place changes by over the step.
-template <class T> Vector3<T> wind_change(const State<T>& state, const Vector3<T>& place, std::size_t clock) {
-    if (!state.wind_end.on()) return state.wind_change.at(place.y());
+template <class T>
+Vector3<T> wind_change(const State<T>& state, const CoupledState<T>& work, const Vector3<T>& place, std::size_t clock) {
+    if (!work.wind_end.on()) return work.wind_change.at(place.y());
     const Vector3<T> change =
-        state.wind_end.at(place.x(), place.z(), clock) - state.wind_start.at(place.x(), place.z(), clock);
+        work.wind_end.at(place.x(), place.z(), clock) - work.wind_start.at(place.x(), place.z(), clock);
     return state.wind.factor(place.y()) * change;
 }
 
@@ -45,7 +45,9 @@ template <class T>
     b.H += leaf_turning(plan.leaf, scale, m, plan.com[i].norm(), b.R, u);
 }
 
-template <class T> void add_air(const Plan<T>& plan, const State<T>& state, CoupledBody<T>& b, std::size_t i) {
+template <class T>
+void add_air(const Plan<T>& plan, const CoupledPlan<T>& own, const State<T>& state, const CoupledWork<T>& work,
+             CoupledBody<T>& b, std::size_t i) {
     const T scale = plan.drag_area[i];
     const Vector3<T> place = b.x + b.c;
     const Vector3<T> u = wind_on_body_at(plan, i, state.wind, place) - b.v - b.omega.cross(b.c);
@@ -58,14 +60,15 @@ template <class T> void add_air(const Plan<T>& plan, const State<T>& state, Coup
     const Vector3<T> f = b.air + b.D * ahead;
     b.F -= f;
     b.N -= b.c.cross(f);
-    b.slope_F = -b.D * sheltered(plan, i, wind_change(state, place, clock_of(plan, i)));
+    b.slope_F = -b.D * sheltered(plan, i, wind_change(state, work, place, clock_of(plan, i)));
     b.slope_N = b.c.cross(b.slope_F);
-    b.H += streaming_stiffness(plan.foliage, Vector3<T>(b.R * plan.carried_drag[i]), u);
+    b.H += streaming_stiffness(plan.foliage, Vector3<T>(b.R * own.carried_drag[i]), u);
     if (is_flat(plan.kind[i])) b.H += scale * plan.com[i].norm() * air_turning(plan.kind[i], b.R, u);
 }
 
-template <class T> void load(const Plan<T>& plan, State<T>& state, std::size_t i) {
-    CoupledBody<T>& b = state.coupled[i];
+template <class T>
+void load(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, CoupledWork<T>& work, std::size_t i) {
+    CoupledBody<T>& b = work.coupled[i];
     const T m = plan.mass[i];
     const Vector3<T> g = plan.scene.gravity.template cast<T>();
     std::uint64_t seen = 0; // counted by midpoint()
@@ -73,7 +76,7 @@ template <class T> void load(const Plan<T>& plan, State<T>& state, std::size_t i
     b.J = b.R * own_inertia(plan.inertia_joint[i]) * b.R.transpose();
     b.H.setZero();
     if (plan.gravity) {
-        const Vector3<T> P = b.R * plan.carried_moment[i];
+        const Vector3<T> P = b.R * own.carried_moment[i];
         const Matrix3<T> Pg = P * g.transpose();
         b.H = P.dot(g) * Matrix3<T>::Identity() - T(0.5) * (Pg + Pg.transpose());
     }
@@ -83,17 +86,17 @@ template <class T> void load(const Plan<T>& plan, State<T>& state, std::size_t i
         b.slope_F.setZero();
         b.slope_N.setZero();
     }
-    if (plan.wind) add_air(plan, state, b, i);
+    if (plan.wind) add_air(plan, own, state, work, b, i);
     b.N -= b.H * b.turn;
     const Vector3<T>& K = plan.K[i];
     b.torque = -b.rates.transpose() * K.cwiseProduct(Vector3<T>(state.theta[i] + plan.beta[i] * state.theta_dot[i]));
     b.torque_rate = b.rates.transpose() * K.cwiseProduct(state.theta_dot[i]);
 }
 
-template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double time) {
+template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work, double time) {
     const double at = time + plan.dt / 2;
     for (const PlannedPull<T>& pull : plan.pulls) {
-        CoupledBody<T>& b = state.coupled[pull.body];
+        CoupledBody<T>& b = work.coupled[pull.body];
         const Pull& source = plan.scene.pulls[pull.source];
         const Vector3<T> arm = b.R * pull.point_b, f = pull_force(source, at).template cast<T>();
         const Vector3<T> change = (pull_force(source, time + plan.dt) - pull_force(source, time)).template cast<T>();
@@ -103,7 +106,7 @@ template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double t
         b.slope_N -= arm.cross(change);
     }
     for (const Load<T>& load : state.loads) {
-        CoupledBody<T>& b = state.coupled[load.body];
+        CoupledBody<T>& b = work.coupled[load.body];
         b.F -= load.force;
         b.N -= Vector3<T>(b.R * load.point_b).cross(load.force);
     }
@@ -111,14 +114,15 @@ template <class T> void add_pulls(const Plan<T>& plan, State<T>& state, double t
 
 } // namespace
 
-template <class T> void body_loads(const Plan<T>& plan, State<T>& state, double time) {
-    parallel_for(plan.bodies, 100, [&](std::size_t i) { load(plan, state, i); });
-    add_pulls(plan, state, time);
+template <class T>
+void body_loads(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, CoupledWork<T>& work, double time) {
+    parallel_for(plan.bodies, 100, [&](std::size_t i) { load(plan, own, state, work, i); });
+    add_pulls(plan, state, work, time);
 }
 
-template void wind_over_step(const Plan<float>&, State<float>&, double);
-template void wind_over_step(const Plan<double>&, State<double>&, double);
-template void body_loads(const Plan<float>&, State<float>&, double);
-template void body_loads(const Plan<double>&, State<double>&, double);
+template void wind_over_step(const Plan<float>&, State<float>&, CoupledState<float>&, double);
+template void wind_over_step(const Plan<double>&, State<double>&, CoupledState<double>&, double);
+template void body_loads(const Plan<float>&, const CoupledPlan<float>&, State<float>&, CoupledWork<float>&, double);
+template void body_loads(const Plan<double>&, const CoupledPlan<double>&, State<double>&, CoupledWork<double>&, double);
 
 } // namespace bough

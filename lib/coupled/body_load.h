@@ -17,14 +17,13 @@
 // Torque of the joint, world: rates^T (-K (theta_0 + beta eta_0)), and rates^T K eta_0 its rate.
 // Reads   the first part of coupled, theta, theta_dot, wind, wind_change. Writes the second. O(n), bodies in parallel. Errors none.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "coupled_state.h"
 
 namespace bough {
 
-template <class T> void body_loads(const Plan<T>&, State<T>&, double time);
+template <class T> void body_loads(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, double time);
 
-// Wind half a step on, and its change over the step, into state.wind, state.wind_change (or wind_start, wind_end). O(its tables).
-template <class T> void wind_over_step(const Plan<T>&, State<T>&, double time);
+// Wind half a step on, and its change over the step, into state.wind, work.wind_change (or wind_start, wind_end). O(its tables).
+template <class T> void wind_over_step(const Plan<T>&, State<T>&, CoupledState<T>&, double time);
 
 } // namespace bough

@@ -1,6 +1,6 @@
 #include "coupled_step.h"
-#include "../stages/root_term.h"
-#include "../stages/spring.h"
+#include "../stages/ground.h"
+#include "../stages/spring_torque.h"
 #include "../stages/state_update.h"
 #include "body_load.h"
 #include "energy_guard.h"
@@ -12,51 +12,55 @@
 namespace bough {
 namespace {
 
-template <class T> void solve(const Plan<T>& plan, State<T>& state) {
-    const RationalScheme& scheme = scheme_of(plan.scheme);
-    for (Vector3<T>& change : state.theta_change) change.setZero();
-    for (Vector3<T>& change : state.theta_dot_change) change.setZero();
-    for (int k = 0; k < scheme.poles; ++k) resolvent(plan, state, scheme.pole[std::size_t(k)]);
+template <class T> void solve(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, CoupledWork<T>& work) {
+    const RationalScheme& scheme = scheme_of(own.scheme);
+    for (Vector3<T>& change : work.theta_change) change.setZero();
+    for (Vector3<T>& change : work.theta_dot_change) change.setZero();
+    for (int k = 0; k < scheme.poles; ++k) resolvent(plan, own, state, work, scheme.pole[std::size_t(k)]);
 }
 
-template <class T> void take(const Plan<T>& plan, State<T>& state) {
+template <class T> void take(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work) {
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         Vector3<T>&theta = state.theta[i], &eta = state.theta_dot[i];
-        theta += state.theta_change[i];
-        eta += state.theta_dot_change[i];
-        if (const GroundStep<T>* ground = ground_step_of(plan, state, i); ground && ground->jumps) {
-            state.theta_change[i] = T(plan.dt) * eta;
-            state.theta_dot_change[i].setZero();
+        theta += work.theta_change[i];
+        eta += work.theta_dot_change[i];
+        if (const GroundStep<T>* ground = ground_step_of(plan, work, i); ground && ground->jumps) {
+            work.theta_change[i] = T(plan.dt) * eta;
+            work.theta_dot_change[i].setZero();
         }
-        if (take_shorter_way(theta, eta, state.theta_change[i], state.theta_dot_change[i], T(plan.dt)))
+        if (take_shorter_way(theta, eta, work.theta_change[i], work.theta_dot_change[i], T(plan.dt)))
             ++state.flags.half_turns;
     }
 }
 
 } // namespace
 
-template <class T> void coupled_step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
+template <class T>
+void coupled_step(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, CoupledWork<T>& work,
+                  StageClock* clock) {
     const double time = double(state.step) * plan.dt, end = double(state.step + 1) * plan.dt;
-    if (plan.wind) run_stage(Stage::wind_field, state, clock, [&] { wind_over_step(plan, state, time); });
+    if (plan.wind) run_stage(Stage::wind_field, state, clock, [&] { wind_over_step(plan, state, work, time); });
     run_stage(Stage::midpoint, state, clock, [&] {
-        ground_over_step(plan, state, time);
-        midpoint(plan, state, scheme_of(plan.scheme).extrapolates);
+        ground_over_step(plan, own, work, time);
+        midpoint(plan, state, work, scheme_of(own.scheme).extrapolates);
     });
-    run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, state, time); });
-    run_stage(Stage::resolvent, state, clock, [&] { solve(plan, state); });
+    run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, own, state, work, time); });
+    run_stage(Stage::resolvent, state, clock, [&] { solve(plan, own, state, work); });
     run_stage(Stage::state_update, state, clock, [&] {
-        const bool watched = weigh_start(plan, state, time);
-        take(plan, state);
+        const bool watched = weigh_start(plan, state, work, time);
+        take(plan, state, work);
         move_ground(plan, state, end);
         state_update(plan, state);
-        if (watched) guard_energy(plan, state, time);
-        if (plan.joint_limit && keep_limits(plan, state)) state_update(plan, state);
+        if (watched) guard_energy(plan, state, work, time);
+        if (plan.joint_limit && keep_limits(plan, state, work)) state_update(plan, state);
     });
     if (plan.torque) spring_torque(plan, state);
     ++state.step;
 }
 
-template void coupled_step(const Plan<float>&, State<float>&, StageClock*);
-template void coupled_step(const Plan<double>&, State<double>&, StageClock*);
+template void coupled_step(const Plan<float>&, const CoupledPlan<float>&, State<float>&, CoupledWork<float>&,
+                           StageClock*);
+template void coupled_step(const Plan<double>&, const CoupledPlan<double>&, State<double>&, CoupledWork<double>&,
+                           StageClock*);
 
 } // namespace bough

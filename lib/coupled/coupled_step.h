@@ -29,13 +29,15 @@
 //   the same with the body's own drag, and its direction     13, 9.8, 11 / 31, 37, 25
 //   two steps                                                3.7, 2.4, 4.2 / 10, 8.1, 4.6    twice: what a user takes where it matters
 // Error of the linear part: a mode at omega is advanced by R(i omega h): P12 damps by (omega h)^3 / 72 and is exact to h^3.
-// Reads and writes State. See state.h for what is carried: theta, theta_dot, and their last changes.
+// Reads and writes State and CoupledState. Carried are theta, theta_dot, and their last changes.
 #pragma once
-#include "../stages/step.h"
+#include "coupled_state.h"
 
 namespace bough {
 
-// Advances the state by plan.dt. Needs a state of this plan with kinematics up to date. O(n), allocates nothing.
-template <class T> void coupled_step(const Plan<T>&, State<T>&, StageClock* clock = nullptr);
+// Advances the state by plan.dt. Needs a state of this plan with kinematics up to date. O(n), allocates nothing. (The same in SIMD lanes:
+// fast/coupled_lanes_step.h.)
+template <class T>
+void coupled_step(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, StageClock* clock);
 
 } // namespace bough

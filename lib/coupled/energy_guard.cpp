@@ -1,5 +1,5 @@
 #include "energy_guard.h"
-#include "../stages/external_forces.h"
+#include "../stages/pushes.h"
 #include "../stages/shelter.h"
 #include "midpoint.h"
 #include "turn_bounds.h"
@@ -38,19 +38,20 @@ template <class T> double own_kinetic(const Plan<T>& plan, const State<T>& s, st
 
 // The pulls' work on wood, from their points at the start (sign 1) to those at the end (-1), as seen from the ground; at the end
 // their forces on ends of branches.
-template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, double time, double sign) {
+template <class T> void book_pulls(const Plan<T>& plan, State<T>& s, CoupledWork<T>& work, double time, double sign) {
     visit_pushes(plan, s, time + plan.dt / 2, [&](std::size_t body, const Vector3<T>& point_b, const Vector3<T>& f) {
-        if (is_end(plan, body) && sign > 0) s.guard[body].push += f;
+        if (is_end(plan, body) && sign > 0) work.guard[body].push += f;
         Vector3<T> point = s.x_w[body] + s.R_wb[body] * point_b;
-        const GroundStep<T>* ground = ground_step_of(plan, s, body);
+        const GroundStep<T>* ground = ground_step_of(plan, work, body);
         if (ground && sign < 0) point -= carried_by(*ground, T(plan.dt));
-        s.account[s.guard[body].tree].gained += sign * f.template cast<double>().dot(point.template cast<double>());
+        work.account[work.guard[body].tree].gained +=
+            sign * f.template cast<double>().dot(point.template cast<double>());
     });
 }
 
-template <class T> void start_of(const Plan<T>& plan, State<T>& s, std::size_t i) {
-    GuardBody<T>& b = s.guard[i];
-    EnergyAccount& account = s.account[b.tree];
+template <class T> void start_of(const Plan<T>& plan, State<T>& s, CoupledWork<T>& work, std::size_t i) {
+    GuardBody<T>& b = work.guard[i];
+    EnergyAccount& account = work.account[b.tree];
     b.joint = s.x_w[i];
     b.com = s.x_w[i] + s.R_wb[i] * plan.com[i];
     b.v.setZero();
@@ -60,8 +61,8 @@ template <class T> void start_of(const Plan<T>& plan, State<T>& s, std::size_t i
     if (plan.parent[i] >= 0) {
         const auto p = std::size_t(plan.parent[i]);
         host = s.R_wb[p];
-        b.omega = s.guard[p].omega;
-        b.v = s.guard[p].v + b.omega.cross(Vector3<T>(s.x_w[i] - s.x_w[p]));
+        b.omega = work.guard[p].omega;
+        b.v = work.guard[p].v + b.omega.cross(Vector3<T>(s.x_w[i] - s.x_w[p]));
     }
     if (is_end(plan, i)) {
         b.arm = host.transpose() * (b.com - b.joint);
@@ -76,24 +77,24 @@ template <class T> void start_of(const Plan<T>& plan, State<T>& s, std::size_t i
 
 } // namespace
 
-template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s, double time) {
-    for (EnergyAccount& account : s.account) account = {};
+template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s, CoupledWork<T>& work, double time) {
+    for (EnergyAccount& account : work.account) account = {};
     std::uint32_t trees = 0;
     bool any = false;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        GuardBody<T>& b = s.guard[i];
-        b.tree = plan.parent[i] < 0 ? trees++ : s.guard[std::size_t(plan.parent[i])].tree;
+        GuardBody<T>& b = work.guard[i];
+        b.tree = plan.parent[i] < 0 ? trees++ : work.guard[std::size_t(plan.parent[i])].tree;
         const T limit = T((is_end(plan, i) ? watched_end_turn : watched_turn) / plan.dt);
-        const Vector3<T> rate = s.theta_dot[i] + s.theta_dot_change[i];
-        if (!(s.coupled[i].omega.squaredNorm() > limit * limit || rate.squaredNorm() > limit * limit)) continue;
-        if (turns(ground_step_of(plan, s, i))) continue;
-        s.account[b.tree].watched = any = true;
-        if (!is_end(plan, i)) s.account[b.tree].wood = true;
+        const Vector3<T> rate = s.theta_dot[i] + work.theta_dot_change[i];
+        if (!(work.coupled[i].omega.squaredNorm() > limit * limit || rate.squaredNorm() > limit * limit)) continue;
+        if (turns(ground_step_of(plan, work, i))) continue;
+        work.account[b.tree].watched = any = true;
+        if (!is_end(plan, i)) work.account[b.tree].wood = true;
     }
     if (!any) return false;
     for (std::size_t i = 0; i < plan.bodies; ++i)
-        if (s.account[s.guard[i].tree].watched) start_of(plan, s, i);
-    book_pulls(plan, s, time, 1);
+        if (work.account[work.guard[i].tree].watched) start_of(plan, s, work, i);
+    book_pulls(plan, s, work, time, 1);
     return true;
 }
 
@@ -104,8 +105,9 @@ namespace {
 // nu m |U|^2 / 4: what the linear model has beyond that is its error. The torque of leaf_air.h is not booked: what it puts into a leaf that
 // turns fast is taken again.
 template <class T>
-double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vector3<T>& moved, const Vector3<T>& own) {
-    const CoupledBody<T>& y = s.coupled[i];
+double air_work(const Plan<T>& plan, const State<T>& s, const CoupledWork<T>& work, std::size_t i,
+                const Vector3<T>& moved, const Vector3<T>& own) {
+    const CoupledBody<T>& y = work.coupled[i];
     const Vector3<T> mean = moved / T(plan.dt), carried = (moved - own) / T(plan.dt);
     const Vector3<T> U = wind_on_body_at(plan, i, s.wind, Vector3<T>(y.x + y.c)) - carried;
     const Vector3<T> ahead = mean - y.v - y.omega.cross(y.c);
@@ -119,8 +121,9 @@ double air_work(const Plan<T>& plan, const State<T>& s, std::size_t i, const Vec
 }
 
 template <class T>
-void weigh_end_of_branch(const Plan<T>& plan, State<T>& s, std::size_t i, const Vector3<T>& own, const Vector3<T>& g) {
-    GuardBody<T>& b = s.guard[i];
+void weigh_end_of_branch(const Plan<T>& plan, State<T>& s, CoupledWork<T>& work, std::size_t i, const Vector3<T>& own,
+                         const Vector3<T>& g) {
+    GuardBody<T>& b = work.guard[i];
     const T h = T(plan.dt), m = plan.mass[i];
     const Vector3<T> c = s.R_wb[i] * plan.com[i], moved = s.x_w[i] + c - b.com;
     Vector3<T> arm = b.arm;
@@ -134,28 +137,28 @@ void weigh_end_of_branch(const Plan<T>& plan, State<T>& s, std::size_t i, const 
         const Matrix3<T> I =
             s.R_wb[i] * plan.inertia_joint[i] * s.R_wb[i].transpose() + m * cross_matrix(c) * cross_matrix(c);
         const double now = own_kinetic(plan, s, i);
-        double work = double(m * (g - a).dot(by_itself)) - double((I * (omega - b.host_omega)).dot(spin));
-        if (plan.wind) work += air_work(plan, s, i, moved, by_itself);
-        const double excess = now + elastic(plan, i, s.theta[i]) - b.own - work;
+        double booked = double(m * (g - a).dot(by_itself)) - double((I * (omega - b.host_omega)).dot(spin));
+        if (plan.wind) booked += air_work(plan, s, work, i, moved, by_itself);
+        const double excess = now + elastic(plan, i, s.theta[i]) - b.own - booked;
         if (excess > tolerance * now) b.keep = T(std::sqrt(std::max(0.0, 1 - excess / now)));
     }
     // In the tree's balance with what it keeps.
-    EnergyAccount& account = s.account[b.tree];
+    EnergyAccount& account = work.account[b.tree];
     b.omega += b.keep * spin;
     account.slow += kinetic(plan, s, i, b.v, b.omega, b.v, b.omega);
     account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);
     account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
     account.gained += elastic(plan, i, s.theta[i]) - double(m * g.dot(own));
-    if (plan.wind) account.gained -= air_work(plan, s, i, moved, own);
+    if (plan.wind) account.gained -= air_work(plan, s, work, i, moved, own);
 }
 
-template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t i) {
-    GuardBody<T>& b = s.guard[i];
-    EnergyAccount& account = s.account[b.tree];
+template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, CoupledWork<T>& work, std::size_t i) {
+    GuardBody<T>& b = work.guard[i];
+    EnergyAccount& account = work.account[b.tree];
     const Vector3<T> c = s.R_wb[i] * plan.com[i], moved = s.x_w[i] + c - b.com;
     b.v = b.omega = b.v_fast = b.omega_fast = Vector3<T>::Zero();
     if (plan.parent[i] >= 0) {
-        const GuardBody<T>& p = s.guard[std::size_t(plan.parent[i])];
+        const GuardBody<T>& p = work.guard[std::size_t(plan.parent[i])];
         const Vector3<T> arm = s.x_w[i] - s.x_w[std::size_t(plan.parent[i])];
         b.omega = p.omega;
         b.omega_fast = p.omega_fast;
@@ -163,11 +166,11 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
         b.v_fast = p.v_fast + p.omega_fast.cross(arm);
     }
     Vector3<T> own = moved, g = plan.scene.gravity.template cast<T>();
-    if (const GroundStep<T>* ground = ground_step_of(plan, s, i)) {
+    if (const GroundStep<T>* ground = ground_step_of(plan, work, i)) {
         own -= carried_by(*ground, T(plan.dt));
         g -= ground->a;
     }
-    if (is_end(plan, i)) return weigh_end_of_branch(plan, s, i, own, g);
+    if (is_end(plan, i)) return weigh_end_of_branch(plan, s, work, i, own, g);
     const Vector3<T> spin = joint_spin(s, i);
     b.fast = (b.omega + b.omega_fast + spin).norm() * T(plan.dt) > T(watched_turn);
     (b.fast ? b.omega_fast : b.omega) += spin;
@@ -175,7 +178,7 @@ template <class T> void weigh_end(const Plan<T>& plan, State<T>& s, std::size_t 
     account.mixed += kinetic(plan, s, i, b.v, b.omega, b.v_fast, b.omega_fast);
     account.fast += kinetic(plan, s, i, b.v_fast, b.omega_fast, b.v_fast, b.omega_fast);
     account.gained += elastic(plan, i, s.theta[i]) - double(plan.mass[i] * g.dot(own));
-    if (plan.wind) account.gained -= air_work(plan, s, i, moved, own);
+    if (plan.wind) account.gained -= air_work(plan, s, work, i, moved, own);
 }
 
 } // namespace
@@ -199,28 +202,28 @@ void settle(EnergyAccount& a, bool foliage) {
     a.keep_fast *= a.keep_slow;
 }
 
-template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, double time) {
+template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, CoupledWork<T>& work, double time) {
     for (std::size_t i = 0; i < plan.bodies; ++i)
-        if (s.account[s.guard[i].tree].watched) weigh_end(plan, s, i);
-    book_pulls(plan, s, time, -1);
-    for (EnergyAccount& account : s.account)
+        if (work.account[work.guard[i].tree].watched) weigh_end(plan, s, work, i);
+    book_pulls(plan, s, work, time, -1);
+    for (EnergyAccount& account : work.account)
         if (account.watched) settle(account, plan.foliage);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const EnergyAccount& account = s.account[s.guard[i].tree];
+        const EnergyAccount& account = work.account[work.guard[i].tree];
         if (!account.watched) continue;
-        double keep = s.guard[i].fast ? account.keep_fast : account.keep_slow;
-        if (is_end(plan, i)) keep = double(s.guard[i].keep) * account.keep_slow;
+        double keep = work.guard[i].fast ? account.keep_fast : account.keep_slow;
+        if (is_end(plan, i)) keep = double(work.guard[i].keep) * account.keep_slow;
         if (!(keep < 1)) continue;
         s.theta_dot[i] *= T(keep);
-        s.theta_change[i] = T(plan.dt) * s.theta_dot[i];
-        s.theta_dot_change[i].setZero();
+        work.theta_change[i] = T(plan.dt) * s.theta_dot[i];
+        work.theta_dot_change[i].setZero();
         ++s.flags.energy_guard;
     }
 }
 
-template bool weigh_start(const Plan<float>&, State<float>&, double);
-template bool weigh_start(const Plan<double>&, State<double>&, double);
-template void guard_energy(const Plan<float>&, State<float>&, double);
-template void guard_energy(const Plan<double>&, State<double>&, double);
+template bool weigh_start(const Plan<float>&, State<float>&, CoupledWork<float>&, double);
+template bool weigh_start(const Plan<double>&, State<double>&, CoupledWork<double>&, double);
+template void guard_energy(const Plan<float>&, State<float>&, CoupledWork<float>&, double);
+template void guard_energy(const Plan<double>&, State<double>&, CoupledWork<double>&, double);
 
 } // namespace bough

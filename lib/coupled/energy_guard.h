@@ -21,16 +21,15 @@
 // Counted a joint (StepFlags::energy_guard). The last change of a scaled joint is dropped.
 // Cost: nothing but a comparison a body where nothing turns fast, else two sweeps over the watched trees.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "coupled_state.h"
 
 namespace bough {
 
 // When the step is known but not yet taken: what the balance needs of y0. False where no tree is watched.
-template <class T> bool weigh_start(const Plan<T>&, State<T>&, double time);
+template <class T> bool weigh_start(const Plan<T>&, State<T>&, CoupledWork<T>&, double time);
 
 // After it, kinematics (poses) up to date: scales rates.
-template <class T> void guard_energy(const Plan<T>&, State<T>&, double time);
+template <class T> void guard_energy(const Plan<T>&, State<T>&, CoupledWork<T>&, double time);
 
 // What hangs at the end of a branch and is none: a leaf, a clump, fruit. Known with wind alone, without which nothing flutters.
 template <class T> bool is_end(const Plan<T>& plan, std::size_t i) {

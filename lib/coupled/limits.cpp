@@ -20,11 +20,11 @@ template <class T> Vector3<T> clamp(const Plan<T>& plan, State<T>& state, std::s
     return pushing;
 }
 
-template <class T> void stop(const Plan<T>& plan, State<T>& state) {
+template <class T> void stop(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work) {
     constexpr T stiff = sizeof(T) == 4 ? T(1e3) : T(1e6);
-    std::vector<ResolventBody<T>>& body = state.resolvent_real;
+    std::vector<ResolventBody<T>>& body = work.resolvent_real;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const CoupledBody<T>& b = state.coupled[i];
+        const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<T>& q = body[i];
         q.A = b.R * plan.inertia_joint[i] * b.R.transpose();
         q.A.diagonal().array() += 4 * std::numeric_limits<T>::epsilon() * q.A.trace();
@@ -34,16 +34,16 @@ template <class T> void stop(const Plan<T>& plan, State<T>& state) {
         q.F.setZero();
     }
     for (std::size_t i = plan.bodies; i-- > 0;) {
-        const CoupledBody<T>& b = state.coupled[i];
+        const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<T>& q = body[i];
-        const Vector3<T> lock = stiff * q.A.trace() * state.theta_change[i]; // 1 where it pushes
+        const Vector3<T> lock = stiff * q.A.trace() * work.theta_change[i]; // 1 where it pushes
         const Matrix3<T> Z = b.rates.transpose() * lock.asDiagonal() * b.rates;
         q.E = symmetric_inverse(Matrix3<T>(q.A + Z));
         q.u = -b.rates.transpose() * lock.cwiseProduct(state.theta_dot[i]) - q.N;
         if (plan.parent[i] >= 0) hand_on(q, T(1), Z, b.r, body[std::size_t(plan.parent[i])]);
     }
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const CoupledBody<T>& b = state.coupled[i];
+        const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<T>& q = body[i];
         Vector3<T> alpha = Vector3<T>::Zero(), a = Vector3<T>::Zero();
         if (plan.parent[i] >= 0) {
@@ -56,13 +56,13 @@ template <class T> void stop(const Plan<T>& plan, State<T>& state) {
         q.a = a;
         state.theta_dot[i] += b.rates * gamma;
         for (int k = 0; k < 3; ++k)
-            if (state.theta_change[i][k] > 0) state.theta_dot[i][k] = 0;
+            if (work.theta_change[i][k] > 0) state.theta_dot[i][k] = 0;
     }
 }
 
 } // namespace
 
-template <class T> bool keep_limits(const Plan<T>& plan, State<T>& state) {
+template <class T> bool keep_limits(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work) {
     bool any = false;
     for (std::size_t i = 0; i < plan.bodies && !any; ++i)
         any = (state.theta[i].cwiseAbs().array() > plan.theta_limit[i].array()).any();
@@ -70,21 +70,21 @@ template <class T> bool keep_limits(const Plan<T>& plan, State<T>& state) {
     // The last changes are dropped for the whole tree, whose rates the impulse changes; till then they mark what pushes.
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         bool past = false;
-        state.theta_change[i] = clamp(plan, state, i, past);
+        work.theta_change[i] = clamp(plan, state, i, past);
         if (past) ++state.flags.limited;
     }
     const std::uint64_t fast = state.flags.fast_turns;
-    midpoint(plan, state, false);
+    midpoint(plan, state, work, false);
     state.flags.fast_turns = fast; // the step has counted its own
-    stop(plan, state);
+    stop(plan, state, work);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        state.theta_change[i] = T(plan.dt) * state.theta_dot[i];
-        state.theta_dot_change[i].setZero();
+        work.theta_change[i] = T(plan.dt) * state.theta_dot[i];
+        work.theta_dot_change[i].setZero();
     }
     return true;
 }
 
-template bool keep_limits(const Plan<float>&, State<float>&);
-template bool keep_limits(const Plan<double>&, State<double>&);
+template bool keep_limits(const Plan<float>&, State<float>&, CoupledWork<float>&);
+template bool keep_limits(const Plan<double>&, State<double>&, CoupledWork<double>&);
 
 } // namespace bough

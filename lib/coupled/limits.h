@@ -12,12 +12,11 @@
 // Reads   theta, theta_dot, theta_limit. Writes them, the last changes, and as scratch coupled, resolvent_real. Cost: a
 //         comparison a joint, and two sweeps where a limit acts. Errors none; non-finite angles are left as they are.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "coupled_state.h"
 
 namespace bough {
 
 // True where a limit acted: the poses are then to be found anew.
-template <class T> bool keep_limits(const Plan<T>&, State<T>&);
+template <class T> bool keep_limits(const Plan<T>&, State<T>&, CoupledWork<T>&);
 
 } // namespace bough

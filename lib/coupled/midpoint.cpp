@@ -23,9 +23,10 @@ Ground ground_halfway(const RootSpline& spline, const GroundCourse& c, double ti
 
 } // namespace
 
-template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, double time) {
+template <class T>
+void ground_over_step(const Plan<T>& plan, const CoupledPlan<T>& own, CoupledState<T>& work, double time) {
     const double h = plan.dt;
-    const bool halfway = scheme_of(plan.scheme).extrapolates;
+    const bool halfway = scheme_of(own.scheme).extrapolates;
     for (std::size_t k = 0; k < plan.splines.size(); ++k) {
         GroundCourse c = ground_course(plan.splines[k], time, h);
         if (!halfway) c.slope = c.slope_turn = Vec3::Zero(); // order 1 makes one impulse of what is a pair
@@ -33,7 +34,7 @@ template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, d
         const Vec3 arm = y.R * plan.splines[k].pivot; // from the world's origin, as it is carried, to the pivot
         std::uint64_t seen = 0;                       // counted by midpoint()
         const Vec3 spin = resolved_turn(y.omega, h, seen);
-        GroundStep<T>& g = state.coupled_ground[k];
+        GroundStep<T>& g = work.ground[k];
         g.R = y.R.template cast<T>();
         g.x = y.x.template cast<T>();
         g.v = y.v.template cast<T>();
@@ -50,11 +51,11 @@ template <class T> void ground_over_step(const Plan<T>& plan, State<T>& state, d
 
 namespace {
 
-template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const State<T>& state, std::size_t i) {
+template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const CoupledState<T>& work, std::size_t i) {
     CoupledBody<T> b;
     b.R.setIdentity();
     for (Vector3<T>* v : {&b.x, &b.omega, &b.v, &b.omega_0, &b.v_0, &b.turn, &b.alpha_0, &b.a_0}) v->setZero();
-    if (const GroundStep<T>* g = ground_step_of(plan, state, i)) {
+    if (const GroundStep<T>* g = ground_step_of(plan, work, i)) {
         b.R = g->R;
         b.x = g->x;
         b.omega = g->omega;
@@ -66,17 +67,17 @@ template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const State<T
 }
 
 template <class T>
-void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::size_t i, bool halfway,
-           std::uint64_t& fast) {
-    CoupledBody<T>& b = state.coupled[i];
+void place(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work, const CoupledBody<T>& p, std::size_t i,
+           bool halfway, std::uint64_t& fast) {
+    CoupledBody<T>& b = work.coupled[i];
     const T h = T(plan.dt);
     Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
-    Vector3<T> half_change = state.theta_change[i] / 2;
+    Vector3<T> half_change = work.theta_change[i] / 2;
     const Vector3<T> half_turn = p.turn + p.R * (plan.R_pj[i] * half_change);
     if (half_change.norm() > T(extrapolated_turn / 2) || half_turn.norm() > T(extrapolated_turn)) halfway = false;
     if (halfway) {
         theta += half_change;
-        eta += state.theta_dot_change[i] / 2;
+        eta += work.theta_dot_change[i] / 2;
     }
     const RotationMaps<T> maps = rotation_maps(theta);
     const Matrix3<T> G = p.R * plan.R_pj[i], GJ = G * maps.J;
@@ -99,19 +100,19 @@ void place(const Plan<T>& plan, State<T>& state, const CoupledBody<T>& p, std::s
 
 } // namespace
 
-template <class T> void midpoint(const Plan<T>& plan, State<T>& state, bool halfway) {
+template <class T> void midpoint(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work, bool halfway) {
     std::uint64_t fast = 0;
     for (std::size_t i = 0; i < plan.bodies; ++i)
         if (plan.parent[i] < 0)
-            place(plan, state, ground_body(plan, state, i), i, halfway, fast);
+            place(plan, state, work, ground_body(plan, work, i), i, halfway, fast);
         else
-            place(plan, state, state.coupled[std::size_t(plan.parent[i])], i, halfway, fast);
+            place(plan, state, work, work.coupled[std::size_t(plan.parent[i])], i, halfway, fast);
     state.flags.fast_turns += fast;
 }
 
-template void ground_over_step(const Plan<float>&, State<float>&, double);
-template void ground_over_step(const Plan<double>&, State<double>&, double);
-template void midpoint(const Plan<float>&, State<float>&, bool);
-template void midpoint(const Plan<double>&, State<double>&, bool);
+template void ground_over_step(const Plan<float>&, const CoupledPlan<float>&, CoupledState<float>&, double);
+template void ground_over_step(const Plan<double>&, const CoupledPlan<double>&, CoupledState<double>&, double);
+template void midpoint(const Plan<float>&, State<float>&, CoupledWork<float>&, bool);
+template void midpoint(const Plan<double>&, State<double>&, CoupledWork<double>&, bool);
 
 } // namespace bough

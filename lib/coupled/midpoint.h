@@ -17,21 +17,21 @@
 // out by terms that hold for an instant. Counted (StepFlags::fast_turns).
 // Reads   theta, theta_dot, theta_change, theta_dot_change, coupled_ground. Writes the first part of coupled. O(n). Errors none.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "coupled_state.h"
 
 namespace bough {
 
-// Of every spline of the root's motion over the step from `time`, into state.coupled_ground.
-template <class T> void ground_over_step(const Plan<T>&, State<T>&, double time);
+// Of every spline of the root's motion over the step from `time`, into work.ground.
+template <class T> void ground_over_step(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double time);
 
 // halfway: at y*, else at y0, whatever the scheme.
-template <class T> void midpoint(const Plan<T>&, State<T>&, bool halfway);
+template <class T> void midpoint(const Plan<T>&, State<T>&, CoupledWork<T>&, bool halfway);
 
 // The ground under root i, or null where it rests.
-template <class T> const GroundStep<T>* ground_step_of(const Plan<T>& plan, const State<T>& state, std::size_t i) {
+template <class T>
+const GroundStep<T>* ground_step_of(const Plan<T>& plan, const CoupledState<T>& work, std::size_t i) {
     const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
-    return spline < 0 ? nullptr : &state.coupled_ground[std::size_t(spline)];
+    return spline < 0 ? nullptr : &work.ground[std::size_t(spline)];
 }
 
 } // namespace bough

@@ -9,18 +9,20 @@ namespace {
 
 template <class T, class S> struct Solve {
     const Plan<T>& plan;
-    State<T>& state;
+    const State<T>& state;
+    CoupledWork<T>& work;
     std::vector<ResolventBody<S>>& body;
     S p, c, s1, s2, slope; // s1 = 1/s, s2 = 1/s^2
     T h;
 
-    Solve(const Plan<T>& pl, State<T>& st, std::vector<ResolventBody<S>>& bodies, const Pole& pole)
-        : plan(pl), state(st), body(bodies), p(field<S>(pole.p, T())), c(field<S>(pole.c, T())),
+    Solve(const Plan<T>& pl, const State<T>& st, CoupledWork<T>& wk, std::vector<ResolventBody<S>>& bodies,
+          const Pole& pole)
+        : plan(pl), state(st), work(wk), body(bodies), p(field<S>(pole.p, T())), c(field<S>(pole.c, T())),
           s1(field<S>(pl.dt / pole.p, T())), s2(field<S>(pl.dt / pole.p * pl.dt / pole.p, T())),
           slope(field<S>(1.0 / pole.p - 0.5, T())), h(T(pl.dt)) {}
 
     void start(std::size_t i) {
-        const CoupledBody<T>& b = state.coupled[i];
+        const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<S>& q = body[i];
         const T m = plan.mass[i];
         q.A = b.J.template cast<S>() + s2 * b.H.template cast<S>();
@@ -28,7 +30,7 @@ template <class T, class S> struct Solve {
         q.M = (m * Matrix3<T>::Identity()).template cast<S>();
         // By the joints alone: what the ground turns it turns with the springs, and a tree at rest on it stays so.
         Vector3<T> own = b.omega_0;
-        if (const GroundStep<T>* g = ground_step_of(plan, state, i)) own -= g->omega_0;
+        if (const GroundStep<T>* g = ground_step_of(plan, work, i)) own -= g->omega_0;
         q.N = b.N.template cast<S>() + s1 * (b.H * own).template cast<S>();
         q.F = b.F.template cast<S>();
         if (plan.wind) {
@@ -50,7 +52,7 @@ template <class T, class S> struct Solve {
     }
 
     void eliminate(std::size_t i) {
-        const CoupledBody<T>& b = state.coupled[i];
+        const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<S>& q = body[i];
         const Matrix3<T> stiffness = b.rates.transpose() * plan.K[i].asDiagonal() * b.rates;
         const S z = plan.beta[i] * s1 + s2;
@@ -61,15 +63,15 @@ template <class T, class S> struct Solve {
     }
 
     void accelerate(std::size_t i, const Vector<S>& alpha_p, const Vector<S>& a_p) {
-        const CoupledBody<T>& b = state.coupled[i];
+        const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<S>& q = body[i];
         q.a = a_p - cross(b.r, alpha_p);
         const Vector<S> gamma = q.E * (q.u - q.A * alpha_p - q.B * q.a);
         q.alpha = alpha_p + gamma;
         const Vector<S> x = b.rates.template cast<S>() * gamma;
         const Vector<S> x_v = -x / p, x_u = (h * x_v - state.theta_dot[i].template cast<S>()) / p;
-        state.theta_dot_change[i] += h * weighed(Vector<S>(c * x_v));
-        state.theta_change[i] += h * weighed(Vector<S>(c * x_u));
+        work.theta_dot_change[i] += h * weighed(Vector<S>(c * x_v));
+        work.theta_change[i] += h * weighed(Vector<S>(c * x_u));
     }
 
     static Vector3<T> weighed(const Vector<S>& z) {
@@ -82,7 +84,7 @@ template <class T, class S> struct Solve {
     // The moving ground's acceleration at the joint's place, and its angular one.
     void accelerate_root(std::size_t i) {
         Vector<S> alpha = Vector<S>::Zero(), a = Vector<S>::Zero();
-        if (const GroundStep<T>* g = ground_step_of(plan, state, i)) {
+        if (const GroundStep<T>* g = ground_step_of(plan, work, i)) {
             a = g->a.template cast<S>() + slope * g->slope_a.template cast<S>();
             alpha = g->alpha.template cast<S>() + slope * g->slope_alpha.template cast<S>();
         }
@@ -102,14 +104,17 @@ template <class T, class S> struct Solve {
 
 } // namespace
 
-template <class T> void resolvent(const Plan<T>& plan, State<T>& state, const Pole& pole) {
-    if (scheme_of(plan.scheme).real)
-        Solve<T, T>(plan, state, state.resolvent_real, pole).run();
+template <class T>
+void resolvent(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, CoupledWork<T>& work,
+               const Pole& pole) {
+    if (scheme_of(own.scheme).real)
+        Solve<T, T>(plan, state, work, work.resolvent_real, pole).run();
     else
-        Solve<T, std::complex<T>>(plan, state, state.resolvent, pole).run();
+        Solve<T, std::complex<T>>(plan, state, work, work.resolvent, pole).run();
 }
 
-template void resolvent(const Plan<float>&, State<float>&, const Pole&);
-template void resolvent(const Plan<double>&, State<double>&, const Pole&);
+template void resolvent(const Plan<float>&, const CoupledPlan<float>&, State<float>&, CoupledWork<float>&, const Pole&);
+template void resolvent(const Plan<double>&, const CoupledPlan<double>&, State<double>&, CoupledWork<double>&,
+                        const Pole&);
 
 } // namespace bough

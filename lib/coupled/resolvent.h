@@ -16,12 +16,11 @@
 // Template S: std::complex<T> or T (a real pole), the field of the solve.
 // Reads   coupled, theta_dot, coupled_ground. Adds to theta_change, theta_dot_change. O(n). Errors none.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "coupled_state.h"
 #include "scheme.h"
 
 namespace bough {
 
-template <class T> void resolvent(const Plan<T>&, State<T>&, const Pole&);
+template <class T> void resolvent(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, const Pole&);
 
 } // namespace bough

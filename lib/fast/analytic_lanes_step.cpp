@@ -20,34 +20,38 @@ template <class T> int record_inward(const Plan<T>& plan) {
     return analytic::inward_count(plan.wind, plan.pushes());
 }
 
-template <class T> AnalyticRows<T> rows_of(const Plan<T>& plan, State<T>& state) {
+template <class T>
+AnalyticRows<T> rows_of(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State<T>& state,
+                        AnalyticLanesState<T>& work) {
     AnalyticRows<T> rows{};
-    place_tables<T>(plan, state, (double(state.step) + 0.5) * plan.dt, rows);
-    rows.motion = data(state.lanes.now);
+    place_tables<T>(plan, own.lanes, state, work.lanes, (double(state.step) + 0.5) * plan.dt, rows);
+    rows.motion = data(work.lanes.now);
     rows.shorten = shorten<T>;
     return rows;
 }
 
-template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const AnalyticRows<T>& rows) {
+template <class T>
+SweepFlags sweep(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, AnalyticLanesState<T>& work,
+                 const AnalyticRows<T>& rows) {
     const AnalyticLoads loads{plan.wind, plan.pushes(), plan.gravity, plan.field};
-    const AnalyticSweeps<T> sweeps = analytic_sweeps_for<T>(plan.target, loads);
-    const std::vector<Block>& blocks = plan.lanes.layout.blocks;
-    Lanes<T>& lanes = state.lanes;
+    const AnalyticSweeps<T> sweeps = analytic_sweeps_for<T>(own.lanes.target, loads);
+    const std::vector<Block>& blocks = own.lanes.layout.blocks;
+    Lanes<T>& lanes = work.lanes;
     const std::size_t count =
         std::size_t(analytic::loaded::count + (plan.foliage ? analytic::leaf_torque_count : 0)); // a row
-    share_scratch(plan.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * count,
-                  largest_block(plan.lanes.layout) * count);
+    share_scratch(own.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * count,
+                  largest_block(own.lanes.layout) * count);
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
     T* top_scratch = data(lanes.scratch[0]);
     sweeps.outward(rows, blocks[0], top_scratch, flags[0]);
-    parallel_blocks(blocks.size() - 1, block_cost(plan.lanes.layout), [&](std::size_t k, int worker) {
+    parallel_blocks(blocks.size() - 1, block_cost(own.lanes.layout), [&](std::size_t k, int worker) {
         const std::size_t b = 1 + k;
         T* scratch = data(lanes.scratch[1 + std::size_t(worker)]);
         sweeps.outward(rows, blocks[b], scratch, flags[b]);
         sweeps.inward(rows, blocks[b], scratch, flags[b]);
     });
-    add_ports(plan, state, record_inward(plan));
+    add_ports(own.lanes, work.lanes, record_inward(plan));
     sweeps.inward(rows, blocks[0], top_scratch, flags[0]);
     SweepFlags met;
     for (const SweepFlags& f : flags) met += f;
@@ -56,26 +60,28 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
 
 } // namespace
 
-template <class T> void fill_analytic(const Plan<T>& plan, PlannedLanes<T>& lanes) {
+template <class T> void fill_analytic(const Plan<T>& plan, AnalyticLanesPlan<T>& own) {
     const auto body = [&](std::size_t i, const Slot<T>& row) {
         put_body(plan, i, row);
         row.put(analytic::constant::inertia_joint, plan.inertia_joint[i]);
-        row.put(analytic::constant::bend, plan.inertia_factor[i][0]); // x and y alike (plan.cpp)
-        row.put(analytic::constant::twist, plan.inertia_factor[i][2]);
-        if (plan.gravity) row.put(analytic::constant::gravity_row, plan.gravity_row[i]);
+        row.put(analytic::constant::bend, own.inertia_factor[i][0]); // x and y alike (plan.cpp)
+        row.put(analytic::constant::twist, own.inertia_factor[i][2]);
+        if (plan.gravity) row.put(analytic::constant::gravity_row, own.gravity_row[i]);
         if (!plan.wind) return;
-        row.put(analytic::constant::sway, plan.sway[i]);
-        row.put(analytic::constant::joint_distance, plan.joint_distance[i]);
-        row.put(analytic::constant::com_distance, plan.com_distance[i]);
-        row.put(analytic::constant::inverse_weight, plan.inverse_weight[i]);
+        row.put(analytic::constant::sway, own.sway[i]);
+        row.put(analytic::constant::joint_distance, own.joint_distance[i]);
+        row.put(analytic::constant::com_distance, own.com_distance[i]);
+        row.put(analytic::constant::inverse_weight, own.inverse_weight[i]);
         row.put(analytic::constant::drag_area, plan.drag_area[i]);
     };
-    fill_constants(lanes, analytic::constants(plan.wind), put_analytic_pad<T>, body);
+    fill_constants(own.lanes, analytic::constants(plan.wind), put_analytic_pad<T>, body);
 }
 
-template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
-    const Layout& layout = plan.lanes.layout;
-    Lanes<T>& lanes = state.lanes;
+template <class T>
+void pack_analytic(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State<T>& state, AnalyticLanesState<T>& work,
+                   const std::vector<Vector3<T>>& theta) {
+    const Layout& layout = own.lanes.layout;
+    Lanes<T>& lanes = work.lanes;
     lanes.now.resize(std::size_t(layout.rows) * analytic::motion::count);
     resize_records(layout, lanes.outward, analytic::outward_count(plan.field));
     resize_records(layout, lanes.inward, record_inward(plan));
@@ -85,33 +91,37 @@ template <class T> void pack_analytic(const Plan<T>& plan, State<T>& state, cons
         const Slot<T> row(lanes.now, analytic::motion::count, layout.slot[i]);
         row.put(analytic::motion::theta, theta[i]);
         row.put(analytic::motion::theta_dot, entry(state.theta_dot, i));
-        row.put(analytic::motion::scaled_rate, entry(state.scaled_rate, i));
+        row.put(analytic::motion::scaled_rate, entry(work.scaled_rate, i));
     }
-    pack_pulls(plan, state);
+    pack_pulls(plan, own.lanes, work.lanes);
     lanes.presented = true;
 }
 
-template <class T> Vector3<T> analytic_theta_dot(const State<T>& state, std::size_t slot) {
-    return vector_at(state.lanes.now, analytic::motion::count, slot, analytic::motion::theta_dot);
+template <class T> Vector3<T> analytic_theta_dot(const Lanes<T>& lanes, std::size_t slot) {
+    return vector_at(lanes.now, analytic::motion::count, slot, analytic::motion::theta_dot);
 }
 
-template <class T> void unpack_analytic(const Plan<T>& plan, State<T>& state) {
-    for (auto* array : {&state.theta, &state.theta_dot, &state.scaled_rate})
+template <class T>
+void unpack_analytic(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State<T>& state,
+                     AnalyticLanesState<T>& work) {
+    for (auto* array : {&state.theta, &state.theta_dot, &work.scaled_rate})
         array->resize(plan.bodies); // where they were left out
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const std::size_t slot = plan.lanes.layout.slot[i];
-        const Slot<T> row(state.lanes.now, analytic::motion::count, slot);
+        const std::size_t slot = own.lanes.layout.slot[i];
+        const Slot<T> row(work.lanes.now, analytic::motion::count, slot);
         state.theta[i] = row.vector(analytic::motion::theta);
-        state.scaled_rate[i] = row.vector(analytic::motion::scaled_rate);
-        state.theta_dot[i] = analytic_theta_dot(state, slot);
+        work.scaled_rate[i] = row.vector(analytic::motion::scaled_rate);
+        state.theta_dot[i] = analytic_theta_dot(work.lanes, slot);
     }
 }
 
-template <class T> void analytic_lanes_step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
+template <class T>
+void analytic_lanes_step(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State<T>& state,
+                         AnalyticLanesState<T>& work, StageClock* clock) {
     SweepFlags met;
-    run_stage(Stage::lanes, state, clock, [&] { met = sweep(plan, state, rows_of(plan, state)); });
-    state.lanes.presented = false;
-    state.lanes.finite = met.finite;
+    run_stage(Stage::lanes, state, clock, [&] { met = sweep(plan, own, work, rows_of(plan, own, state, work)); });
+    work.lanes.presented = false;
+    work.lanes.finite = met.finite;
     state.flags.buckling += met.buckling;
     state.flags.bounded_lambda += met.bounded_lambda;
     state.flags.half_turns += met.half_turns;
@@ -119,15 +129,16 @@ template <class T> void analytic_lanes_step(const Plan<T>& plan, State<T>& state
     ++state.step;
 }
 
-template void fill_analytic(const Plan<float>&, PlannedLanes<float>&);
-template void fill_analytic(const Plan<double>&, PlannedLanes<double>&);
-template void pack_analytic(const Plan<float>&, State<float>&, const std::vector<Vector3<float>>&);
-template void pack_analytic(const Plan<double>&, State<double>&, const std::vector<Vector3<double>>&);
-template void unpack_analytic(const Plan<float>&, State<float>&);
-template void unpack_analytic(const Plan<double>&, State<double>&);
-template Vector3<float> analytic_theta_dot(const State<float>&, std::size_t);
-template Vector3<double> analytic_theta_dot(const State<double>&, std::size_t);
-template void analytic_lanes_step(const Plan<float>&, State<float>&, StageClock*);
-template void analytic_lanes_step(const Plan<double>&, State<double>&, StageClock*);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void fill_analytic(const Plan<T>&, AnalyticLanesPlan<T>&);                                                \
+    template void pack_analytic(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&,        \
+                                const std::vector<Vector3<T>>&);                                                       \
+    template void unpack_analytic(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&);     \
+    template Vector3<T> analytic_theta_dot(const Lanes<T>&, std::size_t);                                              \
+    template void analytic_lanes_step(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&,  \
+                                      StageClock*);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough::fast

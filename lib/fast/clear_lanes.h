@@ -4,23 +4,19 @@
 // In the analytic step an inertia [kg m^2] whose eigenvalues can be found; its spring is neither soft nor stiff over any step, so that no
 // kernel takes a case for it that the bodies beside it do not need. Nothing bends it, and its motion, which no saved state holds, stays 0.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
 #include "lane_memory.h"
+#include "lanes.h"
 
 namespace bough::fast {
-
-template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
-template <class T> constexpr T pad_rate2 = T(1e4); // [1/s^2] K over inertia
 
 // Constants of a lane without a body; all others of it are zero.
 template <class T> void put_pad(const Slot<T>&);
 template <class T> void put_analytic_pad(const Slot<T>&);
 
-// Makes the bodies' lanes pads at rest. The plan's rows share no constants, here as below (shared_constants.h). O(bodies + rows).
-template <class T> void clear_lanes(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies);
-
-// Plan::carried_moment of a body, where its lane has it.
-template <class T> void put_carried_moment(Plan<T>&, std::size_t body);
+// Makes the bodies' lanes pads at rest. rows, motion_at: the motions, and where each row's stands in them; constants, motions: quantities of each.
+// The rows share no constants (shared_constants.h). O(bodies).
+template <class T>
+void clear_lanes(PlannedLanes<T>&, RowVector<T>& rows, const std::vector<std::size_t>& motion_at, int constants,
+                 int motions, void (*pad)(const Slot<T>&), const std::vector<std::size_t>& bodies);
 
 } // namespace bough::fast

@@ -2,15 +2,13 @@
 #include "../base/parallel.h"
 #include "../coupled/half_turn.h"
 #include "../coupled/midpoint.h"
+#include "../coupled/own_inertia.h"
 #include "../stages/air_constants.h"
-#include "../stages/external_forces.h"
-#include "../stages/root_term.h"
-#include "../stages/spring.h"
-#include "../stages/state_update.h"
-#include "analytic_lanes_step.h"
+#include "../stages/pushes.h"
+#include "clear_lanes.h"
+#include "coupled_tables.h"
 #include "energy_lanes.h"
-#include "lane_tables.h"
-#include "present.h"
+#include "shared_constants.h"
 #include "sleep.h"
 #include "step_bytes.h"
 #include "targets.h"
@@ -40,13 +38,15 @@ template <class T> bool shorten(T* theta, T* theta_dot, T* theta_change, T* thet
     return true;
 }
 
-template <class T> void place_grounds(const Plan<T>& plan, State<T>& state, double time, std::complex<double> slope) {
-    ground_over_step(plan, state, time);
-    Lanes<T>& lanes = state.lanes;
-    for (std::size_t joint = 0; joint < plan.lanes.layout.grounds; ++joint) {
+template <class T>
+void place_grounds(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work, double time,
+                   std::complex<double> slope) {
+    ground_over_step(plan, own, work, time);
+    Lanes<T>& lanes = work.lanes;
+    for (std::size_t joint = 0; joint < own.lanes.layout.grounds; ++joint) {
         Matrix3<T> R = Matrix3<T>::Identity();
         if (joint > 0) {
-            const GroundStep<T>& g = state.coupled_ground[joint - 1];
+            const GroundStep<T>& g = work.ground[joint - 1];
             R = g.R;
             entry(lanes.outward, joint, outward::count, outward::x) = g.x.x();
             entry(lanes.outward, joint, outward::count, outward::y) = g.x.y();
@@ -69,19 +69,21 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state, doub
 }
 
 // For the solve of the scheme's pole k.
-template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, double time, int k) {
-    Lanes<T>& lanes = state.lanes;
-    const Layout& layout = plan.lanes.layout;
-    const Pole pole = scheme_of(plan.scheme).pole[std::size_t(k)];
+template <class T>
+CoupledRows<T> rows_of(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, CoupledLanesState<T>& work,
+                       double time, int k) {
+    Lanes<T>& lanes = work.lanes;
+    const Layout& layout = own.lanes.layout;
+    const Pole pole = scheme_of(own.scheme).pole[std::size_t(k)];
     const double h = plan.dt;
     const std::complex<double> slope = 1.0 / pole.p - 0.5;
     CoupledRows<T> rows{};
-    place_tables<T>(plan, state, time + h / 2, rows);
+    place_tables<T>(plan, own.lanes, state, work.lanes, time + h / 2, rows);
     rows.accelerated_records = data(lanes.accelerated);
     rows.watched = lanes.watched.data();
     rows.stream = streams(layout);
     rows.adds = k > 0;
-    rows.ends = k + 1 == scheme_of(plan.scheme).poles;
+    rows.ends = k + 1 == scheme_of(own.scheme).poles;
     put(rows.s1, h / pole.p);
     put(rows.s2, h / pole.p * h / pole.p);
     put(rows.slope, slope);
@@ -90,7 +92,7 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     put(rows.of_angle, -2 * h * h * pole.c / (pole.p * pole.p));
     rows.eta = T((-2 * h * pole.c / pole.p).real());
     if (plan.field)
-        place_field_change(plan, state, time, rows);
+        place_field_change(plan, work, time, rows);
     else if (plan.wind)
         put(rows.wind_change, wind_velocity(*plan.scene.wind, time + h) - wind_velocity(*plan.scene.wind, time));
     for (PullOnLane<T>& on : lanes.pulls) {
@@ -100,42 +102,44 @@ template <class T> CoupledRows<T> rows_of(const Plan<T>& plan, State<T>& state, 
     }
     rows.fold = plan.foliage ? T(1 / fold_speed) : T(0);
     rows.shorten = shorten<T>;
-    place_grounds(plan, state, time, slope);
+    place_grounds(plan, own, work, time, slope);
     return rows;
 }
 
-template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
-    const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(plan.target, plan.wind, plan.gravity, plan.field);
-    const std::vector<Block>& blocks = plan.lanes.layout.blocks;
-    Lanes<T>& lanes = state.lanes;
-    const std::size_t most = largest_block(plan.lanes.layout);
+template <class T>
+SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work,
+                 const CoupledRows<T>& rows) {
+    const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(own.lanes.target, plan.wind, plan.gravity, plan.field);
+    const std::vector<Block>& blocks = own.lanes.layout.blocks;
+    Lanes<T>& lanes = work.lanes;
+    const std::size_t most = largest_block(own.lanes.layout);
     constexpr std::size_t count = std::size_t(loaded::count) + solved::count; // a row
-    share_scratch(plan.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * count, most * count);
+    share_scratch(own.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * count, most * count);
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
     SweepFlags& top = flags[0];
-    const Rest rest_of_top = rest_of(state, 0);
+    const Rest rest_of_top = rest_of(work.lanes, 0);
     T* top_scratch = data(lanes.scratch[0]);
     const auto rows_of_block = [&](const Block& block) {
         CoupledRows<T> mine = rows;
-        place_block(plan, state, block, mine);
+        place_block(own, work, block, mine);
         return mine;
     };
     const CoupledRows<T> top_rows = rows_of_block(blocks[0]);
     if (rest_of_top == Rest::awake) sweeps.outward(top_rows, blocks[0], top_scratch, top);
-    if (rest_of_top == Rest::settling) keep_motion(plan, state, blocks[0]); // not swept
+    if (rest_of_top == Rest::settling) keep_motion(own, work, blocks[0]); // not swept
     std::size_t awake = 0, wait = 0; // blocks; of them those that are solved once the top is
     for (std::size_t b = 1; b < blocks.size(); ++b)
-        if (rest_of(state, b) != Rest::asleep) {
+        if (rest_of(work.lanes, b) != Rest::asleep) {
             ++awake;
             wait += !blocks[b].whole;
         }
-    const double cost = block_cost(plan.lanes.layout) / double(blocks.size());
+    const double cost = block_cost(own.lanes.layout) / double(blocks.size());
     parallel_blocks(blocks.size() - 1, cost * double(awake), [&](std::size_t k, int worker) {
         const std::size_t b = 1 + k;
         const Block& block = blocks[b];
-        const Rest rest = rest_of(state, b);
-        if (rest == Rest::settling && block.whole) keep_motion(plan, state, block);
+        const Rest rest = rest_of(work.lanes, b);
+        if (rest == Rest::settling && block.whole) keep_motion(own, work, block);
         if (rest == Rest::asleep || (rest == Rest::settling && block.whole)) return;
         SweepFlags& met = flags[b];
         T* scratch = data(lanes.scratch[1 + std::size_t(worker)]);
@@ -148,17 +152,17 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
         sweeps.outward(mine, block, scratch, met);
         sweeps.inward(mine, block, scratch);
         if (block.whole) sweeps.accelerate(mine, block, met);
-        if (rest == Rest::settling) keep_motion(plan, state, block); // now that what is solved has gone in
+        if (rest == Rest::settling) keep_motion(own, work, block); // now that what is solved has gone in
     });
     if (rest_of_top == Rest::awake) {
-        add_ports(plan, state, inward::count);
+        add_ports(own.lanes, work.lanes, inward::count);
         sweeps.inward(top_rows, blocks[0], top_scratch);
         sweeps.accelerate(top_rows, blocks[0], top);
     }
     // From the last on, which is in the caches still.
     parallel_blocks(blocks.size() - 1, cost * double(wait) / 5, [&](std::size_t k, int) {
         const std::size_t b = blocks.size() - 1 - k;
-        if (!blocks[b].whole && rest_of(state, b) == Rest::awake)
+        if (!blocks[b].whole && rest_of(work.lanes, b) == Rest::awake)
             sweeps.accelerate(rows_of_block(blocks[b]), blocks[b], flags[b]);
     });
     SweepFlags all;
@@ -167,22 +171,22 @@ template <class T> SweepFlags sweep(const Plan<T>& plan, State<T>& state, const 
 }
 
 // Of the trees whose ground jumps: a motion that begins here.
-template <class T> void drop_changes(const Plan<T>& plan, State<T>& state) {
-    const Layout& layout = plan.lanes.layout;
+template <class T> void drop_changes(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work) {
+    const Layout& layout = own.lanes.layout;
     constexpr std::size_t L = Row<T>::lanes;
     const T h = T(plan.dt);
     const auto jumps = [&](std::uint32_t tree) {
         const std::uint32_t joint = tree == nothing ? 0 : layout.ground[tree];
-        return joint > 0 && state.coupled_ground[joint - 1].jumps;
+        return joint > 0 && work.ground[joint - 1].jumps;
     };
     for (const Block& block : layout.blocks) {
-        const Run next = places_of(plan, state, block).next;
+        const Run next = places_of(own, work, block).next;
         for (std::uint32_t k = block.first_group; k < block.end_group; ++k) {
             const Group& g = layout.groups[k];
             for (std::size_t l = 0; l < L; ++l) {
                 if (!jumps(layout.tree[g.first_base + l])) continue;
                 for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                    Row<T>* motion = &state.lanes.table[std::size_t(next.at(row - block.first_row))];
+                    Row<T>* motion = &work.lanes.table[std::size_t(next.at(row - block.first_row))];
                     for (std::size_t q = 0; q < 3; ++q) {
                         motion[motion::theta_change + q].lane[l] = h * motion[motion::theta_dot + q].lane[l];
                         motion[motion::theta_dot_change + q].lane[l] = 0;
@@ -199,31 +203,45 @@ Slot<T> motion_of(RowVector<T>& table, const std::vector<std::size_t>& motion_at
     return Slot<T>(table, 1, motion_at[slot / lanes] * lanes + slot % lanes);
 }
 
-template <class T> void unpack(const Plan<T>& plan, State<T>& state) {
-    for (auto* array : {&state.theta, &state.theta_dot, &state.theta_change, &state.theta_dot_change})
+} // namespace
+
+template <class T>
+void unpack(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, CoupledLanesState<T>& work) {
+    for (auto* array : {&state.theta, &state.theta_dot, &work.theta_change, &work.theta_dot_change})
         array->resize(plan.bodies); // where they were left out
-    std::vector<std::size_t>& motion_at = state.lanes.motion_at;
-    motion_of_rows(plan, state, motion_at);
+    std::vector<std::size_t>& motion_at = work.lanes.motion_at;
+    motion_of_rows(own, work, motion_at);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const Slot<T> row = motion_of(state.lanes.table, motion_at, plan.lanes.layout.slot[i]);
+        const Slot<T> row = motion_of(work.lanes.table, motion_at, own.lanes.layout.slot[i]);
         state.theta[i] = row.vector(motion::theta);
         state.theta_dot[i] = row.vector(motion::theta_dot);
-        state.theta_change[i] = row.vector(motion::theta_change);
-        state.theta_dot_change[i] = row.vector(motion::theta_dot_change);
+        work.theta_change[i] = row.vector(motion::theta_change);
+        work.theta_dot_change[i] = row.vector(motion::theta_dot_change);
     }
 }
 
-} // namespace
+template <class T> void fill_coupled(const Plan<T>& plan, CoupledLanesPlan<T>& own) {
+    fill_constants(own.lanes, constant::count, put_pad<T>, [&](std::size_t i, const Slot<T>& row) {
+        put_body(plan, i, row);
+        row.put(constant::inertia_joint, own_inertia(plan.inertia_joint[i]));
+        if (plan.gravity) row.put(constant::carried_moment, own.carried_moment[i]);
+        if (plan.wind) row.put(constant::drag_area, plan.drag_area[i]);
+        if (plan.wind) row.put(constant::carried_drag, own.carried_drag[i]);
+    });
+}
 
-template <class T> void pack(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) {
-    const Layout& layout = plan.lanes.layout;
-    Lanes<T>& lanes = state.lanes;
+template <class T>
+void pack(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, CoupledLanesState<T>& work,
+          const std::vector<Vector3<T>>& theta) {
+    const Layout& layout = own.lanes.layout;
+    Lanes<T>& lanes = work.lanes;
     lanes.odd = false;
-    const int columns = coupled_columns(waits(layout), scheme_of(plan.scheme).poles);
+    const int columns = coupled_columns(waits(layout), scheme_of(own.scheme).poles);
     lanes.table.assign(std::size_t(layout.rows) * std::size_t(columns), Row<T>{}); // pads do not move
-    const std::vector<std::size_t> motion_at = motion_of_rows(plan, state);
+    std::vector<std::size_t> motion_at;
+    motion_of_rows(own, work, motion_at);
     lanes.watched.assign(layout.base.size(), 0);
-    if (plan.lanes.sleep.on) lanes.rest.assign(layout.blocks.size(), BlockRest{});
+    if (own.lanes.sleep.on) lanes.rest.assign(layout.blocks.size(), BlockRest{});
     lanes.carried_turn = 0;
     resize_records(layout, lanes.outward, outward::count);
     resize_records(layout, lanes.inward, inward::count);
@@ -233,72 +251,61 @@ template <class T> void pack(const Plan<T>& plan, State<T>& state, const std::ve
         const Slot<T> row = motion_of(lanes.table, motion_at, layout.slot[i]);
         row.put(motion::theta, theta[i]);
         row.put(motion::theta_dot, entry(state.theta_dot, i));
-        row.put(motion::theta_change, entry(state.theta_change, i));
-        row.put(motion::theta_dot_change, entry(state.theta_dot_change, i));
+        row.put(motion::theta_change, entry(work.theta_change, i));
+        row.put(motion::theta_dot_change, entry(work.theta_dot_change, i));
     }
-    pack_pulls(plan, state);
+    pack_pulls(plan, own.lanes, work.lanes);
     lanes.presented = true;
 }
 
-template <class T> void coupled_lanes_step(const Plan<T>& plan, State<T>& state, StageClock* clock) {
+template <class T>
+void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state,
+                        CoupledLanesState<T>& work, StageClock* clock) {
     const double time = double(state.step) * plan.dt;
-    wake_blocks(plan, state, time);
-    if (all_asleep(state)) { // what present has made stays as it is
+    wake_blocks(plan, own, state, work, time);
+    if (all_asleep(work.lanes)) { // what present has made stays as it is
         ++state.step;
         return;
     }
     SweepFlags flags;
     run_stage(Stage::lanes, state, clock, [&] {
-        CoupledRows<T> rows = rows_of(plan, state, time, 0);
-        flags = sweep(plan, state, rows);
-        for (int k = 1; k < scheme_of(plan.scheme).poles; ++k) {
-            rows = rows_of(plan, state, time, k);
-            const SweepFlags solved = sweep(plan, state, rows); // its way outward has met with the same as the first
+        CoupledRows<T> rows = rows_of(plan, own, state, work, time, 0);
+        flags = sweep(plan, own, work, rows);
+        for (int k = 1; k < scheme_of(own.scheme).poles; ++k) {
+            rows = rows_of(plan, own, state, work, time, k);
+            const SweepFlags solved =
+                sweep(plan, own, work, rows); // its way outward has met with the same as the first
             flags.half_turns = solved.half_turns;
             flags.fast = solved.fast;
             flags.finite = solved.finite;
         }
-        for (const GroundStep<T>& ground : state.coupled_ground)
+        for (const GroundStep<T>& ground : work.ground)
             if (ground.jumps) {
-                drop_changes(plan, state);
+                drop_changes(plan, own, work);
                 break;
             }
-        rest_blocks(plan, state, state.lanes.flags);
+        rest_blocks(plan, own, work, work.lanes.flags);
         if (!flags.fast) return;
-        guard_lanes(plan, state, rows);
-        std::fill(state.lanes.watched.begin(), state.lanes.watched.end(), std::uint8_t(0));
+        guard_lanes(plan, own, state, work, rows);
+        std::fill(work.lanes.watched.begin(), work.lanes.watched.end(), std::uint8_t(0));
     });
-    state.lanes.odd = !state.lanes.odd;
-    state.lanes.presented = false;
-    state.lanes.finite = flags.finite;
+    work.lanes.odd = !work.lanes.odd;
+    work.lanes.presented = false;
+    work.lanes.finite = flags.finite;
     state.flags.fast_turns += flags.fast_turns;
     state.flags.half_turns += flags.half_turns;
     ++state.step;
 }
 
-template void pack(const Plan<float>&, State<float>&, const std::vector<Vector3<float>>&);
-template void pack(const Plan<double>&, State<double>&, const std::vector<Vector3<double>>&);
-template void coupled_lanes_step(const Plan<float>&, State<float>&, StageClock*);
-template void coupled_lanes_step(const Plan<double>&, State<double>&, StageClock*);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void fill_coupled(const Plan<T>&, CoupledLanesPlan<T>&);                                                  \
+    template void pack(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&,                   \
+                       const std::vector<Vector3<T>>&);                                                                \
+    template void unpack(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&);                \
+    template void coupled_lanes_step(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&,     \
+                                     StageClock*);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough::fast
-
-namespace bough {
-
-template <class T> void present(const Plan<T>& plan, State<T>& state) {
-    if (!plan.lanes.on || state.lanes.presented) return;
-    if (plan.solver == Solver::analytic)
-        fast::unpack_analytic(plan, state);
-    else
-        fast::unpack(plan, state);
-    state.lanes.presented = true;
-    if (!plan.pose) return;
-    move_ground(plan, state, double(state.step) * plan.dt);
-    state_update(plan, state);
-    if (plan.torque) spring_torque(plan, state);
-}
-
-template void present(const Plan<float>&, State<float>&);
-template void present(const Plan<double>&, State<double>&);
-
-} // namespace bough

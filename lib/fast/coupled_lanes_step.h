@@ -6,14 +6,22 @@
 // number of threads.
 // Where a body turns by more than 0.3 rad in the step, the energy guard looks at its tree (energy_lanes.h).
 #pragma once
-#include "../stages/step.h"
+#include "lane_states.h"
 
 namespace bough::fast {
 
-// The state's rows from theta [rad] and from its arrays in document order, zero where one is left out. O(n).
-template <class T> void pack(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta);
+// The bodies' constants in rows (coupled_rows.h), once the layout stands. Reads those of CoupledPlan.
+template <class T> void fill_coupled(const Plan<T>&, CoupledLanesPlan<T>&);
 
-// Advances the rows by plan.dt; the arrays in document order are left behind. Needs a plan with lanes.on.
-template <class T> void coupled_lanes_step(const Plan<T>&, State<T>&, StageClock* clock);
+// The state's rows from theta [rad] and from its arrays in document order, zero where one is left out; and back. O(n).
+template <class T>
+void pack(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&,
+          const std::vector<Vector3<T>>& theta);
+template <class T> void unpack(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&);
+
+// Advances the rows by plan.dt; the arrays in document order are left behind.
+template <class T>
+void coupled_lanes_step(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&,
+                        StageClock* clock);
 
 } // namespace bough::fast

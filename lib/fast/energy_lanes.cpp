@@ -1,37 +1,37 @@
 #include "energy_lanes.h"
 #include "../base/parallel.h"
 #include "../coupled/energy_guard.h"
-#include "lane_tables.h"
+#include "coupled_tables.h"
 #include "targets.h"
 
 namespace bough::fast {
 namespace {
 
 // Which trees a fast body belongs to, and which blocks have part in one.
-template <class T> const std::vector<std::uint8_t>& watch(const Plan<T>& plan, State<T>& state) {
-    const Layout& layout = plan.lanes.layout;
-    for (EnergyAccount& account : state.account) account = {};
+template <class T> const std::vector<std::uint8_t>& watch(const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work) {
+    const Layout& layout = own.lanes.layout;
+    for (EnergyAccount& account : work.account) account = {};
     for (std::size_t k = 0; k < layout.tree.size(); ++k) {
-        if (!state.lanes.watched[k] || layout.tree[k] == nothing) continue;
+        if (!work.lanes.watched[k] || layout.tree[k] == nothing) continue;
         const std::uint32_t ground = layout.ground[layout.tree[k]];
-        if (ground != 0 && turns(&state.coupled_ground[ground - 1])) continue;
-        EnergyAccount& account = state.account[layout.tree[k]];
+        if (ground != 0 && turns(&work.ground[ground - 1])) continue;
+        EnergyAccount& account = work.account[layout.tree[k]];
         account.watched = true;
-        account.wood = account.wood || (state.lanes.watched[k] & 1);
+        account.wood = account.wood || (work.lanes.watched[k] & 1);
     }
-    std::vector<std::uint8_t>& blocks = state.lanes.weighed;
+    std::vector<std::uint8_t>& blocks = work.lanes.weighed;
     blocks.assign(layout.blocks.size(), 0);
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)
         for (std::uint32_t g = layout.blocks[b].first_group; g < layout.blocks[b].end_group && !blocks[b]; ++g)
             for (std::size_t l = 0; l < std::size_t(layout.lanes); ++l) {
                 const std::uint32_t tree = layout.tree[layout.groups[g].first_base + l];
-                if (tree != nothing && state.account[tree].watched) blocks[b] = 1;
+                if (tree != nothing && work.account[tree].watched) blocks[b] = 1;
             }
     return blocks;
 }
 
-template <class T> EnergyRows<T> make_room(const Plan<T>& plan, Lanes<T>& lanes) {
-    const Layout& layout = plan.lanes.layout;
+template <class T> EnergyRows<T> make_room(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Lanes<T>& lanes) {
+    const Layout& layout = own.lanes.layout;
     if (lanes.energy_records.empty()) {
         const std::size_t size = record(energy::count, Row<T>::lanes);
         lanes.energy_records.assign(layout.joints * size / Row<T>::lanes, Row<T>{});
@@ -47,13 +47,13 @@ template <class T> EnergyRows<T> make_room(const Plan<T>& plan, Lanes<T>& lanes)
 }
 
 // The moved grounds as the step takes them: their records, and what each lane's is.
-template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
-    const Layout& layout = plan.lanes.layout;
+template <class T> void place_grounds(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work) {
+    const Layout& layout = own.lanes.layout;
     constexpr std::size_t L = Row<T>::lanes;
     const std::size_t size = record(energy::count, int(L));
-    T* records = state.lanes.energy_records.front().lane;
+    T* records = work.lanes.energy_records.front().lane;
     for (std::size_t joint = 1; joint < layout.grounds; ++joint) {
-        const GroundStep<T>& g = state.coupled_ground[joint - 1];
+        const GroundStep<T>& g = work.ground[joint - 1];
         T* at = records + joint * size;
         for (int k = 0; k < 9; ++k) // by columns, as Eigen has them
             at[energy::start + k] = at[energy::end + k] = at[energy::R + k] = g.R.data()[k];
@@ -65,12 +65,12 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
             at[energy::v + k] = g.v[k];
         }
     }
-    T* lanes = state.lanes.energy_ground.front().lane;
+    T* lanes = work.lanes.energy_ground.front().lane;
     for (std::size_t k = 0; k < layout.tree.size(); ++k) {
         if (layout.tree[k] == nothing) continue;
         const std::uint32_t joint = layout.ground[layout.tree[k]];
         if (joint == 0) continue;
-        const GroundStep<T>& g = state.coupled_ground[joint - 1];
+        const GroundStep<T>& g = work.ground[joint - 1];
         const Vector3<T> carried = carried_by(g, T(plan.dt));
         T* at = lanes + k / L * L * 6 + k % L;
         for (std::size_t j = 0; j < 3; ++j) {
@@ -81,24 +81,26 @@ template <class T> void place_grounds(const Plan<T>& plan, State<T>& state) {
 }
 
 // A group's bodies: the rates of those that their tree's account, or their own, takes from.
-template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, const Block& block, const Group& g) {
+template <class T>
+std::uint64_t scale(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work, const Block& block,
+                    const Group& g) {
     constexpr std::size_t L = Row<T>::lanes;
-    const Layout& layout = plan.lanes.layout;
+    const Layout& layout = own.lanes.layout;
     const T h = T(plan.dt);
-    const Run next = places_of(plan, state, block).next;
+    const Run next = places_of(own, work, block).next;
     std::uint64_t count = 0;
     for (std::size_t l = 0; l < L; ++l) {
         const std::uint32_t tree = layout.tree[g.first_base + l];
         if (tree == nothing) continue;
-        const EnergyAccount& account = state.account[tree];
+        const EnergyAccount& account = work.account[tree];
         if (!account.watched) continue;
         for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-            const T said = state.lanes.energy_fast[row].lane[l]; // of ends of branches, what is kept
+            const T said = work.lanes.energy_fast[row].lane[l]; // of ends of branches, what is kept
             const double keep = g.kind != Kind::branch ? double(said) * account.keep_slow
                                 : said > 0             ? account.keep_fast
                                                        : account.keep_slow;
             if (!(keep < 1) || layout.body[row * L + l] < 0) continue;
-            Row<T>* motion = &state.lanes.table[std::size_t(next.at(row - block.first_row))];
+            Row<T>* motion = &work.lanes.table[std::size_t(next.at(row - block.first_row))];
             for (std::size_t k = 0; k < 3; ++k) {
                 T& rate = motion[motion::theta_dot + k].lane[l];
                 rate *= T(keep);
@@ -113,15 +115,17 @@ template <class T> std::uint64_t scale(const Plan<T>& plan, State<T>& state, con
 
 } // namespace
 
-template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const CoupledRows<T>& rows) {
-    const Layout& layout = plan.lanes.layout;
-    const std::vector<std::uint8_t>& blocks = watch(plan, state);
-    const EnergyRows<T> energies = make_room(plan, state.lanes);
-    if (plan.root_motion) place_grounds(plan, state);
-    const EnergySweepOf<T> weigh = energy_sweep_for<T>(plan.target, plan.wind, plan.field);
+template <class T>
+void guard_lanes(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, CoupledLanesState<T>& work,
+                 const CoupledRows<T>& rows) {
+    const Layout& layout = own.lanes.layout;
+    const std::vector<std::uint8_t>& blocks = watch(own, work);
+    const EnergyRows<T> energies = make_room(plan, own, work.lanes);
+    if (plan.root_motion) place_grounds(plan, own, work);
+    const EnergySweepOf<T> weigh = energy_sweep_for<T>(own.lanes.target, plan.wind, plan.field);
     const auto weigh_block = [&](const Block& block) {
         CoupledRows<T> mine = rows;
-        place_block(plan, state, block, mine);
+        place_block(own, work, block, mine);
         weigh(mine, energies, block);
     };
     if (blocks[0]) weigh_block(layout.blocks[0]);
@@ -136,9 +140,9 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
             for (std::size_t l = 0; l < L; ++l) {
                 const std::uint32_t base = layout.groups[k].first_base;
                 const std::uint32_t tree = layout.tree[base + l];
-                if (tree == nothing || !state.account[tree].watched) continue;
+                if (tree == nothing || !work.account[tree].watched) continue;
                 const T* sum = energies.sums + base * std::size_t(energy::sums) + l;
-                EnergyAccount& account = state.account[tree];
+                EnergyAccount& account = work.account[tree];
                 account.kinetic += double(sum[energy::kinetic * L]);
                 account.gained += double(sum[energy::gained * L]);
                 account.slow += double(sum[energy::slow * L]);
@@ -146,15 +150,17 @@ template <class T> void guard_lanes(const Plan<T>& plan, State<T>& state, const 
                 account.fast += double(sum[energy::fast * L]);
             }
     }
-    for (EnergyAccount& account : state.account)
+    for (EnergyAccount& account : work.account)
         if (account.watched) settle(account, plan.foliage);
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)
         if (blocks[b])
             for (std::uint32_t k = layout.blocks[b].first_group; k < layout.blocks[b].end_group; ++k)
-                state.flags.energy_guard += scale(plan, state, layout.blocks[b], layout.groups[k]);
+                state.flags.energy_guard += scale(plan, own, work, layout.blocks[b], layout.groups[k]);
 }
 
-template void guard_lanes(const Plan<float>&, State<float>&, const CoupledRows<float>&);
-template void guard_lanes(const Plan<double>&, State<double>&, const CoupledRows<double>&);
+template void guard_lanes(const Plan<float>&, const CoupledLanesPlan<float>&, State<float>&, CoupledLanesState<float>&,
+                          const CoupledRows<float>&);
+template void guard_lanes(const Plan<double>&, const CoupledLanesPlan<double>&, State<double>&,
+                          CoupledLanesState<double>&, const CoupledRows<double>&);
 
 } // namespace bough::fast

@@ -1,12 +1,13 @@
 // energy_lanes.h: the energy guard (coupled/energy_guard.h) on rows of lanes.
 #pragma once
-#include "../stages/state.h"
+#include "lane_states.h"
 
 namespace bough::fast {
 
 // When a step's motion stands in lanes.next and its start in lanes.now: weighs the trees that lanes.watched marks and scales the
 // rates in lanes.next of those that gained energy. O(n), blocks in parallel; allocates
 // what it works in when it is first needed, and a bit a block.
-template <class T> void guard_lanes(const Plan<T>&, State<T>&, const CoupledRows<T>&);
+template <class T>
+void guard_lanes(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&, const CoupledRows<T>&);
 
 } // namespace bough::fast

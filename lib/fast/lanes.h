@@ -3,6 +3,7 @@
 #include "coupled_rows.h"
 #include "layout.h"
 #include "row.h"
+#include "target.h"
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -31,10 +32,9 @@ struct PlannedSharing {
     std::vector<std::uint32_t> row; // on: of each row, and of one beyond the last, which row of the constants it reads
 };
 
-// In the plan. Constant after make_plan.
+// Of a plan; constant once it is made, but for what breaks off.
 template <class T> struct PlannedLanes {
-    bool on = false;
-    std::string reason; // why, or why not
+    Target target = Target::baseline; // what the code is compiled for
     Layout layout;
     RowVector<T> constants; // a row each row, or each different one
     PlannedSharing sharing;
@@ -89,7 +89,7 @@ template <class T> constexpr int records_of_joint() {
     return int((record(outward::count, L) + record(inward::count, L) + record(accelerated::count, L)) / L);
 }
 
-// In the state.
+// Of a state.
 template <class T> struct Lanes {
     RowVector<T> now;                          // of the analytic step: motion
     RowVector<T> table;                        // of the coupled step: CoupledColumns
@@ -108,6 +108,13 @@ template <class T> struct Lanes {
     double carried_turn = 0;     // [rad] of what sleepers stand on, at most, since the first fell asleep
     bool presented = true;       // the state's arrays in document order hold what `now` holds
     bool finite = true;          // no theta or theta_dot has become non-finite
+
+    // Of rows, but what threads work in, and the energy guard's.
+    std::size_t bytes() const {
+        std::size_t rows = 0;
+        for (const auto* some : {&now, &table, &outward, &inward, &accelerated}) rows += some->capacity();
+        return rows * sizeof(Row<T>);
+    }
 };
 
 } // namespace bough::fast

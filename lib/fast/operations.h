@@ -6,7 +6,7 @@
 // One operation is one addition, subtraction, multiplication, division or square root of reals. A fused multiply-add is two.
 // Not counted: comparisons, changes of sign, moves, whole numbers, and what few bodies need one by one (half turns, pulls).
 #pragma once
-#include "targets.h"
+#include "target.h"
 #include <cstdint>
 
 namespace bough::fast {

@@ -1,11 +1,12 @@
-// plan_lanes.h: fills in Plan::lanes: the layout, and the bodies' constants in rows. O(n log n).
+// plan_lanes.h: the layout of a plan's bodies in rows of lanes, and what any step in lanes reads of the plan in rows. O(n log n).
 #pragma once
 #include "../stages/plan.h"
+#include "lanes.h"
 
 namespace bough::fast {
 
-// Whether the fast path holds all that the plan asks for: the coupled step by complex poles, or the analytic step on grounds at rest; no joint limits. Sets
-// lanes.on and lanes.reason; where on, the rest of lanes. Reads the plan's constants. ranges: of the scene's trees, as make_plan has them.
-template <class T> void plan_lanes(Plan<T>&, const std::vector<TreeRange>& ranges);
+// Fills in layout, whether constants are shared, pulls, and the wind's tables; the constants of bodies are the step's own. ranges: of the scene's
+// trees, as make_plan has them.
+template <class T> void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>& ranges, PlannedLanes<T>&);
 
 } // namespace bough::fast

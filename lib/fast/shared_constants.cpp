@@ -1,5 +1,4 @@
 #include "shared_constants.h"
-#include "analytic_rows.h"
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -38,10 +37,9 @@ std::string reason_against_sharing(const Scene& scene, const std::vector<TreeRan
     return twice ? "" : "no tree stands at two places";
 }
 
-template <class T> std::size_t shared_rows(const Plan<T>& plan) {
-    if (!plan.lanes.sharing.on) return 0;
-    const int quantities = plan.solver == Solver::analytic ? analytic::constants(plan.wind) : int(constant::count);
-    return plan.lanes.constants.size() / std::size_t(quantities);
+template <class T> std::size_t shared_rows(const PlannedLanes<T>& lanes) {
+    if (!lanes.sharing.on) return 0;
+    return 1 + *std::max_element(lanes.sharing.row.begin(), lanes.sharing.row.end());
 }
 
 // The room for all is set aside; the system gives memory to what of it is written.
@@ -81,8 +79,8 @@ template <class T> void SharedRows<T>::finish() {
     sharing.row.push_back(sharing.row.back()); // asked for in advance
 }
 
-template std::size_t shared_rows(const Plan<float>&);
-template std::size_t shared_rows(const Plan<double>&);
+template std::size_t shared_rows(const PlannedLanes<float>&);
+template std::size_t shared_rows(const PlannedLanes<double>&);
 template class SharedRows<float>;
 template class SharedRows<double>;
 

@@ -15,8 +15,10 @@
 // Cost O(rows): a row is put together in the cache, hashed, and compared with the one it may be. At no time are more
 // rows in memory than are different.
 #pragma once
-#include "../stages/plan.h"
+#include "../model/scene.h"
+#include "../model/tree.h"
 #include "lane_memory.h"
+#include "lanes.h"
 #include <unordered_map>
 
 namespace bough::fast {
@@ -24,8 +26,8 @@ namespace bough::fast {
 // Nothing, where two trees may be instances of one: they have as many bodies and, where the scene names files, one file.
 std::string reason_against_sharing(const Scene&, const std::vector<TreeRange>&);
 
-// Rows of constants that there are, where rows share them; 0: they do not.
-template <class T> std::size_t shared_rows(const Plan<T>&);
+// Rows of constants that there are, where rows share them; 0: they do not. O(rows).
+template <class T> std::size_t shared_rows(const PlannedLanes<T>&);
 
 // Takes rows one after another, as they come in the layout, and keeps each that is not yet there.
 template <class T> class SharedRows {

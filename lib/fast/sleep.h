@@ -17,37 +17,34 @@
 // Reads   SweepFlags::omega2, pulls. Writes Lanes::rest, flags.asleep, rates at the step's end of what falls asleep.
 // Cost    O(blocks + pulls) a step; O(rows) of a block when it falls asleep. Errors: restore_sleep.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "lane_states.h"
 
 namespace bough::fast {
 
 // Whether the plan's scene lets anything sleep, at a rate of `rate` [rad/s]; 0: not asked for. After plan_lanes.
-template <class T> void plan_sleep(Plan<T>&, double rate);
+template <class T> void plan_sleep(const Plan<T>&, CoupledLanesPlan<T>&, double rate);
 
 // At a step's start: who wakes, by its pulls or by who else is awake. Counts the bodies that sleep through the step.
-template <class T> void wake_blocks(const Plan<T>&, State<T>&, double time);
+template <class T>
+void wake_blocks(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&, double time);
 // All of them, between two steps: after gravity, wind or wood was changed. Allocates nothing.
-template <class T> void wake_all(const Plan<T>&, State<T>&);
+template <class T> void wake_all(const CoupledLanesPlan<T>&, CoupledLanesState<T>&);
 // At its end: who has settled. met: of each block.
-template <class T> void rest_blocks(const Plan<T>&, State<T>&, const std::vector<SweepFlags>& met);
+template <class T>
+void rest_blocks(const Plan<T>&, const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const std::vector<SweepFlags>& met);
 // Its motion at the step's end is that at its start.
-template <class T> void keep_motion(const Plan<T>&, State<T>&, const Block&);
+template <class T> void keep_motion(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const Block&);
 
-template <class T> Rest rest_of(const State<T>& state, std::size_t block) {
-    return state.lanes.rest.empty() ? Rest::awake : state.lanes.rest[block].rest;
-}
-
-template <class T> bool all_asleep(const State<T>& state) {
-    for (const BlockRest& block : state.lanes.rest)
+template <class T> bool all_asleep(const Lanes<T>& lanes) {
+    for (const BlockRest& block : lanes.rest)
         if (block.rest != Rest::asleep) return false;
-    return !state.lanes.rest.empty();
+    return !lanes.rest.empty();
 }
 
 // What a saved state carries: the turn of what is slept on, two numbers a block, and what each sleeping block's ports hand
 // inward. Empty where nothing has settled at all.
-template <class T> std::vector<double> saved_sleep(const Plan<T>&, const State<T>&);
+template <class T> std::vector<double> saved_sleep(const CoupledLanesPlan<T>&, const CoupledLanesState<T>&);
 // After restart(). Throws std::invalid_argument where the numbers are not of this plan.
-template <class T> void restore_sleep(const Plan<T>&, State<T>&, const std::vector<double>&);
+template <class T> void restore_sleep(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const std::vector<double>&);
 
 } // namespace bough::fast

@@ -1,10 +1,8 @@
 #include "fracture.h"
-#include "../fast/clear_lanes.h"
 #include "../growth/random.h"
 #include "../model/rotation_maps.h"
 #include "../stages/air.h"
 #include "../stages/leaf_air.h"
-#include "../stages/state_update.h"
 #include <algorithm>
 #include <numbers>
 
@@ -137,7 +135,7 @@ template <class T> Remaining whole_tree(const Plan<T>& plan, const Tree& tree) {
     all.gone.assign(n, 0);
     for (std::size_t i = n; i-- > 0;)
         if (tree.parent[i] >= 0) all.c_mass[std::size_t(tree.parent[i])] += all.c_mass[i];
-    if (plan.carried_moment.empty()) return all;
+    if (!plan.stepper->has_carried_moments()) return all;
     for (std::size_t i = 0; i < n; ++i) all.moment.push_back(tree.mass[i] * tree.com[i]);
     for (std::size_t i = 0; i < n; ++i)
         if (tree.parent[i] >= 0) all.moment[std::size_t(tree.parent[i])] += all.c_mass[i] * tree.joint_position[i];
@@ -155,29 +153,10 @@ template <class T> void unload_path(Plan<T>& plan, std::size_t first, Remaining&
         plan.c_mass[p] = T(rest.c_mass[p]);
         if (!rest.moment.empty()) {
             rest.moment[p] -= mass * plan.joint_position[i].template cast<double>();
-            plan.carried_moment[p] = rest.moment[p].template cast<T>();
-            if (plan.lanes.on) fast::put_carried_moment(plan, p);
+            plan.stepper->set_carried_moment(plan, p, rest.moment[p]);
         }
         i = p;
     }
-}
-
-template <class T> void clear_body(Plan<T>& plan, State<T>& state, std::size_t i) {
-    // As a pad of the analytic step: an inertia next to nothing, on a spring neither soft nor stiff.
-    const bool analytic = plan.solver == Solver::analytic;
-    const T inertia = analytic ? fast::pad_inertia<T> : T(0);
-    const T stiffness = analytic ? fast::pad_inertia<T> * fast::pad_rate2<T> : T(1);
-    plan.mass[i] = plan.c_mass[i] = 0;
-    plan.inertia_joint[i] = inertia * Matrix3<T>::Identity();
-    plan.K[i] = Vector3<T>::Constant(stiffness);
-    plan.beta[i] = 0;
-    if (!plan.carried_moment.empty()) plan.carried_moment[i].setZero();
-    if (!plan.carried_drag.empty()) plan.carried_drag[i].setZero(); // what bore it keeps its own: any will do (air.h)
-    if (!plan.gravity_row.empty()) plan.gravity_row[i] = 0;
-    if (!plan.drag_area.empty()) plan.drag_area[i] = 0;
-    for (auto* array : {&state.theta, &state.theta_dot, &state.scaled_rate, &state.spin_dot, &state.theta_change,
-                        &state.theta_dot_change})
-        if (!array->empty()) (*array)[i].setZero();
 }
 
 } // namespace
@@ -194,15 +173,11 @@ void detach(Plan<T>& plan, State<T>& state, const Subtrees& trees, const std::ve
             if (rest.gone[i]) return false;
             rest.gone[i] = 1;
             rest.c_mass[i] = 0;
-            clear_body(plan, state, i);
             left.push_back(i);
             return true;
         });
     }
-    if (plan.lanes.on)
-        fast::clear_lanes(plan, state, left);
-    else
-        state_update(plan, state);
+    plan.stepper->drop(plan, state, left);
 }
 
 template std::vector<FreeBody> pieces_of(const Plan<float>&, const Tree&, const Subtrees&, TreePoses<float>&,

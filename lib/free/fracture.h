@@ -6,7 +6,7 @@
 // of its bodies:
 //   v = sum m_b v_b / m,   omega = I^-1 sum (I_b omega_b + m_b (c_b - c) x (v_b - v))
 // What its joints moved against each other is lost with their springs. The tree keeps its rates; its composite masses and moments are less by what left.
-// In the plan, a body that has left is one of no mass that nothing moves, as a pad of the fast path is (layout.h): theta = 0.
+// In the plan, a body that has left is one of no mass that nothing moves (Stepper::drop): theta = 0.
 // Factors of inertia and weights of the analytic step (spring.h, drag.h) stay those of the whole tree.
 #pragma once
 #include "free_body.h"
@@ -34,7 +34,7 @@ std::vector<FreeBody> pieces_of(const Plan<T>&, const Tree&, const Subtrees&, Tr
 // What is still on the tree. In double: a leaf's mass is below what a float can tell of a tree's.
 struct Remaining {
     std::vector<double> c_mass;     // [kg] (1)
-    std::vector<Vec3> moment;       // [kg m] Plan::carried_moment, where the plan has it
+    std::vector<Vec3> moment;       // [kg m] that a body's turning moves (carried.h), where the solver reads it
     std::vector<std::uint8_t> gone; // of each body
 };
 template <class T> Remaining whole_tree(const Plan<T>&, const Tree&);

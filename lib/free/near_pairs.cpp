@@ -1,5 +1,5 @@
 #include "near_pairs.h"
-#include "../fast/present.h"
+#include "../stages/state.h"
 #include "shape.h"
 #include <algorithm>
 #include <cmath>

@@ -22,7 +22,7 @@ template <class T> Vec3 TreeResponse<T>::spring(const Plan<T>& plan, std::size_t
 template <class T> void TreeResponse<T>::close(const Plan<T>& plan, std::size_t i, Joint& joint) const {
     Mat3 D = joint.A;
     if (!coupled_) { // as its oscillator has it (joint.h)
-        const Vec3 f = plan.inertia_factor[i].template cast<double>();
+        const Vec3 f = plan.stepper->inertia_factor()[i].template cast<double>();
         D = f.asDiagonal() * D * f.asDiagonal();
     }
     D.diagonal() += spring(plan, i);
@@ -53,7 +53,7 @@ template <class T> void TreeResponse<T>::add_child(const Plan<T>& plan, std::siz
 
 template <class T> void TreeResponse<T>::make(const Plan<T>& plan, const Tree& tree, const Subtrees&, bool sprung) {
     sprung_ = sprung;
-    coupled_ = plan.solver == Solver::coupled;
+    coupled_ = plan.stepper->inertia_factor().empty();
     joint_.resize(plan.bodies);
     place_.assign(plan.bodies, 0);
     for (std::size_t i = 0; i < plan.bodies; ++i) joint_[i] = own(plan, i);

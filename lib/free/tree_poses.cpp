@@ -1,20 +1,17 @@
 #include "tree_poses.h"
-#include "../fast/analytic_rows.h"
-#include "../fast/lane_tables.h"
 #include "../model/rotation_maps.h"
 
 namespace bough {
 
 template <class T> void TreePoses<T>::begin(const Plan<T>& plan, const State<T>& state) {
     plan_ = &plan;
-    state_ = &state;
     time_ = double(state.step) * plan.dt;
     if (place_.size() != plan.bodies) place_.assign(plan.bodies, 0);
     for (const std::size_t body : body_) place_[body] = 0;
     body_.clear();
     pose_.clear();
     pose_.emplace_back(); // place 0 is nobody's
-    if (plan.lanes.on) motion_at_ = fast::motion_of_rows(plan, state);
+    plan.stepper->view_motion(plan, state, motion_);
 }
 
 template <class T> void TreePoses<T>::begin_copy(const Plan<T>& plan, const State<T>& state) {
@@ -27,26 +24,12 @@ template <class T> void TreePoses<T>::begin_copy(const Plan<T>& plan, const Stat
     copy_ = std::move(all);
 }
 
-template <class T>
-Vec3 TreePoses<T>::motion(std::size_t body, int quantity, const std::vector<Vector3<T>>& array) const {
-    if (!plan_->lanes.on) return array[body].template cast<double>();
-    constexpr std::size_t lanes = fast::Row<T>::lanes;
-    const std::size_t slot = plan_->lanes.layout.slot[body];
-    const fast::RowVector<T>& rows = plan_->solver == Solver::analytic ? state_->lanes.now : state_->lanes.table;
-    const std::size_t first = motion_at_[slot / lanes] + std::size_t(quantity);
-    return {double(rows[first].lane[slot % lanes]), double(rows[first + 1].lane[slot % lanes]),
-            double(rows[first + 2].lane[slot % lanes])};
-}
-
 template <class T> Vec3 TreePoses<T>::theta(std::size_t body) const {
-    static_assert(fast::motion::theta == 0 && fast::analytic::motion::theta == 0);
-    return copy_.empty() ? motion(body, 0, state_->theta) : Vec3(copy_[body].template cast<double>());
+    return copy_.empty() ? motion_.theta_of(body) : Vec3(copy_[body].template cast<double>());
 }
 
 template <class T> Vec3 TreePoses<T>::theta_dot(std::size_t body) const {
-    const bool analytic = plan_->solver == Solver::analytic;
-    return motion(body, analytic ? int(fast::analytic::motion::theta_dot) : int(fast::motion::theta_dot),
-                  state_->theta_dot);
+    return motion_.theta_dot_of(body);
 }
 
 template <class T> void TreePoses<T>::add(std::size_t i) {

@@ -33,14 +33,13 @@ public:
 
 private:
     void add(std::size_t body);
-    Vec3 motion(std::size_t body, int quantity, const std::vector<Vector3<T>>& array) const;
 
     const Plan<T>* plan_ = nullptr;
-    const State<T>* state_ = nullptr;
     double time_ = 0;
     std::vector<std::uint32_t> place_; // in pose_, 0: not yet
     std::deque<BodyPose> pose_;
-    std::vector<std::size_t> body_, path_, motion_at_;
+    std::vector<std::size_t> body_, path_;
+    MotionView<T> motion_;
     std::vector<Vector3<T>> copy_; // of theta; empty without
 };
 

@@ -1,5 +1,5 @@
 #include "world.h"
-#include "../stages/external_forces.h"
+#include "../stages/pushes.h"
 #include "breaking.h"
 #include "meeting.h"
 #include <algorithm>

@@ -14,7 +14,6 @@
 // The hash of a run with free bodies goes on over them; saved() and restore() hold them for a run that is cut. Nothing hangs on threads.
 #pragma once
 #include "../model/motion.h"
-#include "../reference/advance.h"
 #include "contact.h"
 #include "fracture.h"
 #include "walker.h"

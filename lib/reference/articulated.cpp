@@ -1,8 +1,8 @@
 #include "articulated.h"
 #include "../model/resolved_turn.h"
 #include "../stages/air.h"
-#include "../stages/external_forces.h"
 #include "../stages/leaf_air.h"
+#include "../stages/pushes.h"
 #include "../stages/shelter.h"
 #include <limits>
 
@@ -106,7 +106,7 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
         f -= D * a_own;
         Mat3 turning =
             Mat3::Zero(); // of streaming in that solver alone: where it begins is a kink, which extrapolation feels
-        if (!plan.carried_drag.empty()) turning = h * streaming_stiffness(plan.foliage, plan.carried_drag[i], u);
+        if (!pass.carried_drag.empty()) turning = h * streaming_stiffness(plan.foliage, pass.carried_drag[i], u);
         if (is_flat(plan.kind[i])) turning += h * plan.drag_area[i] * c.norm() * air_turning(plan.kind[i], own_axes, u);
         b.A += h * turning;
         b.N += turning * b.omega;

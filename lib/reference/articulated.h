@@ -34,6 +34,7 @@
 #pragma once
 #include "../stages/plan.h"
 #include "../stages/state.h"
+#include "articulated_pass.h"
 
 namespace bough {
 

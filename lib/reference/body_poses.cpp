@@ -1,6 +1,6 @@
 #include "body_poses.h"
-#include "../stages/energy.h"
-#include "../stages/root_term.h"
+#include "../stages/ground.h"
+#include "energy.h"
 
 namespace bough {
 

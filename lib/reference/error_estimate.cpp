@@ -1,5 +1,6 @@
 #include "error_estimate.h"
-#include "advance.h"
+#include "../coupled/coupled_stepper.h"
+#include "../fast/lane_steppers.h"
 #include "trajectory.h"
 #include <algorithm>
 #include <cassert>
@@ -13,10 +14,12 @@ constexpr int finer = TipError::finer;
 constexpr double of_difference = 1.5;
 
 template <class T> Plan<T> at_finer_steps(Plan<T> plan) {
-    assert(plan.solver == Solver::coupled);
+    CoupledPlan<T>* const own = fast::coupled_plan(plan);
+    assert(own);
     plan.dt /= finer;
-    if (plan.scheme == Scheme::lie) plan.scheme = Scheme::p12; // what LIE damps away it does at either step
-    plan.lanes.sleep.on = false; // depends on the step; and what it loses is a part of the error
+    if (own->scheme == Scheme::lie) own->scheme = Scheme::p12; // what LIE damps away it does at either step
+    if (auto* lanes = fast::planned_lanes(plan))
+        lanes->sleep.on = false; // depends on the step; and what it loses is a part of the error
     plan.torque = false;
     return plan;
 }
@@ -45,8 +48,10 @@ ErrorEstimate<T>::ErrorEstimate(const Tree& tree, const Plan<T>& plan, const Sta
     found_.rounding = extent * double(std::numeric_limits<T>::epsilon());
     state_.theta = start.theta;
     state_.theta_dot = start.theta_dot;
-    state_.theta_change = in_finer_steps(start.theta_change); // of the last step: they stand for the motion's rates
-    state_.theta_dot_change = in_finer_steps(start.theta_dot_change);
+    CoupledState<T>& own = coupled_state(state_);
+    const CoupledState<T>& from = coupled_state(start);
+    own.theta_change = in_finer_steps(from.theta_change); // of the last step: they stand for the motion's rates
+    own.theta_dot_change = in_finer_steps(from.theta_dot_change);
     state_.step = finer * start.step;
     restart(plan_, state_);
     past_.resize(4 * tips_.size());
@@ -96,7 +101,7 @@ template <class T> TipError ErrorEstimate<T>::result() const {
     result.rms = of_difference * rms(squares_, count);
     result.worst = of_difference * std::sqrt(worst_);
     result.deflection = rms(deflection_squares_, count);
-    if (scheme_of(plan_.scheme).poles == 1)
+    if (scheme_of(fast::coupled_plan(plan_)->scheme).poles == 1)
         result.rough = rms(rough_squares_, double(steps_ - 4) * double(found_.tips));
     return result;
 }

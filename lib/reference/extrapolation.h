@@ -11,8 +11,8 @@
 // and the next is H (tolerance / e)^(1/8), times 0.8, between 1/4 and 2.5 of it. It is the error of the column before the
 // last, so an overestimate where the table converges.
 // A step of the plan (its dt) is cut into as many H as that takes; the last is shortened to end with it. The proposal for
-// the next goes on in State::articulated_step, which a saved state keeps: a run cut in two is the same.
-// Reads   theta, rate in the state (State::theta, scaled_rate). Writes them. 36 passes an H. Allocates nothing.
+// the next goes on in ArticulatedState::inner_step, which a saved state keeps: a run cut in two is the same.
+// Reads   theta, rate in the state (State::theta, ArticulatedState::rate). Writes them. 36 passes an H. Allocates nothing.
 // No H reaches over a key of a moving ground (quintic.h): its fifth derivative jumps there, which the expansion does not have, and all rows
 // would step over a jump that is short beside H / 8.
 // A tolerance holds for one H, in the angle and in H times the rate: over many H the angle's error grows to about
@@ -25,9 +25,9 @@
 
 namespace bough {
 
-constexpr int extrapolation_rows = int(articulated_passes(Solver::articulated_reference));
+constexpr int extrapolation_rows = 8;
 
 // One step of plan.dt from time `time`.
-void extrapolated_step(const Plan<double>&, State<double>&, double time);
+void extrapolated_step(const Plan<double>&, const ArticulatedPlan&, State<double>&, ArticulatedState&, double time);
 
 } // namespace bough

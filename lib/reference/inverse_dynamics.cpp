@@ -1,7 +1,7 @@
 #include "inverse_dynamics.h"
 #include "../stages/air.h"
-#include "../stages/external_forces.h"
 #include "../stages/leaf_air.h"
+#include "../stages/pushes.h"
 #include "../stages/shelter.h"
 
 namespace bough {

@@ -1,7 +1,7 @@
 #include "merge_below.h"
 #include "../stages/added_motion.h"
 #include "../stages/hold.h"
-#include "advance.h"
+#include "solvers.h"
 #include "trajectory.h"
 #include <algorithm>
 #include <stdexcept>

@@ -9,7 +9,7 @@
 // motion that is chaotic, as that of a tree in leaf in strong wind, is another one whatever is held: then nothing can be.
 // Cost: the whole run, and up to `runs` of reduced trees; 12 bytes a tip and frame.
 #pragma once
-#include "../fast/targets.h"
+#include "../fast/target.h"
 #include "rigid_error.h"
 #include <functional>
 #include <optional>

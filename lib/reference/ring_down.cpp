@@ -1,7 +1,6 @@
 #include "ring_down.h"
-#include "../stages/fictitious.h"
 #include "../stages/state_update.h"
-#include "advance.h"
+#include "solvers.h"
 #include <Eigen/Cholesky>
 #include <numbers>
 
@@ -129,9 +128,8 @@ RingDown ring_down(const Problem& problem, const Variant& how, double dt, const 
     scene.gravity.setZero();
     scene.pose = Pose::rest;
     scene.joint_inertia = how.inertia;
-    Plan<double> plan =
-        make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd);
-    plan.tolerance = how.tolerance;
+    Plan<double> plan = make_plan<double>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme,
+                                          problem.simd, 0, how.tolerance);
     for (const Vec3& K : plan.K)
         if (!(K.minCoeff() > 0)) return {};
     const Mode mode = first_mode(plan);

@@ -13,6 +13,7 @@
 // Ringing is sign changes of theta_dot a joint axis and frame, below a millionth of the largest rate left out; guards are those of StepFlags but buckling, which is physics, and joint limits, which the scene asks for.
 #pragma once
 #include "../stages/plan.h"
+#include "solvers.h"
 #include "stability_cases.h"
 #include <cmath>
 #include <cstdint>

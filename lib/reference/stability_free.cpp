@@ -1,7 +1,7 @@
 #include "stability_free.h"
 #include "../free/world.h"
-#include "../stages/energy.h"
-#include "../stages/fictitious.h"
+#include "energy.h"
+#include "solvers.h"
 #include <algorithm>
 
 namespace bough {

@@ -1,8 +1,7 @@
 #include "trajectory.h"
-#include "../stages/fictitious.h"
-#include "../stages/root_term.h"
-#include "advance.h"
+#include "../stages/ground.h"
 #include "body_poses.h"
+#include "solvers.h"
 #include <chrono>
 #include <cmath>
 
@@ -46,8 +45,8 @@ Trajectory run(const Problem& problem, const Variant& how, bool all_bodies, int 
     Scene scene = for_solver(problem.scene, how.solver);
     scene.joint_inertia = how.inertia;
     const double dt = 1 / (problem.fps * how.steps_per_frame);
-    Plan<T> plan = make_plan<T>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd);
-    plan.tolerance = how.tolerance;
+    Plan<T> plan = make_plan<T>(problem.tree, problem.ranges, scene, {}, dt, how.solver, how.scheme, problem.simd, 0,
+                                how.tolerance);
     const std::vector<std::size_t> tips = tip_bodies(problem.tree);
     const auto stride = std::int64_t(std::max(1.0, 1 / how.steps_per_frame));
     const auto substeps = std::int64_t(std::max(1.0, how.steps_per_frame));

@@ -4,6 +4,7 @@
 #include "../stages/plan.h"
 #include "../stages/state.h"
 #include "motion_statistics.h"
+#include "solvers.h"
 #include <functional>
 #include <string>
 #include <vector>

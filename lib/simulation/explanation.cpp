@@ -1,26 +1,28 @@
 #include "explanation.h"
 #include "../base/parallel.h"
+#include "../fast/lane_steppers.h"
 #include "../fast/lane_tables.h"
 #include "../fast/shared_constants.h"
+#include "explain.h"
 #include <cmath>
 #include <sstream>
 
 namespace bough {
 namespace {
 
-template <class T> std::string sharing_text(const Plan<T>& plan) {
-    const fast::PlannedLanes<T>& lanes = plan.lanes;
+template <class T> std::string sharing_text(const fast::PlannedLanes<T>& lanes) {
     const std::string rows = std::to_string(lanes.layout.rows) + " rows: ";
     const std::string bytes = std::to_string(lanes.constants.size() * sizeof(fast::Row<T>)) + " bytes, ";
     if (!lanes.sharing.on) return bytes + rows + "none shared, " + lanes.sharing.reason;
-    return bytes + rows + "shared by instances, " + std::to_string(fast::shared_rows(plan)) + " kept";
+    return bytes + rows + "shared by instances, " + std::to_string(fast::shared_rows(lanes)) + " kept";
 }
 
 // How many threads the largest loop of a step runs on.
 template <class T> std::string threads_text(const Plan<T>& plan) {
     const std::string most = "of at most " + std::to_string(thread_limit()) + ": ";
-    if (!plan.lanes.on) return most + "as many as each stage's loop over bodies pays for";
-    const fast::Layout& layout = plan.lanes.layout;
+    const auto* const lanes = fast::planned_lanes(plan);
+    if (!lanes) return most + "as many as each stage's loop over bodies pays for";
+    const fast::Layout& layout = lanes->layout;
     const std::size_t blocks = layout.blocks.size() - 1;
     const double ns = fast::block_cost(layout) * double(blocks);
     return std::to_string(threads_for(blocks, ns)) + " " + most + std::to_string(blocks) + " blocks, about " +
@@ -30,23 +32,25 @@ template <class T> std::string threads_text(const Plan<T>& plan) {
 } // namespace
 
 template <class T> std::string explanation(const Plan<T>& plan, const std::vector<std::string>& changes) {
+    const PlanAccount account = explain(plan);
     std::ostringstream text;
     text << "plan: " << plan.bodies << " bodies, " << (std::is_same_v<T, float> ? "float" : "double") << ", step "
-         << plan.dt << " s, solver " << solver_name(plan.solver);
-    if (plan.solver == Solver::coupled) text << ", scheme " << scheme_of(plan.scheme).name;
+         << plan.dt << " s, solver " << plan.stepper->name();
+    if (const std::string scheme = plan.stepper->scheme(); !scheme.empty()) text << ", scheme " << scheme;
     text << "\n";
     for (const std::string& change : changes) text << "tree changed by " << change << "\n";
-    for (const PlannedStage& stage : plan.stages)
+    for (const PlannedStage& stage : account.stages)
         text << "stage " << stage_name(stage.stage) << (stage.on ? " on: " : " left out: ") << stage.reason << "\n";
     std::size_t used = 0, left = 0;
-    for (const PlannedArray& array : plan.arrays) {
+    for (const PlannedArray& array : account.arrays) {
         text << "array " << array.name << (array.on ? " on, " : " left out, ") << array.bytes
              << " bytes: " << array.reason << "\n";
         (array.on ? used : left) += array.bytes;
     }
     text << "constants of bodies in document order "
          << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
-    if (plan.lanes.on) text << "constants of rows in lanes " << sharing_text(plan) << "\n";
+    if (const auto* lanes = fast::planned_lanes(plan))
+        text << "constants of rows in lanes " << sharing_text(*lanes) << "\n";
     text << "threads " << threads_text(plan) << "\n";
     text << "state: " << used << " bytes, left out " << left << " bytes\n";
     return text.str();

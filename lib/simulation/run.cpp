@@ -1,19 +1,9 @@
 #include "run.h"
+#include "../fast/lane_steppers.h"
 #include "../stages/expand.h"
-#include "../stages/state_arrays.h"
-#include <cmath>
 
 namespace bough {
 namespace {
-
-template <class V> bool finite(const V& value) {
-    if constexpr (std::is_floating_point_v<V>)
-        return std::isfinite(value);
-    else if constexpr (requires { value.allFinite(); })
-        return value.allFinite();
-    else
-        return true; // a step's own scratch
-}
 
 std::string body_text(const Tree& tree, std::size_t i) {
     return "body " + std::to_string(i) + " (branch " + std::to_string(tree.branch[i]) + ")";
@@ -24,45 +14,16 @@ template <class T> std::string free_text(const World<T>& world, std::size_t k) {
     return "what fell with " + body_text(*world.tree, std::size_t(world.free[k].parts.front().body));
 }
 
-// The stage before the spring that writes an array (state.h); visit_arrays names them in the order of the stages.
-const char* early_stage(const std::string& array) {
-    if (array.rfind("c_", 0) == 0) return stage_name(Stage::composite);
-    if (array == "f_w" || array == "tau_w" || array.rfind("drag_", 0) == 0) return stage_name(Stage::external_forces);
-    return nullptr;
-}
-
-template <class T> std::string stage_of(const Plan<T>& plan, const State<T>& state, const Tree& tree) {
-    std::string place;
-    visit_arrays(Plan<T>(), state, [&](const std::string& name, const auto& array, bool, const std::string&) {
-        const char* stage = place.empty() ? early_stage(name) : nullptr;
-        for (std::size_t i = 0; stage && place.empty() && i < array.size(); ++i)
-            if (!finite(array[i])) place = std::string(stage) + " (" + name + "), " + body_text(tree, i);
-    });
-    const Stage last = is_articulated(plan.solver)      ? Stage::articulated
-                       : plan.solver == Solver::coupled ? Stage::resolvent
-                                                        : Stage::spring;
-    if (place.empty()) place = std::string(stage_name(last)) + " (theta), " + body_text(tree, *first_non_finite(state));
-    return "stage " + place;
-}
-
 // tree: const Tree& or Tree&&, as make_plan takes it.
 template <class T, class TreeType>
-Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, const StepChoice& choice) {
+Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, double dt,
+                std::unique_ptr<Stepper<T>> stepper) {
     wishes.top = assembly.part.top;
     wishes.reach = assembly.part.reach;
     wishes.clocks = assembly.part.clocks;
     try {
-        std::optional<fast::Target> simd = choice.simd;
-        double sleep = choice.sleep;
-        if (assembly.part.parts > 1) sleep = 0; // trees sleep by blocks, which those of a whole scene share
-        if (assembly.part.moved) {              // as make_plan decides for the whole
-            sleep = 0;
-            if (choice.solver == Solver::analytic) simd.reset();
-        }
-        Plan<T> plan = make_plan<T>(std::forward<TreeType>(tree), assembly.ranges, assembly.scene, wishes, choice.dt,
-                                    choice.solver, choice.scheme, simd, sleep);
-        if (choice.tolerance) plan.tolerance = *choice.tolerance;
-        return plan;
+        return make_plan<T>(std::forward<TreeType>(tree), assembly.ranges, assembly.scene, wishes, dt,
+                            std::move(stepper));
     } catch (const std::out_of_range& error) {
         throw SceneError(error.what());
     } catch (const std::domain_error& error) {
@@ -73,12 +34,28 @@ Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, const 
 
 } // namespace
 
-template <class T> Plan<T> plan_run(const Assembly& assembly, const Wishes& wishes, const StepChoice& choice) {
-    return plan_of<T>(assembly.tree, assembly, wishes, choice);
+void keep_to_the_whole(const Part& part, Method method, StepChoice& choice) {
+    if (part.parts > 1 || part.moved) choice.sleep = 0;
+    if (part.moved && method == Method::analytic) choice.simd.reset(); // as for the whole
 }
 
-template <class T> Plan<T> plan_run(Assembly&& assembly, const Wishes& wishes, const StepChoice& choice) {
-    return plan_of<T>(std::move(assembly.tree), assembly, wishes, choice);
+template <class T> Plan<T> plan_run(const Assembly& assembly, const Wishes& wishes, StepChoice choice) {
+    keep_to_the_whole(assembly.part, choice.method, choice);
+    const Scene& scene = assembly.scene;
+    return plan_run<T>(assembly, wishes, choice.dt,
+                       choice.method == Method::coupled
+                           ? fast::coupled_stepper<T>(scene, Scheme::p12, choice.simd, choice.sleep)
+                           : fast::analytic_stepper<T>(scene, choice.simd, choice.sleep));
+}
+
+template <class T>
+Plan<T> plan_run(const Assembly& assembly, const Wishes& wishes, double dt, std::unique_ptr<Stepper<T>> stepper) {
+    return plan_of<T>(assembly.tree, assembly, wishes, dt, std::move(stepper));
+}
+
+template <class T>
+Plan<T> plan_run(Assembly&& assembly, const Wishes& wishes, double dt, std::unique_ptr<Stepper<T>> stepper) {
+    return plan_of<T>(std::move(assembly.tree), assembly, wishes, dt, std::move(stepper));
 }
 
 template <class T> Run<T> start_run(Plan<T> plan, const Assembly& assembly) {
@@ -104,9 +81,11 @@ template <class T> std::string advance_run(Run<T>& run, const Tree& tree, StageC
 }
 
 template <class T> std::string non_finite(const Plan<T>& plan, State<T>& state, const Tree& tree) {
-    if (plan.lanes.on && state.lanes.finite) return {}; // seen by the step itself
+    if (plan.stepper->known_finite(state)) return {};
     present(plan, state);
-    return first_non_finite(state) ? stage_of(plan, state, tree) : std::string();
+    if (!first_non_finite(state)) return {};
+    const NonFinite found = plan.stepper->non_finite(state);
+    return "stage " + found.what + ", " + body_text(tree, found.body);
 }
 
 template <class T>
@@ -146,10 +125,12 @@ std::string hash_text(std::uint64_t hash) {
     return text;
 }
 
-template Plan<float> plan_run(const Assembly&, const Wishes&, const StepChoice&);
-template Plan<double> plan_run(const Assembly&, const Wishes&, const StepChoice&);
-template Plan<float> plan_run(Assembly&&, const Wishes&, const StepChoice&);
-template Plan<double> plan_run(Assembly&&, const Wishes&, const StepChoice&);
+template Plan<float> plan_run(const Assembly&, const Wishes&, StepChoice);
+template Plan<double> plan_run(const Assembly&, const Wishes&, StepChoice);
+template Plan<float> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<float>>);
+template Plan<double> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<double>>);
+template Plan<float> plan_run(Assembly&&, const Wishes&, double, std::unique_ptr<Stepper<float>>);
+template Plan<double> plan_run(Assembly&&, const Wishes&, double, std::unique_ptr<Stepper<double>>);
 template Run<float> start_run(Plan<float>, const Assembly&);
 template Run<double> start_run(Plan<double>, const Assembly&);
 template std::string advance_run(Run<float>&, const Tree&, StageClock*);

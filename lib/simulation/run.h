@@ -1,24 +1,31 @@
 // run.h: one run, step after step: plan, state, and what is free beside the trees. The inside of the door (simulation.h); treesim and
 // treeprofile, which report on plans and states themselves, stand on it too.
 #pragma once
+#include "../fast/target.h"
 #include "../free/world.h"
+#include "../stages/make_plan.h"
 #include "assembly.h"
+#include "method.h"
+#include <optional>
 
 namespace bough {
 
-// How the steps are made; make_plan says what each means.
+// How the steps are made.
 struct StepChoice {
     double dt = 1.0 / 30; // [s]
-    Solver solver = Solver::coupled;
-    Scheme scheme = Scheme::p12;
-    std::optional<fast::Target> simd; // none: the plain path
-    double sleep = 0;                 // [rad/s]
-    std::optional<double> tolerance;  // [rad] of articulated_reference; its own unless given
+    Method method = Method::coupled;
+    std::optional<fast::Target> simd; // SIMD lanes for it, where they hold all that the scene has; none: the plain path
+    double sleep = 0; // [rad/s] the rate below which what has settled is left out of steps (fast/sleep.h)
 };
 
+// What a part of a scene must not do that the whole would not: its trees share blocks with others, and the ground of some may move.
+void keep_to_the_whole(const Part&, Method, StepChoice&);
+
 // Throws SceneError. An assembly that is handed over keeps of its tree what make_plan says, and memory low.
-template <class T> Plan<T> plan_run(const Assembly&, const Wishes&, const StepChoice&);
-template <class T> Plan<T> plan_run(Assembly&&, const Wishes&, const StepChoice&);
+template <class T> Plan<T> plan_run(const Assembly&, const Wishes&, StepChoice);
+// The same with a stepper of any solver, for steps of dt [s].
+template <class T> Plan<T> plan_run(const Assembly&, const Wishes&, double dt, std::unique_ptr<Stepper<T>>);
+template <class T> Plan<T> plan_run(Assembly&&, const Wishes&, double dt, std::unique_ptr<Stepper<T>>);
 
 template <class T> struct Run {
     Plan<T> plan;

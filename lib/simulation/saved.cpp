@@ -1,22 +1,26 @@
 #include "saved.h"
-#include "../fast/sleep.h"
 #include <stdexcept>
 
 namespace bough {
 namespace {
 
-// visit(in memory, in the document, its name) for each array that the solver carries from step to step (State).
-template <class T, class StateType, class Saved, class Visit>
-void visit_carried(const Plan<T>& plan, StateType& state, Saved& saved, Visit&& visit) {
+// The document's array of a carried one's name.
+template <class Saved> auto& array_of(Saved& saved, const std::string& name) {
+    for (const auto& [known, array] : {std::pair{"theta_change", &SavedState::theta_change},
+                                       {"theta_dot_change", &SavedState::theta_dot_change},
+                                       {"scaled_rate", &SavedState::scaled_rate},
+                                       {"spin_dot", &SavedState::spin_dot}})
+        if (name == known) return saved.*array;
+    throw std::logic_error("a saved state has no " + name);
+}
+
+// visit(in memory, in the document, its name) for each array that is carried from step to step.
+template <class T, class Saved, class Visit>
+void visit_carried(const Plan<T>& plan, State<T>& state, Saved& saved, Visit&& visit) {
     visit(state.theta, saved.theta, "theta");
     visit(state.theta_dot, saved.theta_dot, "theta_dot");
-    if (plan.solver == Solver::coupled) {
-        visit(state.theta_change, saved.theta_change, "theta_change");
-        visit(state.theta_dot_change, saved.theta_dot_change, "theta_dot_change");
-    } else {
-        visit(state.scaled_rate, saved.scaled_rate, "scaled_rate");
-        if (plan.fictitious) visit(state.spin_dot, saved.spin_dot, "spin_dot");
-    }
+    for (const CarriedArray<T>& carried : plan.stepper->carried(state))
+        visit(*carried.array, array_of(saved, carried.name), carried.name);
 }
 
 } // namespace
@@ -24,8 +28,7 @@ void visit_carried(const Plan<T>& plan, StateType& state, Saved& saved, Visit&& 
 template <class T> void save_run(Run<T>& run, std::int64_t frame, SavedState& saved) {
     present(run.plan, run.state);
     saved.frame = frame;
-    saved.articulated_step = run.state.articulated_step;
-    saved.sleep = fast::saved_sleep(run.plan, run.state);
+    run.plan.stepper->save(run.plan, run.state, saved);
     saved.free_bodies = saved_world(run.state, run.world);
     visit_carried(run.plan, run.state, saved,
                   [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to, const char*) {
@@ -51,11 +54,10 @@ template <class T> void restore_run(const SavedState& saved, std::int64_t step, 
                              " bodies, but this run has " + std::to_string(to.size()));
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i].template cast<T>();
     });
-    state.articulated_step = saved.articulated_step;
     state.step = step;
     restart(plan, state);
     try {
-        if (plan.lanes.sleep.on) fast::restore_sleep(plan, state, saved.sleep); // else what slept goes on awake
+        plan.stepper->restore(plan, state, saved);
     } catch (const std::invalid_argument& error) {
         throw SceneError(std::string("/sleep: ") + error.what());
     }

@@ -1,8 +1,6 @@
 #include "simulation.h"
 #include "../base/parallel.h"
-#include "../fast/lane_tables.h"
-#include "../fast/sleep.h"
-#include "../fast/targets.h"
+#include "../coupled/coupled_stepper.h"
 #include "../model/check_parts.h"
 #include "../model/rotation_maps.h"
 #include "explanation.h"
@@ -24,7 +22,7 @@ SimulationOptions checked(const SimulationOptions& o) {
 StepChoice choice_of(const SimulationOptions& o) {
     StepChoice choice;
     choice.dt = o.step;
-    choice.solver = o.method == Method::coupled ? Solver::coupled : Solver::analytic;
+    choice.method = o.method;
     if (!o.portable) choice.simd = fast::best_target();
     choice.sleep = o.sleep;
     return choice;
@@ -37,7 +35,7 @@ void require_finite(const Vec3& v, const char* name) {
 template <class T> void scale(Plan<T>& plan, double stiffness, double damping) {
     for (Vector3<T>& K : plan.K) K *= T(stiffness);
     for (T& beta : plan.beta) beta *= T(damping);
-    if (plan.lanes.on) fast::scale_wood(plan, T(stiffness), T(damping));
+    plan.stepper->scale_wood(plan, T(stiffness), T(damping));
 }
 
 // What of a wind is in the tables that a plan was made with.
@@ -151,8 +149,8 @@ public:
         scale(run_.plan, stiffness_factor, damping_factor);
     }
     bool pushed() const override { return run_.plan.contact; }
-    bool sleeps() const override { return run_.plan.lanes.sleep.on; }
-    void wake() override { fast::wake_all(run_.plan, run_.state); }
+    bool sleeps() const override { return run_.plan.stepper->sleeps(); }
+    void wake() override { run_.plan.stepper->wake(run_.plan, run_.state); }
     bool gone(std::size_t body) const override {
         const std::vector<std::uint8_t>& gone = run_.world.remaining.gone;
         return body < gone.size() && gone[body];
@@ -208,6 +206,7 @@ public:
 
     void go_on(const std::vector<JointMotion>& joints, const std::vector<std::uint8_t>& known, double time) override {
         present(run_.plan, run_.state);
+        CoupledState<T>& own = coupled_state(run_.state); // as it is asked for with that method alone
         for (std::size_t i = 0; i < joints.size(); ++i) {
             if (!known[i]) continue;
             const Mat3 back = run_.plan.R_pj[i].template cast<double>().transpose();
@@ -215,8 +214,8 @@ public:
             const Vec3 eta = rotation_maps<double>(theta).J_inverse * (back * joints[i].omega);
             run_.state.theta[i] = theta.template cast<T>();
             run_.state.theta_dot[i] = eta.template cast<T>();
-            run_.state.theta_change[i] = (options.step * eta).template cast<T>(); // as a first step's
-            run_.state.theta_dot_change[i].setZero();
+            own.theta_change[i] = (options.step * eta).template cast<T>(); // as a first step's
+            own.theta_dot_change[i].setZero();
         }
         run_.state.step = std::llround(time / options.step);
         restart(run_.plan, run_.state);
@@ -235,8 +234,8 @@ private:
     void name(SavedState& saved) const {
         saved.fps = 1 / options.step;
         saved.precision = options.precision == Precision::single ? "float" : "double";
-        saved.solver = solver_name(run_.plan.solver);
-        if (run_.plan.solver == Solver::coupled) saved.scheme = scheme_of(run_.plan.scheme).name;
+        saved.solver = run_.plan.stepper->name();
+        saved.scheme = run_.plan.stepper->scheme();
         saved.fingerprint = name_;
     }
 

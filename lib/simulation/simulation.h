@@ -21,18 +21,13 @@
 #pragma once
 #include "../model/motion.h"
 #include "../model/scene.h"
+#include "method.h"
 #include "scene_error.h"
 #include <cstdint>
 #include <memory>
 #include <span>
 
 namespace bough {
-
-// What numbers a run is made in. Single is twice as fast; tips differ by some millionths of the deflection.
-enum class Precision : std::uint8_t { single, double_ };
-
-// How a step is made: coupled is bough's own, analytic the paper's (README.md, "Error against run time").
-enum class Method : std::uint8_t { coupled, analytic };
 
 struct SimulationOptions {
     double step = 1.0 / 30; // [s] above 0: of one call of step()

@@ -1,5 +1,5 @@
 #include "posed_tree.h"
-#include "root_term.h"
+#include "ground.h"
 
 namespace bough {
 

@@ -1,6 +1,6 @@
 #include "state_update.h"
-#include "fictitious.h"
-#include "root_term.h"
+#include "ground.h"
+#include "spring_torque.h"
 
 namespace bough {
 
@@ -49,9 +49,17 @@ template <class T> void state_update(const Plan<T>& plan, State<T>& s) {
         s.v_w[i] = s.omega_w[i].cross(Vector3<T>(s.R_wb[i] * plan.com[i]));
         s.v_w[i] += s.v_w[p] + s.omega_w[p].cross(to_joint);
     }
-    if (plan.fictitious) accelerations(plan, s);
 }
 
+template <class T> void update_kinematics(const Plan<T>& plan, State<T>& state) {
+    move_ground(plan, state, double(state.step) * plan.dt);
+    if (!plan.pose) return;
+    state_update(plan, state);
+    if (plan.torque) spring_torque(plan, state);
+}
+
+template void update_kinematics(const Plan<float>&, State<float>&);
+template void update_kinematics(const Plan<double>&, State<double>&);
 template void state_update(const Plan<float>&, State<float>&);
 template void state_update(const Plan<double>&, State<double>&);
 

@@ -4,9 +4,9 @@
 // have their origin at their own joint here, so that (10)'s d_j^c is the centre of mass' negative. Velocities only where
 // the plan has a reader for them (wind, --fields velocity): omega_c = omega_p + R_wc J theta_dot, which is
 // (8) with the exact angular velocity of the joint for theta_dot (math.h); v_c = v_joint + omega_c x R_wc com (11). Accelerations (9), (12)
-// exist with /fictitious alone, their one reader (fictitious.h). Roots hang on the ground, which rests or moves (state.ground, root_motion.h): with it
+// have one reader, which has them itself (fictitious.h). Roots hang on the ground, which rests or moves (state.ground, root_motion.h): with it
 // go their joints' places, frames and velocities.
-// Reads   theta, theta_dot, ground. Writes R_wb, x_w; omega_w, v_w; alpha_w, a_w. After spring. Needs parent[i] < i. O(n). Errors none.
+// Reads   theta, theta_dot, ground. Writes R_wb, x_w; omega_w, v_w. After spring. Needs parent[i] < i. O(n). Errors none.
 #pragma once
 #include "plan.h"
 #include "state.h"
@@ -14,5 +14,9 @@
 namespace bough {
 
 template <class T> void state_update(const Plan<T>&, State<T>&);
+
+// All that stands on theta and theta_dot in document order, at the state's number of steps: the ground, poses, velocities, springs' torques, as
+// far as the plan has them.
+template <class T> void update_kinematics(const Plan<T>&, State<T>&);
 
 } // namespace bough

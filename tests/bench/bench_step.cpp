@@ -3,7 +3,8 @@
 #include "lib/base/parallel.h"
 #include "lib/fast/layout.h"
 #include "lib/fast/targets.h"
-#include "lib/reference/advance.h"
+#include "lib/reference/solvers.h"
+#include "tests/support/solver_parts.h"
 #include <benchmark/benchmark.h>
 
 namespace {
@@ -25,7 +26,7 @@ template <class T> void step_of(benchmark::State& benchmark, Solver solver, Path
     State<T> state = make_state(plan);
     for (auto _ : benchmark) advance(plan, state);
     benchmark.SetItemsProcessed(benchmark.iterations() * std::int64_t(plan.bodies));
-    benchmark.SetLabel(plan.lanes.on ? fast::target_name(plan.target) : "plain");
+    benchmark.SetLabel(plan.stepper->in_lanes() ? fast::target_name(parts::lanes(plan).target) : "plain");
 }
 
 void layout(benchmark::State& benchmark) {

@@ -1,10 +1,11 @@
 // coupled_support.h: a tree, a scene and the coupled step, and motions held against the articulated reference.
 #pragma once
-#include "lib/reference/advance.h"
+#include "lib/reference/energy.h"
+#include "lib/reference/solvers.h"
 #include "lib/reference/trajectory.h"
-#include "lib/stages/energy.h"
-#include "lib/stages/root_term.h"
+#include "lib/stages/ground.h"
 #include "tests/support/coupled_cases.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
 
@@ -74,7 +75,7 @@ inline Plan<double> plan_of(const Motion& motion, Solver solver, Scheme scheme, 
 // tolerance [rad] a step, absolute (extrapolation.h).
 inline Track truth_of(const Motion& motion, double tolerance = 1e-10) {
     Plan<double> plan = plan_of(motion, Solver::articulated_reference, Scheme::p12, 1);
-    plan.tolerance = tolerance;
+    parts::set_tolerance(plan, tolerance);
     return track_of(motion, plan, 1);
 }
 

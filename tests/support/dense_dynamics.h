@@ -7,7 +7,8 @@
 // of the rotation's logarithm, the air's damping of round bodies by differences of its force: 8th order, h = 1e-3.
 // h > 0: the linearly implicit system that lib/reference/articulated.h states, for turns of less than a radian in h.
 #pragma once
-#include "lib/stages/plan.h"
+#include "lib/reference/solvers.h"
+#include "tests/support/solver_parts.h"
 #include <Eigen/Cholesky>
 #include <functional>
 #include <vector>
@@ -197,7 +198,7 @@ inline Solved solve(const Problem& p) {
             const M3 spin = spin_rate(p.tree.kind[i], area, m, u) * I;
             turning += p.h * spin;
             moment -= spin * (omega[i] + p.h * alpha0[i]);
-            if (p.h > 0 && !p.plan.carried_drag.empty()) {
+            if (p.h > 0 && !parts::carried_drag(p.plan).empty()) {
                 const M3 W = streaming(moments[i], u, leaves);
                 turning += p.h * p.h * W;
                 moment -= p.h * W * (omega[i] + p.h * alpha0[i]);

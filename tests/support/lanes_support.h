@@ -1,10 +1,11 @@
 // lanes_support.h: a step on the plain path or in lanes, on trees and scenes in which the two are compared.
 #pragma once
-#include "lib/fast/present.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
-#include "lib/reference/advance.h"
+#include "lib/reference/solvers.h"
+#include "lib/stages/state.h"
 #include "tests/support/coupled_cases.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
 
@@ -40,10 +41,10 @@ template <class T = double> struct Run {
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             state.theta[i] += solver::random_vector(dice, c.angle).template cast<T>();
             state.theta_dot[i] = solver::random_vector(dice, c.rate).template cast<T>();
-            if (plan.solver == Solver::coupled)
-                state.theta_change[i] = T(plan.dt) * state.theta_dot[i];
+            if (plan.stepper->name() == std::string(solver_name(Solver::coupled)))
+                parts::theta_change(state)[i] = T(plan.dt) * state.theta_dot[i];
             else // about what the composites of tips carry of it
-                state.scaled_rate[i] = std::sqrt(plan.inertia_joint[i].trace()) * state.theta_dot[i];
+                parts::scaled_rate(state)[i] = std::sqrt(plan.inertia_joint[i].trace()) * state.theta_dot[i];
         }
         restart(plan, state);
     }

@@ -1,10 +1,9 @@
 // simulate.h: a tree, a scene, steps: what the tests of motion share.
 #pragma once
-#include "lib/stages/energy.h"
-#include "lib/stages/plan.h"
+#include "lib/reference/energy.h"
+#include "lib/reference/solvers.h"
 #include "lib/stages/state.h"
 #include "lib/stages/state_update.h"
-#include "lib/stages/step.h"
 
 namespace simulate {
 
@@ -16,7 +15,7 @@ template <class T> struct Run {
     Run(const Tree& tree, const Scene& scene, double dt = 1.0 / 30, const Wishes& wishes = {})
         : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, wishes, dt)), state(make_state(plan)) {}
     void steps(int n) {
-        for (int k = 0; k < n; ++k) step(plan, state);
+        for (int k = 0; k < n; ++k) advance(plan, state);
     }
     // Kinetic (of the joints), elastic and potential: what the springs promise not to raise.
     double total_energy() const {

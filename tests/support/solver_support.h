@@ -1,6 +1,6 @@
 // solver_support.h: plans of one tree, and states in random motion, for the tests of the stages.
 #pragma once
-#include "lib/stages/plan.h"
+#include "lib/reference/solvers.h"
 #include "lib/stages/state.h"
 #include "lib/stages/state_update.h"
 #include "tests/support/make_tree.h"

@@ -3,6 +3,7 @@
 // there; two solvers may differ by twice what each may differ from the truth.
 #include "cases.h"
 #include "lib/reference/articulated.h"
+#include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 
 using namespace yardstick;
@@ -15,7 +16,7 @@ std::vector<Vec3> library_accelerations(const Case& c) {
     auto state = bough::make_state(plan);
     std::vector<Vec3> theta, found;
     for (const Quat& turn : c.motion.turn) theta.push_back(rotation_vector(turn));
-    bough::joint_accelerations(plan, theta, c.motion.rate, c.time, state.articulated[0], found);
+    bough::joint_accelerations(plan, theta, c.motion.rate, c.time, articulated_state(state).pass[0], found);
     return found;
 }
 

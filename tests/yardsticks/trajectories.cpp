@@ -3,7 +3,8 @@
 // the engines' disagreement and, Runge-Kutta's order being 4, 15 times the error of the finer one's steps. The error is the
 // largest distance of a tip over all frames, relative to the root mean square of the tips' deflection from the start.
 #include "cases.h"
-#include "lib/reference/advance.h"
+#include "lib/reference/solvers.h"
+#include "tests/support/solver_parts.h"
 #include "trajectory.h"
 #include <catch2/catch.hpp>
 
@@ -15,7 +16,7 @@ Track library_track(const Tree& tree, const bough::Scene& scene, const std::vect
                     double fps, double tolerance) {
     auto plan = bough::make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1 / fps,
                                          bough::Solver::articulated_reference);
-    plan.tolerance = tolerance;
+    parts::set_tolerance(plan, tolerance);
     auto state = bough::make_state(plan);
     Track track;
     for (int f = 0; f <= frames; ++f) {

@@ -1,6 +1,7 @@
 // The composite sweep against sums over each joint's subtree, body by body; the drag's row sums against double loops.
-#include "lib/stages/composite.h"
-#include "lib/stages/external_forces.h"
+#include "lib/analytic/composite.h"
+#include "lib/analytic/external_forces.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <Eigen/SVD>
 #include <catch2/catch.hpp>
@@ -30,8 +31,8 @@ Moving moving(const Tree& tree, bool wind, unsigned seed) {
     m.state = make_state(m.plan);
     shake(m.plan, m.state, seed, 0.8, 5);
     if (wind) evaluate_wind(*scene.wind, 0.5, m.state.wind);
-    external_forces(m.plan, m.state, 0.5);
-    composite_update(m.plan, m.state);
+    parts::external_forces(m.plan, m.state, 0.5);
+    parts::composite_update(m.plan, m.state);
     return m;
 }
 
@@ -76,15 +77,15 @@ TEST_CASE("a composite's mass, first moment and inertia are sums over the bodies
                 h += tree.mass[b] * r;
                 J += s.R_wb[b] * tree.inertia[b] * s.R_wb[b].transpose() +
                      tree.mass[b] * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
-                f += s.f_w[b];
-                tau += s.tau_w[b] + (s.x_w[b] - s.x_w[j]).cross(s.f_w[b]);
+                f += parts::joints(s).f_w[b];
+                tau += parts::joints(s).tau_w[b] + (s.x_w[b] - s.x_w[j]).cross(parts::joints(s).f_w[b]);
             }
             CAPTURE(tree.name, seed, j);
             CHECK(std::abs(m.plan.c_mass[j] - mass) <= rounding * mass);
-            CHECK((s.c_h_w[j] - h).norm() <= rounding * (mass + h.norm()));
-            CHECK((s.c_J_w[j] - J).norm() <= 10 * rounding * J.norm());
-            CHECK((s.c_f_w[j] - f).norm() <= rounding * 10);
-            CHECK((s.c_tau_w[j] - tau).norm() <= rounding * 100);
+            CHECK((parts::joints(s).c_h_w[j] - h).norm() <= rounding * (mass + h.norm()));
+            CHECK((parts::joints(s).c_J_w[j] - J).norm() <= 10 * rounding * J.norm());
+            CHECK((parts::joints(s).c_f_w[j] - f).norm() <= rounding * 10);
+            CHECK((parts::joints(s).c_tau_w[j] - tau).norm() <= rounding * 100);
         }
     }
 }
@@ -101,24 +102,24 @@ TEST_CASE("with wind, forces and drag of a composite are sums over the bodies ou
                 if (!outboard(tree, b, j)) continue;
                 // Moments of forces at the centres of mass; the pull acts there too.
                 const Vec3 r = s.x_w[b] + s.R_wb[b] * tree.com[b] - s.x_w[j];
-                f += s.f_w[b];
-                tau += r.cross(s.f_w[b]);
-                drag += s.drag_f_w[b];
+                f += parts::joints(s).f_w[b];
+                tau += r.cross(parts::joints(s).f_w[b]);
+                drag += parts::joints(s).drag_f_w[b];
                 // A leaf's own turning is damped by a torque beside.
-                drag_tau +=
-                    r.cross(s.drag_f_w[b]) + s.drag_tau_w[b] - Vec3(s.R_wb[b] * tree.com[b]).cross(s.drag_f_w[b]);
-                size += (s.f_w[b].norm() + s.drag_f_w[b].norm()) * (1 + r.norm());
+                drag_tau += r.cross(parts::joints(s).drag_f_w[b]) + parts::joints(s).drag_tau_w[b] -
+                            Vec3(s.R_wb[b] * tree.com[b]).cross(parts::joints(s).drag_f_w[b]);
+                size += (parts::joints(s).f_w[b].norm() + parts::joints(s).drag_f_w[b].norm()) * (1 + r.norm());
                 double W = 0; // how far the weights of the path move the body
                 for (std::int64_t k = std::int64_t(b); k >= 0; k = tree.parent[std::size_t(k)])
-                    W += way(tree, b, std::size_t(k)) / m.plan.inverse_weight[std::size_t(k)];
-                row += way(tree, b, j) * s.drag_bound[b] * W;
+                    W += way(tree, b, std::size_t(k)) / parts::joints(m.plan).inverse_weight[std::size_t(k)];
+                row += way(tree, b, j) * parts::joints(s).drag_bound[b] * W;
             }
             CAPTURE(tree.name, seed, j);
-            CHECK((s.c_f_w[j] - f).norm() <= rounding * size);
-            CHECK((s.c_tau_w[j] - tau).norm() <= 10 * rounding * size);
-            CHECK((s.c_drag_f_w[j] - drag).norm() <= rounding * size);
-            CHECK((s.c_drag_tau_w[j] - drag_tau).norm() <= 10 * rounding * size);
-            CHECK(std::abs(s.c_drag_row[j] - row) <= 10 * rounding * row);
+            CHECK((parts::joints(s).c_f_w[j] - f).norm() <= rounding * size);
+            CHECK((parts::joints(s).c_tau_w[j] - tau).norm() <= 10 * rounding * size);
+            CHECK((parts::joints(s).c_drag_f_w[j] - drag).norm() <= rounding * size);
+            CHECK((parts::joints(s).c_drag_tau_w[j] - drag_tau).norm() <= 10 * rounding * size);
+            CHECK(std::abs(parts::joints(s).c_drag_row[j] - row) <= 10 * rounding * row);
         }
     }
 }
@@ -133,7 +134,7 @@ TEST_CASE("the drag's diagonal bounds the weighted rows of its matrix over the j
         std::vector<Mat3> C(n); // any matrix with the bound as its norm
         for (std::size_t b = 0; b < n; ++b) {
             const Vec3 axis = random_vector(dice, 1).normalized();
-            C[b] = s.drag_bound[b] * (b % 2 ? Mat3(axis * axis.transpose()) : Mat3(Mat3::Identity()));
+            C[b] = parts::joints(s).drag_bound[b] * (b % 2 ? Mat3(axis * axis.transpose()) : Mat3(Mat3::Identity()));
         }
         double tightest = 1e300;
         for (std::size_t j = 0; j < n; ++j) {
@@ -147,9 +148,9 @@ TEST_CASE("the drag's diagonal bounds the weighted rows of its matrix over the j
                 }
                 if (D.isZero(0)) continue;
                 const double norm = Eigen::JacobiSVD<Mat3>(D).singularValues()[0];
-                sum += norm * m.plan.inverse_weight[j] / m.plan.inverse_weight[k];
+                sum += norm * parts::joints(m.plan).inverse_weight[j] / parts::joints(m.plan).inverse_weight[k];
             }
-            const double d = m.plan.inverse_weight[j] * s.c_drag_row[j];
+            const double d = parts::joints(m.plan).inverse_weight[j] * parts::joints(s).c_drag_row[j];
             CAPTURE(tree.name, seed, j);
             CHECK(d >= sum * (1 - 1e-12));
             tightest = std::min(tightest, d / std::max(sum, 1e-300));
@@ -167,11 +168,12 @@ TEST_CASE("the composite's float run agrees with double") {
     State<float> b = make_state(single);
     shake(plan, a, 5, 0.5, 0);
     shake(single, b, 5, 0.5, 0);
-    composite_update(plan, a);
-    composite_update(single, b);
+    parts::composite_update(plan, a);
+    parts::composite_update(single, b);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         CAPTURE(i);
-        CHECK((a.c_J_w[i] - b.c_J_w[i].cast<double>()).norm() < 3e-5 * a.c_J_w[i].norm());
-        CHECK((a.c_h_w[i] - b.c_h_w[i].cast<double>()).norm() < 3e-5 * plan.c_mass[i]);
+        CHECK((parts::joints(a).c_J_w[i] - parts::joints(b).c_J_w[i].cast<double>()).norm() <
+              3e-5 * parts::joints(a).c_J_w[i].norm());
+        CHECK((parts::joints(a).c_h_w[i] - parts::joints(b).c_h_w[i].cast<double>()).norm() < 3e-5 * plan.c_mass[i]);
     }
 }

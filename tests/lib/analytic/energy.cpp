@@ -2,6 +2,7 @@
 #include "lib/growth/segment.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
+#include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -94,7 +95,7 @@ TEST_CASE("Energy does not rise at any stiffness") {
     std::normal_distribution<double> normal;
     // Kicks of a tenth of a joule in all, shared out by inertia.
     const double share = std::sqrt(0.2 / (3 * double(tree.size_bodies())));
-    for (Vec3& w : run.state.scaled_rate) w = Vec3(normal(random), normal(random), normal(random)) * share;
+    for (Vec3& w : parts::scaled_rate(run.state)) w = Vec3(normal(random), normal(random), normal(random)) * share;
     const double first = run.total_energy();
     double before = first, rise = 0;
     for (int k = 0; k < 600; ++k) {

@@ -1,11 +1,12 @@
 // The lagged terms (20): accelerations against differences, torques against sums over bodies, a chain against the articulated reference.
-#include "lib/stages/fictitious.h"
+#include "lib/analytic/fictitious.h"
+#include "lib/analytic/composite.h"
 #include "lib/fast/targets.h"
-#include "lib/reference/advance.h"
-#include "lib/stages/composite.h"
-#include "lib/stages/root_term.h"
+#include "lib/reference/solvers.h"
+#include "lib/stages/ground.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <array>
 #include <catch2/catch.hpp>
@@ -37,10 +38,10 @@ Run<double> shaken(const Tree& tree, const Scene& scene, double rate) {
     Run<double> run(tree, scene, 1e-5);
     make_tree::Dice dice{std::mt19937(7)};
     run.state.step = 45000;
-    for (Vec3& spin : run.state.spin_dot) spin = solver::random_vector(dice, 10 * rate);
+    for (Vec3& spin : parts::joints(run.state).spin_dot) spin = solver::random_vector(dice, 10 * rate);
     move_ground(run.plan, run.state, 0.45);
     solver::shake(run.plan, run.state, 5, 0.4, rate);
-    composite_update(run.plan, run.state);
+    parts::composite_update(run.plan, run.state);
     return run;
 }
 
@@ -69,10 +70,11 @@ TEST_CASE("accelerations are the derivatives of the velocities, of every body, o
         for (std::size_t i = 0; i < n; ++i) {
             run.state.theta[i] = theta(i, t);
             run.state.theta_dot[i] = path[i][1] + t * path[i][2];
-            run.state.spin_dot[i] = (rate(i, t + h) - rate(i, t - h)) / (2 * h);
+            parts::joints(run.state).spin_dot[i] = (rate(i, t + h) - rate(i, t - h)) / (2 * h);
         }
         move_ground(run.plan, run.state, 0.3 + t);
         state_update(run.plan, run.state);
+        accelerations(run.plan, run.state, parts::joints(run.state));
         return run.state;
     };
     const State<double> before = at(-h), after = at(h), now = at(0);
@@ -85,8 +87,8 @@ TEST_CASE("accelerations are the derivatives of the velocities, of every body, o
                    a = (of_joint(after, i) - of_joint(before, i)) / (2 * h);
         REQUIRE(alpha.norm() > 1);
         REQUIRE(a.norm() > 0.1);
-        CHECK((now.alpha_w[i] - alpha).norm() < 1e-6 * alpha.norm());
-        CHECK((now.a_w[i] - a).norm() < 1e-6 * a.norm());
+        CHECK((parts::joints(now).alpha_w[i] - alpha).norm() < 1e-6 * alpha.norm());
+        CHECK((parts::joints(now).a_w[i] - a).norm() < 1e-6 * a.norm());
     }
 }
 
@@ -105,7 +107,7 @@ TEST_CASE("a joint's own acceleration is that of its rate at the step's end") {
         run.steps(1);
         const Vec3 before = rate();
         run.steps(1);
-        const Vec3 found = run.state.spin_dot[0];
+        const Vec3 found = parts::joints(run.state).spin_dot[0];
         run.steps(1);
         const Vec3 truth = (rate() - before) / (2 * dt);
         most = std::max(most, truth.norm());
@@ -120,14 +122,15 @@ TEST_CASE("the terms are what carrying the bodies with the joint takes, body by 
     Scene scene = lagged(1, 1, 1);
     scene.root_motion = {swung()};
     Run<double> run = shaken(tree, scene, 2);
-    fictitious_torques(run.plan, run.state);
+    parts::fictitious_torques(run.plan, run.state);
     const State<double>& s = run.state;
     const Ground g = ground_at(run.plan.splines[0], 0.45);
     for (std::size_t j = 0; j < tree.size_bodies(); ++j) {
         const bool root = tree.parent[j] < 0;
         const auto p = std::size_t(tree.parent[j]);
         const Vec3 omega_p = root ? g.omega : s.omega_w[p], omega = s.omega_w[j];
-        const Vec3 alpha = (root ? g.alpha : s.alpha_w[p]) + omega_p.cross(omega); // (19) without its own spring's part
+        const Vec3 alpha =
+            (root ? g.alpha : parts::joints(s).alpha_w[p]) + omega_p.cross(omega); // (19) without its own spring's part
         Vec3 truth = Vec3::Zero();
         for (std::size_t b = j; b < tree.size_bodies(); ++b) {
             std::int64_t up = std::int64_t(b);
@@ -136,24 +139,24 @@ TEST_CASE("the terms are what carrying the bodies with the joint takes, body by 
             const Mat3& R = s.R_wb[b];
             const Vec3 x = s.x_w[b] + R * tree.com[b], r = x - s.x_w[j], arm = x - g.x;
             const Mat3 I = R * tree.inertia[b] * R.transpose();
-            const Vec3 carried = s.a_w[j] + alpha.cross(r) + omega.cross(omega.cross(r));
+            const Vec3 carried = parts::joints(s).a_w[j] + alpha.cross(r) + omega.cross(omega.cross(r));
             const Vec3 ground = g.a + g.alpha.cross(arm) + g.omega.cross(g.omega.cross(arm));
             truth -= r.cross(tree.mass[b] * (carried - ground)) + I * (alpha - g.alpha);
             truth -= omega.cross(I * omega) - g.omega.cross(I * g.omega);
         }
         CAPTURE(j);
-        CHECK((s.fictitious_w[j] - truth).norm() < 1e-9 * (truth.norm() + 1e-6));
+        CHECK((parts::joints(s).fictitious_w[j] - truth).norm() < 1e-9 * (truth.norm() + 1e-6));
     }
     // One multiplier a term.
-    const std::vector<Vec3> all = s.fictitious_w;
+    const std::vector<Vec3> all = parts::joints(s).fictitious_w;
     std::vector<Vec3> sum(all.size(), Vec3::Zero());
     for (const Fictitious& one : {Fictitious{1, 0, 0}, Fictitious{0, 1, 0}, Fictitious{0, 0, 1}}) {
         run.plan.scene.fictitious = one;
-        fictitious_torques(run.plan, run.state);
+        parts::fictitious_torques(run.plan, run.state);
         double most = 0;
         for (std::size_t i = 0; i < sum.size(); ++i) {
-            sum[i] += run.state.fictitious_w[i];
-            most = std::max(most, run.state.fictitious_w[i].norm());
+            sum[i] += parts::joints(run.state).fictitious_w[i];
+            most = std::max(most, parts::joints(run.state).fictitious_w[i].norm());
         }
         CHECK(most > 1e-3);
     }
@@ -164,10 +167,10 @@ TEST_CASE("a ground's own motion is not counted twice: carried rigidly, the term
     Scene scene = lagged(1, 1, 1);
     scene.root_motion = {swung()};
     Run<double> run = shaken(make_tree::branched(), scene, 0);
-    fictitious_torques(run.plan, run.state);
-    REQUIRE(run.state.alpha_w[5].norm() > 1);
-    REQUIRE(run.state.a_w[5].norm() > 1);
-    for (const Vec3& tau : run.state.fictitious_w) CHECK(tau.norm() < 1e-12);
+    parts::fictitious_torques(run.plan, run.state);
+    REQUIRE(parts::joints(run.state).alpha_w[5].norm() > 1);
+    REQUIRE(parts::joints(run.state).a_w[5].norm() > 1);
+    for (const Vec3& tau : parts::joints(run.state).fictitious_w) CHECK(tau.norm() < 1e-12);
 }
 
 TEST_CASE("a twig on a swaying stem follows the articulated reference with the terms, and not without") {
@@ -192,7 +195,7 @@ TEST_CASE("a twig on a swaying stem follows the articulated reference with the t
             with.fictitious = Fictitious{multiplier, multiplier, multiplier};
             with = for_solver(with, solver);
             Plan<double> plan = make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, with, {}, dt, solver);
-            plan.tolerance = 1e-10;
+            parts::set_tolerance(plan, 1e-10);
             State<double> state = make_state(plan);
             state.theta[0] = Vec3(0.2, 0.1, 0);
             restart(plan, state);
@@ -232,12 +235,12 @@ TEST_CASE("the terms are for the analytic solver, on the plain path; all 0 is no
         return make_plan<float>(tree, ranges, s, {}, 0.01, Solver::analytic, Scheme::p12, fast::Target::baseline);
     };
     const Plan<float> plan = plan_of(scene);
-    CHECK(plan.fictitious);
-    CHECK_FALSE(plan.lanes.on);
-    CHECK(plan.lanes.reason == "/fictitious");
+    CHECK(parts::joints(plan).fictitious);
+    CHECK_FALSE(plan.stepper->in_lanes());
+    CHECK(plan.stepper->plainly() == "/fictitious");
     const Plan<float> none = plan_of(lagged(0, 0, 0));
-    CHECK_FALSE(none.fictitious);
-    CHECK(none.lanes.on);
+    CHECK_FALSE(parts::joints(none).fictitious);
+    CHECK(none.stepper->in_lanes());
     Scene plain = lagged(0, 0, 0), absent = plain;
     absent.fictitious.reset();
     Run<double> a(tree, plain), b(tree, absent), c(tree, scene);
@@ -260,8 +263,8 @@ TEST_CASE("a run with the terms that is cut and gone on with is the run in one")
     first.steps(13);
     second.state.theta = first.state.theta;
     second.state.theta_dot = first.state.theta_dot;
-    second.state.scaled_rate = first.state.scaled_rate;
-    second.state.spin_dot = first.state.spin_dot;
+    parts::scaled_rate(second.state) = parts::scaled_rate(first.state);
+    parts::joints(second.state).spin_dot = parts::joints(first.state).spin_dot;
     second.state.step = 13;
     restart(second.plan, second.state);
     second.steps(17);

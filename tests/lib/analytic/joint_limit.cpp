@@ -2,6 +2,7 @@
 #include "lib/stages/joint_limit.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
+#include "tests/support/solver_parts.h"
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -40,7 +41,7 @@ template <class T> void shake(Run<T>& run, double size, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     const double share = size / std::sqrt(double(run.state.theta.size()));
-    for (auto& w : run.state.scaled_rate)
+    for (auto& w : parts::scaled_rate(run.state))
         w = (share * Vec3(normal(random), normal(random), normal(random))).template cast<T>();
 }
 
@@ -99,7 +100,7 @@ TEST_CASE("a rod that gravity no longer holds swings back from its limit as one 
     Run<double> released(lying_rod(1e7, 0.02), free);
     released.state.theta = run.state.theta;
     released.state.theta_dot = run.state.theta_dot;
-    released.state.scaled_rate = run.state.scaled_rate;
+    parts::scaled_rate(released.state) = parts::scaled_rate(run.state);
     state_update(released.plan, released.state);
     for (int k = 0; k < 40; ++k) {
         released.steps(1);
@@ -195,14 +196,14 @@ TEMPLATE_TEST_CASE("a limit that is never reached changes no bit and no array", 
     CHECK(state_hash(with.state) == state_hash(without.state));
     CHECK(with.state.bytes() == without.state.bytes());
     CHECK(with.state.calls == without.state.calls);
-    REQUIRE(with.plan.stages.size() == without.plan.stages.size());
-    for (std::size_t k = 0; k < with.plan.stages.size(); ++k) {
-        const bool spring = with.plan.stages[k].stage == Stage::spring;
-        CHECK(with.plan.stages[k].on == without.plan.stages[k].on);
-        CHECK((with.plan.stages[k].reason != without.plan.stages[k].reason) == spring);
+    REQUIRE(explain(with.plan).stages.size() == explain(without.plan).stages.size());
+    for (std::size_t k = 0; k < explain(with.plan).stages.size(); ++k) {
+        const bool spring = explain(with.plan).stages[k].stage == Stage::spring;
+        CHECK(explain(with.plan).stages[k].on == explain(without.plan).stages[k].on);
+        CHECK((explain(with.plan).stages[k].reason != explain(without.plan).stages[k].reason) == spring);
         if (!spring) continue;
-        CHECK(with.plan.stages[k].reason == "every scene; angles kept within /joint_limit");
-        CHECK(without.plan.stages[k].reason == "every scene");
+        CHECK(explain(with.plan).stages[k].reason == "every scene; angles kept within /joint_limit");
+        CHECK(explain(without.plan).stages[k].reason == "every scene");
     }
 }
 
@@ -215,7 +216,7 @@ TEMPLATE_TEST_CASE("a limited run cut in two goes on as if it had not been", "",
     CHECK(whole.state.flags.limited > 0);
     second.state.theta = whole.state.theta;
     second.state.theta_dot = whole.state.theta_dot;
-    second.state.scaled_rate = whole.state.scaled_rate;
+    parts::scaled_rate(second.state) = parts::scaled_rate(whole.state);
     second.state.step = whole.state.step;
     state_update(second.plan, second.state);
     whole.steps(30);

@@ -2,6 +2,7 @@
 // equal to rounding, in float as near to double as the plain one is, every guard as often; its targets against each other; what it refuses.
 #include "lib/stages/oscillator.h"
 #include "tests/support/lanes_support.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace lanes;
@@ -65,14 +66,14 @@ TEST_CASE("in double, analytic lanes and the plain step are the same to rounding
     for (const Case& c : cases()) {
         AnalyticRun<> plain(c, std::nullopt), lanes(c, fast::best_target());
         CAPTURE(c.name);
-        REQUIRE(lanes.plan.lanes.on);
+        REQUIRE(lanes.plan.stepper->in_lanes());
         const std::vector<Vec3> start = plain.state.theta;
         const Apart d = run_apart(plain, lanes, frames);
         REQUIRE(most(start, plain.state.theta) > 1e-3);
         CHECK(d.theta < 1e-11);
         CHECK(d.theta_dot < 1e-9); // of leaves, which weigh a tenth of a gram
         CHECK(d.x < 1e-11);
-        CHECK(most(plain.state.scaled_rate, lanes.state.scaled_rate) < 1e-11);
+        CHECK(most(parts::scaled_rate(plain.state), parts::scaled_rate(lanes.state)) < 1e-11);
         CHECK(lanes.state.flags.buckling == plain.state.flags.buckling);
         CHECK(lanes.state.flags.bounded_lambda == plain.state.flags.bounded_lambda);
         CHECK(lanes.state.flags.half_turns == plain.state.flags.half_turns);
@@ -154,10 +155,10 @@ TEST_CASE("what analytic lanes do not hold is refused with its reason and steps 
     const auto refused = [&](const std::string& reason) {
         AnalyticRun<> asked(c, fast::best_target()), plain(c, std::nullopt);
         CAPTURE(reason);
-        CHECK_FALSE(asked.plan.lanes.on);
-        CHECK(asked.plan.lanes.reason == reason);
-        CHECK(asked.plan.stages[std::size_t(Stage::lanes)].reason == "plain path: " + reason);
-        CHECK(asked.state.lanes.now.empty());
+        CHECK_FALSE(asked.plan.stepper->in_lanes());
+        CHECK(asked.plan.stepper->plainly() == reason);
+        CHECK(explain(asked.plan).stages[std::size_t(Stage::lanes)].reason == "plain path: " + reason);
+        CHECK(parts::lanes(asked.state).now.empty());
         asked.steps(5), plain.steps(5);
         CHECK(state_hash(asked.state) == state_hash(plain.state));
         CHECK(asked.calls(Stage::lanes) == 0);
@@ -187,7 +188,7 @@ TEMPLATE_TEST_CASE("a free body spins in analytic lanes as a rigid body does", "
         Matrix3<T> S = lanes.plan.inertia_joint[0];
         S.diagonal().array() += 4 * std::numeric_limits<T>::epsilon() * S.trace(); // joint.h
         const Matrix3<T> L = S.llt().matrixL();
-        lanes.state.scaled_rate[0] = L.transpose() * lanes.state.theta_dot[0];
+        parts::scaled_rate(lanes.state)[0] = L.transpose() * lanes.state.theta_dot[0];
         restart(lanes.plan, lanes.state);
         double off = 0;
         for (int f = 1; f <= frames; ++f) {

@@ -26,7 +26,7 @@ template <class T> void endures(const Tree& tree, double stiffness, lanes::Simd 
     scene.stiffness_scale = stiffness;
     scene.pose = Pose::rest;
     lanes::Run<T> run(storm, simd);
-    REQUIRE(run.plan.lanes.on == simd.has_value());
+    REQUIRE(run.plan.stepper->in_lanes() == simd.has_value());
     const auto rms = [&] {
         double sum = 0;
         for (std::size_t i = 0; i < tree.size_bodies(); ++i) sum += double((run.state.x_w[i]).squaredNorm());

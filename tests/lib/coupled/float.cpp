@@ -8,6 +8,7 @@
 // moments M (a_float - a_double), a the mean acceleration of the step, by inverse_dynamics.h.
 #include "lib/reference/inverse_dynamics.h"
 #include "tests/support/coupled_support.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace coupled;
@@ -67,7 +68,7 @@ void take_constants(Plan<double>& to, const Plan<float>& from) {
     convert(to.inertia_joint, from.inertia_joint);
     convert(to.K, from.K);
     convert(to.beta, from.beta);
-    convert(to.carried_moment, from.carried_moment);
+    convert(fast::coupled_plan(to)->carried_moment, parts::bodies(from).carried_moment);
     convert(to.drag_area, from.drag_area);
 }
 
@@ -75,21 +76,21 @@ template <class T> void take_state(State<T>& to, const State<double>& from) {
     to.step = from.step;
     convert(to.theta, from.theta);
     convert(to.theta_dot, from.theta_dot);
-    convert(to.theta_change, from.theta_change);
-    convert(to.theta_dot_change, from.theta_dot_change);
+    convert(parts::theta_change(to), parts::theta_change(from));
+    convert(parts::theta_dot_change(to), parts::theta_dot_change(from));
 }
 
 // `at`: the state after a step of a scheme of one pair of poles from theta_dot = eta, whose coupled[] is that step's set-up;
 // theta, theta_dot: the changes to be judged.
 double residual(const Plan<double>& plan, const State<double>& at, const std::vector<Vec3>& eta,
                 const std::vector<Vec3>& theta, const std::vector<Vec3>& theta_dot) {
-    const Pole& pole = scheme_of(plan.scheme).pole[0];
+    const Pole& pole = scheme_of(parts::bodies(plan).scheme).pole[0];
     const Z p = pole.p, c = pole.c, s1 = h / p, s2 = s1 * s1, slope = 1.0 / p - 0.5;
     const std::size_t n = plan.bodies;
     std::vector<V> alpha(n), a(n), N(n), F(n), tau(n);
     std::vector<double> size(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const CoupledBody<double>& b = at.coupled[i];
+        const CoupledBody<double>& b = parts::bodies(at).coupled[i];
         // 2 h Re(c x_v) = theta_dot, 2 h Re(c (h x_v - eta) / p) = theta
         Eigen::Matrix2d two;
         const Z e = c * h / p;
@@ -125,7 +126,7 @@ double residual(const Plan<double>& plan, const State<double>& at, const std::ve
         sizes += std::pow(size[i] + tau[i].norm(), 2);
         if (plan.parent[i] < 0) continue;
         const auto q = std::size_t(plan.parent[i]);
-        const V lever = cross_matrix(at.coupled[i].r) * F[i];
+        const V lever = cross_matrix(parts::bodies(at).coupled[i].r) * F[i];
         N[q] += N[i] + lever;
         F[q] += F[i];
         size[q] += N[i].norm() + lever.norm();
@@ -173,18 +174,18 @@ TEST_CASE("a step in float leaves a residual of 1e-6 of the moments at most: 1e4
         State<double> start = run.state;
         convert(start.theta, single.state.theta);
         convert(start.theta_dot, single.state.theta_dot);
-        convert(start.theta_change, single.state.theta_change);
-        convert(start.theta_dot_change, single.state.theta_dot_change);
+        convert(parts::theta_change(start), parts::theta_change(single.state));
+        convert(parts::theta_dot_change(start), parts::theta_dot_change(single.state));
         run.state = start;
         run.steps(1);
         single.steps(1);
         std::vector<Vec3> theta, theta_dot;
-        convert(theta, single.state.theta_change);
-        convert(theta_dot, single.state.theta_dot_change);
-        const double of_double =
-            residual(run.plan, run.state, start.theta_dot, run.state.theta_change, run.state.theta_dot_change);
+        convert(theta, parts::theta_change(single.state));
+        convert(theta_dot, parts::theta_dot_change(single.state));
+        const double of_double = residual(run.plan, run.state, start.theta_dot, parts::theta_change(run.state),
+                                          parts::theta_dot_change(run.state));
         const double of_float = residual(run.plan, run.state, start.theta_dot, theta, theta_dot);
-        const double apart = moment_of_difference(run.plan, start, theta_dot, run.state.theta_dot_change);
+        const double apart = moment_of_difference(run.plan, start, theta_dot, parts::theta_dot_change(run.state));
         CAPTURE(E, of_double, of_float, apart);
         REQUIRE(run.state.flags.fast_turns + single.state.flags.fast_turns == 0);
         CHECK(of_double < 1e-12);

@@ -3,6 +3,7 @@
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "tests/support/coupled_support.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace coupled;
@@ -55,8 +56,8 @@ TEMPLATE_TEST_CASE("a run cut in two goes on as if it had not been", "", float, 
             run->state.theta = whole.state.theta;
             run->state.theta_dot = whole.state.theta_dot;
             if (run == &forgetful) continue;
-            run->state.theta_change = whole.state.theta_change;
-            run->state.theta_dot_change = whole.state.theta_dot_change;
+            parts::theta_change(run->state) = parts::theta_change(whole.state);
+            parts::theta_dot_change(run->state) = parts::theta_dot_change(whole.state);
         }
         for (int k = 0; k < 10; ++k) {
             whole.steps(1);

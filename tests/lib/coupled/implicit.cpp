@@ -3,6 +3,7 @@
 // theta_dot = 0), so that one step from there is one method.
 #include "tests/support/coupled_cases.h"
 #include "tests/support/coupled_support.h"
+#include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;
@@ -25,7 +26,7 @@ double difference(const Tree& tree, Scene scene, const Steady& ground, double ra
     State<double> a = make_state(ours), b = make_state(theirs);
     make_tree::Dice dice{std::mt19937(11)};
     for (std::size_t i = 0; i < ours.bodies; ++i)
-        a.theta_dot[i] = b.theta_dot[i] = b.scaled_rate[i] = solver::random_vector(dice, rate);
+        a.theta_dot[i] = b.theta_dot[i] = parts::scaled_rate(b)[i] = solver::random_vector(dice, rate);
     a.step = b.step = std::llround(0.5 / h);
     advance(ours, a);
     advance(theirs, b);
@@ -33,9 +34,9 @@ double difference(const Tree& tree, Scene scene, const Steady& ground, double ra
     double angle = 0, angles = 0, speed = 0, speeds = 0;
     for (std::size_t i = 0; i < ours.bodies; ++i) {
         angle = std::max(angle, (a.theta[i] - b.theta[i]).norm());
-        speed = std::max(speed, (a.theta_dot[i] - b.scaled_rate[i]).norm());
+        speed = std::max(speed, (a.theta_dot[i] - parts::scaled_rate(b)[i]).norm());
         angles = std::max(angles, b.theta[i].norm());
-        speeds = std::max(speeds, b.scaled_rate[i].norm());
+        speeds = std::max(speeds, parts::scaled_rate(b)[i].norm());
     }
     return std::max(angle / angles, speed / speeds);
 }

@@ -3,6 +3,7 @@
 #include "lib/fast/step_bytes.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace lanes;
@@ -51,7 +52,7 @@ TEST_CASE("in double, lanes and the plain step are the same to rounding") {
             if (scheme != Scheme::p12 && c.tree.size_bodies() > 1000) continue;
             Run<> plain(c, std::nullopt, scheme), lanes(c, fast::best_target(), scheme);
             CAPTURE(c.name, scheme_of(scheme).name);
-            REQUIRE(lanes.plan.lanes.on);
+            REQUIRE(lanes.plan.stepper->in_lanes());
             const std::vector<Vec3> start = plain.state.theta;
             const Apart d = run_apart(plain, lanes, frames);
             const double turned = most(start, plain.state.theta);
@@ -106,10 +107,10 @@ TEST_CASE("AVX2 and AVX-512 give the same bits") {
 TEST_CASE("what is too much for the caches and goes past them comes back the same") {
     if (sanitized) return; // many bodies; and the sanitizers' builds have no target that does
     const Case c{"", firm(grown(90000)), in_wind(gusts())};
-    REQUIRE_FALSE(fast::streams(Run<>({"small", grown(20000), {}}, fast::best_target()).plan.lanes.layout));
+    REQUIRE_FALSE(fast::streams(parts::lanes(Run<>({"small", grown(20000), {}}, fast::best_target()).plan).layout));
     for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
         Run<> plain(c, std::nullopt, scheme), lanes(c, fast::best_target(), scheme);
-        REQUIRE(fast::streams(lanes.plan.lanes.layout));
+        REQUIRE(fast::streams(parts::lanes(lanes.plan).layout));
         const Apart d = run_apart(plain, lanes, 3);
         CHECK(d.theta < 1e-11);
         CHECK(d.theta_dot < 1e-9);
@@ -145,13 +146,13 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
     const auto refused = [&](Solver solver, Scheme scheme, const std::string& reason) {
         Run<> asked(c, fast::best_target(), scheme, {}, solver), plain(c, std::nullopt, scheme, {}, solver);
         CAPTURE(reason);
-        CHECK_FALSE(asked.plan.lanes.on);
-        CHECK(asked.plan.lanes.reason == reason);
-        const PlannedStage& stage = asked.plan.stages[std::size_t(Stage::lanes)];
+        CHECK_FALSE(asked.plan.stepper->in_lanes());
+        CHECK(asked.plan.stepper->plainly() == reason);
+        const PlannedStage stage = explain(asked.plan).stages[std::size_t(Stage::lanes)];
         CHECK_FALSE(stage.on);
         CHECK(stage.reason.find(reason) != std::string::npos);
-        CHECK(asked.plan.lanes.constants.empty());
-        CHECK(asked.state.lanes.table.empty());
+        CHECK(parts::lanes(asked.plan).constants.empty());
+        CHECK(parts::lanes(asked.state).table.empty());
         for (int k = 0; k < 5; ++k) {
             asked.frame();
             plain.frame();
@@ -165,8 +166,8 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
     refused(Solver::coupled, Scheme::p12, "/joint_limit");
 
     c.scene.joint_limit.reset();
-    CHECK(Run<>(c, fast::best_target()).plan.lanes.reason.empty());
-    CHECK(Run<>(c, std::nullopt).plan.lanes.reason == "not asked for");
+    CHECK(Run<>(c, fast::best_target()).plan.stepper->plainly().empty());
+    CHECK(Run<>(c, std::nullopt).plan.stepper->plainly() == "not asked for");
 }
 
 // Bodies on joints of no stiffness, each spinning about an axis of its own: theta = w t, taken the shorter way round.

@@ -10,8 +10,8 @@ namespace {
 
 // Three balls on one another's stalks with springs of three stiffnesses, far from rest about oblique axes. Compact bodies:
 // no mode is too fast for the steps, so that what is left is the chart's.
-Motion balls() {
-    Motion motion{{}, empty_scene(), 20, {Vec3(1.2, -0.8, 0.9), Vec3(-0.7, 0.9, 0.6), Vec3(0.5, 1.1, -0.9)}};
+coupled::Motion balls() {
+    coupled::Motion motion{{}, empty_scene(), 20, {Vec3(1.2, -0.8, 0.9), Vec3(-0.7, 0.9, 0.6), Vec3(0.5, 1.1, -0.9)}};
     for (int i = 0; i < 3; ++i) {
         const Vec3 at = i == 0 ? Vec3(0.3, 0.1, 0) : Vec3(0, 0.05, 0.4);
         make_tree::add_fruit(motion.tree, i - 1, at, make_tree::turn(0.5 + i, Vec3(1, 2, 3)), 0.2, 0.1, 0, 0, 0);
@@ -54,13 +54,13 @@ RootSpline drive() {
     return s;
 }
 
-Motion driven(Tree tree) {
+coupled::Motion driven(Tree tree) {
     tree.joint_position[0] = Vec3(0.7, 0.2, -0.4); // off what the ground turns about
     return {tree, empty_scene(), 20, {}, drive()};
 }
 
 // n steps a frame and twice that.
-void has_order(const Motion& motion, int n, double order, const std::vector<Scheme>& schemes) {
+void has_order(const coupled::Motion& motion, int n, double order, const std::vector<Scheme>& schemes) {
     const Track truth = truth_of(motion);
     for (const Scheme scheme : schemes) {
         CAPTURE(motion.tree.name, scheme_of(scheme).name);
@@ -99,7 +99,7 @@ TEST_CASE("order 2, pulls that change") {
 // What is stiff follows a changing load with a lag where R(infinity) = 0: the thin end of a bent chain in gusts, first order
 // in h and small.
 TEST_CASE("wind on a bent chain of E = 2e9: the L-stable schemes fall to order 1 below an error of 2e-4") {
-    Motion motion{paper_trees::chain(2e9, 0.01), gusts(), 20};
+    coupled::Motion motion{paper_trees::chain(2e9, 0.01), gusts(), 20};
     motion.scene.gravity = Vec3(0, -9.81, 0);
     motion.scene.pose = Pose::settled;
     const Track truth = truth_of(motion);
@@ -119,17 +119,17 @@ TEST_CASE(
         Scene all = gusts();
         all.pulls = pulled().pulls;
         all.gravity = gravity().gravity;
-        Motion everything = driven(tree);
+        coupled::Motion everything = driven(tree);
         everything.scene = all;
         everything.frames = 10;
-        for (const Motion& motion : {Motion{tree, gravity(), 20}, Motion{tree, gusts(), 20}, Motion{tree, pulled(), 20},
-                                     driven(tree), everything}) {
+        for (const coupled::Motion& motion : {coupled::Motion{tree, gravity(), 20}, coupled::Motion{tree, gusts(), 20},
+                                              coupled::Motion{tree, pulled(), 20}, driven(tree), everything}) {
             const Track truth = truth_of(motion);
             CAPTURE(branched, motion.scene.wind.has_value(), motion.scene.gravity.norm(), motion.scene.pulls.size());
             // (A strong pull bends the thin end: order 1, as above.)
             CHECK(error_of(motion, truth, Scheme::p34, 256) < (motion.scene.pulls.empty() ? 1e-6 : 1e-5));
         }
     }
-    const Motion motion = balls();
+    const coupled::Motion motion = balls();
     CHECK(error_of(motion, truth_of(motion), Scheme::p34, 1024) < 1e-6);
 }

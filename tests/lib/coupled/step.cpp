@@ -7,6 +7,7 @@
 #include "tests/support/coupled_support.h"
 #include "tests/support/dense_step.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;
@@ -60,8 +61,8 @@ struct Bench : Run<double> {
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             state.theta[i] = random_vector(dice, 0.6);
             state.theta_dot[i] = random_vector(dice, 0.8);
-            state.theta_change[i] = random_vector(dice, 0.02);
-            state.theta_dot_change[i] = random_vector(dice, 0.5);
+            parts::theta_change(state)[i] = random_vector(dice, 0.02);
+            parts::theta_dot_change(state)[i] = random_vector(dice, 0.5);
         }
     }
     static Scene moved(const Named& named) {
@@ -81,8 +82,8 @@ dense::Step step_of(const Tree& tree, const Named& named, const Bench& bench) {
     p.time = t + h / 2;
     p.ground = named.ground;
     for (std::size_t i = 0; i < bench.plan.bodies; ++i) {
-        p.theta[i] += bench.state.theta_change[i] / 2;
-        step.eta[i] += bench.state.theta_dot_change[i] / 2;
+        p.theta[i] += parts::theta_change(bench.state)[i] / 2;
+        step.eta[i] += parts::theta_dot_change(bench.state)[i] / 2;
         p.rate.push_back(body_rate_jacobian(p.theta[i]) * step.eta[i]);
     }
     const Scene& scene = bench.plan.scene;
@@ -102,14 +103,16 @@ dense::Step step_of(const Tree& tree, const Named& named, const Bench& bench) {
 // The step's stages up to its changes: what the energy guard makes of them is no part of the equations.
 void solve(Bench& bench) {
     const double time = double(bench.state.step) * h;
-    const RationalScheme& scheme = scheme_of(bench.plan.scheme);
-    if (bench.plan.wind) wind_over_step(bench.plan, bench.state, time);
-    ground_over_step(bench.plan, bench.state, time);
-    midpoint(bench.plan, bench.state, scheme.extrapolates);
-    body_loads(bench.plan, bench.state, time);
-    for (Vec3& change : bench.state.theta_change) change.setZero();
-    for (Vec3& change : bench.state.theta_dot_change) change.setZero();
-    for (int k = 0; k < scheme.poles; ++k) resolvent(bench.plan, bench.state, scheme.pole[std::size_t(k)]);
+    const RationalScheme& scheme = scheme_of(parts::bodies(bench.plan).scheme);
+    const CoupledPlan<double>& own = parts::bodies(bench.plan);
+    CoupledWork<double>& work = parts::bodies(bench.state);
+    if (bench.plan.wind) wind_over_step(bench.plan, bench.state, work, time);
+    ground_over_step(bench.plan, own, work, time);
+    midpoint(bench.plan, bench.state, work, scheme.extrapolates);
+    body_loads(bench.plan, own, bench.state, work, time);
+    for (Vec3& change : parts::theta_change(bench.state)) change.setZero();
+    for (Vec3& change : parts::theta_dot_change(bench.state)) change.setZero();
+    for (int k = 0; k < scheme.poles; ++k) resolvent(bench.plan, own, bench.state, work, scheme.pole[std::size_t(k)]);
 }
 
 // Of the changes of theta and of theta_dot, each relative to its largest: the worst.
@@ -120,7 +123,8 @@ double difference(const Bench& after, const dense::Vector& truth) {
         double off = 0, size = 0;
         for (Eigen::Index i = 0; i < n; ++i) {
             const Vec3 expected = truth.segment<3>(3 * (rates ? n + i : i)).cast<double>();
-            const Vec3& found = (rates ? after.state.theta_dot_change : after.state.theta_change)[std::size_t(i)];
+            const Vec3& found =
+                (rates ? parts::theta_dot_change(after.state) : parts::theta_change(after.state))[std::size_t(i)];
             off = std::max(off, (found - expected).norm());
             size = std::max(size, expected.norm());
         }

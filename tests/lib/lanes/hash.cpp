@@ -2,6 +2,7 @@
 // whenever the arrays in document order are brought up to date.
 #include "lib/base/parallel.h"
 #include "tests/support/lanes_support.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace lanes;
@@ -48,9 +49,9 @@ TEMPLATE_TEST_CASE("the same run in lanes twice is the same", "", float, double)
     for (const Case* c : {&large(), &flapping(), &paper()}) {
         CAPTURE(c->name);
         Run<TestType> one = run_of<TestType>(*c), other = run_of<TestType>(*c);
-        REQUIRE(one.plan.lanes.on);
+        REQUIRE(one.plan.stepper->in_lanes());
         REQUIRE(one.plan.bodies >= 20000);
-        REQUIRE(one.plan.lanes.layout.blocks.size() > 4);
+        REQUIRE(parts::lanes(one.plan).layout.blocks.size() > 4);
         const std::uint64_t start = one.hash();
         one.steps(frames);
         other.steps(frames);
@@ -90,9 +91,9 @@ TEMPLATE_TEST_CASE("a run in lanes cut in two goes on as if it had not been", ""
             run->state.theta = whole.state.theta;
             run->state.theta_dot = whole.state.theta_dot;
             if (run == &resumed) {
-                run->state.theta_change = whole.state.theta_change;
-                run->state.theta_dot_change = whole.state.theta_dot_change;
-                run->state.scaled_rate = whole.state.scaled_rate;
+                parts::theta_change(run->state) = parts::theta_change(whole.state);
+                parts::theta_dot_change(run->state) = parts::theta_dot_change(whole.state);
+                parts::scaled_rate(run->state) = parts::scaled_rate(whole.state);
             }
             restart(run->plan, run->state);
             CHECK(run->hash() == cut);

@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE("the step that is counted is baseline's, bit for bit", "", fl
                                   {"grown, analytic", lanes::grown(1500), rooted, 0.3, 2, {}, Solver::analytic}}) {
         CAPTURE(c.name);
         lanes::Run<TestType> baseline(c, Target::baseline), counting(c, counted_target);
-        REQUIRE(counting.plan.lanes.on);
+        REQUIRE(counting.plan.stepper->in_lanes());
         baseline.steps(5);
         counting.steps(5);
         CHECK(baseline.hash() == counting.hash());

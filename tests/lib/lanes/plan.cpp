@@ -1,6 +1,6 @@
 // What a plan with lanes promises: which stages run, which arrays exist and how large all of them are; what present() fills.
-#include "lib/stages/state_arrays.h"
 #include "tests/support/lanes_support.h"
+#include "tests/support/solver_parts.h"
 #include <map>
 #include <set>
 
@@ -48,11 +48,10 @@ std::vector<Case> cases() {
     return all;
 }
 
-template <class T> std::map<std::string, std::size_t> held(const Plan<T>& plan, const State<T>& state) {
+template <class T> std::map<std::string, std::size_t> held(const State<T>& state) {
     std::map<std::string, std::size_t> bytes;
-    visit_arrays(plan, state, [&](const char* name, const auto& array, bool, const std::string&) {
-        bytes[name] = array.capacity() * sizeof(array[0]);
-    });
+    parts::visit_held(state,
+                      [&](const char* name, const auto& array) { bytes[name] = array.capacity() * sizeof(array[0]); });
     return bytes;
 }
 
@@ -65,9 +64,9 @@ TEMPLATE_TEST_CASE("lanes run alone and leave the plain step's arrays empty", ""
             CAPTURE(c.name, wishes.velocity, wishes.torque);
             Run<T> run(c, fast::best_target(), Scheme::p12, wishes);
             for (int k = 0; k < 10; ++k) run.frame();
-            REQUIRE(run.plan.stages.size() == stage_count);
+            REQUIRE(explain(run.plan).stages.size() == stage_count);
             for (std::size_t k = 0; k < stage_count; ++k) {
-                const PlannedStage& planned = run.plan.stages[k];
+                const PlannedStage planned = explain(run.plan).stages[k];
                 CAPTURE(stage_name(planned.stage));
                 CHECK(planned.stage == Stage(k));
                 CHECK(planned.on == (planned.stage == Stage::lanes));
@@ -81,8 +80,8 @@ TEMPLATE_TEST_CASE("lanes run alone and leave the plain step's arrays empty", ""
                 expected.insert({"theta_change", "theta_dot_change"});
             if (wishes.velocity) expected.insert({"omega_w", "v_w"});
             if (wishes.torque) expected.insert("torque_j");
-            const std::map<std::string, std::size_t> bytes = held(run.plan, run.state);
-            for (const PlannedArray& array : run.plan.arrays) {
+            const std::map<std::string, std::size_t> bytes = held(run.state);
+            for (const PlannedArray& array : explain(run.plan).arrays) {
                 if (!bytes.contains(array.name)) continue; // the articulated solvers', the lanes' own
                 CAPTURE(array.name);
                 CHECK(bytes.at(array.name) == (array.on ? array.bytes : 0));
@@ -100,7 +99,7 @@ TEMPLATE_TEST_CASE("a state in lanes is as large as its plan says", "", float, d
         Run<T> run(c, fast::best_target());
         for (int k = 0; k < 10; ++k) run.frame();
         std::size_t sum = 0;
-        for (const PlannedArray& array : run.plan.arrays) sum += array.on ? array.bytes : 0;
+        for (const PlannedArray& array : explain(run.plan).arrays) sum += array.on ? array.bytes : 0;
         CHECK(run.state.bytes() == sum);
     }
 }
@@ -112,11 +111,11 @@ TEMPLATE_TEST_CASE("what was wished for is there when it is presented, and only 
     run.frame();
     const auto v = run.state.v_w, omega = run.state.omega_w, torque = run.state.torque_j;
     run.steps(3);
-    CHECK_FALSE(run.state.lanes.presented);
+    CHECK_FALSE(parts::lanes(run.state).presented);
     CHECK(run.state.v_w == v); // nobody has asked
     CHECK(run.state.torque_j == torque);
     present(run.plan, run.state);
-    CHECK(run.state.lanes.presented);
+    CHECK(parts::lanes(run.state).presented);
     CHECK(run.state.v_w != v);
     CHECK(run.state.omega_w != omega);
     CHECK(run.state.torque_j != torque);
@@ -142,8 +141,8 @@ TEST_CASE("a plan without lanes holds none, and presenting it does nothing") {
     present(plain.plan, plain.state);
     CHECK(state_hash(plain.state) == hash);
     CHECK(plain.state.x_w == x);
-    CHECK(plain.plan.lanes.constants.capacity() + plain.plan.lanes.layout.body.capacity() == 0);
-    const fast::Lanes<double>& none = plain.state.lanes;
+    CHECK(parts::lanes(plain.plan).constants.capacity() + parts::lanes(plain.plan).layout.body.capacity() == 0);
+    const fast::Lanes<double>& none = parts::lanes(plain.state);
     CHECK(none.now.capacity() + none.table.capacity() + none.outward.capacity() + none.inward.capacity() +
               none.accelerated.capacity() + none.scratch.capacity() ==
           0);
@@ -160,13 +159,15 @@ TEMPLATE_TEST_CASE("where nobody reads poses, a run in lanes keeps nothing in do
         CHECK_FALSE(plan.pose);
         const auto none = [](const auto&... arrays) { return ((arrays.capacity() == 0) && ...); };
         CHECK(none(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint,
-                   plan.K, plan.beta, plan.inertia_factor, plan.gravity_row, plan.carried_moment, plan.drag_area,
-                   plan.kind, plan.sway, plan.joint_distance, plan.com_distance, plan.inverse_weight));
+                   plan.K, plan.beta, parts::joints(plan).inertia_factor, parts::joints(plan).gravity_row,
+                   parts::bodies(plan).carried_moment, plan.drag_area, plan.kind, parts::joints(plan).sway,
+                   parts::joints(plan).joint_distance, parts::joints(plan).com_distance,
+                   parts::joints(plan).inverse_weight));
         full.steps(10);
         bare.steps(10);
         Names on;
         std::size_t sum = 0;
-        for (const PlannedArray& array : plan.arrays) {
+        for (const PlannedArray& array : explain(plan).arrays) {
             if (!array.on) continue;
             on.insert(array.name);
             sum += array.bytes;
@@ -174,7 +175,7 @@ TEMPLATE_TEST_CASE("where nobody reads poses, a run in lanes keeps nothing in do
         CHECK(on == (c.solver == Solver::analytic ? Names{"lanes.now", "lanes.outward, inward"}
                                                   : Names{"lanes.table", "lanes.outward, inward, accelerated"}));
         CHECK(bare.state.bytes() == sum);
-        for (const auto& [name, bytes] : held(plan, bare.state)) {
+        for (const auto& [name, bytes] : held(bare.state)) {
             CAPTURE(name);
             CHECK(bytes == 0);
         }
@@ -185,9 +186,9 @@ TEMPLATE_TEST_CASE("where nobody reads poses, a run in lanes keeps nothing in do
         // What a saved state needs is there when it is asked for, and a run goes on from it.
         present(plan, bare.state);
         CHECK(state_hash(bare.state) == hash);
-        CHECK(bare.state.theta_change == full.state.theta_change);
-        CHECK(bare.state.theta_dot_change == full.state.theta_dot_change);
-        CHECK(bare.state.scaled_rate == full.state.scaled_rate);
+        CHECK(parts::theta_change(bare.state) == parts::theta_change(full.state));
+        CHECK(parts::theta_dot_change(bare.state) == parts::theta_dot_change(full.state));
+        CHECK(parts::scaled_rate(bare.state) == parts::scaled_rate(full.state));
         CHECK(none(bare.state.R_wb, bare.state.x_w));
         restart(plan, bare.state);
         CHECK(bare.state.bytes() == sum);

@@ -3,6 +3,7 @@
 #include "lib/fast/shared_constants.h"
 #include "lib/fast/analytic_rows.h"
 #include "tests/support/lanes_support.h"
+#include "tests/support/solver_parts.h"
 #include <cstring>
 #include <numbers>
 #include <set>
@@ -42,34 +43,36 @@ struct Park {
 };
 
 template <class T> std::size_t quantities(const Plan<T>& plan) {
-    return std::size_t(plan.solver == Solver::analytic ? fast::analytic::constants(plan.wind)
-                                                       : int(fast::constant::count));
+    return std::size_t(plan.stepper->name() == std::string(solver_name(Solver::analytic))
+                           ? fast::analytic::constants(plan.wind)
+                           : int(fast::constant::count));
 }
 
 // What a row of the layout reads.
 template <class T> std::string read_by(const Plan<T>& plan, std::size_t row) {
-    const std::size_t q = quantities(plan), at = plan.lanes.sharing.on ? plan.lanes.sharing.row[row] : row;
-    return {reinterpret_cast<const char*>(&plan.lanes.constants[at * q]), q * sizeof(fast::Row<T>)};
+    const std::size_t q = quantities(plan),
+                      at = parts::lanes(plan).sharing.on ? parts::lanes(plan).sharing.row[row] : row;
+    return {reinterpret_cast<const char*>(&parts::lanes(plan).constants[at * q]), q * sizeof(fast::Row<T>)};
 }
 
 template <class T> std::set<std::string> different_rows(const Plan<T>& unshared) {
     std::set<std::string> rows;
-    for (std::size_t r = 0; r < unshared.lanes.layout.rows; ++r) rows.insert(read_by(unshared, r));
+    for (std::size_t r = 0; r < parts::lanes(unshared).layout.rows; ++r) rows.insert(read_by(unshared, r));
     return rows;
 }
 
 template <class T> void check_read_alike(const Plan<T>& shared, const Plan<T>& unshared) {
-    REQUIRE_FALSE(unshared.lanes.sharing.on);
-    REQUIRE(unshared.lanes.constants.size() == unshared.lanes.layout.rows * quantities(unshared));
-    REQUIRE(shared.lanes.layout.rows == unshared.lanes.layout.rows);
-    for (std::size_t r = 0; r < shared.lanes.layout.rows; ++r) {
+    REQUIRE_FALSE(parts::lanes(unshared).sharing.on);
+    REQUIRE(parts::lanes(unshared).constants.size() == parts::lanes(unshared).layout.rows * quantities(unshared));
+    REQUIRE(parts::lanes(shared).layout.rows == parts::lanes(unshared).layout.rows);
+    for (std::size_t r = 0; r < parts::lanes(shared).layout.rows; ++r) {
         CAPTURE(r);
         REQUIRE(read_by(shared, r) == read_by(unshared, r));
     }
 }
 
 template <class T> std::size_t kept(const Plan<T>& plan) {
-    return plan.lanes.constants.size() / quantities(plan);
+    return parts::lanes(plan).constants.size() / quantities(plan);
 }
 
 } // namespace
@@ -82,19 +85,19 @@ TEMPLATE_TEST_CASE("a thousand instances keep one tree's constants, and a row ea
     Case alone{"alone", small(), {}};
     alone.solver = solver;
     const Run<T> one(alone, fast::best_target());
-    const std::size_t rows = one.plan.lanes.layout.rows;
+    const std::size_t rows = parts::lanes(one.plan).layout.rows;
     REQUIRE(one.plan.bodies >= 256);
     REQUIRE(different_rows(one.plan).size() == rows);
-    REQUIRE(one.plan.lanes.sharing.reason == "one tree");
+    REQUIRE(parts::lanes(one.plan).sharing.reason == "one tree");
 
     constexpr std::size_t places = 1000;
     const Park park(std::vector<Tree>(places, small()), Park::one_file(places), 0, solver);
     const Run<T> run(park.c, fast::best_target(), Scheme::p12, {false, false, false});
-    CHECK(run.plan.lanes.layout.rows == places * rows);
-    REQUIRE(run.plan.lanes.sharing.on);
+    CHECK(parts::lanes(run.plan).layout.rows == places * rows);
+    REQUIRE(parts::lanes(run.plan).sharing.on);
     CHECK(kept(run.plan) == rows - 1 + places);
-    CHECK(fast::shared_rows(run.plan) == rows - 1 + places);
-    CHECK(run.plan.lanes.constants.capacity() == run.plan.lanes.constants.size());
+    CHECK(fast::shared_rows(parts::lanes(run.plan)) == rows - 1 + places);
+    CHECK(parts::lanes(run.plan).constants.capacity() == parts::lanes(run.plan).constants.size());
 }
 
 // Two files, their trees among each other; trees of ten bodies, some thirty in a stand.
@@ -110,12 +113,12 @@ TEMPLATE_TEST_CASE("each row reads what it reads where nothing is shared, and no
         if (wind) park.c.scene.wind = gusts();
         const Run<T> shared(park.c, fast::best_target()), unshared(park.unshared(), fast::best_target());
         CAPTURE(park.c.tree.size_bodies());
-        CHECK(unshared.plan.lanes.sharing.reason == "no tree stands at two places");
+        CHECK(parts::lanes(unshared.plan).sharing.reason == "no tree stands at two places");
         check_read_alike(shared.plan, unshared.plan);
         CHECK(kept(shared.plan) == different_rows(unshared.plan).size());
         // Rounded to float, yaws do not show.
-        if (&park != &parks.back() || sizeof(T) == 4) CHECK(kept(shared.plan) < shared.plan.lanes.layout.rows);
-        CHECK(shared.plan.lanes.sharing.on == (kept(shared.plan) < shared.plan.lanes.layout.rows));
+        if (&park != &parks.back() || sizeof(T) == 4) CHECK(kept(shared.plan) < parts::lanes(shared.plan).layout.rows);
+        CHECK(parts::lanes(shared.plan).sharing.on == (kept(shared.plan) < parts::lanes(shared.plan).layout.rows));
     }
 }
 
@@ -131,7 +134,7 @@ TEMPLATE_TEST_CASE("an instance of which one body differs has constants of its o
     park.c.scene.wind = gusts();
     park.c.scene.pose = Pose::rest; // else what is above takes another rest angle, too
     Run<T> shared(park.c, fast::best_target()), unshared(park.unshared(), fast::best_target());
-    REQUIRE(shared.plan.lanes.sharing.on);
+    REQUIRE(parts::lanes(shared.plan).sharing.on);
     check_read_alike(shared.plan, unshared.plan);
     Case plain_case = park.c;
     Run<> plain(plain_case, std::nullopt);
@@ -182,8 +185,8 @@ TEMPLATE_TEST_CASE("shared constants change no bit of a run", "", float, double)
             park.c = way.c;
             Run<T> shared(way.c, target, Scheme::p12, {}, std::nullopt, way.sleep);
             Run<T> unshared(park.unshared(), target, Scheme::p12, {}, std::nullopt, way.sleep);
-            REQUIRE(shared.plan.lanes.sharing.on);
-            REQUIRE_FALSE(unshared.plan.lanes.sharing.on);
+            REQUIRE(parts::lanes(shared.plan).sharing.on);
+            REQUIRE_FALSE(parts::lanes(unshared.plan).sharing.on);
             const int steps = way.sleep > 0 ? 45 : 8; // a second, and blocks may sleep
             shared.steps(steps), unshared.steps(steps);
             CHECK(shared.hash() == unshared.hash());
@@ -194,11 +197,11 @@ TEMPLATE_TEST_CASE("shared constants change no bit of a run", "", float, double)
 TEST_CASE("nothing is shared where nothing can be, and the plan says why") {
     const auto reason = [](const Case& c) {
         const Run<float> run(c, fast::best_target());
-        CHECK_FALSE(run.plan.lanes.sharing.on);
-        CHECK(run.plan.lanes.sharing.row.empty());
-        CHECK(kept(run.plan) == run.plan.lanes.layout.rows);
-        CHECK(fast::shared_rows(run.plan) == 0);
-        return run.plan.lanes.sharing.reason;
+        CHECK_FALSE(parts::lanes(run.plan).sharing.on);
+        CHECK(parts::lanes(run.plan).sharing.row.empty());
+        CHECK(kept(run.plan) == parts::lanes(run.plan).layout.rows);
+        CHECK(fast::shared_rows(parts::lanes(run.plan)) == 0);
+        return parts::lanes(run.plan).sharing.reason;
     };
     Park park({small(), small()}, Park::one_file(2));
     park.c.scene.fracture.emplace();
@@ -212,5 +215,5 @@ TEST_CASE("nothing is shared where nothing can be, and the plan says why") {
     // Without names of files as many bodies will do.
     Case nameless = Park({small(), small()}, Park::one_file(2)).c;
     nameless.scene.trees.clear();
-    CHECK(Run<float>(nameless, fast::best_target()).plan.lanes.sharing.on);
+    CHECK(parts::lanes(Run<float>(nameless, fast::best_target()).plan).sharing.on);
 }

@@ -2,6 +2,7 @@
 #include "lib/fast/shared_constants.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/make_tree.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace bough::fast;
@@ -78,14 +79,14 @@ TEMPLATE_TEST_CASE("the tables that are counted are those that a run has allocat
         lanes::Case c{"grown", lanes::grown(bodies), lanes::everything()};
         lanes::Run<T> run(c, Target::baseline);
         run.steps(1);
-        const Layout& layout = run.plan.lanes.layout;
-        const Lanes<T>& l = run.state.lanes;
+        const Layout& layout = parts::lanes(run.plan).layout;
+        const Lanes<T>& l = parts::lanes(run.state);
         const StepBytes bytes = coupled_step_bytes(layout, true, true, sizeof(T), false);
         CAPTURE(bodies);
-        CHECK(bytes.tables == row(run.plan.lanes.constants) + row(l.table) + row(l.outward) + row(l.inward) +
+        CHECK(bytes.tables == row(parts::lanes(run.plan).constants) + row(l.table) + row(l.outward) + row(l.inward) +
                                   row(l.accelerated) + row(layout.fork_of_row) + row(layout.fork) + row(layout.base) +
                                   row(layout.landing));
-        CHECK(bytes.constants.in == row(run.plan.lanes.constants));
+        CHECK(bytes.constants.in == row(parts::lanes(run.plan).constants));
         CHECK(bytes.next.out == layout.rows * 12 * 64);
     }
 }
@@ -98,14 +99,15 @@ TEMPLATE_TEST_CASE("of shared constants, too", "", float, double) {
     append(c.tree, Tree(c.tree), Vec3(3, 0, 0), 0);
     c.ranges = {{0, n, 0}, {n, n, 1000}};
     lanes::Run<T> run(c, Target::baseline);
-    REQUIRE(run.plan.lanes.sharing.on);
-    const Layout& layout = run.plan.lanes.layout;
-    const Lanes<T>& l = run.state.lanes;
-    const StepBytes bytes = coupled_step_bytes(layout, true, true, sizeof(T), false, shared_rows(run.plan));
-    CHECK(bytes.tables == row(run.plan.lanes.constants) + row(run.plan.lanes.sharing.row) + row(l.table) +
-                              row(l.outward) + row(l.inward) + row(l.accelerated) + row(layout.fork_of_row) +
-                              row(layout.fork) + row(layout.base) + row(layout.landing));
-    CHECK(bytes.constants.in == row(run.plan.lanes.constants));
+    REQUIRE(parts::lanes(run.plan).sharing.on);
+    const Layout& layout = parts::lanes(run.plan).layout;
+    const Lanes<T>& l = parts::lanes(run.state);
+    const StepBytes bytes =
+        coupled_step_bytes(layout, true, true, sizeof(T), false, shared_rows(parts::lanes(run.plan)));
+    CHECK(bytes.tables == row(parts::lanes(run.plan).constants) + row(parts::lanes(run.plan).sharing.row) +
+                              row(l.table) + row(l.outward) + row(l.inward) + row(l.accelerated) +
+                              row(layout.fork_of_row) + row(layout.fork) + row(layout.base) + row(layout.landing));
+    CHECK(bytes.constants.in == row(parts::lanes(run.plan).constants));
 }
 
 // Of by_hand(): 6 rows, of which the top's one is visited twice.

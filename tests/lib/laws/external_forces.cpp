@@ -1,5 +1,7 @@
 // Forces of wind and pulls against values worked out by hand for a cylinder, a sphere and a plate.
-#include "lib/stages/external_forces.h"
+#include "lib/analytic/external_forces.h"
+#include "lib/stages/pushes.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
 
@@ -35,7 +37,7 @@ Blown blow(const Tree& tree, const Vec3& wind, const Vec3& velocity = Vec3::Zero
     b.state = make_state(b.plan);
     b.state.v_w[0] = velocity;
     evaluate_wind(*scene.wind, 0, b.state.wind);
-    external_forces(b.plan, b.state, 0);
+    parts::external_forces(b.plan, b.state, 0);
     return b;
 }
 
@@ -50,27 +52,29 @@ TEST_CASE("(21): a branch takes the wind across it, on the section of its axis")
     const Blown b = blow(one_body(Kind::branch), {3, 10, 4});
     // Across the upright axis: (3, 0, 4) of speed 5. kappa rho A = 0.6 1.2 0.16.
     const Vec3 expected = 0.6 * 1.2 * area * 5 * Vec3(3, 0, 4);
-    CHECK(close(b.state.f_w[0], expected));
+    CHECK(close(parts::joints(b.state).f_w[0], expected));
     const double arm = b.plan.com[0].z();
-    CHECK(close(b.state.tau_w[0], Vec3(0, arm, 0).cross(expected)));
-    CHECK(b.state.drag_f_w[0].norm() < 1e-15);
-    CHECK(b.state.drag_bound[0] == Approx(0.6 * 1.2 * area * 10).epsilon(1e-12));
-    CHECK(blow(one_body(Kind::branch), {0, 10, 0}).state.f_w[0].norm() < 1e-12);
+    CHECK(close(parts::joints(b.state).tau_w[0], Vec3(0, arm, 0).cross(expected)));
+    CHECK(parts::joints(b.state).drag_f_w[0].norm() < 1e-15);
+    CHECK(parts::joints(b.state).drag_bound[0] == Approx(0.6 * 1.2 * area * 10).epsilon(1e-12));
+    CHECK(parts::joints(blow(one_body(Kind::branch), {0, 10, 0}).state).f_w[0].norm() < 1e-12);
 }
 
 TEST_CASE("(22): a fruit takes the wind on its disc, from any side") {
     const double scale = 0.235 * 1.2 * pi * 0.03 * 0.03;
     for (const Vec3& u : {Vec3(3, 0, 4), Vec3(0, 5, 0), Vec3(-1, -2, 2)})
-        CHECK(close(blow(one_body(Kind::fruit), u).state.f_w[0], scale * u.norm() * u));
+        CHECK(close(parts::joints(blow(one_body(Kind::fruit), u).state).f_w[0], scale * u.norm() * u));
 }
 
 TEST_CASE("(23): a leaf takes the wind's part along its normal, a quarter of it from all sides, folded by the wind") {
     const double scale = 0.6 * 1.2 * 0.1 * 0.06 / 2;
     const Blown b = blow(one_body(Kind::leaf), {3, 0, 4});
     const auto folded = [](double speed) { return speed / (1 + speed / 7.5); };
-    CHECK(close(b.state.f_w[0], scale * folded(5) * (0.75 * Vec3(0, 0, 4) + 0.25 * Vec3(3, 0, 4)))); // n along z
+    CHECK(close(parts::joints(b.state).f_w[0],
+                scale * folded(5) * (0.75 * Vec3(0, 0, 4) + 0.25 * Vec3(3, 0, 4)))); // n along z
     const Vec3 along(5, 2, 0);
-    CHECK(close(blow(one_body(Kind::leaf), along).state.f_w[0], scale * folded(along.norm()) * 0.25 * along));
+    CHECK(close(parts::joints(blow(one_body(Kind::leaf), along).state).f_w[0],
+                scale * folded(along.norm()) * 0.25 * along));
 }
 
 TEST_CASE("force at rest and drag together are the force of the relative wind, the drag within its bound") {
@@ -80,13 +84,16 @@ TEST_CASE("force at rest and drag together are the force of the relative wind, t
             const Vec3 wind = random_vector(dice, 10), v = random_vector(dice, k % 2 ? 10 : 0.1);
             const Tree tree = one_body(kind);
             const Blown b = blow(tree, wind, v);
-            const Vec3 relative = blow(tree, wind - v).state.f_w[0];
-            CHECK((b.state.f_w[0] + b.state.drag_f_w[0] - relative).norm() < 1e-13 * (1 + b.state.f_w[0].norm()));
-            CHECK(b.state.drag_f_w[0].norm() <= b.state.drag_bound[0] * v.norm() * (1 + 1e-12));
+            const Vec3 relative = parts::joints(blow(tree, wind - v).state).f_w[0];
+            CHECK((parts::joints(b.state).f_w[0] + parts::joints(b.state).drag_f_w[0] - relative).norm() <
+                  1e-13 * (1 + parts::joints(b.state).f_w[0].norm()));
+            CHECK(parts::joints(b.state).drag_f_w[0].norm() <=
+                  parts::joints(b.state).drag_bound[0] * v.norm() * (1 + 1e-12));
             // It brakes; a leaf's, in a wind, need not: moving in its plane changes |u| and with it the force along n.
-            if (kind != Kind::leaf) CHECK(b.state.drag_f_w[0].dot(v) <= 1e-15);
+            if (kind != Kind::leaf) CHECK(parts::joints(b.state).drag_f_w[0].dot(v) <= 1e-15);
             const Vec3 arm = b.state.R_wb[0] * b.plan.com[0];
-            CHECK((b.state.drag_tau_w[0] - arm.cross(b.state.drag_f_w[0])).norm() < 1e-13);
+            CHECK((parts::joints(b.state).drag_tau_w[0] - arm.cross(parts::joints(b.state).drag_f_w[0])).norm() <
+                  1e-13);
         }
 }
 
@@ -94,7 +101,7 @@ TEST_CASE("a body feels the wind of its centre of mass' height, from the table")
     Tree tree = one_body(Kind::fruit);
     const auto speed = [&](double y) {
         tree.joint_position[0] = Vec3(0, y - 0.05, 0); // the fruit's centre is 0.05 m above its joint
-        const Vec3 f = blow(tree, {8, 0, 0}, Vec3::Zero(), 1).state.f_w[0];
+        const Vec3 f = parts::joints(blow(tree, {8, 0, 0}, Vec3::Zero(), 1).state).f_w[0];
         return std::sqrt(f.x() / (0.235 * 1.2 * pi * 0.03 * 0.03));
     };
     // With exponent 1 the profile is linear, so the table is exact: 8 m/s at 10 m.
@@ -132,11 +139,13 @@ TEST_CASE("a pull on a point turns about the body's own joint, and pulls add up"
     const auto plan = plan_of(tree, scene);
     State<double> state = make_state(plan);
     for (double t : {1.0, 1.5, 5.0}) { // forces of the step before leave nothing behind
-        external_forces(plan, state, t);
+        parts::external_forces(plan, state, t);
         const Vec3 f(t > 2 ? 0 : 1 + t, 0, 0);
-        CHECK(close(state.f_w[1], 2 * f));
-        CHECK(close(state.tau_w[1], Vec3(0, 0.5 + tree.com[1].z(), 0).cross(f)));
-        CHECK(state.f_w[0].norm() + state.tau_w[0].norm() + state.f_w[2].norm() + state.tau_w[2].norm() == 0);
+        CHECK(close(parts::joints(state).f_w[1], 2 * f));
+        CHECK(close(parts::joints(state).tau_w[1], Vec3(0, 0.5 + tree.com[1].z(), 0).cross(f)));
+        CHECK(parts::joints(state).f_w[0].norm() + parts::joints(state).tau_w[0].norm() +
+                  parts::joints(state).f_w[2].norm() + parts::joints(state).tau_w[2].norm() ==
+              0);
     }
 }
 
@@ -151,14 +160,14 @@ TEST_CASE("a pull on a level is on each of its branch bodies, at the centre of m
     scene.pulls.push_back(pull);
     const auto plan = plan_of(tree, scene);
     State<double> state = make_state(plan);
-    external_forces(plan, state, 0.5);
+    parts::external_forces(plan, state, 0.5);
     int pulled = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const bool meant = tree.kind[i] == Kind::branch && tree.level[i] == 1;
         pulled += meant;
         const Vec3 f = meant ? Vec3(0, 0, 5) : Vec3(Vec3::Zero()), arm = state.R_wb[i] * tree.com[i];
-        CHECK(close(state.f_w[i], f));
-        CHECK((state.tau_w[i] - arm.cross(f)).norm() < 1e-13);
+        CHECK(close(parts::joints(state).f_w[i], f));
+        CHECK((parts::joints(state).tau_w[i] - arm.cross(f)).norm() < 1e-13);
     }
     CHECK(pulled == 5);
     scene.pulls[0].on.level = 3;

@@ -4,9 +4,9 @@
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "lib/model/stiffness.h"
+#include "lib/reference/energy.h"
 #include "lib/reference/ring_down.h"
 #include "lib/stages/air.h"
-#include "lib/stages/energy.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"
 #include <numeric>

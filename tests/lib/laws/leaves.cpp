@@ -7,6 +7,7 @@
 #include "tests/support/coupled_support.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 
@@ -115,7 +116,7 @@ TEST_CASE("In a steady wind leaves come to rest where (23), (24), weight and spr
     for (const Path& path : paths()) {
         Plan<double> plan = make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, path.solver,
                                               Scheme::p12, path.simd);
-        REQUIRE(plan.lanes.on == path.simd.has_value());
+        REQUIRE(plan.stepper->in_lanes() == path.simd.has_value());
         State<double> state = make_state(plan);
         for (int k = 0; k < 9000; ++k) advance(plan, state);
         present(plan, state);
@@ -156,7 +157,8 @@ TEST_CASE("What the articulated reference accelerates a leaf by is (23) and (24)
     const Vec3 moment = spring + c.cross(load.force) + load.torque - b[0].omega.cross(J * b[0].omega);
     const Vec3 truth = b[0].R.transpose() * J.ldlt().solve(moment); // rates in the body's axes change by this
     std::vector<Vec3> acceleration;
-    joint_accelerations(alone, at.theta, {Vec3(b[0].R.transpose() * b[0].omega)}, 0, at.articulated[0], acceleration);
+    joint_accelerations(alone, at.theta, {Vec3(b[0].R.transpose() * b[0].omega)}, 0, articulated_state(at).pass[0],
+                        acceleration);
     CHECK((acceleration[0] - truth).norm() <= 1e-9 * truth.norm());
     const Residual left = inverse_dynamics(alone, at.theta, {Vec3(b[0].R.transpose() * b[0].omega)}, acceleration, 0);
     CHECK(left.worst <= 1e-9 * left.moment_rms);
@@ -204,7 +206,7 @@ TEST_CASE("Leaves in lanes are the plain step's to rounding, and their float as 
                 if (scheme == Scheme::p34 && (solver == Solver::analytic || c.tree.size_bodies() > 1000)) continue;
                 lanes::Run<> plain(c, plainly, scheme), fast(c, fast::best_target(), scheme);
                 CAPTURE(c.name, solver_name(solver), scheme_of(scheme).name);
-                REQUIRE(fast.plan.lanes.on);
+                REQUIRE(fast.plan.stepper->in_lanes());
                 REQUIRE(fast.plan.leaf.on);
                 const lanes::Apart d = lanes::run_apart(plain, fast, 60);
                 CHECK(d.theta < 1e-10);
@@ -243,17 +245,17 @@ TEST_CASE("Without a wind, without leaves or without /leaves nothing of it is th
         for (const auto& [tree, scene] : {std::pair{leafy(), windless}, {bare, windy}}) {
             const auto without = run(tree, scene), with = run(tree, with_leaves(scene));
             CHECK(with->hash() == without->hash());
-            REQUIRE(with->plan.arrays.size() == without->plan.arrays.size());
-            for (std::size_t k = 0; k < with->plan.arrays.size(); ++k) {
-                CHECK(with->plan.arrays[k].on == without->plan.arrays[k].on);
-                CHECK(with->plan.arrays[k].bytes == without->plan.arrays[k].bytes);
+            REQUIRE(explain(with->plan).arrays.size() == explain(without->plan).arrays.size());
+            for (std::size_t k = 0; k < explain(with->plan).arrays.size(); ++k) {
+                CHECK(explain(with->plan).arrays[k].on == explain(without->plan).arrays[k].on);
+                CHECK(explain(with->plan).arrays[k].bytes == explain(without->plan).arrays[k].bytes);
             }
         }
         const auto without = run(leafy(), windy), with = run(leafy(), with_leaves(windy));
         CHECK_FALSE(without->plan.leaf.on);
         CHECK(with->plan.leaf.on);
         CHECK(with->hash() != without->hash());
-        for (const PlannedStage& stage : with->plan.stages)
+        for (const PlannedStage& stage : explain(with->plan).stages)
             if (stage.stage == (path.simd                        ? Stage::lanes
                                 : path.solver == Solver::coupled ? Stage::body_loads
                                                                  : Stage::external_forces))

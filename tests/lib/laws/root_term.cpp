@@ -1,9 +1,10 @@
 // What a moving ground does to a tree, against closed forms, tilted gravity, and an integration of one rod's equation.
-#include "lib/stages/root_term.h"
+#include "lib/analytic/root_term.h"
+#include "lib/stages/ground.h"
 #include "lib/stages/pose.h"
-#include "lib/stages/state_arrays.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
+#include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;
@@ -133,12 +134,12 @@ TEST_CASE("The term is the moment that carrying every body with the ground takes
     run.state.step = 3500000; // t = 0.35 s
     move_ground(run.plan, run.state, 0.35);
     state_update(run.plan, run.state);
-    step(run.plan, run.state); // fills composites of the pose before, to rounding the present one
+    advance(run.plan, run.state); // fills composites of the pose before, to rounding the present one
     const Ground g = ground_at(run.plan.splines[0], 0.35);
     const auto field = [&](const Vec3& x) {
         return Vec3(g.a + g.alpha.cross(x - g.x) + g.omega.cross(g.omega.cross(x - g.x)));
     };
-    const RootLoad<double>& load = run.state.root_load[0];
+    const RootLoad<double>& load = parts::joints(run.state).root_load[0];
     const std::size_t n = tree.size_bodies();
     for (std::size_t j = 0; j < n; ++j) {
         Vec3 truth = Vec3::Zero();
@@ -152,8 +153,8 @@ TEST_CASE("The term is the moment that carrying every body with the ground takes
             truth += (x - run.state.x_w[j]).cross(tree.mass[b] * (run.plan.scene.gravity - field(x)));
             truth -= I * g.alpha + g.omega.cross(I * g.omega);
         }
-        const Vec3 tau = run.state.c_h_w[j].cross(apparent_gravity(load, run.state.x_w[j])) -
-                         turning_moment(load, run.state.c_J_w[j]);
+        const Vec3 tau = parts::joints(run.state).c_h_w[j].cross(apparent_gravity(load, run.state.x_w[j])) -
+                         turning_moment(load, parts::joints(run.state).c_J_w[j]);
         CAPTURE(j);
         CHECK((tau - truth).norm() < 1e-4 * truth.norm());
     }
@@ -218,7 +219,7 @@ TEST_CASE("A rod whose root is moved sideways answers as its equation says, to s
         Run<double> run(tree, scene, 2.0 / steps);
         double worst = 0;
         for (int k = 1; k <= steps; ++k) {
-            step(run.plan, run.state);
+            advance(run.plan, run.state);
             const double lean = std::asin(run.state.R_wb[0](0, 2));
             worst = std::max(worst, std::abs(lean - truth[std::size_t(k * (fine / steps))]));
         }
@@ -280,9 +281,9 @@ TEST_CASE("Velocities on a moving ground are the derivatives of the places") {
         return x;
     };
     const std::vector<Vec3> before = places();
-    step(run.plan, run.state);
+    advance(run.plan, run.state);
     const std::vector<Vec3> v = run.state.v_w;
-    step(run.plan, run.state);
+    advance(run.plan, run.state);
     const std::vector<Vec3> after = places();
     for (std::size_t i = 0; i < v.size(); ++i) CHECK(((after[i] - before[i]) / (2 * dt) - v[i]).norm() < 1e-3);
 }
@@ -305,7 +306,7 @@ TEST_CASE("Of two trees the one that is named moves, and the wind's table covers
     const Plan<double> resting = make_plan<double>(both, ranges, plain, {}, 0.01);
     CHECK(plan.top == Approx(resting.top + 7));
     State<double> state = make_state(plan), still = make_state(resting);
-    for (int k = 0; k < 120; ++k) step(plan, state), step(resting, still);
+    for (int k = 0; k < 120; ++k) advance(plan, state), advance(resting, still);
     CHECK((state.x_w[n] - both.joint_position[n] - Vec3(1, 7, 0)).norm() < 1e-12);
     CHECK(state.x_w[0] == both.joint_position[0]);
     scene.root_motion[0].tree = 2;
@@ -324,7 +325,7 @@ TEST_CASE("A run that is cut and gone on with is the run in one") {
     first.steps(17);
     second.state.theta = first.state.theta;
     second.state.theta_dot = first.state.theta_dot;
-    second.state.scaled_rate = first.state.scaled_rate;
+    parts::scaled_rate(second.state) = parts::scaled_rate(first.state);
     second.state.step = 17;
     move_ground(second.plan, second.state, double(second.state.step) * second.plan.dt);
     state_update(second.plan, second.state);
@@ -335,7 +336,7 @@ TEST_CASE("A run that is cut and gone on with is the run in one") {
 
 TEST_CASE("Without root motion there is no ground") {
     const Run<double> run(make_tree::branched(), Scene{});
-    CHECK(run.state.ground.capacity() + run.state.root_load.capacity() + run.plan.splines.capacity() +
+    CHECK(run.state.ground.capacity() + parts::joints(run.state).root_load.capacity() + run.plan.splines.capacity() +
               run.plan.moved.capacity() ==
           0);
 }

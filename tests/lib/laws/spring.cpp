@@ -1,8 +1,9 @@
 // One joint's step against closed forms of its linear system, Jacobi's eigenvectors against Eigen's solver, energy.
-#include "lib/stages/spring.h"
-#include "lib/stages/composite.h"
-#include "lib/stages/joint.h"
-#include "lib/stages/step.h"
+#include "lib/analytic/spring.h"
+#include "lib/analytic/composite.h"
+#include "lib/analytic/joint.h"
+#include "lib/reference/solvers.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
@@ -47,7 +48,7 @@ void set_joint(const Plan<double>& plan, State<double>& state, const Vec3& theta
                const Mat3& inertia) {
     state.theta[0] = theta;
     state.theta_dot[0] = rate;
-    state.scaled_rate[0] = Mat3(inertia.llt().matrixL()).transpose() * rate;
+    parts::scaled_rate(state)[0] = Mat3(inertia.llt().matrixL()).transpose() * rate;
     state_update(plan, state);
 }
 
@@ -71,7 +72,7 @@ TEST_CASE("a joint about one of its axes follows the closed form of a damped osc
         const Wide l = tree.stiffness[0][axis] / Wide(S(axis, axis)), g = beta * l / 2;
         const Complex mu = std::sqrt(Complex(g * g - l));
         for (int k = 1; k <= 300; ++k) {
-            step(plan, state);
+            advance(plan, state);
             const Wide t = k * Wide(h);
             const Complex r1 = -g + mu, r2 = -g - mu;
             const Complex a = (Complex(v0) - r2 * Complex(q0)) / (Complex(2) * mu), b = Complex(q0) - a;
@@ -115,7 +116,7 @@ TEST_CASE("tiny turns of an unsymmetric body under a pull follow the matrix expo
         y << theta - rest, rate;
         const Matrix6 propagator = (A * h).exp();
         for (int k = 0; k < 100; ++k) {
-            step(plan, state);
+            advance(plan, state);
             y = propagator * y;
             CAPTURE(h, k);
             // What is left out is of second order in the angle.
@@ -134,10 +135,10 @@ TEST_CASE("without damping a joint keeps its energy at any angle") {
         set_joint(plan, state, size * Vec3(1, -0.5, 0.3), size * Vec3(3, 2, -4), about_joint(tree));
         const auto energy = [&] {
             return state.theta[0].dot(tree.stiffness[0].cwiseProduct(state.theta[0])) / 2 +
-                   state.scaled_rate[0].squaredNorm() / 2;
+                   parts::scaled_rate(state)[0].squaredNorm() / 2;
         };
         const double start = energy();
-        for (int k = 0; k < 10000; ++k) step(plan, state);
+        for (int k = 0; k < 10000; ++k) advance(plan, state);
         CAPTURE(size);
         CHECK(std::abs(energy() / start - 1) * 1e12 < (size < 1e-3 ? 1 : 10)); // rounding, 1e4 times
     }
@@ -148,9 +149,9 @@ TEST_CASE("what is carried is the kinetic energy of the joint's inertia") {
     const auto plan = plan_of(tree, empty_scene());
     State<double> state = make_state(plan);
     set_joint(plan, state, Vec3(1e-7, 0, 2e-7), Vec3(1, 2, -1) * 1e-3, about_joint(tree));
-    step(plan, state);
+    advance(plan, state);
     const Vec3 omega = body_rate_jacobian(state.theta[0]) * state.theta_dot[0];
-    CHECK(state.scaled_rate[0].squaredNorm() == Approx(omega.dot(about_joint(tree) * omega)).epsilon(1e-12));
+    CHECK(parts::scaled_rate(state)[0].squaredNorm() == Approx(omega.dot(about_joint(tree) * omega)).epsilon(1e-12));
 }
 
 TEST_CASE("a single body has one inertia, the paper's and the branch's") {
@@ -162,7 +163,7 @@ TEST_CASE("a single body has one inertia, the paper's and the branch's") {
     State<double> a = make_state(one), b = make_state(other);
     set_joint(one, a, {0.3, 0.2, -0.1}, {1, 2, 3}, about_joint(tree));
     set_joint(other, b, {0.3, 0.2, -0.1}, {1, 2, 3}, about_joint(tree));
-    for (int k = 0; k < 50; ++k) step(one, a), step(other, b);
+    for (int k = 0; k < 50; ++k) advance(one, a), advance(other, b);
     CHECK((a.theta[0] - b.theta[0]).norm() < 1e-12);
     CHECK(a.theta[0].norm() > 1e-3);
 }

@@ -1,6 +1,7 @@
 // Trees that are ahead in the wind: each moves as it does alone, begun that much later.
 #include "tests/support/coupled_support.h"
 #include "tests/support/lanes_support.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace lanes;
@@ -79,7 +80,7 @@ TEST_CASE("trees that all begin together have one clock, and nothing is kept for
     const Run<> run(c, Simd(Target::baseline));
     CHECK(run.plan.clocks == std::vector<double>{0});
     CHECK(run.plan.clock.empty());
-    CHECK(run.plan.lanes.clock.empty());
+    CHECK(parts::lanes(run.plan).clock.empty());
     CHECK_FALSE(run.plan.field);
     c.scene.trees[0].start = 3;
     CHECK(Run<>(c, Simd(Target::baseline)).plan.field);

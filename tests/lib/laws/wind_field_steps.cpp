@@ -2,6 +2,7 @@
 // which is other code; the coupled step's order, which it has only if the wind's change over the step is right.
 #include "tests/support/coupled_support.h"
 #include "tests/support/lanes_support.h"
+#include "tests/support/solver_parts.h"
 
 using namespace bough;
 using namespace lanes;
@@ -108,7 +109,7 @@ TEST_CASE("a tree in a cell moves as alone in that cell's wind") {
             forest.ranges = {{0, n, 0}, {n, n, *std::max_element(tree.branch.begin(), tree.branch.end()) + 1}};
             forest.solver = solver;
             Run<> pair(forest, simd);
-            REQUIRE(pair.plan.lanes.on == simd.has_value());
+            REQUIRE(pair.plan.stepper->in_lanes() == simd.has_value());
             for (int k = 0; k < 40; ++k) pair.frame();
             for (std::size_t which : {std::size_t(0), std::size_t(1)}) {
                 Case single{"", tree, in_wind(alone)};
@@ -151,7 +152,7 @@ TEST_CASE("in double, lanes and the plain step are the same to rounding in a win
         for (const Case& c : cases(solver)) {
             Run<> plain(c, std::nullopt), lanes(c, fast::best_target());
             CAPTURE(c.name, solver_name(solver));
-            REQUIRE(lanes.plan.lanes.on);
+            REQUIRE(lanes.plan.stepper->in_lanes());
             REQUIRE(lanes.plan.field);
             const std::vector<Vec3> start = plain.state.theta;
             const Apart d = run_apart(plain, lanes, 60);
@@ -237,7 +238,7 @@ TEST_CASE("what sleeps in a steady field is woken by none that swells") {
     c.scene.wind->turbulence = 0;
     c.scene.wind->gust_factor = 1;
     const auto reason = [&] {
-        return Run<>(c, fast::best_target(), Scheme::p12, {}, std::nullopt, 0.01).plan.lanes.sleep.reason;
+        return parts::lanes(Run<>(c, fast::best_target(), Scheme::p12, {}, std::nullopt, 0.01).plan).sleep.reason;
     };
     CHECK(reason() == "/wind/grid");
     c.scene.wind->grid->octaves = {0};

@@ -2,8 +2,8 @@
 #include "lib/model/static_load.h"
 #include "formats/documents/tree.h"
 #include "lib/growth/segment.h"
-#include "lib/reference/advance.h"
 #include "lib/reference/inverse_dynamics.h"
+#include "lib/reference/solvers.h"
 #include "lib/stages/pose.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
@@ -132,7 +132,7 @@ TEST_CASE("the start under snow is in balance: nothing moves, with either solver
                 const Plan<double> plan =
                     make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12,
                                       lanes ? std::optional<fast::Target>(fast::Target::baseline) : std::nullopt);
-                CHECK(plan.lanes.on == lanes);
+                CHECK(plan.stepper->in_lanes() == lanes);
                 State<double> state = make_state(plan);
                 const auto x = state.x_w;
                 const auto R = state.R_wb;

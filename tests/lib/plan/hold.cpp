@@ -1,8 +1,8 @@
 // Which joints a scene holds, and what that is estimated to lose.
 #include "lib/stages/hold.h"
 #include "lib/fast/targets.h"
-#include "lib/reference/advance.h"
 #include "lib/reference/rigid_error.h"
+#include "lib/reference/solvers.h"
 #include "lib/stages/added_motion.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/paper_trees.h"

@@ -1,10 +1,8 @@
 // What a scene does not name is not run and not allocated, and a step allocates nothing: every allocation of this
 // program is counted.
-#include "lib/stages/plan.h"
-#include "lib/reference/advance.h"
-#include "lib/stages/state_arrays.h"
-#include "lib/stages/step.h"
+#include "lib/reference/solvers.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
 #include <map>
@@ -122,7 +120,8 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
     CAPTURE(solver_name(method.solver), scheme_of(method.scheme).name);
     const bool coupled = method.solver == Solver::coupled;
     for (const Case& c : cases()) {
-        if (c.scene.fictitious && method.solver != Solver::analytic) continue; // refused (tests/lib/analytic/fictitious.cpp)
+        if (c.scene.fictitious && method.solver != Solver::analytic)
+            continue; // refused (tests/lib/analytic/fictitious.cpp)
         CAPTURE(c.name);
         const Plan<T> plan = plan_by<T>(method, tree, c.scene, c.wishes);
         State<T> state = make_state(plan);
@@ -131,9 +130,9 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
         CHECK_FALSE(first_non_finite(state).has_value());
 
         const Names stages = expected_stages(c, method), arrays = expected_arrays(c, method);
-        REQUIRE(plan.stages.size() == stage_count);
+        REQUIRE(explain(plan).stages.size() == stage_count);
         for (std::size_t k = 0; k < stage_count; ++k) {
-            const PlannedStage& planned = plan.stages[k];
+            const PlannedStage planned = explain(plan).stages[k];
             CAPTURE(stage_name(planned.stage));
             CHECK(planned.stage == Stage(k)); // said in the order they run in
             CHECK(planned.on == stages.contains(stage_name(planned.stage)));
@@ -142,15 +141,12 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
         }
 
         std::map<std::string, std::size_t> held;
-        visit_arrays(plan, state, [&](const char* name, const auto& array, bool, const std::string&) {
-            held[name] = array.capacity() * sizeof(array[0]);
-        });
+        parts::visit_held(
+            state, [&](const char* name, const auto& array) { held[name] = array.capacity() * sizeof(array[0]); });
         held["articulated"] = 0;
-        for (const ArticulatedPass& pass : state.articulated)
-            held["articulated"] += pass.body.capacity() * sizeof(ArticulatedBody);
         std::size_t sum = 0;
         Names on;
-        for (const PlannedArray& array : plan.arrays) {
+        for (const PlannedArray& array : explain(plan).arrays) {
             CAPTURE(array.name);
             REQUIRE(held.contains(array.name));
             CHECK(held[array.name] == (array.on ? array.bytes : 0));
@@ -159,19 +155,19 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
             if (array.on) on.insert(array.name);
         }
         CHECK(on == arrays);
-        CHECK(plan.arrays.size() == held.size());
+        CHECK(explain(plan).arrays.size() == held.size());
         CHECK(state.bytes() == sum);
         CHECK(state.ground.size() == c.scene.root_motion.size());
-        CHECK(state.root_load.capacity() == c.scene.root_motion.size());
-        CHECK(state.coupled_ground.capacity() == (coupled ? c.scene.root_motion.size() : 0));
+        CHECK(parts::joints(state).root_load.capacity() == (coupled ? 0 : c.scene.root_motion.size()));
+        CHECK(parts::bodies(state).ground.capacity() == (coupled ? c.scene.root_motion.size() : 0));
         const bool field = c.name == "wind over the ground", uniform = c.scene.wind.has_value() && !field;
         CHECK(state.wind.velocity.empty() != uniform);
-        CHECK(state.wind_change.velocity.empty() != (coupled && uniform));
+        CHECK(parts::bodies(state).wind_change.velocity.empty() != (coupled && uniform));
         CHECK(plan.field == field);
         CHECK(plan.shelter.capacity() == (field ? plan.bodies : 0));
         CHECK(state.wind.field.velocity.capacity() == (field ? 27u : 0u));
         CHECK((state.wind.field.turn.capacity() > 0) == field);
-        for (const WindField<T>* table : {&state.wind_start, &state.wind_end})
+        for (const WindField<T>* table : {&parts::bodies(state).wind_start, &parts::bodies(state).wind_end})
             CHECK(table->velocity.capacity() == (coupled && field ? 27u : 0u));
     }
 }
@@ -179,7 +175,7 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
 TEST_CASE("sizes of arrays are those of their numbers") {
     const Tree tree = make_tree::branched();
     const auto plan = plan_of<double>(tree, Scene{});
-    for (const PlannedArray& array : plan.arrays) {
+    for (const PlannedArray& array : explain(plan).arrays) {
         if (records.contains(array.name)) continue; // not numbers: held against what is allocated above
         const Names matrices{"R_wb", "c_J_w"};
         const Names single{"drag_bound", "wind_bound", "turn_bound", "c_drag",    "c_drag_row",
@@ -193,25 +189,27 @@ TEST_CASE("sizes of arrays are those of their numbers") {
 TEST_CASE("the constants of wind and gravity exist only with them") {
     const Tree tree = make_tree::branched();
     const auto bare = plan_of(tree, empty_scene());
-    CHECK(bare.gravity_row.capacity() + bare.drag_area.capacity() + bare.kind.capacity() + bare.sway.capacity() +
-              bare.joint_distance.capacity() + bare.com_distance.capacity() + bare.inverse_weight.capacity() ==
+    CHECK(parts::joints(bare).gravity_row.capacity() + bare.drag_area.capacity() + bare.kind.capacity() +
+              parts::joints(bare).sway.capacity() + parts::joints(bare).joint_distance.capacity() +
+              parts::joints(bare).com_distance.capacity() + parts::joints(bare).inverse_weight.capacity() ==
           0);
     Scene windy;
     windy.wind = Wind{};
     const auto full = plan_of(tree, windy);
-    CHECK(full.gravity_row.size() == tree.size_bodies());
-    CHECK(full.inverse_weight.size() == tree.size_bodies());
+    CHECK(parts::joints(full).gravity_row.size() == tree.size_bodies());
+    CHECK(parts::joints(full).inverse_weight.size() == tree.size_bodies());
     // The coupled step has its own, and none of the analytic one's bounds.
     const Method coupled{Solver::coupled};
     const auto coupled_bare = plan_by<double>(coupled, tree, empty_scene(), {});
     const auto coupled_full = plan_by<double>(coupled, tree, windy, {});
-    CHECK(coupled_bare.carried_moment.capacity() + coupled_bare.drag_area.capacity() + coupled_bare.kind.capacity() ==
+    CHECK(parts::bodies(coupled_bare).carried_moment.capacity() + coupled_bare.drag_area.capacity() +
+              coupled_bare.kind.capacity() ==
           0);
-    CHECK(coupled_full.carried_moment.size() == tree.size_bodies());
+    CHECK(parts::bodies(coupled_full).carried_moment.size() == tree.size_bodies());
     CHECK(coupled_full.drag_area.size() == tree.size_bodies());
-    CHECK(full.carried_moment.capacity() == 0);
-    CHECK(coupled_full.gravity_row.capacity() + coupled_full.inertia_factor.capacity() +
-              coupled_full.inverse_weight.capacity() ==
+    CHECK(parts::bodies(full).carried_moment.capacity() == 0);
+    CHECK(parts::joints(coupled_full).gravity_row.capacity() + parts::joints(coupled_full).inertia_factor.capacity() +
+              parts::joints(coupled_full).inverse_weight.capacity() ==
           0);
 }
 
@@ -219,7 +217,7 @@ TEST_CASE("the plan says what of the wind varies over the ground") {
     for (const Case& c : cases()) {
         if (c.name != "wind over the ground") continue;
         const auto plan = plan_of(make_tree::branched(), c.scene);
-        CHECK(plan.stages[std::size_t(Stage::wind_field)].reason ==
+        CHECK(explain(plan).stages[std::size_t(Stage::wind_field)].reason ==
               "/wind; /wind/grid, 9 cells; /wind/swirl; /wind/shelter");
     }
 }
@@ -253,7 +251,7 @@ TEST_CASE("a clock has time for the stages that ran and none for the others") {
         State<double> state = make_state(plan);
         StageClock clock;
         for (int k = 0; k < 5; ++k) advance(plan, state, &clock);
-        for (const PlannedStage& planned : plan.stages)
+        for (const PlannedStage& planned : explain(plan).stages)
             CHECK((clock.seconds[std::size_t(planned.stage)] > 0) == planned.on);
     }
 }
@@ -270,29 +268,26 @@ TEST_CASE("scales of stiffness and damping multiply every joint's") {
     }
 }
 
-TEMPLATE_TEST_CASE("step takes the plain analytic plan alone, advance takes all", "", float, double) {
+TEMPLATE_TEST_CASE("a plan of any solver steps by advance, in the precisions that it has", "", float, double) {
     using T = TestType;
     const Tree tree = make_tree::branched();
     for (const Solver solver : all_solvers)
         for (const bool lanes : {false, true}) {
             if (lanes && is_articulated(solver)) continue; // they have none
             const auto simd = lanes ? std::optional(fast::Target::baseline) : std::nullopt;
-            const auto plan =
-                make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, {}, {}, 1.0 / 30, solver, Scheme::p12, simd);
-            State<T> state = make_state(plan);
+            const auto made = [&] {
+                return make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, {}, {}, 1.0 / 30, solver, Scheme::p12, simd);
+            };
             CAPTURE(solver_name(solver), lanes);
-            REQUIRE(plan.lanes.on == lanes);
-            const bool own = solver == Solver::analytic && !lanes;
-            if (own)
-                CHECK_NOTHROW(step(plan, state));
-            else
-                CHECK_THROWS_WITH(step(plan, state), Catch::Contains("call advance"));
-            CHECK(state.step == own);
             if (is_articulated(solver) && !std::is_same_v<T, double>) {
-                CHECK_THROWS_AS(advance(plan, state), std::logic_error);
+                CHECK_THROWS_AS(made(), std::logic_error);
                 continue;
             }
+            const auto plan = made();
+            State<T> state = make_state(plan);
+            REQUIRE(plan.stepper->in_lanes() == lanes);
+            CHECK(plan.stepper->name() == std::string(solver_name(solver)));
             CHECK_NOTHROW(advance(plan, state));
-            CHECK(state.step == own + 1);
+            CHECK(state.step == 1);
         }
 }

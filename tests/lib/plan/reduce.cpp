@@ -1,7 +1,7 @@
 // Trees with rigid bodies: their reduced tree against sums over bodies, closed forms, and the same tree with very stiff joints.
 #include "lib/stages/reduce.h"
 #include "lib/model/split.h"
-#include "lib/reference/advance.h"
+#include "lib/reference/solvers.h"
 #include "lib/stages/added_motion.h"
 #include "lib/stages/expand.h"
 #include "tests/support/make_tree.h"

@@ -1,9 +1,10 @@
 // The error that a run tells of itself, against the one it has.
 #include "lib/reference/error_estimate.h"
-#include "lib/reference/advance.h"
+#include "lib/reference/solvers.h"
 #include "lib/reference/trajectory_difference.h"
 #include "lib/stages/state_update.h"
 #include "tests/support/paper_trees.h"
+#include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -73,7 +74,7 @@ State<double> exact_from(const Plan<double>& exact, const State<double>& run) {
     truth.theta = run.theta;
     truth.theta_dot = run.theta_dot;
     for (std::size_t i = 0; i < truth.theta.size(); ++i)
-        truth.scaled_rate[i] = body_rate_jacobian(truth.theta[i]) * truth.theta_dot[i];
+        parts::scaled_rate(truth)[i] = body_rate_jacobian(truth.theta[i]) * truth.theta_dot[i];
     truth.step = run.step;
     state_update(exact, truth);
     return truth;

@@ -2,12 +2,13 @@
 #include "lib/simulation/simulation.h"
 #include "formats/documents/motion.h"
 #include "formats/files.h"
-#include "lib/fast/present.h"
 #include "lib/fast/targets.h"
-#include "lib/reference/advance.h"
+#include "lib/reference/solvers.h"
+#include "lib/stages/state.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/random_documents.h"
+#include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;

@@ -2,12 +2,13 @@
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "lib/model/wood.h"
-#include "lib/reference/advance.h"
 #include "lib/reference/articulated_step.h"
+#include "lib/reference/energy.h"
 #include "lib/reference/inverse_dynamics.h"
-#include "lib/stages/energy.h"
+#include "lib/reference/solvers.h"
 #include "lib/stages/wind.h"
 #include "tests/support/dense_dynamics.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
 #include <iostream>
@@ -31,7 +32,7 @@ struct Bench {
             rate[i] = random_vector(dice, speed);
         }
     }
-    ArticulatedPass& pass() { return state.articulated[0]; }
+    ArticulatedPass& pass() { return articulated_state(state).pass[0]; }
     // d rate / dt, body axes: h = 0 of the equations, h > 0 of the linearly implicit step.
     std::vector<Vec3> accelerations(double time, double h = 0) {
         std::vector<Vec3> a;
@@ -43,6 +44,7 @@ struct Bench {
             pass().body[i].theta = theta[i];
             pass().body[i].rate = rate[i];
         }
+        pass().carried_drag = parts::carried_drag(plan);
         articulated_pass(plan, pass(), time, h);
         for (const ArticulatedBody& b : pass().body) a.push_back(b.rate_dot);
         return a;
@@ -324,7 +326,7 @@ TEST_CASE("turns of more than a radian in a step are bounded, counted, and give 
     bench.rate[1] = Vec3(-1500, 20, 700);
     for (std::size_t i = 0; i < 2; ++i) {
         bench.state.theta[i] = bench.theta[i];
-        bench.state.scaled_rate[i] = bench.rate[i];
+        parts::scaled_rate(bench.state)[i] = bench.rate[i];
         bench.state.theta_dot[i] = body_rate_jacobian_inverse(bench.theta[i]) * bench.rate[i];
     }
     state_update(bench.plan, bench.state);

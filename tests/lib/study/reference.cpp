@@ -1,10 +1,11 @@
 // Trajectories of the articulated solvers: closed forms, conserved quantities, orders of convergence, what the reference
 // says of its own error, and the same bits however a run is cut and shared out.
 #include "lib/base/parallel.h"
-#include "lib/reference/advance.h"
 #include "lib/reference/articulated.h"
-#include "lib/stages/energy.h"
+#include "lib/reference/energy.h"
+#include "lib/reference/solvers.h"
 #include "tests/support/integrate.h"
+#include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
 
@@ -20,11 +21,11 @@ struct Run {
     State<double> state;
     Run(const Tree& tree, const Scene& scene, Solver solver, double dt, double tolerance = 1e-8)
         : plan(make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, dt, solver)), state(make_state(plan)) {
-        plan.tolerance = tolerance;
+        parts::set_tolerance(plan, tolerance);
     }
     void set(std::size_t i, const Vec3& theta, const Vec3& rate) {
         state.theta[i] = theta;
-        state.scaled_rate[i] = rate;
+        parts::scaled_rate(state)[i] = rate;
         state.theta_dot[i] = body_rate_jacobian_inverse(theta) * rate;
         state_update(plan, state);
     }
@@ -48,7 +49,8 @@ struct Run {
 double distance(const State<double>& a, const State<double>& b) {
     double most = 0;
     for (std::size_t i = 0; i < a.theta.size(); ++i)
-        most = std::max({most, (a.theta[i] - b.theta[i]).norm(), (a.scaled_rate[i] - b.scaled_rate[i]).norm()});
+        most = std::max(
+            {most, (a.theta[i] - b.theta[i]).norm(), (parts::scaled_rate(a)[i] - parts::scaled_rate(b)[i]).norm()});
     return most;
 }
 
@@ -131,7 +133,7 @@ TEST_CASE("a pendulum's quarter of a period at a large angle is the elliptic int
     run.set(0, Vec3(from_hanging, 0, 0), Vec3::Zero());
     run.until(quarter);
     CHECK(std::abs(run.state.theta[0].x()) < 1e-9);
-    CHECK(std::abs(run.state.scaled_rate[0].x()) == Approx(2 * omega * k).epsilon(1e-9));
+    CHECK(std::abs(parts::scaled_rate(run.state)[0].x()) == Approx(2 * omega * k).epsilon(1e-9));
     run.until(2 * quarter);
     CHECK((run.state.theta[0] - Vec3(-from_hanging, 0, 0)).norm() < 1e-8);
     CHECK(run.state.flags.unresolved == 0);
@@ -153,7 +155,7 @@ TEST_CASE("a rod at large angles, with spring, damper, gravity and drag, is its 
     const auto [x, v] = runge_kutta(acceleration, 2.8, -1, 1, 40000);
     // The drag has a corner in its slope wherever the rod turns back.
     CHECK(std::abs(run.state.theta[0].x() - x) < 1e-7);
-    CHECK(std::abs(run.state.scaled_rate[0].x() - v) < 1e-5);
+    CHECK(std::abs(parts::scaled_rate(run.state)[0].x() - v) < 1e-5);
 }
 
 TEST_CASE("a damped joint without load is its closed form, under, at and over critical damping") {
@@ -169,7 +171,7 @@ TEST_CASE("a damped joint without load is its closed form, under, at and over cr
     const double odd = D > 1e-9 ? std::sin(s * t) / s : D < -1e-9 ? std::sinh(s * t) / s : t;
     const double x = 1.2 * std::exp(-g * t) * (even + g * odd), v = -1.2 * std::exp(-g * t) * omega * omega * odd;
     CHECK(std::abs(run.state.theta[0].y() - x) < 1e-9);
-    CHECK(std::abs(run.state.scaled_rate[0].y() - v) < 1e-8);
+    CHECK(std::abs(parts::scaled_rate(run.state)[0].y() - v) < 1e-8);
 }
 
 TEST_CASE(
@@ -305,8 +307,8 @@ TEST_CASE("an articulated run cut in two goes on as if it had not been") {
         Run resumed(soft_chain(), windy(), solver, dt);
         resumed.state.theta = whole.state.theta;
         resumed.state.theta_dot = whole.state.theta_dot;
-        resumed.state.scaled_rate = whole.state.scaled_rate;
-        resumed.state.articulated_step = whole.state.articulated_step;
+        parts::scaled_rate(resumed.state) = parts::scaled_rate(whole.state);
+        articulated_state(resumed.state).inner_step = articulated_state(whole.state).inner_step;
         resumed.state.step = whole.state.step;
         state_update(resumed.plan, resumed.state);
         for (int k = 0; k < 5; ++k) {

@@ -3,7 +3,7 @@
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "lib/model/wood.h"
-#include "lib/reference/advance.h"
+#include "lib/reference/solvers.h"
 #include "lib/reference/stability_motion.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/sanitized.h"

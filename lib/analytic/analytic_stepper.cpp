@@ -1,0 +1,127 @@
+#include "analytic_stepper.h"
+#include "../stages/state_update.h"
+#include "../stages/wind.h"
+#include "analytic_step.h"
+#include "fictitious.h"
+#include <cmath>
+
+namespace bough {
+namespace {
+
+template <class T> AnalyticWork<T>& work_of(State<T>& state) {
+    return static_cast<AnalyticWork<T>&>(*state.own);
+}
+
+template <class V> bool finite(const V& value) {
+    if constexpr (std::is_floating_point_v<V>)
+        return std::isfinite(value);
+    else
+        return value.allFinite();
+}
+
+template <class V> V zero() {
+    if constexpr (std::is_floating_point_v<V>)
+        return 0;
+    else
+        return V::Zero();
+}
+
+// The stage before the spring that writes an array whose numbers go straight into it, bounds aside.
+const char* early_stage(const std::string& array) {
+    if (array.rfind("c_", 0) == 0) return stage_name(Stage::composite);
+    if (array == "f_w" || array == "tau_w" || array.rfind("drag_", 0) == 0) return stage_name(Stage::external_forces);
+    return nullptr;
+}
+
+} // namespace
+
+template <class T> std::size_t AnalyticWork<T>::bytes() const {
+    std::size_t sum = this->scaled_rate.capacity() * sizeof(Vector3<T>);
+    visit_arrays(*this,
+                 [&](const char*, const auto& array, AnalyticNeed) { sum += array.capacity() * sizeof(array[0]); });
+    return sum;
+}
+
+NonFinite non_finite_in_analytic(std::size_t body) {
+    return {std::string(stage_name(Stage::spring)) + " (theta)", body};
+}
+
+template <class T> void drop_from_analytic(Plan<T>& plan, State<T>& state, std::size_t i) {
+    plan.mass[i] = plan.c_mass[i] = 0;
+    plan.inertia_joint[i] = pad_inertia<T> * Matrix3<T>::Identity();
+    plan.K[i] = Vector3<T>::Constant(pad_inertia<T> * pad_rate2<T>);
+    plan.beta[i] = 0;
+    if (!plan.drag_area.empty()) plan.drag_area[i] = 0;
+    for (auto* array : {&state.theta, &state.theta_dot, &analytic_state(state).scaled_rate})
+        if (!array->empty()) (*array)[i].setZero();
+}
+
+// Its drag is on the velocities of the step before.
+template <class T> bool AnalyticStepper<T>::reads_velocities(const Plan<T>& plan) const {
+    return plan.wind || (plan.scene.fictitious && lags(*plan.scene.fictitious));
+}
+
+template <class T> void AnalyticStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
+    auto work = std::make_unique<AnalyticWork<T>>();
+    work->scaled_rate.assign(plan.bodies, Vector3<T>::Zero());
+    visit_arrays(*work, [&](const char*, auto& array, AnalyticNeed need) {
+        const bool on = need == AnalyticNeed::forces   ? plan.forces
+                        : need == AnalyticNeed::air    ? plan.wind
+                        : need == AnalyticNeed::lagged ? own.fictitious
+                                                       : true;
+        if (on) array.assign(plan.bodies, zero<std::decay_t<decltype(array[0])>>());
+    });
+    work->root_load.resize(plan.splines.size());
+    if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
+    state.own = Copied<StepperState>(std::move(work));
+}
+
+template <class T>
+void AnalyticStepper<T>::begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>&) const {
+    update_kinematics(plan, state);
+    if (own.fictitious) accelerations(plan, state, work_of(state));
+}
+
+template <class T> void AnalyticStepper<T>::advance(const Plan<T>& plan, State<T>& state, StageClock* clock) const {
+    analytic_step(plan, own, state, work_of(state), clock);
+}
+
+template <class T> NonFinite AnalyticStepper<T>::non_finite(const State<T>& state) const {
+    NonFinite found = non_finite_in_analytic(*first_non_finite(state));
+    bool early = false;
+    visit_arrays(static_cast<const AnalyticWork<T>&>(*state.own),
+                 [&](const std::string& name, const auto& array, AnalyticNeed) {
+                     const char* stage = early ? nullptr : early_stage(name);
+                     for (std::size_t i = 0; stage && !early && i < array.size(); ++i)
+                         if ((early = !finite(array[i]))) found = {std::string(stage) + " (" + name + ")", i};
+                 });
+    return found;
+}
+
+template <class T> std::vector<CarriedArray<T>> AnalyticStepper<T>::carried(State<T>& state) const {
+    AnalyticWork<T>& work = work_of(state);
+    std::vector<CarriedArray<T>> arrays{{"scaled_rate", &work.scaled_rate}};
+    if (own.fictitious) arrays.push_back({"spin_dot", &work.spin_dot});
+    return arrays;
+}
+
+template <class T>
+void AnalyticStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+    AnalyticWork<T>& work = work_of(state);
+    for (const std::size_t i : bodies) {
+        drop_from_analytic(plan, state, i);
+        if (!own.gravity_row.empty()) own.gravity_row[i] = 0;
+        if (!work.spin_dot.empty()) work.spin_dot[i].setZero();
+    }
+    state_update(plan, state);
+    if (own.fictitious) accelerations(plan, state, work);
+}
+
+template struct AnalyticWork<float>;
+template struct AnalyticWork<double>;
+template void drop_from_analytic(Plan<float>&, State<float>&, std::size_t);
+template void drop_from_analytic(Plan<double>&, State<double>&, std::size_t);
+template class AnalyticStepper<float>;
+template class AnalyticStepper<double>;
+
+} // namespace bough

@@ -1,0 +1,44 @@
+// analytic_stepper.h: the analytic solver's plain path as a run's stepper: analytic_step.h, one joint at a time.
+#pragma once
+#include "../stages/plain_stepper.h"
+#include "analytic_constants.h"
+
+namespace bough {
+
+template <class T> class AnalyticStepper final : public Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>> {
+public:
+    // plainly: why it is not the one in lanes.
+    using Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>>::Cloned;
+    const char* name() const override { return "analytic"; }
+    bool reads_velocities(const Plan<T>&) const override;
+    void take_constants(const Plan<T>& plan, const Tree& tree) override { take_analytic_constants(plan, tree, own); }
+    void allocate(const Plan<T>&, State<T>&) const override;
+    void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
+    void advance(const Plan<T>&, State<T>&, StageClock*) const override;
+    NonFinite non_finite(const State<T>&) const override;
+    std::vector<CarriedArray<T>> carried(State<T>&) const override;
+    const std::vector<Vector3<T>>& inertia_factor() const override { return own.inertia_factor; }
+    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
+
+    AnalyticPlan<T> own;
+};
+
+NonFinite non_finite_in_analytic(std::size_t body);
+
+// In the analytic solver a body that is none has an inertia [kg m^2] whose eigenvalues can be found; its spring is neither soft nor stiff over any
+// step, so that nothing takes a case for it that the bodies beside it do not need. Nothing bends it, and its motion stays 0.
+template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
+template <class T> constexpr T pad_rate2 = T(1e4); // [1/s^2] K over inertia
+
+// Leaves that of a body that broke off.
+template <class T> void drop_from_analytic(Plan<T>&, State<T>&, std::size_t body);
+
+// Of a state of the analytic solver.
+template <class T> AnalyticState<T>& analytic_state(State<T>& state) {
+    return static_cast<AnalyticState<T>&>(*state.own);
+}
+template <class T> const AnalyticState<T>& analytic_state(const State<T>& state) {
+    return static_cast<const AnalyticState<T>&>(*state.own);
+}
+
+} // namespace bough

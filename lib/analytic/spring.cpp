@@ -1,0 +1,101 @@
+#include "spring.h"
+#include "../base/parallel.h"
+#include "../stages/joint_limit.h"
+#include "spring_joint.h"
+#include <Eigen/Cholesky>
+#include <atomic>
+
+namespace bough {
+
+template <class T> void symmetric_eigen(Matrix3<T> A, Matrix3<T>& V, Vector3<T>& values) {
+    V.setIdentity();
+    constexpr int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    // Quadratic convergence: from the fourth sweep on nothing is left to turn in either precision.
+    for (int sweep = 0; sweep < 6; ++sweep) {
+        bool turned = false;
+        for (const auto& [p, q] : pairs) {
+            const T off = A(p, q);
+            const T limit = std::numeric_limits<T>::epsilon() * std::sqrt(std::abs(A(p, p)) * std::abs(A(q, q))) / 8;
+            if (!(std::abs(off) > limit)) continue;
+            turned = true;
+            const T tau = (A(q, q) - A(p, p)) / (2 * off);
+            const T t = (tau >= 0 ? T(1) : T(-1)) / (std::abs(tau) + std::sqrt(1 + tau * tau));
+            const T c = 1 / std::sqrt(1 + t * t), s = t * c;
+            const int r = 3 - p - q;
+            A(p, p) -= t * off;
+            A(q, q) += t * off;
+            A(p, q) = A(q, p) = 0;
+            const T arp = A(r, p), arq = A(r, q);
+            A(r, p) = A(p, r) = c * arp - s * arq;
+            A(r, q) = A(q, r) = s * arp + c * arq;
+            const Vector3<T> vp = V.col(p), vq = V.col(q);
+            V.col(p) = c * vp - s * vq;
+            V.col(q) = s * vp + c * vq;
+        }
+        if (!turned) break;
+    }
+    values = A.diagonal();
+}
+
+template <class T>
+StepFlags spring_update(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& s, AnalyticWork<T>& work,
+                        std::size_t i) {
+    const SpringJoint<T> joint = spring_joint(plan, own, s, work, i);
+    const SpringOscillators<T> o = spring_oscillators(plan, own, s, work, joint, i);
+    StepFlags flags;
+    flags.buckling = o.buckling;
+    flags.bounded_lambda = o.bounded;
+    const Vector3<T> r = o.U.transpose() * joint.residual_b;
+    const Vector3<T> v = o.X.transpose() * work.scaled_rate[i]; // U^-1 theta_dot = X^T L^T theta_dot
+    Vector3<T> dq, v_new;
+    for (int k = 0; k < 3; ++k) {
+        const T residual = o.ratio[k] * (r[k] + o.d[k] * v[k]);
+        dq[k] = o.step[k].E * residual + o.step[k].B * v[k];
+        v_new[k] = o.step[k].B * residual + o.step[k].C * v[k];
+    }
+    const Vector3<T> phi = o.U * dq, next = s.theta[i] + joint.T_tb * phi;
+    v_new *= kept_of_rate(plan, joint, i, s.theta[i], next, phi, v, v_new, flags);
+    s.theta[i] = next;
+    work.scaled_rate[i] = o.X * v_new;
+    Vector3<T> omega_b = o.U * v_new;
+    if (plan.joint_limit && stop_at_limit(plan.theta_limit[i], o.L, s.theta[i], work.scaled_rate[i])) {
+        ++flags.limited;
+        omega_b = work.scaled_rate[i];
+        o.L.transpose().template triangularView<Eigen::Upper>().solveInPlace(omega_b);
+    }
+    if (shorten_rotation(s.theta[i])) ++flags.half_turns;
+    s.theta_dot[i] = body_rate_jacobian_inverse(s.theta[i]) * omega_b;
+    if (own.fictitious) { // the oscillators' own equation at the step's end
+        Vector3<T> change;
+        for (int k = 0; k < 3; ++k)
+            change[k] = o.ratio[k] * (r[k] + o.d[k] * v[k]) - o.b[k] * v_new[k] - o.lambda[k] * dq[k];
+        work.spin_dot[i] = o.U * change;
+    }
+    return flags;
+}
+
+template <class T>
+void spring_update(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& state, AnalyticWork<T>& work) {
+    const auto add = [](std::uint64_t& to, std::uint64_t count) { // rare: all threads add to one number
+        if (count) std::atomic_ref(to).fetch_add(count, std::memory_order_relaxed);
+    };
+    parallel_for(plan.bodies, 500, [&](std::size_t i) {
+        const StepFlags flags = spring_update(plan, own, state, work, i);
+        add(state.flags.buckling, flags.buckling);
+        add(state.flags.bounded_lambda, flags.bounded_lambda);
+        add(state.flags.half_turns, flags.half_turns);
+        add(state.flags.energy_guard, flags.energy_guard);
+        add(state.flags.limited, flags.limited);
+    });
+}
+
+template void symmetric_eigen(Matrix3<float>, Matrix3<float>&, Vector3<float>&);
+template void symmetric_eigen(Matrix3<double>, Matrix3<double>&, Vector3<double>&);
+template StepFlags spring_update(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&,
+                                 std::size_t);
+template StepFlags spring_update(const Plan<double>&, const AnalyticPlan<double>&, State<double>&,
+                                 AnalyticWork<double>&, std::size_t);
+template void spring_update(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&);
+template void spring_update(const Plan<double>&, const AnalyticPlan<double>&, State<double>&, AnalyticWork<double>&);
+
+} // namespace bough

@@ -1,0 +1,73 @@
+#include "coupled_stepper.h"
+#include "../stages/state_update.h"
+#include "coupled_step.h"
+#include <algorithm>
+
+namespace bough {
+
+template <class T> std::vector<CarriedArray<T>> carried_by_coupled(State<T>& state) {
+    CoupledState<T>& own = coupled_state(state);
+    return {{"theta_change", &own.theta_change}, {"theta_dot_change", &own.theta_dot_change}};
+}
+
+NonFinite non_finite_in_coupled(std::size_t body) {
+    return {std::string(stage_name(Stage::resolvent)) + " (theta)", body};
+}
+
+template <class T> void drop_from_coupled(Plan<T>& plan, State<T>& state, std::size_t i) {
+    plan.mass[i] = plan.c_mass[i] = 0;
+    plan.inertia_joint[i].setZero();
+    plan.K[i].setOnes();
+    plan.beta[i] = 0;
+    if (!plan.drag_area.empty()) plan.drag_area[i] = 0;
+    CoupledState<T>& own = coupled_state(state);
+    for (auto* array : {&state.theta, &state.theta_dot, &own.theta_change, &own.theta_dot_change})
+        if (!array->empty()) (*array)[i].setZero();
+}
+
+template <class T>
+CoupledStepper<T>::CoupledStepper(Scheme scheme, std::string plainly)
+    : Cloned<CoupledStepper<T>, PlainStepper<T>, Stepper<T>>(std::move(plainly)), own{scheme, {}, {}} {}
+
+template <class T> void CoupledStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
+    auto work = std::make_unique<CoupledWork<T>>();
+    const auto roots = std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1));
+    allocate_coupled(plan, state, *work, roots);
+    work->coupled.resize(plan.bodies);
+    const bool real = scheme_of(own.scheme).real;
+    if (!real) work->resolvent.resize(plan.bodies);
+    if (real || plan.joint_limit) work->resolvent_real.resize(plan.bodies);
+    work->guard.resize(plan.bodies);
+    state.own = Copied<StepperState>(std::move(work));
+}
+
+template <class T> void CoupledStepper<T>::advance(const Plan<T>& plan, State<T>& state, StageClock* clock) const {
+    coupled_step(plan, own, state, static_cast<CoupledWork<T>&>(*state.own), clock);
+}
+
+template <class T> NonFinite CoupledStepper<T>::non_finite(const State<T>& state) const {
+    return non_finite_in_coupled(*first_non_finite(state));
+}
+
+template <class T> std::vector<CarriedArray<T>> CoupledStepper<T>::carried(State<T>& state) const {
+    return carried_by_coupled(state);
+}
+
+template <class T>
+void CoupledStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+    for (const std::size_t i : bodies) {
+        drop_from_coupled(plan, state, i);
+        if (!own.carried_moment.empty()) own.carried_moment[i].setZero();
+        if (!own.carried_drag.empty()) own.carried_drag[i].setZero(); // what bore it keeps its own: any will do (air.h)
+    }
+    state_update(plan, state);
+}
+
+template class CoupledStepper<float>;
+template class CoupledStepper<double>;
+template std::vector<CarriedArray<float>> carried_by_coupled(State<float>&);
+template std::vector<CarriedArray<double>> carried_by_coupled(State<double>&);
+template void drop_from_coupled(Plan<float>&, State<float>&, std::size_t);
+template void drop_from_coupled(Plan<double>&, State<double>&, std::size_t);
+
+} // namespace bough

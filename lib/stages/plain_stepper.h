@@ -1,0 +1,19 @@
+// plain_stepper.h: what steppers have in common that keep a state where others read it, in arrays in document order.
+#pragma once
+#include "state_update.h"
+
+namespace bough {
+
+template <class T> class PlainStepper : public Stepper<T> {
+public:
+    using Stepper<T>::Stepper;
+    void begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>&) const override {
+        update_kinematics(plan, state);
+    }
+    std::uint64_t hash(const Plan<T>&, const State<T>& state) const override { return state_hash(state); }
+    void view_motion(const Plan<T>&, const State<T>& state, MotionView<T>& view) const override {
+        view = {state.theta.front().data(), state.theta_dot.front().data(), 1, nullptr, 1, std::move(view.first)};
+    }
+};
+
+} // namespace bough
