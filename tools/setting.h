@@ -11,8 +11,10 @@ struct Setting : Assembly {
     std::uint64_t fingerprint =
         0; // of tree and scene, where a state is saved or resumed: before the tree is handed over
     std::vector<std::string> tree_files{}; // of a scene: where its trees are read from, each once, of other parts too
+    std::vector<std::string> notes{};      // on trees that were converted (converted.h)
+    std::vector<std::string> converted{};  // those: files, INPUT among them
 };
-// Reads a tree, or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (assembly.h). Throws UsageError,
+// Reads a tree of any kind (converted.h), or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (assembly.h). Throws UsageError,
 // InputError.
 Setting read_setting(const RunOptions&);
 

@@ -256,11 +256,14 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
         for (const std::string& line : notes.lines) o.common.notes.push_back(model->name + ": " + line);
     }
     Setting setting = read_setting(o.run);
+    o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
     std::vector<NamedFile> written{{"-o", o.common.output}, {"--save-state", o.save_state}};
     // A scene's only tree may be saved in its own place, as INPUT may; one of several is not all that its file holds.
     if (setting.part.parts > 1) written.push_back({"--save-tree", o.save_tree});
     refuse_overwriting_trees(setting, written);
     if (!setting.tree_files.empty()) refuse_overwriting({{"INPUT", o.run.input}}, {{"--save-tree", o.save_tree}});
+    for (const std::string& file : setting.converted) // another program's, whole
+        refuse_overwriting({{"INPUT", file}}, {{"--save-tree", o.save_tree}});
     if (model && setting.ranges.size() != 1)
         throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +
                          " trees, expected one, which the model is of");
