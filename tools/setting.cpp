@@ -109,6 +109,7 @@ Setting read_setting(const RunOptions& o) {
             throw UsageError("--set trees: INPUT is a tree, which stands where it was drawn; a scene places trees");
         TreeOfFile read = foreign ? read_any_tree(o.input) : read_any_tree(*input, o.input);
         if (read.imported) setting.converted = {o.input};
+        setting.imported = std::move(read.imported);
         setting.notes = std::move(read.notes);
         stand(setting, with_material(std::move(read.tree), document.material, o.input), Placement());
     }
