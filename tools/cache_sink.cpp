@@ -9,9 +9,9 @@ namespace {
 
 class CacheSink : public FrameSink {
 public:
-    CacheSink(const std::string& file, PointCache kind, const Tree& tree, int sides, const RustleMaker& rustle,
+    CacheSink(const std::string& file, PointCache kind, const Tree& tree, Skin skin, const RustleMaker& rustle,
               PointCacheShape shape, std::vector<std::string>& notes)
-        : output_(file), skin_(build_skin(tree, {sides})), mover_(skin_, tree, rustle(skin_, false)),
+        : output_(file), skin_(std::move(skin)), mover_(skin_, tree, rustle(skin_, false)),
           writer_(output_, kind, with_vertices(shape)) {
         if (!floats_suffice(skin_.position))
             notes.push_back("-o: the tree stands so far from the origin that the cache's floats are coarser than 1e-6 "
@@ -42,7 +42,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree& tree, int sides,
+std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree& tree, Skin skin,
                                       const RustleMaker& rustle, double fps, std::int64_t first, std::int64_t frames,
                                       std::vector<std::string>& notes) {
     PointCacheShape shape;
@@ -51,7 +51,7 @@ std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string
     shape.fps = fps;
     const PointCache kind = format == "mdd" ? PointCache::mdd : PointCache::pc2;
     try {
-        return std::make_unique<CacheSink>(file, kind, tree, sides, rustle, shape, notes);
+        return std::make_unique<CacheSink>(file, kind, tree, std::move(skin), rustle, shape, notes);
     } catch (const std::length_error& error) {
         throw UsageError("-o is '" + file + "': " + error.what());
     }

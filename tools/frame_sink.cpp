@@ -26,8 +26,8 @@ private:
 
 class ObjSink : public FrameSink {
 public:
-    ObjSink(const std::string& pattern, const Tree& tree, int sides, const RustleMaker& rustle)
-        : pattern_(pattern), skin_(build_skin(tree, {sides})), mover_(skin_, tree, rustle(skin_, false)),
+    ObjSink(const std::string& pattern, const Tree& tree, Skin skin, const RustleMaker& rustle)
+        : pattern_(pattern), skin_(std::move(skin)), mover_(skin_, tree, rustle(skin_, false)),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
         Output output(sequence_mtl(pattern));
         write_mtl(output, skin_);
@@ -67,9 +67,9 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
     return std::make_unique<MotionSink>(file, form, header);
 }
 
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, int sides,
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin,
                                     const RustleMaker& rustle) {
-    return std::make_unique<ObjSink>(pattern, tree, sides, rustle);
+    return std::make_unique<ObjSink>(pattern, tree, std::move(skin), rustle);
 }
 
 } // namespace bough

@@ -27,11 +27,11 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool together)>;
 
 // One OBJ a frame, each whole or absent, and one mtl. Keeps references to the tree.
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, int sides, const RustleMaker&);
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, Skin, const RustleMaker&);
 
 // One point cache, `format` mdd or pc2: of `frames` frames from number `first` on. Keeps a reference to the tree; what the
 // user should know is added to the notes. Throws UsageError where the format cannot count so many.
-std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree&, int sides,
+std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree&, Skin,
                                       const RustleMaker&, double fps, std::int64_t first, std::int64_t frames,
                                       std::vector<std::string>& notes);
 
@@ -65,6 +65,10 @@ std::string leaves_note(const Tree&, const GltfChoice&);
 // the tree and the notes.
 std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int sides, const RustleMaker&, double fps,
                                      const GltfChoice&, const std::string& source, std::vector<std::string>& notes);
+
+// The same of a mesh that came with the tree.
+std::unique_ptr<FrameSink> own_sink(const std::string& file, const Tree&, OwnMesh, double fps, const GltfChoice&,
+                                    const std::string& source, std::vector<std::string>& notes);
 
 // --skin: the user's own model with the motion added, written by finish(). Keeps references to the tree and the notes.
 // The model is read before threads are started (user_model.h).

@@ -18,38 +18,52 @@ class GltfSink : public FrameSink {
 public:
     GltfSink(const std::string& file, const Tree& tree, int sides, const RustleMaker& rustle, const GltfChoice& choice,
              const GltfOptions& options, std::vector<std::string>& notes)
-        : output_(file), tree_(tree), choice_(choice), notes_(notes), skin_(chosen_skin(tree, sides, choice)),
-          groups_(chosen_joints(tree, choice)), rustle_(rustle(skin_, true)),
-          writer_(output_, skin_, tree, groups_, options, rustle_.get()) {
-        if (groups_.size() < tree.size_bodies()) error_.emplace(tree, groups_);
+        : GltfSink(file, tree, choice, notes) {
+        skin_ = chosen_skin(tree, sides, choice);
+        rustle_ = rustle(skin_, true);
+        writer_ = std::make_unique<GltfWriter>(output_, skin_, tree, groups_, options, rustle_.get());
+        for (const Vec3& p : skin_.position) reach(p.y());
+    }
+    GltfSink(const std::string& file, const Tree& tree, OwnMesh own, const GltfChoice& choice,
+             const GltfOptions& options, std::vector<std::string>& notes)
+        : GltfSink(file, tree, choice, notes) {
+        own_ = std::move(own);
+        writer_ = std::make_unique<GltfWriter>(output_, own_, tree, groups_, options);
+        for (const OwnPart& part : own_.part)
+            each_vertex(own_, part, [this](const OwnSurface& from, std::size_t v, const OwnPlace* place) {
+                reach(double(position_of(from, v, place).y()));
+            });
     }
     void write(const MotionFrame& frame) override {
-        writer_.write(frame);
+        writer_->write(frame);
         if (error_) error_->add(frame.rotation, frame.position);
     }
     void finish() override {
-        writer_.finish();
+        writer_->finish();
         output_.finish();
         note();
     }
 
 private:
+    GltfSink(const std::string& file, const Tree& tree, const GltfChoice& choice, std::vector<std::string>& notes)
+        : output_(file), tree_(tree), choice_(choice), notes_(notes), groups_(chosen_joints(tree, choice)) {
+        if (groups_.size() < tree.size_bodies()) error_.emplace(tree, groups_);
+    }
+    void reach(double y) { low_ = std::min(low_, y), high_ = std::max(high_, y); }
     void note() {
         std::ostringstream text;
         text.precision(3);
         if (error_) {
-            double low = INFINITY, high = -INFINITY;
-            for (const Vec3& p : skin_.position) low = std::min(low, p.y()), high = std::max(high, p.y());
             text << tree_.size_bodies() << " bodies merged to " << groups_.size() << " joints ("
                  << (choice_.instances() ? "--max-joints, --leaves-as instances" : "--max-joints") << "): ends of "
                  << "bodies are off by " << error_->rms() << " m RMS, " << error_->largest() << " m at most ("
-                 << 100 * error_->rms() / (high - low) << " and " << 100 * error_->largest() / (high - low)
+                 << 100 * error_->rms() / (high_ - low_) << " and " << 100 * error_->largest() / (high_ - low_)
                  << " % of the height)";
             notes_.push_back(text.str());
             text.str("");
         }
         if (const std::string lost = leaves_note(tree_, choice_); !lost.empty()) notes_.push_back(lost);
-        const std::size_t all = writer_.keys().joints() * writer_.keys().frames(), kept = writer_.keys().count();
+        const std::size_t all = writer_->keys().joints() * writer_->keys().frames(), kept = writer_->keys().count();
         if (kept == all) return;
         text << kept << " of " << all << " keys written (--key-tolerance)";
         notes_.push_back(text.str());
@@ -59,10 +73,12 @@ private:
     const Tree& tree_;
     const GltfChoice choice_;
     std::vector<std::string>& notes_;
-    Skin skin_;
+    Skin skin_; // or
+    OwnMesh own_;
+    double low_ = INFINITY, high_ = -INFINITY; // [m]
     JointGroups groups_;
     std::unique_ptr<Rustle> rustle_;
-    GltfWriter writer_;
+    std::unique_ptr<GltfWriter> writer_;
     std::optional<MergeError> error_;
 };
 
@@ -154,6 +170,14 @@ std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree& tree, 
     GltfOptions options = gltf_options(choice, source);
     options.fps = fps;
     return std::make_unique<GltfSink>(file, tree, sides, rustle, choice, options, notes);
+}
+
+std::unique_ptr<FrameSink> own_sink(const std::string& file, const Tree& tree, OwnMesh own, double fps,
+                                    const GltfChoice& choice, const std::string& source,
+                                    std::vector<std::string>& notes) {
+    GltfOptions options = gltf_options(choice, source);
+    options.fps = fps;
+    return std::make_unique<GltfSink>(file, tree, std::move(own), choice, options, notes);
 }
 
 } // namespace bough

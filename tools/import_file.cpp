@@ -52,4 +52,11 @@ Splines read_import(const std::string& name, const ImportChoice& choice, ImportN
     }
 }
 
+Splines read_import(std::string_view content, const std::string& file, ImportNotes& notes) {
+    ImportOptions options;
+    options.name = input_name(file);
+    options.folder = folder_of(file);
+    return import_splines(content, options, notes);
+}
+
 } // namespace bough

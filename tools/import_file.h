@@ -20,5 +20,7 @@ std::optional<double> unit_in_metres(const std::string& units);
 // file was written to while it was read.
 Splines read_import(const std::string& file, const ImportChoice&, ImportNotes&,
                     const std::function<void(bool own)>& before = {});
+// The same of content that has been read already; `file`: where it came from.
+Splines read_import(std::string_view content, const std::string& file, ImportNotes&);
 
 } // namespace bough

@@ -126,6 +126,7 @@ void work(ErrorCommand& o) {
     reading.scheme.clear();
     Setting setting = read_setting(reading);
     refuse_overwriting_trees(setting, written);
+    o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
     if (has_free_bodies(setting.scene))
         throw InputError(input_name(o.run.input),
                          free_part(setting.scene) + std::string(": treeprofile error has no reference "

@@ -1,5 +1,5 @@
+#include "converted.h"
 #include "file_names.h"
-#include "formats/documents/tree.h"
 #include "lib/fast/operations.h"
 #include "machine_limits.h"
 #include "profile.h"
@@ -122,7 +122,9 @@ std::vector<ScalingTree> chosen_trees(ScalingCommand& o, const Scene& scene, std
     };
     std::vector<ScalingTree> trees;
     for (const std::string& file : o.trees) {
-        Tree tree = read_tree(Input(file));
+        TreeOfFile read = read_any_tree(file);
+        Tree tree = std::move(read.tree);
+        o.common.notes.insert(o.common.notes.end(), read.notes.begin(), read.notes.end());
         if (!tree.source.empty()) source += (source.empty() ? "" : "\n") + tree.source;
         trees.push_back({file, standing(std::move(tree))});
         apply_scene(trees.back().setting, file);

@@ -34,6 +34,7 @@ void work(StabilityCommand& o) {
     refuse_overwriting({{"INPUT", o.run.input}}, written);
     require_report(o.report);
     const Setting setting = read_setting(o.run);
+    o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
     refuse_overwriting_trees(setting, written);
     StabilityOptions options;
     options.frames = o.frames;

@@ -109,6 +109,7 @@ void work_stages(StagesOptions& o) {
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
     Setting setting = read_setting(o.run);
     refuse_overwriting_trees(setting, written);
+    o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
     Report report = o.run.precision == "float" ? fastest<float>(o, std::move(setting), frames)
                                                : fastest<double>(o, std::move(setting), frames);
     report.tool = profile_name;

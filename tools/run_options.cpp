@@ -61,7 +61,7 @@ void add_sleep_option(OptionList& list, RunOptions& o) {
 
 void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
     const std::string seconds_text = std::to_string(int(seconds_default));
-    list.add("INPUT", o.input, "A tree or a scene; - for stdin");
+    list.add("INPUT", o.input, "A tree, any file that treeconvert takes (converted with its defaults), or a scene; - for stdin");
     OptionEntry seconds = list.add("--seconds", o.seconds, "Length of the run [s] (" + seconds_text + ")")
                               .takes("S")
                               .check(not_negative_number());

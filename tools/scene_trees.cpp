@@ -1,7 +1,7 @@
 #include "scene_trees.h"
+#include "converted.h"
 #include "exits.h"
 #include "formats/documents/scene.h"
-#include "formats/documents/tree.h"
 #include "formats/open.h"
 #include "lib/fast/stands.h"
 #include "lib/simulation/fingerprint.h"
@@ -27,19 +27,25 @@ public:
         auto known = read_.find(file);
         if (known == read_.end()) {
             const std::string path = tree_file(scene_file_, place);
-            known = read_.emplace(file, with_material(read_tree(Input(path)), material_, path)).first;
+            TreeOfFile read = read_any_tree(path);
+            notes_.insert(notes_.end(), read.notes.begin(), read.notes.end());
+            if (read.imported) converted_.push_back(path);
+            known = read_.emplace(file, with_material(std::move(read.tree), material_, path)).first;
         }
         if (--left > 0) return known->second;
         Tree tree = std::move(known->second);
         read_.erase(known);
         return tree;
     }
+    const std::vector<std::string>& notes() const { return notes_; }
+    const std::vector<std::string>& converted() const { return converted_; }
 
 private:
     std::string scene_file_;
     const MaterialChange& material_;
     std::map<std::string, std::size_t> wanted_;
     std::map<std::string, Tree> read_;
+    std::vector<std::string> notes_, converted_; // of files that were converted
 };
 
 Scene scene_of_tree(const Scene& scene, std::size_t k) {
@@ -192,6 +198,8 @@ void stand_trees(Setting& setting, const std::string& scene_file, const std::str
     }
     TreeFiles files(setting.scene, scene_file, material);
     for (const Placement& place : setting.scene.trees) stand(setting, files.take(place), place);
+    setting.notes = files.notes();
+    setting.converted = files.converted();
 }
 
 } // namespace bough

@@ -1,7 +1,7 @@
 #include "setting.h"
+#include "converted.h"
 #include "exits.h"
 #include "formats/documents/scene.h"
-#include "formats/documents/tree.h"
 #include "formats/open.h"
 #include "scene_trees.h"
 #include "set_option.h"
@@ -93,10 +93,12 @@ Setting read_setting(const RunOptions& o) {
     if (o.tolerance && solver != Solver::articulated_reference)
         throw UsageError("--tolerance: only with --solver articulated-reference");
     Setting setting;
-    const Input input(o.input);
-    const bool scene = is_scene(input.content());
+    const bool foreign = is_converted(o.input); // then it may be large, and its reader looks at it where it lies
+    std::optional<Input> input;
+    if (!foreign) input.emplace(o.input);
+    const bool scene = input && is_scene(input->content());
     SceneDocument document =
-        scene ? chosen_document(o, input.all(), input.name()) : chosen_document(o, empty_scene, "the scene");
+        scene ? chosen_document(o, input->all(), input->name()) : chosen_document(o, empty_scene, "the scene");
     setting.scene = std::move(document.scene);
     if (scene) {
         setting.tree_files = tree_files(o.input, setting.scene);
@@ -105,7 +107,11 @@ Setting read_setting(const RunOptions& o) {
         if (!o.shard.empty()) throw UsageError("--shard: only with a scene, whose trees it parts");
         if (!setting.scene.trees.empty())
             throw UsageError("--set trees: INPUT is a tree, which stands where it was drawn; a scene places trees");
-        stand(setting, with_material(read_tree(input), document.material, o.input), Placement());
+        TreeOfFile read = foreign ? read_any_tree(o.input) : read_any_tree(*input, o.input);
+        if (read.imported) setting.converted = {o.input};
+        setting.imported = std::move(read.imported);
+        setting.notes = std::move(read.notes);
+        stand(setting, with_material(std::move(read.tree), document.material, o.input), Placement());
     }
     if (const std::optional<Defect> defect = check(setting.scene))
         throw UsageError("the scene's " + defect->field + " " + defect->message);
@@ -116,6 +122,7 @@ Setting read_setting(const RunOptions& o) {
 std::vector<std::string> files_read(const RunOptions& o) {
     std::vector<std::string> files{o.input};
     if (const std::string wind = wind_file(o.wind); !wind.empty()) files.push_back(wind);
+    if (is_converted(o.input)) return files;
     const Input input(o.input);
     if (is_scene(input.content()))
         for (const std::string& file : tree_files(o.input, chosen_document(o, input.all(), input.name()).scene))

@@ -1,6 +1,7 @@
 // setting.h: what a run is of: its trees joined into one, and the scene with the options applied.
 #pragma once
 #include "file_names.h"
+#include "formats/imports/import.h"
 #include "lib/simulation/assembly.h"
 #include "run_options.h"
 
@@ -11,8 +12,11 @@ struct Setting : Assembly {
     std::uint64_t fingerprint =
         0; // of tree and scene, where a state is saved or resumed: before the tree is handed over
     std::vector<std::string> tree_files{}; // of a scene: where its trees are read from, each once, of other parts too
+    std::vector<std::string> notes{};      // on trees that were converted (converted.h)
+    std::vector<std::string> converted{};  // those: files, INPUT among them
+    std::optional<ImportNotes> imported{}; // what was found of INPUT, where it was converted
 };
-// Reads a tree, or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (assembly.h). Throws UsageError,
+// Reads a tree of any kind (converted.h), or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (assembly.h). Throws UsageError,
 // InputError.
 Setting read_setting(const RunOptions&);
 

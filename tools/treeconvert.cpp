@@ -1,4 +1,5 @@
 // treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
+#include "converted.h"
 #include "file_names.h"
 #include "formats/documents/material.h"
 #include "formats/documents/splines.h"
@@ -118,13 +119,7 @@ void refuse_contradictions(const Options& o) {
 }
 
 Material chosen_material(const Options& o, const Splines& splines) {
-    if (o.material.empty()) {
-        if (splines.material.empty()) return wood_presets().front();
-        if (const Material* preset = find_wood(splines.material)) return *preset;
-        throw InputError(input_name(o.input) + ": /material", "is \"" + splines.material +
-                                                                  "\", expected a preset (see --list-materials); "
-                                                                  "--material overrides it");
-    }
+    if (o.material.empty()) return own_material(splines, input_name(o.input));
     if (const Material* preset = find_wood(o.material)) return *preset;
     std::error_code none;
     if (o.material.find_first_of("./") == std::string::npos && !std::filesystem::exists(o.material, none))
@@ -145,16 +140,6 @@ SegmentOptions segment_options(const Options& o) {
     if (o.max_bend) options.max_bend = *o.max_bend * 3.14159265358979323846 / 180;
     if (o.max_bodies) options.max_bodies = *o.max_bodies;
     return options;
-}
-
-void note_repairs(const SegmentReport& report, std::vector<std::string>& notes) {
-    const auto note = [&](std::int64_t count, const char* one, const char* many) {
-        if (count > 0) notes.push_back(counted(count, one, many));
-    };
-    note(report.merged_points, "near-coincident point merged", "near-coincident points merged");
-    note(report.dropped_branches, "branch without length left out, what grows on it moved to its parent",
-         "branches without length left out, what grows on them moved to their parent");
-    note(report.thin_points, "radius raised to the least that has a mass", "radii raised to the least that has a mass");
 }
 
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {
@@ -259,9 +244,9 @@ void work(Options& o) {
     } catch (const std::invalid_argument& error) {
         throw UsageError((o.max_bodies ? "--max-bodies: " : "--segment-length: ") + std::string(error.what()));
     }
-    note_repairs(report, notes);
+    for (std::string& line : repairs(report)) notes.push_back(std::move(line));
     if (o.strict && !notes.empty()) throw InputError(name, notes.front() + " (--strict)");
-    if (tree.size_bodies() == 0) throw InputError(name, "holds no branch with a length, expected a tree");
+    require_bodies(tree, name);
     std::string merged;
     if (o.merge.below) merged = merge_by_trial(tree, o.merge, o.common, o.input);
     if (o.split)

@@ -13,6 +13,7 @@
 #include "rustling.h"
 #include "saved_run.h"
 #include "saved_tree.h"
+#include "shown_model.h"
 #include "signals.h"
 #include "sized_sink.h"
 #include "watch.h"
@@ -37,21 +38,33 @@ DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, co
     return options;
 }
 
+// Where a scene puts its tree.
+Eigen::Affine3d place_of_tree(const Setting& setting) {
+    if (setting.scene.trees.empty()) return Eigen::Affine3d::Identity();
+    const Placement& place = setting.scene.trees.front();
+    return Eigen::Translation3d(place.position) * Eigen::AngleAxisd(place.yaw * std::numbers::pi / 180, Vec3::UnitY());
+}
+
 // shown: the tree that meshes are made of, the balls with it.
 std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
                                      const std::string& format, const MotionFields& fields, std::int64_t first,
-                                     std::int64_t last, std::optional<UserModel> model) {
+                                     std::int64_t last, ShownModel model) {
     if (o.no_output) return nullptr;
     RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
-    if (is_point_cache(format))
-        return cache_sink(o.common.output, format, shown, o.sides.value_or(8), rustle, o.run.fps, first,
-                          last - first + 1, o.common.notes);
-    if (format == "obj") return obj_sink(o.common.output, shown, o.sides.value_or(8), rustle);
+    std::optional<OwnMesh> own;
+    if (model.bound) own = bound_to(std::move(*model.bound), shown, place_of_tree(setting), o.common.notes);
+    if (is_point_cache(format) || format == "obj") {
+        Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
+        if (format == "obj") return obj_sink(o.common.output, shown, std::move(skin), rustle);
+        return cache_sink(o.common.output, format, shown, std::move(skin), rustle, o.run.fps, first, last - first + 1,
+                          o.common.notes);
+    }
     const std::string source = with_command_line(setting.source, o.common);
-    if (model)
-        return driven_sink(o.common.output, std::move(*model), shown, driven_options(o, setting, source),
+    if (model.driven)
+        return driven_sink(o.common.output, std::move(*model.driven), shown, driven_options(o, setting, source),
                            o.common.notes);
+    if (own) return own_sink(o.common.output, shown, std::move(*own), o.run.fps, o.gltf, source, o.common.notes);
     if (format == "glb")
         return gltf_sink(o.common.output, shown, o.sides.value_or(8), rustle, o.run.fps, o.gltf, source,
                          o.common.notes);
@@ -157,8 +170,14 @@ void refuse_broken_cache(const TreesimOptions& o, std::size_t broken) {
         "hold; expected .glb or frames of .obj");
 }
 
-void note_cache(TreesimOptions& o, const Setting& setting, std::size_t balls) {
-    if (balls == 0 && setting.ranges.size() == 1) return;
+void note_cache(TreesimOptions& o, const Setting& setting, std::size_t balls, bool own) {
+    if (balls == 0 && setting.ranges.size() == 1 && !own) return;
+    if (own) {
+        o.common.notes.push_back(
+            "the vertices are those of the file's own mesh, material by material: the mesh that they "
+            "move is the first frame of an OBJ sequence (the same run with --frames 1 -o rest_%d.obj)");
+        return;
+    }
     o.common.notes.push_back("the vertices are those of " + counted(setting.ranges.size(), "tree", "trees") + " and " +
                              counted(balls, "ball", "balls") +
                              ": the mesh that they move is the first frame of an OBJ sequence (the same run with "
@@ -167,7 +186,7 @@ void note_cache(TreesimOptions& o, const Setting& setting, std::size_t balls) {
 
 // Returns the number of frames made.
 template <class T>
-std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& format, std::optional<UserModel> model) {
+std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& format, ShownModel model) {
     if (o.report_error && has_free_bodies(setting.scene))
         throw UsageError(std::string("--report-error: not with a scene's ") + (free_part(setting.scene) + 1) +
                          ", which the second run would not have");
@@ -213,6 +232,7 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
     const Tree own = changed ? shown_tree(setting.tree, broken, balls) : Tree();
     const Tree& shown = changed ? own : setting.whole ? setting.whole->tree : setting.tree;
     o.gltf.loose = broken.size() + balls.size();
+    const bool bound = model.bound.has_value();
     std::unique_ptr<FrameSink> sink = open_sink(o, setting, shown, setting.whole ? shown.size_bodies() : plan.bodies,
                                                 format, fields, first, last, std::move(model));
     if (sink && o.common.output != "-")
@@ -221,7 +241,7 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
             clear_progress();
             std::cerr << treesim_info.name << ": " << text << "\n";
         });
-    if (is_point_cache(format)) note_cache(o, setting, balls.size());
+    if (is_point_cache(format)) note_cache(o, setting, balls.size(), bound);
     LoopStart loop;
     if (loops) {
         std::optional<Run<T>> before;
@@ -250,21 +270,17 @@ std::int64_t simulate(TreesimOptions& o, Setting setting, const std::string& for
 }
 
 std::int64_t make(TreesimOptions& o, const std::string& format) {
-    std::optional<UserModel> model;
-    if (!o.skin.empty()) { // before threads are started
-        ImportNotes notes;
-        model = read_user_model(o.skin, notes);
-        for (const std::string& line : notes.lines) o.common.notes.push_back(model->name + ": " + line);
-    }
+    ShownModel model = model_before_threads(o, format);
     Setting setting = read_setting(o.run);
+    o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
     std::vector<NamedFile> written{{"-o", o.common.output}, {"--save-state", o.save_state}};
     // A scene's only tree may be saved in its own place, as INPUT may; one of several is not all that its file holds.
     if (setting.part.parts > 1) written.push_back({"--save-tree", o.save_tree});
     refuse_overwriting_trees(setting, written);
     if (!setting.tree_files.empty()) refuse_overwriting({{"INPUT", o.run.input}}, {{"--save-tree", o.save_tree}});
-    if (model && setting.ranges.size() != 1)
-        throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +
-                         " trees, expected one, which the model is of");
+    for (const std::string& file : setting.converted) // another program's, whole
+        refuse_overwriting({{"INPUT", file}}, {{"--save-tree", o.save_tree}});
+    complete_model(model, o, setting, format);
     if (o.run.precision == "float") return simulate<float>(o, std::move(setting), format, std::move(model));
     return simulate<double>(o, std::move(setting), format, std::move(model));
 }

@@ -1,6 +1,7 @@
 #include "treesim_options.h"
 #include "file_names.h"
 #include "formats/exports/obj.h"
+#include "shown_model.h"
 
 namespace bough {
 
@@ -37,10 +38,16 @@ void declare(OptionList& list, TreesimOptions& o) {
         .check(whole_number(3, 256));
     list.add("--skin", o.skin,
              "With -o FILE.glb: write this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: "
-             "its own meshes, skins and materials, with the motion as an animation of its bones. The tree must "
-             "have been made from it, or stand where its bones do")
+             "its own meshes, skins and materials, with the motion as an animation of its bones; or, for any mesh "
+             "(.glb, .obj, .mdd, .pc2), a SpeedTree XML with mesh. The tree must have been made from it, or stand "
+             "where its bones do")
         .takes("FILE")
         .check(file_name());
+    list.add("--mesh", o.mesh,
+             "own: the mesh that INPUT itself has is shown, a SpeedTree XML's with its materials, in a .glb a skinned "
+             "model's too (where it has one, the default); made: one made from the tree")
+        .takes("NAME")
+        .one_of({"own", "made"});
     add_max_joints(list, o.gltf);
     add_leaves_as(list, o.gltf);
     add_key_tolerance(list, o.gltf);
@@ -48,9 +55,10 @@ void declare(OptionList& list, TreesimOptions& o) {
     list.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
     list.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
     list.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
-    list.add_flag("--report-error", o.report_error,
-                  "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at a "
-                  "quarter of the step beside this one (about five times the time more); with --solver coupled");
+    list.add_flag(
+        "--report-error", o.report_error,
+        "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at a "
+        "quarter of the step beside this one (about five times the time more); with --solver coupled");
     list.add_flag("--report-cost", o.report_cost,
                   "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
     list.add_flag(
@@ -128,10 +136,13 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.rustle && o.loop.blend) throw UsageError("--rustle: not with --loop-blend, whose end is its beginning");
     if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb, .mdd, .pc2)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
+    if (!o.mesh.empty() && !mesh) throw UsageError("--mesh: only with a mesh (.obj, .glb, .mdd, .pc2)");
     if (!o.skin.empty()) {
-        if (format != "glb") throw UsageError("--skin: only with -o FILE.glb");
+        if (!mesh) throw UsageError("--skin: only with -o FILE.glb, of SpeedTree XML also .obj, .mdd, .pc2");
+        if (!o.mesh.empty()) throw UsageError("--mesh: not with --skin, which says what is shown");
         if (o.sides) throw UsageError("--sides: not with --skin, whose mesh is its own");
-        if (!o.gltf.max_joints.empty()) throw UsageError("--max-joints: not with --skin, whose bones are its own");
+        if (!o.gltf.max_joints.empty() && !is_speedtree_file(o.skin))
+            throw UsageError("--max-joints: not with --skin, whose bones are its own");
         if (!o.gltf.leaves_as.empty()) throw UsageError("--leaves-as: not with --skin, whose leaves are its own");
         if (o.skin == "-" && o.run.input == "-") throw UsageError("--skin -: the input is read from stdin already");
         if (o.skin == "-" && o.watch) throw UsageError("--watch: not with --skin -, which cannot be read again");

@@ -15,6 +15,7 @@ struct TreesimOptions {
     RunOptions run;
     std::string fields, save_state, save_tree, resume;
     std::string skin; // the user's own model
+    std::string mesh; // "made", "own"; empty: own where INPUT has one
     JoinOptions join;
     const OptionList* list = nullptr; // for what was given
     GltfChoice gltf;

@@ -12,12 +12,19 @@ namespace {
 constexpr int mesh_node = 0, armature_node = 1, first_joint = 2;
 
 // What is taken off all positions: nothing, or the first joint's place where floats would be too coarse.
-Vec3 origin_of(const Skin& skin, const GroupFrames& drawn) {
+Vec3 origin_of(const Skin* skin, const OwnMesh* own, const GroupFrames& drawn) {
     Vec3 low = drawn.x_w[0], high = low;
-    for (const Vec3& p : skin.position) {
+    const auto add = [&](const Vec3& p) {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
-    }
+    };
+    if (skin)
+        for (const Vec3& p : skin->position) add(p);
+    if (own)
+        for (const OwnPart& part : own->part)
+            each_vertex(*own, part, [&](const OwnSurface& from, std::size_t v, const OwnPlace* place) {
+                add(position_of(from, v, place).cast<double>());
+            });
     const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
     const bool suffices = farthest * std::numeric_limits<float>::epsilon() <= 1e-6 * (high - low).maxCoeff();
     return suffices ? Vec3(Vec3::Zero()) : drawn.x_w[0];
@@ -156,7 +163,15 @@ GroupFrames turned(GroupFrames frames, const JointGroups& groups, const Mat3& tu
 
 GltfWriter::GltfWriter(Output& output, const Skin& skin, const Tree& tree, const JointGroups& groups,
                        const GltfOptions& options, Rustle* rustle)
-    : output_(output), skin_(skin), tree_(tree), groups_(groups), options_(options),
+    : GltfWriter(output, &skin, nullptr, tree, groups, options, rustle) {}
+
+GltfWriter::GltfWriter(Output& output, const OwnMesh& own, const Tree& tree, const JointGroups& groups,
+                       const GltfOptions& options)
+    : GltfWriter(output, nullptr, &own, tree, groups, options, nullptr) {}
+
+GltfWriter::GltfWriter(Output& output, const Skin* skin, const OwnMesh* own, const Tree& tree,
+                       const JointGroups& groups, const GltfOptions& options, Rustle* rustle)
+    : output_(output), skin_(skin), own_(own), tree_(tree), groups_(groups), options_(options),
       drawn_(options.x_along ? turned(drawn_frames(tree, groups), groups, x_from_z()) : drawn_frames(tree, groups)),
       keys_(groups.parent, drawn_.rotation), rotation_(groups.size()), rustle_(rustle) {
     if (groups.size() > 65536)
@@ -181,29 +196,42 @@ void GltfWriter::write(const MotionFrame& frame) {
     for (const double w : rustle_->weights()) weights_.push_back(float(w));
 }
 
-void GltfWriter::finish() {
-    keys_.thin(options_.key_tolerance);
-    const Vec3 origin = origin_of(skin_, drawn_);
-    GltfFile file;
+// Nodes, materials and meshes, as elements of the document.
+std::string GltfWriter::shown(GltfFile& file, const Vec3& origin, std::string& extensions, int& weights_node) const {
     GltfLeaves leaves;
+    if (own_) {
+        const std::string mesh = gltf_own_mesh(file, *own_, groups_, origin);
+        return "[\n" + nodes(tree_, groups_, drawn_, origin, leaves) + "],\n" + gltf_own_materials(file, *own_) +
+               ",\n\"meshes\":[" + mesh + "]";
+    }
     if (options_.leaf_instances)
         leaves =
-            gltf_leaves(file, tree_, groups_, drawn_, first_joint + int(groups_.size()), 1, int(skin_.part.size()));
+            gltf_leaves(file, tree_, groups_, drawn_, first_joint + int(groups_.size()), 1, int(skin_->part.size()));
+    const LeafMesh rustling = leaf_mesh(file, *skin_, groups_, origin, weights_.empty() ? nullptr : rustle_);
+    if (!leaves.nodes.empty())
+        extensions =
+            ",\n\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]";
+    weights_node = rustling.node;
+    return "[\n" + nodes(tree_, groups_, drawn_, origin, leaves) + (rustling.own ? leaf_node(tree_) : "") +
+           "],\n\"materials\":[\n" + gltf_materials(*skin_) + leaves.materials + "],\n\"meshes\":[" + rustling.meshes +
+           leaves.meshes + "]";
+}
+
+void GltfWriter::finish() {
+    keys_.thin(options_.key_tolerance);
+    const Vec3 origin = origin_of(skin_, own_, drawn_);
     // Still air moves nothing: no targets.
     if (std::all_of(weights_.begin(), weights_.end(), [](float w) { return w == 0; })) weights_.clear();
-    const LeafMesh rustling = leaf_mesh(file, skin_, groups_, origin, weights_.empty() ? nullptr : rustle_);
-    std::string json = asset(options_);
-    if (!leaves.nodes.empty())
-        json +=
-            ",\n\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]";
-    json += ",\n\"scene\":0,\"scenes\":[{\"nodes\":[" + std::to_string(mesh_node) + "," +
-            std::to_string(armature_node) + (rustling.own ? "," + std::to_string(rustling.node) : "") +
-            "]}],\n\"nodes\":[\n" + nodes(tree_, groups_, drawn_, origin, leaves) +
-            (rustling.own ? leaf_node(tree_) : "") + "],\n\"materials\":[\n" + gltf_materials(skin_) +
-            leaves.materials + "],\n\"meshes\":[" + rustling.meshes + leaves.meshes + "],\n\"skins\":[" +
-            skin_of(file, drawn_, origin) + "]";
+    GltfFile file;
+    std::string extensions;
+    int weights_node = mesh_node;
+    const std::string elements = shown(file, origin, extensions, weights_node);
+    std::string json = asset(options_) + extensions + ",\n\"scene\":0,\"scenes\":[{\"nodes\":[" +
+                       std::to_string(mesh_node) + "," + std::to_string(armature_node) +
+                       (weights_node > armature_node ? "," + std::to_string(weights_node) : "") +
+                       "]}],\n\"nodes\":" + elements + ",\n\"skins\":[" + skin_of(file, drawn_, origin) + "]";
     const std::string animation =
-        gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint, weights_, rustling.node);
+        gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint, weights_, weights_node);
     if (!animation.empty()) json += ",\n\"animations\":[" + animation + "]";
     file.write(output_, json);
 }

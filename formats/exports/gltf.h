@@ -29,6 +29,7 @@
 #include "lib/growth/rustle.h"
 #include "lib/growth/skin.h"
 #include "lib/model/motion.h"
+#include "own_mesh.h"
 
 namespace bough {
 
@@ -41,6 +42,8 @@ struct GltfOptions {
     bool x_along = false; // a joint's x axis lies along the branch, as Unreal wants it; else z
 };
 
+class GltfFile;
+
 // Where a root's joint is, frame after frame.
 struct RootPath {
     std::size_t joint;
@@ -52,6 +55,8 @@ class GltfWriter {
 public:
     // Keeps references to all but the options. rustle: of this skin, together; none where nothing rustles.
     GltfWriter(Output&, const Skin&, const Tree&, const JointGroups&, const GltfOptions&, Rustle* rustle = nullptr);
+    // What came with the tree is shown in place of a skin.
+    GltfWriter(Output&, const OwnMesh&, const Tree&, const JointGroups&, const GltfOptions&);
     // The next frame (its pose).
     void write(const MotionFrame&);
     // All of the file. Once; the caller finishes the Output.
@@ -59,8 +64,12 @@ public:
     const JointKeys& keys() const { return keys_; } // thinned once it is finished
 
 private:
+    GltfWriter(Output&, const Skin*, const OwnMesh*, const Tree&, const JointGroups&, const GltfOptions&, Rustle*);
+    std::string shown(GltfFile&, const Vec3& origin, std::string& extensions, int& weights_node) const;
+
     Output& output_;
-    const Skin& skin_;
+    const Skin* const skin_; // or
+    const OwnMesh* const own_;
     const Tree& tree_;
     const JointGroups& groups_;
     GltfOptions options_;

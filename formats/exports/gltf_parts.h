@@ -70,6 +70,10 @@ VertexStretch vertices_of(const Skin&, const SkinPart&);
 std::string gltf_materials(const Skin&);
 std::string gltf_material(const std::string& part, const Vec3& srgb);
 
+// ---- gltf_own.cpp ---- a mesh that came with the tree: its element of "meshes", and "materials" with all that they use.
+std::string gltf_own_mesh(GltfFile&, const OwnMesh&, const JointGroups&, const Vec3& origin);
+std::string gltf_own_materials(GltfFile&, const OwnMesh&);
+
 // ---- gltf_leaves.cpp ---- leaves and petals as instances under the joints that bear them.
 struct GltfLeaves {
     std::string materials, meshes, nodes; // elements of these arrays, each after a comma

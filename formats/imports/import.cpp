@@ -43,6 +43,13 @@ const SplineFormat* format_of(std::string_view content, const std::string& name)
 
 } // namespace
 
+bool is_importable(std::string_view content, const std::string& name) {
+    if (is_splines(content)) return true;
+    const std::string_view head = content.substr(0, std::size_t(1) << 20);
+    const std::optional<std::string> lines = with_line_feeds(head);
+    return !head.empty() && format_of(lines ? std::string_view(*lines) : content, name);
+}
+
 Splines import_splines(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     if (is_splines(content)) {
         notes.format = "bough-splines";

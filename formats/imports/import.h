@@ -31,6 +31,7 @@ struct ImportNotes {
     std::string format;               // name of the format
     double unit = 1;                  // [m] one unit of the file
     char up = 'y';                    // its up axis, 'y' or 'z'
+    Vec3 moved = Vec3::Zero();        // [m] by which it was moved to the origin (placed_import.h), Y up
     std::string unit_from = "stated"; // "stated" by the file or its format, "given" as option, or "guessed"
     std::string up_from = "stated";
 };
@@ -56,5 +57,8 @@ extern const SplineFormat eztree_branches_format; // eztree_branches.cpp
 // Our own splines document, or the first format that recognizes the content. Throws InputError that lists what could
 // be read, with advice for well-known files that cannot (refused.h).
 Splines import_splines(std::string_view content, const ImportOptions&, ImportNotes&);
+
+// Whether a reader takes the content, by its head alone; it may still find it broken. `name`: its ending decides for damaged files.
+bool is_importable(std::string_view content, const std::string& name);
 
 } // namespace bough

@@ -1,6 +1,7 @@
 #include "imported_tree.h"
 #include "formats/plain_text.h"
 #include "leaf_hosts.h"
+#include "lib/growth/leaf_count.h"
 #include "lib/model/counted.h"
 #include "placed_import.h"
 #include <algorithm>
@@ -188,6 +189,27 @@ void reserve(Splines& s, const std::vector<ImportedBranch>& branches) {
     s.radius.reserve(points);
 }
 
+constexpr std::int32_t twig_pieces = 4;
+
+// Twigs get the width that their area asks for, and say how many leaves they are.
+void make_twigs(const std::vector<ImportedLeaf>& leaves, double unit, Splines& s, ImportNotes& notes) {
+    const auto is_twig = [](const ImportedLeaf& leaf) { return leaf.area > 0 && leaf.pieces >= twig_pieces; };
+    const auto twigs = std::count_if(leaves.begin(), leaves.end(), is_twig);
+    if (twigs == 0) return;
+    s.leaf_count = leaf_counts(s); // of the others, as if nothing were said
+    double area = 0;               // [m^2]
+    for (std::size_t k = 0; k < leaves.size(); ++k) {
+        if (!is_twig(leaves[k])) continue;
+        const double own = unit * unit * leaves[k].area;
+        s.leaf_width[k] = 2 * own / s.leaf_length[k]; // leaf_area()
+        s.leaf_count[k] = leaves[k].pieces;
+        area += own;
+    }
+    notes.lines.push_back(
+        counted(std::size_t(twigs), "leaf is a twig by its mesh", "leaves are twigs by their meshes") +
+        ": a clump, its leaf area that of the mesh (" + shown(area / double(twigs)) + " m2 in the mean)");
+}
+
 void add_leaf(Splines& s, const ImportedLeaf& leaf, double at, const Frame& frame) {
     s.leaf_branch.push_back(leaf.branch);
     s.leaf_at.push_back(at);
@@ -231,6 +253,7 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
     find_hosts(tree.branches, tree.leaves);
     for (const ImportedLeaf& leaf : tree.leaves)
         add_leaf(s, leaf, nearest_on(tree.branches[leaf.branch].point, leaf.position).fraction, frame);
+    make_twigs(tree.leaves, frame.unit, s, notes);
     bring_to_origin(s, notes);
     name_absurd_scale(s, options.unit.has_value(), notes);
     if (const auto defect = check(s)) {

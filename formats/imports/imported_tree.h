@@ -17,6 +17,8 @@ struct ImportedLeaf {
     Vec3 position = Vec3::Zero(); // [file unit]
     Mat3 axes = Mat3::Identity(); // columns in file axes: x width, y normal, z length; a rotation
     double length = 0, width = 0; // [file unit]
+    double area = 0;              // [file unit squared] one side of its sheets, where it has a mesh that tells; else 0
+    std::int32_t pieces = 0;      // of that mesh
 };
 
 struct ImportedTree {
@@ -32,6 +34,9 @@ struct ImportedTree {
 // Branches are put parents first, otherwise in file order; level is the depth. Points that repeat their predecessor
 // are left out with a note, and so is a branch without any length; what it carried goes to its parent. A tree far from
 // the origin is moved there, and an absurd size named (placed_import.h).
+// A leaf whose mesh is of at least 4 pieces is a twig: a clump of as many leaves as it has pieces, whose width is such that its area is
+// the mesh's; mass, stiffness and drag of a clump follow from area and length. A note says how many. (A long leaf of fewer is a card that
+// shows a spray, leaf_count.h: much of its mesh is transparent.)
 // O(points + leaves), with leaves without a branch O(points log points). Throws InputError (place options.name) for a tree
 // without branches and for one that breaks a rule of Splines.
 Splines finish_import(ImportedTree&&, const ImportOptions&, ImportNotes&);

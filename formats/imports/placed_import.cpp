@@ -44,6 +44,7 @@ void bring_to_origin(Splines& s, ImportNotes& notes) {
     base.y() = ground;
     const double aside = std::max(std::abs(base.x()), std::abs(base.z()));
     if (aside <= far_aside * extent && std::abs(ground) <= far_above * extent) return;
+    notes.moved = -base;
     for (Vec3& p : s.point) p -= base;
     for (Vec3& p : s.leaf_position) p -= base;
     for (Vec3& p : s.fruit_position) p -= base;

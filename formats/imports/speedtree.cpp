@@ -1,5 +1,5 @@
 // speedtree.cpp: SpeedTree raw XML, <SpeedTreeRaw>: branches from the spines where the file has any, else from the bones;
-// leaves from the leaf references. The bark mesh, materials and Mass are not read.
+// leaves from the leaf references. Mesh and materials are speedtree_mesh.h; Mass is not read.
 #include "formats/plain_text.h"
 #include "speedtree_bones.h"
 #include "speedtree_leaves.h"

@@ -3,6 +3,7 @@
 #include "formats/plain_text.h"
 #include "lib/model/counted.h"
 #include <algorithm>
+#include <limits>
 
 namespace bough::speedtree {
 namespace {
@@ -91,6 +92,27 @@ std::vector<double> Fields::numbers(const pugi::xml_node& parent, const char* ch
 
 std::vector<std::int64_t> Fields::integers(const pugi::xml_node& parent, const char* child) const {
     return list<std::int64_t>(parent, child, "integers", parse_integer);
+}
+
+std::vector<float> Fields::floats(const pugi::xml_node& parent, const char* child) const {
+    const auto single = [](std::string_view token) -> std::optional<float> {
+        const std::optional<double> value = comma_number(token);
+        if (!value || std::abs(*value) > double(std::numeric_limits<float>::max())) return {};
+        return float(*value);
+    };
+    return list<float>(parent, child, "finite numbers", single);
+}
+
+std::vector<std::int32_t> Fields::indices(const pugi::xml_node& parent, const char* child, std::size_t end,
+                                          const char* things) const {
+    const std::string what = end == 0 ? std::string("none, as there are no ") + things
+                                      : "0 to " + std::to_string(end - 1) + " (" + things + ")";
+    const auto index = [end](std::string_view token) -> std::optional<std::int32_t> {
+        const std::optional<std::int64_t> value = parse_integer(token);
+        if (!value || *value < 0 || std::size_t(*value) >= end) return {};
+        return std::int32_t(*value);
+    };
+    return list<std::int32_t>(parent, child, what.c_str(), index);
 }
 
 std::vector<Vec3> Fields::points(const pugi::xml_node& parent, const char* prefix) const {

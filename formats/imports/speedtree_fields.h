@@ -27,10 +27,17 @@ public:
     std::int64_t integer(const pugi::xml_node&, const char* attribute, std::int64_t fallback) const;
     Vec3 vector(const pugi::xml_node&, const char* prefix) const;                       // prefixX, prefixY, prefixZ
     Vec3 vector(const pugi::xml_node&, const char* prefix, const Vec3& fallback) const; // absent components only
+    Vec3 vector_of(const pugi::xml_node& node, const char* x, const char* y, const char* z) const {
+        return {number(node, x), number(node, y), number(node, z)};
+    }
 
     // Child elements that hold blank-separated numbers. A missing child is an empty list.
     std::vector<double> numbers(const pugi::xml_node& parent, const char* child) const;
     std::vector<std::int64_t> integers(const pugi::xml_node& parent, const char* child) const;
+    std::vector<float> floats(const pugi::xml_node& parent, const char* child) const;
+    // Whole numbers from 0 to `end` - 1, of what messages call `things`.
+    std::vector<std::int32_t> indices(const pugi::xml_node& parent, const char* child, std::size_t end,
+                                      const char* things) const;
     // Points from prefixX, prefixY, prefixZ children, which must be there and equally long.
     std::vector<Vec3> points(const pugi::xml_node& parent, const char* prefix) const;
     // Refuses a list that is not `expected` long.

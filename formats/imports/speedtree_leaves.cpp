@@ -41,7 +41,8 @@ std::optional<LeafShape> shape_of(const Mesh& mesh) {
     const int width = across[first_is_wider ? 0 : 1], normal = across[first_is_wider ? 1 : 0];
     if (!(reach[length] > 0) || !(extent[width] > 0)) return {};
     const double sign = mesh.high[length] >= -mesh.low[length] ? 1 : -1;
-    return LeafShape{axes_from(sign * Vec3::Unit(length), Vec3::Unit(normal)), reach[length], extent[width]};
+    return LeafShape{axes_from(sign * Vec3::Unit(length), Vec3::Unit(normal)), reach[length], extent[width], mesh.area,
+                     mesh.pieces};
 }
 
 std::vector<ImportedLeaf> leaves_of(const File& file, const std::vector<std::int32_t>& branch_of, ImportNotes& notes) {
@@ -62,6 +63,8 @@ std::vector<ImportedLeaf> leaves_of(const File& file, const std::vector<std::int
         leaf.axes = rotation(reference.axis, reference.angle) * shape.axes;
         leaf.length = reference.scale * shape.length;
         leaf.width = reference.scale * shape.width;
+        leaf.area = reference.scale * reference.scale * shape.area;
+        leaf.pieces = shape.pieces;
         leaves.push_back(leaf);
     }
     if (file.leaves_without_size > 0)

@@ -16,11 +16,13 @@ namespace bough::speedtree {
 struct LeafShape {
     Mat3 axes; // columns in mesh axes: x width, y normal, z length
     double length, width;
+    double area = 0;         // one side of its sheets (mesh_measure.h); 0: not known
+    std::int32_t pieces = 0; // leaves, and what bears them
 };
 // Nothing for a mesh without extent in two directions.
 std::optional<LeafShape> shape_of(const Mesh&);
 
-// One leaf per reference, a twig mesh too. branch_of holds the branch of each reference, -1: the nearest. A reference
+// One leaf per reference, a twig mesh too, which imported_tree.h makes a twig. branch_of holds the branch of each reference, -1: the nearest. A reference
 // without a mesh that has a shape becomes 1 long (along y) and 0.5 wide, times Scale, with a note, as are references of Scale 0, which are left out. O(leaves).
 std::vector<ImportedLeaf> leaves_of(const File&, const std::vector<std::int32_t>& branch_of, ImportNotes&);
 

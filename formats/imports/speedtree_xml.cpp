@@ -1,6 +1,7 @@
 #include "speedtree_xml.h"
 #include "formats/plain_text.h"
 #include "imported_tree.h"
+#include "mesh_measure.h"
 #include "speedtree_elements.h"
 #include <algorithm>
 #include <unordered_map>
@@ -97,13 +98,16 @@ void parse_surface(const pugi::xml_node& node, const Vec3& origin, const Fields&
 void parse_leaves(const pugi::xml_node& node, std::int32_t object, const Index& bones, const Fields& f, File& file) {
     const std::vector<Vec3> position = f.points(node, ""), axis = f.points(node, "RotAxis");
     const std::vector<double> angle = f.numbers(node, "RotAngle"), scale = f.numbers(node, "Scale");
-    const std::vector<std::int64_t> mesh = f.integers(node, "MeshID"), bone = f.integers(node, "BoneID");
+    const std::vector<std::int64_t> mesh = f.integers(node, "MeshID"), bone = f.integers(node, "BoneID"),
+                                    lod = f.integers(node, "MeshLOD");
+    const std::int64_t material = f.integer(node, "Material", no_material);
     const std::size_t n = position.size();
     expect_count(node, n, f);
     f.expect_length(node, "RotAxisX", axis.size(), n);
     f.expect_length(node, "RotAngle", angle.size(), n);
     f.expect_length(node, "Scale", scale.size(), n);
     if (node.child("MeshID")) f.expect_length(node, "MeshID", mesh.size(), n);
+    if (node.child("MeshLOD")) f.expect_length(node, "MeshLOD", lod.size(), n);
     if (node.child("BoneID")) f.expect_length(node, "BoneID", bone.size(), n);
     for (std::size_t i = 0; i < n; ++i) {
         LeafReference leaf;
@@ -113,6 +117,8 @@ void parse_leaves(const pugi::xml_node& node, std::int32_t object, const Index& 
         leaf.angle = angle[i];
         leaf.scale = scale[i];
         if (!mesh.empty()) leaf.mesh = mesh[i];
+        if (!lod.empty()) leaf.lod = lod[i];
+        leaf.material = material;
         if (scale[i] < 0) f.refuse(node, "Scale holds " + shown(scale[i]) + ", expected 0 or more");
         if (scale[i] == 0) {
             ++file.leaves_without_size;
@@ -151,6 +157,24 @@ void parse_objects(const Elements& elements, const Index& bones, const Fields& f
     link_parents(file.objects, links, index, "Object", f);
 }
 
+// Quads as two; by material where there are no lists of all.
+std::vector<std::array<std::int32_t, 3>> triangles_of(const pugi::xml_node& lod, std::size_t points, const Fields& f) {
+    std::vector<std::array<std::int32_t, 3>> triangle;
+    const auto add = [&](const std::vector<std::int32_t>& corner) {
+        for (std::size_t k = 0; k + 2 < corner.size(); k += 3)
+            triangle.push_back({corner[k], corner[k + 1], corner[k + 2]});
+    };
+    add(f.indices(lod, "TriangleIndices", points, "vertices"));
+    const std::vector<std::int32_t> quad = f.indices(lod, "QuadIndices", points, "vertices");
+    for (std::size_t k = 0; k + 3 < quad.size(); k += 4) {
+        triangle.push_back({quad[k], quad[k + 1], quad[k + 2]});
+        triangle.push_back({quad[k], quad[k + 2], quad[k + 3]});
+    }
+    for (const pugi::xml_node& list : lod.children("Triangles"))
+        if (!lod.child("Points")) add(f.indices(list, "PointIndices", points, "points"));
+    return triangle;
+}
+
 void parse_meshes(const Elements& elements, File& file) {
     elements.each("Meshes", "Mesh", [&](const pugi::xml_node& node, const Fields& f) {
         Mesh mesh;
@@ -165,6 +189,9 @@ void parse_meshes(const Elements& elements, File& file) {
                 mesh.low = mesh.low.cwiseMin(p);
                 mesh.high = mesh.high.cwiseMax(p);
             }
+            const MeshMeasure found = measured(points, triangles_of(lod, points.size(), f));
+            mesh.area = found.area;
+            mesh.pieces = found.pieces;
             break;
         }
         file.meshes.push_back(mesh);

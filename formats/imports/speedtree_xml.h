@@ -30,10 +30,14 @@ struct Bone {
     std::size_t line = 0;
 };
 
+constexpr std::int64_t no_material = std::numeric_limits<std::int64_t>::min();
+
 struct LeafReference {
-    std::int32_t object = -1; // that holds it
-    std::int32_t bone = -1;   // index, -1: none
-    std::int64_t mesh = -1;   // ID, -1: none
+    std::int32_t object = -1;            // that holds it
+    std::int32_t bone = -1;              // index, -1: none
+    std::int64_t mesh = -1;              // ID, -1: none
+    std::int64_t lod = 0;                // Level of that mesh
+    std::int64_t material = no_material; // ID, of a mesh that names none itself
     Vec3 position = Vec3::Zero(), axis = Vec3::Zero();
     double angle = 0; // [deg] about axis
     double scale = 1;
@@ -41,7 +45,10 @@ struct LeafReference {
 
 struct Mesh {
     std::int64_t id = 0;
-    Vec3 low = Vec3::Zero(), high = Vec3::Zero(); // bounds of its first level of detail that has vertices
+    // Of its first level of detail that has vertices: bounds, and what its triangles are (mesh_measure.h).
+    Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+    double area = 0;
+    std::int32_t pieces = 0;
 };
 
 struct File {

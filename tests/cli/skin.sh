@@ -31,7 +31,8 @@ refused 1 "--sides: not with --skin" "${run[@]}" --skin "$twig" --sides 8 -o x.g
 refused 1 "--max-joints: not with --skin" "${run[@]}" --skin "$twig" --max-joints 8 -o x.glb
 cp a.glb own.glb
 refused 1 "which --skin reads" "${run[@]}" --skin own.glb -o ./own.glb
-refused 2 "is no model that can be moved" "${run[@]}" --skin "$maple" -o x.glb
+refused 2 "has no mesh of its own" "${run[@]}" --skin "$maple" -o x.glb
+refused 2 "is no model that can be moved" "${run[@]}" --skin "$top/data/fixtures/shrub.mtg" -o x.glb
 refused 2 "has no armature" "${run[@]}" --skin "$top/data/fixtures/lines.gltf" -o x.glb
 refused 2 "none.glb" "${run[@]}" --skin none.glb -o x.glb
 head -c 900 a.glb >cut.glb

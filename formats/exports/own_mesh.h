@@ -1,0 +1,74 @@
+// own_mesh.h: a mesh that came with the tree, bound to the tree's bodies: what a .glb shows in place of a skin made of them.
+//
+// Standing vertices are moved by one body or two; what is placed is a shape of its own, drawn wherever it is placed, and moved by one.
+// Places of one shape share its arrays until they are written, so that ten thousand twigs cost little more than one.
+#pragma once
+#include "lib/growth/skin.h"
+#include "lib/model/math.h"
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+struct OwnSurface {
+    std::vector<Eigen::Vector3f> position, normal;     // [m], unit; a shape's in its own frame
+    std::vector<std::vector<std::array<float, 2>>> uv; // sets; v from the top of an image down, as glTF has it
+    std::vector<std::array<float, 4>> color;           // or empty
+    std::vector<std::array<std::int32_t, 3>> triangle;
+};
+
+struct OwnPlace {
+    std::int32_t shape = 0, body = 0;
+    Eigen::Matrix3f turn = Eigen::Matrix3f::Identity(); // and scale
+    Eigen::Vector3f place = Eigen::Vector3f::Zero();    // [m] world, drawn
+};
+
+struct OwnPart { // of one material
+    std::string name;
+    Vec3 color = Vec3::Constant(0.8); // sRGB
+    std::int32_t material = 0;
+    OwnSurface standing; // [m] world, drawn
+    std::vector<std::array<std::int32_t, 2>> body;
+    std::vector<float> second; // weight of the second body; the first has the rest
+    std::vector<OwnPlace> placed;
+};
+
+struct OwnImage {
+    std::string name, type, bytes; // "image/png"
+};
+
+struct OwnMesh {
+    std::vector<OwnPart> part; // none without triangles
+    std::vector<OwnSurface> shape;
+    std::vector<std::string> material; // a glTF material each, as JSON; texture i is image i
+    std::vector<OwnImage> image;
+};
+
+std::size_t vertices_of(const OwnMesh&, const OwnPart&);
+std::size_t triangles_of(const OwnMesh&, const OwnPart&);
+
+// All of it as a skin, for writers of meshes frame by frame: the first set of UV, v counted from the bottom up. O(vertices), 90 bytes each.
+// Throws std::length_error beyond 2^31 - 1 vertices.
+Skin skin_of(const OwnMesh&);
+
+// take(surface, vertex, place or null) for each vertex of a part, in the order in which they are written.
+template <class Take> void each_vertex(const OwnMesh& mesh, const OwnPart& part, Take&& take) {
+    for (std::size_t v = 0; v < part.standing.position.size(); ++v)
+        take(part.standing, v, static_cast<const OwnPlace*>(nullptr));
+    for (const OwnPlace& place : part.placed) {
+        const OwnSurface& shape = mesh.shape[std::size_t(place.shape)];
+        for (std::size_t v = 0; v < shape.position.size(); ++v) take(shape, v, &place);
+    }
+}
+inline Eigen::Vector3f position_of(const OwnSurface& surface, std::size_t v, const OwnPlace* place) {
+    if (!place) return surface.position[v];
+    return place->turn * surface.position[v] + place->place;
+}
+// Placed shapes are scaled alike in all directions.
+inline Eigen::Vector3f normal_of(const OwnSurface& surface, std::size_t v, const OwnPlace* place) {
+    if (!place) return surface.normal[v];
+    return (place->turn * surface.normal[v]).normalized();
+}
+
+} // namespace bough

@@ -1,0 +1,34 @@
+// texture_file.h: an image that a tree's file names, found, looked at, and as PNG or JPEG, which are what glTF holds.
+//
+// Where it is looked for: where the name leads (as it is if absolute, else from the folder of the file that names it), then under its bare
+// name in that folder, both without regard to capitals where there is no exact match; names written on Windows are understood.
+// PNG and JPEG stay byte for byte; TGA, BMP, TIFF and whatever else stb_image reads are decoded and written as PNG.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+struct Pixels {
+    int width = 0, height = 0, channels = 0; // channels of the file, 1 to 4
+    std::vector<std::uint8_t> rgba;          // 4 bytes a pixel, from the top row down
+    bool transparent() const;                // any pixel less than opaque
+};
+
+// The path of the file, "" if there is none; `looked` gets the places that were tried.
+std::string find_texture(const std::string& name, const std::string& folder, std::vector<std::string>& looked);
+
+struct Texture {
+    std::string bytes, type; // of the file if it is PNG or JPEG, else empty
+    Pixels pixels;
+};
+// Throws InputError with the path and `named_by` for what is no image, or half of one.
+Texture read_texture(const std::string& path, const std::string& named_by);
+
+std::string png_of(int width, int height, int channels, const std::vector<std::uint8_t>& pixels);
+
+// One channel of an image at another's size, by the nearest pixel.
+std::uint8_t channel_at(const Pixels&, int channel, int x, int y, int width, int height);
+
+} // namespace bough

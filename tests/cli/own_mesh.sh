@@ -1,0 +1,124 @@
+# The mesh that came with the tree: a SpeedTree XML's in one command, with its textures; a skinned model's; --mesh and --skin; what is refused.
+. "$(dirname "$0")/common.sh" "$@"
+
+fixture=$top/data/fixtures/meshed_tree.xml
+mkdir -p art/textures
+cp "$fixture" art/tree.xml
+# Images of 4 by 4 pixels: TGA with an upright red row at the top, PNG, BMP.
+python3 - <<'P'
+import struct, zlib
+def tga(name, pixel):
+    open(name, "wb").write(struct.pack("<BBBHHBHHHHBB", 0, 0, 2, 0, 0, 0, 0, 0, 4, 4, 24, 0x20) + b"".join(bytes(reversed(pixel(x, y))) for y in range(4) for x in range(4)))
+def png(name, pixel):
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = b"".join(b"\0" + bytes(c for x in range(4) for c in pixel(x, y)) for y in range(4))
+    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+def bmp(name, pixel):
+    data = b"".join(bytes(reversed(pixel(x, 3 - y))) for y in range(4) for x in range(4))
+    open(name, "wb").write(b"BM" + struct.pack("<IHHI", 54 + len(data), 0, 0, 54) + struct.pack("<IiiHHIIiiII", 40, 4, 4, 1, 24, 0, len(data), 0, 0, 0, 0) + data)
+tga("art/textures/Bark.tga", lambda x, y: (255, 0, 0) if y == 0 else (90, 70, 50))
+png("art/leaf.png", lambda x, y: (10 * x, 100 + 10 * y, 20))
+bmp("art/leaf_opacity.bmp", lambda x, y: (255, 255, 255) if y < 2 else (0, 0, 0))
+P
+# image FILE.glb NAME: the embedded PNG's pixels, a line a row; material FILE.glb NAME: its JSON.
+image() {
+    python3 - "$@" <<'P'
+import json, struct, sys, zlib
+data = open(sys.argv[1], "rb").read()
+size = struct.unpack("<I", data[12:16])[0]
+glb, binary = json.loads(data[20:20 + size]), data[28 + size:]
+view = glb["bufferViews"][[i for i in glb["images"] if i["name"] == sys.argv[2]][0]["bufferView"]]
+png = binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+assert png[:8] == b"\x89PNG\r\n\x1a\n"
+at, idat = 8, b""
+while at < len(png):
+    n, kind = struct.unpack(">I4s", png[at:at + 8])
+    if kind == b"IHDR": width, height, depth, color = struct.unpack(">IIBB", png[at + 8:at + 18])
+    if kind == b"IDAT": idat += png[at + 8:at + 8 + n]
+    at += 12 + n
+channels = {0: 1, 2: 3, 6: 4}[color]
+raw, before = zlib.decompress(idat), [0] * (width * channels)
+for y in range(height):
+    line = raw[y * (width * channels + 1):(y + 1) * (width * channels + 1)]
+    row = []
+    for i, c in enumerate(line[1:]):
+        a = row[i - channels] if i >= channels else 0
+        b, d = before[i], before[i - channels] if i >= channels else 0
+        p = a + b - d
+        paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - d), 2, d))[2]
+        row.append((c + [0, a, b, (a + b) // 2, paeth][line[0]]) & 255)
+    before = row
+    print(" ".join(",".join(map(str, row[i:i + channels])) for i in range(0, len(row), channels)))
+P
+}
+json() { python3 -c 'import json,struct,sys;d=open(sys.argv[1],"rb").read();g=json.loads(d[20:20+struct.unpack("<I",d[12:16])[0]]);print(eval(sys.argv[2]))' "$1" "$2"; }
+
+expect 0 treesim art/tree.xml --wind gusty --seconds 1 -o tree.glb
+grep -q 'texture "bark_normal.tga" not found, its material does without it; looked for art/bark_normal.tga$' err || fail "the missing texture: $(cat err)"
+[[ $(grep -c "not found" err) -eq 1 ]] || fail "found textures are named as missing: $(cat err)"
+[[ $(json tree.glb '[i["name"] for i in g["images"]]') == "['bark', 'leaf']" ]] || fail "images: $(json tree.glb 'g["images"]')"
+image tree.glb bark >bark.txt
+[[ $(head -1 bark.txt) == "255,0,0,255 255,0,0,255 255,0,0,255 255,0,0,255" && $(sed -n 2p bark.txt) == "90,70,50,255 "* ]] || fail "the TGA's top is not the PNG's: $(cat bark.txt)"
+image tree.glb leaf >leaf.txt
+[[ $(head -1 leaf.txt) == "0,100,20,255 10,100,20,255 "* && $(sed -n 3p leaf.txt) == "0,120,20,0 "* ]] || fail "colour and opacity in one: $(cat leaf.txt)"
+[[ $(json tree.glb 'g["materials"][1]["alphaMode"], g["materials"][1]["alphaCutoff"], g["materials"][1]["doubleSided"]') == "('MASK', 0.5, True)" ]] || fail "the leaf's material: $(json tree.glb 'g["materials"][1]')"
+[[ $(json tree.glb 'g["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"], "normalTexture" in g["materials"][0]') == "(0.75, False)" ]] || fail "the bark's material"
+# The top of the image, v = 0 in glTF, is where TexcoordV is 1.
+[[ $(json tree.glb 'g["animations"][0]["name"], len(g["meshes"][0]["primitives"])') == "('motion', 2)" ]] || fail "one animated mesh of two materials"
+
+# Any mesh; with a tree of one's own making from it; ours where it is asked for.
+expect 0 treesim art/tree.xml --wind gusty --frames 3 -o frame_%d.obj
+grep -q "^usemtl Leaf" frame_2.obj || fail "frames of the file's own mesh"
+expect 0 treesim art/tree.xml --wind gusty --frames 3 -o tree.pc2
+grep -q "the file's own mesh" err || fail "what a cache moves is not told: $(cat err)"
+[[ $(head -c 20 tree.pc2 | od -An -t d4 -j16 -N4) -eq $(grep -c "^v " frame_0.obj) ]] || fail "a cache of other vertices than the frames have"
+expect 0 treeconvert art/tree.xml --segment-length 0.2 -o own.json
+expect 0 treesim own.json --skin art/tree.xml --wind gusty --frames 3 -o skin.glb
+[[ $(json skin.glb 'sum(g["accessors"][p["indices"]]["count"] for p in g["meshes"][0]["primitives"])') == $(json tree.glb 'sum(g["accessors"][p["indices"]]["count"] for p in g["meshes"][0]["primitives"])') ]] || fail "--skin of SpeedTree XML shows other triangles"
+expect 0 treesim own.json --skin art/tree.xml --frames 2 -o skin_%d.obj
+expect 0 treesim art/tree.xml --mesh made --frames 2 --sides 5 -o made.glb
+[[ $(json made.glb '"images" in g') == False ]] || fail "--mesh made"
+expect 0 treesim art/tree.xml --mesh own --frames 2 --max-joints 3 -o few.glb
+grep -q "bodies merged to 3 joints" err || fail "joints of the file's own mesh: $(cat err)"
+treesim - --frames 2 -o pipe.glb <art/tree.xml 2>err || fail "a pipe: $(cat err)"
+grep -q "shown where INPUT names it" err || fail "a pipe's mesh: $(cat err)"
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "own.json", "position": [4, 0, 2], "yaw": 30}], "wind": "breeze"}' >scene.json
+expect 0 treesim scene.json --skin art/tree.xml --frames 2 -o scene.glb
+twig=$top/data/fixtures/twig_armature.gltf
+expect 0 treesim "$twig" --wind storm --frames 4 -o twig.glb
+expect 0 treesim "$top/data/fixtures/lines.gltf" --frames 2 -o lines.glb
+
+# Refused: what the mesh leaves nothing to decide, other trees, broken files and images.
+refused 1 "--sides: only with --mesh made" treesim art/tree.xml --frames 2 --sides 5 -o x.glb
+refused 1 "--leaves-as: only with --mesh made" treesim art/tree.xml --frames 2 --leaves-as instances -o x.glb
+refused 1 "--rustle: only with --mesh made" treesim art/tree.xml --wind gusty --frames 2 --rustle -o x.glb
+refused 1 "--mesh: only with a mesh" treesim art/tree.xml --frames 2 --mesh own
+refused 1 "--mesh: not with --skin" treesim own.json --skin art/tree.xml --frames 2 --mesh made -o x.glb
+refused 1 "has no mesh that could be moved" treesim "$maple" --frames 2 --mesh own -o x.glb
+refused 2 "has no mesh of its own" treesim own.json --skin "$maple" --frames 2 -o x.glb
+treegen --bodies 300 -q | treeconvert - -q -o other.json
+refused 2 "expected the model that the tree was made from" treesim other.json --skin art/tree.xml --frames 2 -o x.glb
+refused 1 "would replace" treesim own.json --skin art/tree.xml --frames 2 --save-tree art/tree.xml -o x.glb
+broken() { # SED TEXT
+    sed "$1" art/tree.xml >art/broken.xml
+    cmp -s art/tree.xml art/broken.xml && fail "nothing changed by $1"
+    refused 2 "$2" treesim art/broken.xml --frames 2 -o x.glb
+    grep -q "broken.xml:[0-9]*: " err || fail "no line in: $(cat err)"
+}
+broken 's/<PointIndices>0 1/<PointIndices>0 900/' 'PointIndices holds "900"'
+broken 's/<VertexIndices>0 1/<VertexIndices>0 nan/' 'VertexIndices holds "nan"'
+broken 's/Triangles Material="1"/Triangles Material="9"/' 'Material 9 does not exist'
+broken 's/<BoneID>0 0/<BoneID>0 12/' 'BoneID 12 does not exist'
+broken 's/<NormalX>1/<NormalX>nan/' 'NormalX holds "nan"'
+broken 's/<QuadIndices>0/<QuadIndices>4/' 'QuadIndices holds "4"'
+head -c 4000 art/tree.xml >art/half.xml
+refused 2 "half.xml:" treesim art/half.xml --frames 2 -o x.glb
+head -c 40 art/leaf.png >half.png
+for bad in /dev/null half.png art/tree.xml; do
+    cp art/leaf.png good.png
+    cat $bad >art/leaf.png
+    refused 2 "is no image that can be read" treesim art/tree.xml --frames 2 -o x.glb
+    grep -q "art/leaf.png: .*art/tree.xml:11 names it" err || fail "where the image is named: $(cat err)"
+    cp good.png art/leaf.png
+done
+absent x.glb

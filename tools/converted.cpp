@@ -1,0 +1,89 @@
+#include "converted.h"
+#include "formats/documents/tree.h"
+#include "formats/mapped.h"
+#include "formats/plain_text.h"
+#include "import_file.h"
+#include "lib/model/counted.h"
+
+namespace bough {
+namespace {
+
+bool must_be_converted(std::string_view content, const std::string& name) {
+    if (is_tree(content)) return false;
+    if (is_importable(content, name)) return true;
+    // What might have been a document of ours, its reader says best what is wrong with; of all else, what could be read.
+    const std::size_t first = text_start(content.substr(0, 4096));
+    return first < content.size() && content[first] != '{' && content[first] != '[' &&
+           content.substr(0, 4096).find('\0') == std::string_view::npos;
+}
+
+std::string in_shell(const std::string& file) {
+    const bool plain = file.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+./,") ==
+                       std::string::npos;
+    if (plain) return file;
+    std::string text = "'";
+    for (const char c : file) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+TreeOfFile converted(const Splines& splines, ImportNotes found, const std::string& file) {
+    const std::string name = input_name(file);
+    TreeOfFile made;
+    SegmentReport report;
+    made.tree = segment(splines, own_material(splines, name), {}, &report);
+    require_bodies(made.tree, name);
+    for (const std::string& line : found.lines) made.notes.push_back(name + ": " + line);
+    for (const std::string& line : repairs(report)) made.notes.push_back(name + ": " + line);
+    const std::string to = (file == "-" ? "tree" : stem_of(file)) + ".tree.json";
+    made.notes.push_back(
+        name + ": " + found.format + ", converted to " + counted(made.tree.size_bodies(), "body", "bodies") +
+        " with the defaults of treeconvert; by hand: treeconvert " + in_shell(file) + " -o " + in_shell(to));
+    made.imported = std::move(found);
+    return made;
+}
+
+} // namespace
+
+Material own_material(const Splines& splines, const std::string& name) {
+    if (splines.material.empty()) return wood_presets().front();
+    if (const Material* preset = find_wood(splines.material)) return *preset;
+    throw InputError(name + ": /material", "is \"" + splines.material +
+                                               "\", expected a preset (see treeconvert --list-materials); "
+                                               "treeconvert --material overrides it");
+}
+
+std::vector<std::string> repairs(const SegmentReport& report) {
+    std::vector<std::string> lines;
+    const auto note = [&](std::int64_t count, const char* one, const char* many) {
+        if (count > 0) lines.push_back(counted(count, one, many));
+    };
+    note(report.merged_points, "near-coincident point merged", "near-coincident points merged");
+    note(report.dropped_branches, "branch without length left out, what grows on it moved to its parent",
+         "branches without length left out, what grows on them moved to their parent");
+    note(report.thin_points, "radius raised to the least that has a mass", "radii raised to the least that has a mass");
+    return lines;
+}
+
+void require_bodies(const Tree& tree, const std::string& name) {
+    if (tree.size_bodies() == 0) throw InputError(name, "holds no branch with a length, expected a tree");
+}
+
+bool is_converted(const std::string& file) {
+    return file != "-" && must_be_converted(MappedInput(file).content(), input_name(file));
+}
+
+TreeOfFile read_any_tree(const std::string& file) {
+    if (!is_converted(file)) return read_any_tree(Input(file), file);
+    ImportNotes found;
+    const Splines splines = read_import(file, {}, found);
+    return converted(splines, std::move(found), file);
+}
+
+TreeOfFile read_any_tree(const Input& input, const std::string& file) {
+    if (!must_be_converted(input.content(), input.name())) return {read_tree(input), {}, {}};
+    ImportNotes found;
+    const Splines splines = read_import(input.all(), file, found);
+    return converted(splines, std::move(found), file);
+}
+
+} // namespace bough

@@ -1,0 +1,103 @@
+#include "shown_model.h"
+#include "exits.h"
+#include "formats/mapped.h"
+#include "formats/models/gltf_document.h"
+#include "formats/models/model_kind.h"
+#include "import_file.h"
+
+namespace bough {
+namespace {
+
+// Whether INPUT's own mesh is wanted, if it has one.
+bool wants_own(const TreesimOptions& o, const std::string& format) {
+    return is_mesh(format) && o.skin.empty() && o.mesh != "made" && o.run.input != "-";
+}
+
+bool has_skinned_mesh(const UserModel& model) {
+    for (const auto& node : model.document->json.value("nodes", nlohmann::ordered_json::array()))
+        if (node.contains("mesh") && node.contains("skin")) return true;
+    return false;
+}
+
+void add_notes(const std::string& name, const ImportNotes& notes, TreesimOptions& o) {
+    for (const std::string& line : notes.lines) o.common.notes.push_back(name + ": " + line);
+}
+
+void refuse_unused(const TreesimOptions& o) {
+    const std::string made = o.skin.empty()
+                                 ? "only with --mesh made, as " + input_name(o.run.input) + " has a mesh of its own"
+                                 : "not with --skin, whose mesh is its own";
+    if (o.sides) throw UsageError("--sides: " + made);
+    if (o.rustle) throw UsageError("--rustle: " + made);
+    if (!o.gltf.leaves_as.empty()) throw UsageError("--leaves-as: " + made);
+}
+
+SpeedtreeModel speedtree_model(TreesimOptions& o, const std::string& path, const Setting& setting) {
+    ImportNotes found, notes;
+    if (path == o.run.input && setting.imported)
+        found = *setting.imported;
+    else
+        read_import(path, {}, found); // for its unit, its axes and where it stands
+    const MappedInput file(path);
+    SpeedtreeModel model = read_speedtree_model(file.content(), path, found, notes, [&file] { file.give_back(); });
+    file.check();
+    add_notes(model.name, notes, o);
+    return model;
+}
+
+} // namespace
+
+bool is_speedtree_file(const std::string& path) {
+    return path != "-" && !path.empty() &&
+           MappedInput(path).content().substr(0, 65536).find("<SpeedTreeRaw") != std::string_view::npos;
+}
+
+ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
+    ShownModel model;
+    ImportNotes notes;
+    if (!o.skin.empty()) {
+        if (is_speedtree_file(o.skin)) return model;
+        if (format != "glb") throw UsageError("--skin: only with -o FILE.glb, where it is no SpeedTree XML");
+        model.driven = read_user_model(o.skin, notes);
+        add_notes(model.driven->name, notes, o);
+        return model;
+    }
+    if (format != "glb" || !wants_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
+    try {
+        UserModel own = read_user_model(o.run.input, notes);
+        if (!has_skinned_mesh(own)) return model;
+        model.driven = std::move(own);
+    } catch (const InputError&) {
+        return model; // no armature; and what is wrong with the file, its import says
+    }
+    if (!o.gltf.max_joints.empty())
+        throw UsageError("--max-joints: only with --mesh made, as " + input_name(o.run.input) +
+                         " has a mesh and bones of its own");
+    add_notes(model.driven->name, notes, o);
+    return model;
+}
+
+void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting, const std::string& format) {
+    if (!o.skin.empty() && !model.driven) {
+        model.bound = speedtree_model(o, o.skin, setting);
+    } else if (wants_own(o, format) && setting.imported) {
+        const bool speedtree = is_speedtree_file(o.run.input) && has_speedtree_mesh(MappedInput(o.run.input).content());
+        if (speedtree) model.bound = speedtree_model(o, o.run.input, setting);
+        if (format != "glb" && !model.bound && model_kind(MappedInput(o.run.input).content()))
+            o.common.notes.push_back(input_name(o.run.input) +
+                                     ": the mesh is made from the tree; the file's own, if it "
+                                     "has one, is shown by -o FILE.glb");
+    }
+    if (o.run.input == "-" && setting.imported && o.skin.empty() && o.mesh != "made" && is_mesh(format) &&
+        setting.imported->format == "SpeedTree raw XML")
+        o.common.notes.push_back(
+            "<stdin>: the mesh is made from the tree; the file's own is shown where INPUT names it");
+    if (o.mesh == "own" && !model)
+        throw UsageError("--mesh own: " + input_name(o.run.input) + " has no mesh that could be moved");
+    if (model) refuse_unused(o);
+    if (model && setting.ranges.size() != 1)
+        throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +
+                         " trees, expected one, which the model is of");
+}
+
+} // namespace bough
