@@ -3,6 +3,7 @@
 #include "lib/analytic/composite.h"
 #include "lib/analytic/joint.h"
 #include "lib/reference/solvers.h"
+#include "lib/stages/spring_torque.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <Eigen/Eigenvalues>
