@@ -32,10 +32,10 @@ import json
 frames = [json.loads(line) for line in open("out")][1:]
 assert [f["frame"] for f in frames] == list(range(len(frames))) and frames' || fail "the JSON lines are not whole"
 
-stop '.bough-*' treesim tree.json --frames 1000000 -o cut.json
+stop '.bough-*' treesim -q tree.json --frames 1000000 -o cut.json
 python3 -c 'import json; assert json.load(open("cut.json"))' || fail "the JSON is not whole"
 
-stop '.bough-*' treesim tree.json --frames 1000000 -o cut.glb
+stop '.bough-*' treesim -q tree.json --frames 1000000 -o cut.glb
 python3 -c '
 import json, struct
 data = open("cut.glb", "rb").read()
@@ -43,7 +43,7 @@ size, length = struct.unpack("<II", data[8:16])
 assert size == len(data) and json.loads(data[20:20 + length])["animations"]' || fail "the .glb is not whole"
 
 mkdir frames
-stop 'frames/m_0003.obj' treesim tree.json --frames 1000000 -o frames/m_%04d.obj --save-state state.json
+stop 'frames/m_0003.obj' treesim -q tree.json --frames 1000000 -o frames/m_%04d.obj --save-state state.json
 [[ $(for f in frames/m_*.obj; do grep -c '^f ' "$f"; done | sort -u | wc -l) -eq 1 ]] || fail "a mesh is not whole"
 
 # The state saved by an interrupted run goes on.
@@ -54,7 +54,7 @@ absent
 
 # A point cache tells its number of frames first: it is mended.
 for form in mdd pc2; do
-    stop '.bough-*' treesim tree.json --frames 1000000 -o cut.$form
+    stop '.bough-*' treesim -q tree.json --frames 1000000 -o cut.$form
     python3 - cut.$form <<'END' || fail "a .$form cut short"
 import os, struct, sys
 head = open(sys.argv[1], "rb").read(32)

@@ -49,7 +49,7 @@ for file in one/*; do same "$file" "more/${file#one/}"; done
 # What goes wrong in writing stops the run with the same message, whichever thread it happens in.
 mkdir more/b_3.obj
 for threads in 1 2 3; do
-    refused 4 "stopped after 3 frames: more/b_3.obj" treesim tree.json --frames 100000 --threads $threads -o more/b_%d.obj
+    refused 4 "stopped after 3 frames: more/b_3.obj" treesim -q tree.json --frames 100000 --threads $threads -o more/b_%d.obj
     rm -f more/b_[0-2].obj
     code=0
     { treesim tree.json --frames 100000 --threads $threads 2>err || echo $? >code; } | head -c 3000000 >part.jsonl

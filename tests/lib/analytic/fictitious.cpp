@@ -41,6 +41,7 @@ Run<double> shaken(const Tree& tree, const Scene& scene, double rate) {
     for (Vec3& spin : parts::joints(run.state).spin_dot) spin = solver::random_vector(dice, 10 * rate);
     move_ground(run.plan, run.state, 0.45);
     solver::shake(run.plan, run.state, 5, 0.4, rate);
+    accelerations(run.plan, run.state, parts::joints(run.state));
     parts::composite_update(run.plan, run.state);
     return run;
 }
