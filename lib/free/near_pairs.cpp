@@ -27,6 +27,11 @@ template <class T> typename NearPairs<T>::Box NearPairs<T>::box_of(const Ends& f
     return box;
 }
 
+// What is not meets nothing, and ends the run after the step.
+template <class T> bool NearPairs<T>::finite(const Box& box) {
+    return box.low.allFinite() && box.high.allFinite();
+}
+
 template <class T>
 typename NearPairs<T>::Ends NearPairs<T>::ends_of(const State<T>& state, const Tree& tree, std::size_t i) const {
     const Capsule own = capsule_of(tree.kind[i], tree.size[i]); // along its z-axis
@@ -79,9 +84,9 @@ const std::vector<NearPair>& NearPairs<T>::find(const Plan<T>& plan, State<T>& s
 template <class T> void NearPairs<T>::add_parts(const FreeBody& free, std::size_t k, const FreeMotion& end) {
     for (std::size_t p = 0; p < free.parts.size(); ++p) {
         const Capsule from = placed(free.motion, free.parts[p]), to = placed(end, free.parts[p]);
-        parts_.push_back({box_of({in_float(from.a), in_float(from.b)}, {in_float(to.a), in_float(to.b)},
-                                 std::max(from.radius_a, from.radius_b)),
-                          std::uint32_t(k), std::uint32_t(p)});
+        const Box box = box_of({in_float(from.a), in_float(from.b)}, {in_float(to.a), in_float(to.b)},
+                               std::max(from.radius_a, from.radius_b));
+        if (finite(box)) parts_.push_back({box, std::uint32_t(k), std::uint32_t(p)});
     }
 }
 
@@ -94,7 +99,7 @@ template <class T> void NearPairs<T>::make_grid() {
         all_ = {all_.low.cwiseMin(part.box.low), all_.high.cwiseMax(part.box.high)};
         sum += double((part.box.high - part.box.low).maxCoeff());
     }
-    const Eigen::Array3d extent = (all_.high - all_.low).template cast<double>().array();
+    const Eigen::Array3d extent = (all_.high.template cast<double>() - all_.low.template cast<double>()).array();
     double size = sum / double(parts_.size());
     while (((extent / size).floor() + 1).prod() > most_cells) size *= 1.25;
     size_ = float(size);
@@ -108,8 +113,9 @@ template <class T> void NearPairs<T>::make_grid() {
 }
 
 template <class T> typename NearPairs<T>::Cell NearPairs<T>::cell_at(const Vector3<float>& point) const {
-    const Cell cell = ((point - all_.low) / size_).array().floor().template cast<int>();
-    return cell.max(0).min(count_ - 1);
+    const Eigen::Array3f cell = ((point - all_.low) / size_).array().floor(),
+                         last = (count_ - 1).template cast<float>();
+    return cell.max(0).min(last).template cast<int>(); // no int holds what is far away
 }
 
 template <class T> template <class Visit> void NearPairs<T>::visit_cells(const Box& box, Visit&& visit) const {
@@ -123,7 +129,7 @@ template <class T> void NearPairs<T>::look(std::uint32_t rank, const Box& box) {
     const auto apart = [&box](const Box& other) {
         return (box.low.array() > other.high.array()).any() || (box.high.array() < other.low.array()).any();
     };
-    if (parts_.empty() || apart(all_)) return;
+    if (parts_.empty() || !finite(box) || apart(all_)) return;
     visit_cells(box, [&](std::size_t cell) {
         for (std::uint32_t c = first_[cell]; c < first_[cell + 1]; ++c) {
             const PartBox& part = parts_[in_cell_[c]];

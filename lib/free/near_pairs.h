@@ -44,6 +44,7 @@ private:
     using Cell = Eigen::Array3i;
 
     static Box box_of(const Ends& from, const Ends& to, double radius);
+    static bool finite(const Box&);
     void add_parts(const FreeBody&, std::size_t k, const FreeMotion& end);
     void make_grid();
     Cell cell_at(const Vector3<float>&) const;
