@@ -1,4 +1,5 @@
 #include "converted.h"
+#include "file_names.h"
 #include "formats/documents/tree.h"
 #include "formats/mapped.h"
 #include "formats/plain_text.h"
@@ -15,15 +16,6 @@ bool must_be_converted(std::string_view content, const std::string& name) {
     const std::size_t first = text_start(content.substr(0, 4096));
     return first < content.size() && content[first] != '{' && content[first] != '[' &&
            content.substr(0, 4096).find('\0') == std::string_view::npos;
-}
-
-std::string in_shell(const std::string& file) {
-    const bool plain = file.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+./,") ==
-                       std::string::npos;
-    if (plain) return file;
-    std::string text = "'";
-    for (const char c : file) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
 }
 
 TreeOfFile converted(const Splines& splines, ImportNotes found, const std::string& file) {

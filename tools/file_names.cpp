@@ -1,7 +1,9 @@
 #include "file_names.h"
 #include "exits.h"
 #include "formats/plain_text.h"
+#include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 namespace bough {
 
@@ -18,6 +20,17 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
             if (same_file(input.file, output.file))
                 throw UsageError(output.option + ": is '" + output.file + "', which " + input.option +
                                  " reads and the output would replace");
+}
+
+std::string in_shell(const std::string& argument) {
+    const auto plain = [](unsigned char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80 ||
+               std::string_view("_-./=:,+%@").find(char(c)) != std::string_view::npos;
+    };
+    if (!argument.empty() && std::all_of(argument.begin(), argument.end(), plain)) return argument;
+    std::string text = "'";
+    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c == '\n' ? ' ' : c);
+    return text + "'";
 }
 
 std::string ending(const std::string& path) {

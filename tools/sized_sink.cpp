@@ -6,12 +6,19 @@ namespace {
 
 constexpr double large = 2e9; // [B]
 
+// "1.2 GB", "340 MB", "12 kB".
+std::string bytes_text(double bytes) {
+    if (bytes >= 1e9) return formatted("%.1f GB", bytes / 1e9);
+    if (bytes >= 1e6) return formatted("%.0f MB", bytes / 1e6);
+    return formatted("%.0f kB", bytes / 1e3);
+}
+
 // What holds the same motion in less.
 const char* smaller(const std::string& format) {
     if (format == "obj") return ".pc2 and .mdd hold a frame's vertices in 12 bytes each, .glb the joints' turns alone";
     if (format == "mdd" || format == "pc2") return ".glb holds the joints' turns alone";
     if (format == "safetensors") return "--fields names what is wanted";
-    return ".safetensors takes about a third; --fields names what is wanted";
+    return ".safetensors takes less than half; --fields names what is wanted";
 }
 
 class SizedSink : public FrameSink {
@@ -46,12 +53,6 @@ private:
 std::unique_ptr<FrameSink> sized_sink(std::unique_ptr<FrameSink> to, const std::string& format, std::int64_t frames,
                                       std::function<void(const std::string&)> say) {
     return std::make_unique<SizedSink>(std::move(to), format, frames, std::move(say));
-}
-
-std::string bytes_text(double bytes) {
-    if (bytes >= 1e9) return formatted("%.1f GB", bytes / 1e9);
-    if (bytes >= 1e6) return formatted("%.0f MB", bytes / 1e6);
-    return formatted("%.0f kB", bytes / 1e3);
 }
 
 } // namespace bough

@@ -10,7 +10,4 @@ namespace bough {
 std::unique_ptr<FrameSink> sized_sink(std::unique_ptr<FrameSink>, const std::string& format, std::int64_t frames,
                                       std::function<void(const std::string&)> say);
 
-// "1.2 GB", "340 MB", "12 kB".
-std::string bytes_text(double bytes);
-
 } // namespace bough

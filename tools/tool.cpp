@@ -1,4 +1,5 @@
 #include "tool.h"
+#include "file_names.h"
 #include "made_with.h"
 #include "progress.h"
 #include "signals.h"
@@ -27,20 +28,9 @@ void prepare_process(const ToolInfo& info) {
     catch_signals(info.name);
 }
 
-std::string quoted(const std::string& argument) {
-    const auto plain = [](unsigned char c) {
-        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80 ||
-               std::string_view("_-./=:,+%@").find(char(c)) != std::string_view::npos;
-    };
-    if (!argument.empty() && std::all_of(argument.begin(), argument.end(), plain)) return argument;
-    std::string text = "'";
-    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c == '\n' ? ' ' : c);
-    return text + "'";
-}
-
 std::string joined(const std::string& name, int argc, char** argv) {
     std::string text = name;
-    for (int i = 1; i < argc; ++i) text += " " + quoted(argv[i]);
+    for (int i = 1; i < argc; ++i) text += " " + in_shell(argv[i]);
     return text;
 }
 

@@ -33,7 +33,8 @@
 //   the secant, gamma as here                                              34 / 56 %
 //   the secant, gamma of the own body alone                                34 / 56 %   K x 1e-3: leaves spin for ever
 //   no d', gamma of the own body                                           37 / 89 %   leaves spin
-//   neither                                                                37 / 89 %   leaves spin In still air d' and gamma are zero, and drag takes energy alone.
+//   neither                                                                37 / 89 %   leaves spin
+// In still air d' and gamma are zero, and drag takes energy alone.
 // The weights are those of the branches' first modes (branch_mode.h), each scaled to a unit deflection of its tip, doubled at
 // each side branch on the way out: what is further out is lighter, answers the drag first, and is to be bounded least. Along
 // one branch's first mode d_j u_j is D u itself but for the other branches of the path; motions are dragged less than they

@@ -1,4 +1,4 @@
-// analytic_sweeps.h: the analytic step (stages/step.h) in two sweeps over a block's rows of lanes, fused from the plain step's stages:
+// analytic_sweeps.h: the analytic step (analytic/analytic_step.h) in two sweeps over a block's rows of lanes, fused from the plain step's stages:
 // outward state_update and external_forces, inward composite, drag and spring.
 //
 // The order is turned round against step.cpp's: poses and velocities are worked out where they are read, at the start of the next

@@ -30,7 +30,7 @@ template <class T> void tread(const Plan<T>& plan, State<T>& state, World<T>& wo
 
 // Whether looking at every body once takes less than looking along the trees for each that flies.
 template <class T> bool many_fly(const Plan<T>& plan, const World<T>& world) {
-    constexpr std::size_t along = 250; // bodies looked at, of which a test along the tree takes the time
+    constexpr std::size_t along = 250; // a search along the tree takes about the time of looking at so many bodies once
     if (world.brute_force) return false;
     std::size_t fly = 0;
     for (const FreeBody& free : world.free)
