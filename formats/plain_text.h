@@ -1,6 +1,6 @@
 // plain_text.h: strict numbers and places in plain text, for the readers of foreign formats. No locale takes part.
 #pragma once
-#include "lib/model/shortest_text.h"
+#include "lib/base/shortest_text.h"
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,8 +1,8 @@
 #include "envelope.h"
 #include "formats/models/envelope_mesh.h"
 #include "formats/plain_text.h"
+#include "lib/base/counted.h"
 #include "lib/growth/colonize.h"
-#include "lib/model/counted.h"
 #include <algorithm>
 
 namespace bough {

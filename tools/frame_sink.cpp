@@ -1,7 +1,7 @@
 #include "frame_sink.h"
 #include "formats/documents/motion.h"
 #include "formats/exports/obj.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "skin_mover.h"
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 #include "file_names.h"
-#include "lib/reference/work_precision.h"
+#include "lib/study/work_precision.h"
 #include "profile.h"
 #include "progress.h"
 #include "report_file.h"

@@ -1,6 +1,6 @@
 #include "converted.h"
 #include "file_names.h"
-#include "lib/fast/operations.h"
+#include "lib/lanes/operations.h"
 #include "machine_limits.h"
 #include "profile.h"
 #include "progress.h"

@@ -1,5 +1,5 @@
 #include "file_names.h"
-#include "lib/reference/stability.h"
+#include "lib/study/stability.h"
 #include "profile.h"
 #include "progress.h"
 #include "report_file.h"

@@ -6,7 +6,7 @@
 #include "growth.h"
 #include "import_file.h"
 #include "import_stats.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "tool.h"
 #include <iostream>
 

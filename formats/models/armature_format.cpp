@@ -4,7 +4,7 @@
 #include "formats/imports/pipe_rule.h"
 #include "formats/imports/speedtree_bones.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 
 namespace bough {
 namespace {

@@ -1,6 +1,6 @@
 #include "gltf_check.h"
 #include "gltf_accessor.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <stdexcept>
 

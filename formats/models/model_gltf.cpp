@@ -3,7 +3,7 @@
 #include "gltf_accessor.h"
 #include "gltf_check.h"
 #include "gltf_complete.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <array>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 // joints, the vertices that they move, and lines; read by assimp in a child process.
 #pragma once
 #include "formats/imports/import.h"
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include "model_kind.h"
 #include "own_rods.h"
 

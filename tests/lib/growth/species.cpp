@@ -1,7 +1,7 @@
 #include "formats/documents/species.h"
 #include "lib/growth/segment.h"
 #include "lib/model/sway.h"
-#include "lib/stages/pose.h"
+#include "lib/plan/pose.h"
 #include "tests/support/grow_measure.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/simulate.h"

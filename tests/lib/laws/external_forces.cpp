@@ -1,6 +1,6 @@
 // Forces of wind and pulls against values worked out by hand for a cylinder, a sphere and a plate.
 #include "lib/analytic/external_forces.h"
-#include "lib/stages/pushes.h"
+#include "lib/plan/pushes.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // What a moving ground does to a tree, against closed forms, tilted gravity, and an integration of one rod's equation.
 #include "lib/analytic/root_term.h"
-#include "lib/stages/ground.h"
-#include "lib/stages/pose.h"
+#include "lib/plan/ground.h"
+#include "lib/plan/pose.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include "tests/support/solver_parts.h"

@@ -1,6 +1,6 @@
 // Shelter: what the bodies take is what the columns lose, counted by a separate sum; who stands behind whom.
-#include "lib/stages/shelter.h"
-#include "lib/stages/air.h"
+#include "lib/plan/shelter.h"
+#include "lib/laws/air.h"
 #include "tests/support/lanes_support.h"
 #include <map>
 

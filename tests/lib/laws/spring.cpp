@@ -2,8 +2,8 @@
 #include "lib/analytic/spring.h"
 #include "lib/analytic/composite.h"
 #include "lib/analytic/joint.h"
-#include "lib/reference/solvers.h"
-#include "lib/stages/spring_torque.h"
+#include "lib/plan/spring_torque.h"
+#include "lib/study/solvers.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <Eigen/Eigenvalues>
