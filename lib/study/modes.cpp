@@ -3,6 +3,7 @@
 #include "../laws/leaf_air.h"
 #include "../laws/wind.h"
 #include "../plan/reduce.h"
+#include <Eigen/Eigenvalues>
 #include <Spectra/SymEigsSolver.h>
 #include <algorithm>
 #include <numbers>
@@ -37,22 +38,21 @@ private:
     mutable std::int64_t operations_ = 0;
 };
 
+constexpr Index sway_steps = 24;
+
 struct Pairs {
     VectorXd value; // falling
     MatrixXd vector;
 };
 
-// The largest `count`. start: may be empty.
-Pairs largest(Swings swings, Index count, const VectorXd& start) {
+// The largest `count`.
+Pairs largest(Swings swings, Index count) {
     const Index n = swings.rows();
     count = std::min(count, n - 1);
     const Index basis = std::min(n, std::max<Index>(2 * count + 10, 20));
     Spectra::SymEigsSolver<Swings> solver(swings, count, basis);
-    if (start.size() > 0)
-        solver.init(start.data());
-    else
-        solver.init();
-    constexpr double tolerance = 1e-9; // of a vector: of a value its square
+    solver.init();
+    constexpr double tolerance = 1e-9; // of vectors; of values its square
     if (solver.compute(Spectra::SortRule::LargestAlge, 2000, tolerance, Spectra::SortRule::LargestAlge) < count)
         throw std::domain_error(
             "the lowest modes do not converge: there are too many of nearly the same frequency; ask "
@@ -69,7 +69,7 @@ Pairs lowest_modes(const SmallMotion& motion, Index count, const std::function<v
     for (Index more = count;; more = std::min<Index>(4, count)) {
         if (found.cols() >= n - 1) break;
         const Swings swings(motion, found, progress);
-        const Pairs next = largest(swings, std::min(more, n - 1 - found.cols()), {});
+        const Pairs next = largest(swings, std::min(more, n - 1 - found.cols()));
         const double last = value.size() < count ? 0 : value[count - 1];
         Index fresh = 0;
         while (fresh < next.value.size() && next.value[fresh] > last * (1 + 1e-12)) ++fresh;
@@ -159,9 +159,8 @@ Mode mode_of(const Tree& tree, const SmallMotion& small, const std::vector<AirDa
 
 } // namespace
 
-std::vector<Mode> natural_modes(const Tree& tree, const Scene& scene, const ModeOptions& options,
-                                const std::function<void(std::int64_t)>& progress) {
-    const SmallMotion small(tree, scene.gravity, scene.pose);
+std::vector<Mode> natural_modes(const SmallMotion& small, const Tree& tree, const Scene& scene,
+                                const ModeOptions& options, const std::function<void(std::int64_t)>& progress) {
     const Pairs pairs = lowest_modes(small, std::min<Index>(options.count, small.rows() - 1), progress);
     const std::vector<AirDamping> air = options.air ? air_on(tree, scene, small) : std::vector<AirDamping>();
     std::vector<Mode> modes;
@@ -170,19 +169,49 @@ std::vector<Mode> natural_modes(const Tree& tree, const Scene& scene, const Mode
     return modes;
 }
 
-Sway first_sway(const Tree& tree, const Vec3& gravity, Pose pose, const Vec3& direction) {
-    const SmallMotion small(tree, gravity, pose);
-    const MatrixXd none(small.rows(), 0);
-    const std::function<void(std::int64_t)> quiet;
+ShapePose swung(const SmallMotion& small, const Tree& tree, const Mode& mode, double amplitude) {
+    const std::size_t n = tree.size_bodies();
+    ShapePose pose;
+    pose.position.resize(n);
+    pose.rotation.resize(n);
+    std::vector<Quat> turn(n); // of the body from where it stands, world
+    for (std::size_t i = 0; i < n; ++i) {
+        turn[i] = quaternion_from_vector<double>(amplitude * mode.turn[i]);
+        pose.position[i] = small.joints()[i];
+        if (tree.parent[i] >= 0) {
+            const auto p = std::size_t(tree.parent[i]);
+            turn[i] = turn[p] * turn[i];
+            pose.position[i] = pose.position[p] + turn[p] * (small.joints()[i] - small.joints()[p]);
+        }
+        pose.rotation[i] = (turn[i] * Quat(small.rotations()[i])).normalized();
+    }
+    return pose;
+}
+
+Sway sway_along(const SmallMotion& small, const Vec3& direction) {
     const VectorXd start = small.excited(direction);
-    double mass = 0;
-    for (const double m : tree.mass) mass += m;
-    const Pairs pairs = largest(Swings(small, none, quiet), 10, start);
+    const Index steps = std::min<Index>(sway_steps, small.rows());
+    MatrixXd basis(small.rows(), steps);
+    VectorXd diagonal(steps), beside(steps), next(small.rows());
+    basis.col(0) = start.normalized();
+    Index made = 0;
+    while (made < steps) {
+        small.operate(basis.col(made).data(), next.data());
+        diagonal[made] = next.dot(basis.col(made));
+        for (int twice = 0; twice < 2; ++twice) // orthogonal to rounding
+            next -= basis.leftCols(made + 1) * (basis.leftCols(made + 1).transpose() * next).eval();
+        beside[made] = next.norm();
+        if (++made == steps || !(beside[made - 1] > 1e-12 * diagonal[0])) break;
+        basis.col(made) = next / beside[made - 1];
+    }
+    Eigen::SelfAdjointEigenSolver<MatrixXd> ritz;
+    ritz.computeFromTridiagonal(diagonal.head(made), beside.head(made - 1));
+    const auto hertz = [](double value) { return 1 / std::sqrt(value) / (2 * std::numbers::pi); };
     Sway sway;
-    for (Index k = 0; k < pairs.value.size(); ++k) {
-        // Momentum of the mode of unit modal mass: y is of unit length, so a^T M a is the eigenvalue.
-        const double momentum = pairs.vector.col(k).dot(start), share = momentum * momentum / pairs.value[k] / mass;
-        if (share > sway.share) sway = {1 / std::sqrt(pairs.value[k]) / (2 * std::numbers::pi), share};
+    sway.lowest = hertz(ritz.eigenvalues()[made - 1]);
+    for (Index k = 0; k < made; ++k) {
+        const double first = ritz.eigenvectors()(0, k), share = first * first;
+        if (share > sway.share) sway.frequency = hertz(ritz.eigenvalues()[k]), sway.share = share;
     }
     return sway;
 }

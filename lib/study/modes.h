@@ -1,8 +1,8 @@
 // modes.h: a tree's natural frequencies and the shapes in which it swings at them.
 //
 // The lowest of K a = omega^2 M a (small_motion.h): gravity's gradient at the standing pose is in it. Lanczos' method with implicit restarts
-// (Spectra) on R^-T M R^-1, whose largest eigenvalues 1 / omega^2 are; what it begins with decides nothing but rounding, and is the tree's answer to the
-// ground shaken along x, y and z.
+// (Spectra) on R^-T M R^-1, whose largest eigenvalues 1 / omega^2 are. Of frequencies that several modes share,
+// each turns up once those before it are taken out.
 // Damping ratio of a mode, of the shape's own motion (what damping couples it with is left out, and a shape is not bent by it):
 //   zeta = a^T D a / (2 omega a^T M a),   D = wood's K beta, and with an air the derivative of its forces at rest in the mean wind (air.h, leaf_air.h)
 // Effective mass along a direction: (its linear momentum)^2 over a^T M a; all modes' together are at most the tree's mass, and less by what
@@ -31,18 +31,28 @@ struct ModeOptions {
     bool air = false; // the scene's wind at its mean, or still air with /leaves, damps
 };
 
-// The lowest `count` modes of a checked tree without rigid bodies, frequencies rising; stiffness and damping as scaled by the scene already.
+// The lowest `count` modes of the tree that `small` is of, frequencies rising; stiffness and damping as scaled by the scene already.
 // progress: called now and then with the number of operations; may throw. O(n count) a restart, memory about (2 count + 40) x 24 B + 400 B a body.
-// Throws std::domain_error where the tree does not stand, or the iteration does not converge.
-std::vector<Mode> natural_modes(const Tree&, const Scene&, const ModeOptions&,
+// Throws std::domain_error where the iteration does not converge.
+std::vector<Mode> natural_modes(const SmallMotion& small, const Tree&, const Scene&, const ModeOptions&,
                                 const std::function<void(std::int64_t)>& progress = {});
 
-// How the tree as a whole sways along a horizontal direction: of the modes which the ground, shaken along it, excites, the one of the most effective
-// mass among the lowest. Throws std::domain_error as above.
-struct Sway {
-    double frequency = 0; // [Hz]
-    double share = 0;     // [1] of the tree's mass that goes with it
+// Where bodies are as the mode has swung by `amplitude` [m] of its farthest end, joints turning about their axes by the shape: positions of joints and
+// rotations, world from body.
+struct ShapePose {
+    std::vector<Vec3> position;
+    std::vector<Quat> rotation;
 };
-Sway first_sway(const Tree&, const Vec3& gravity, Pose, const Vec3& direction);
+ShapePose swung(const SmallMotion&, const Tree&, const Mode&, double amplitude);
+
+// How a tree as a whole sways along a horizontal direction. Lanczos' method from the bend that a steady push of that direction on all of its mass gives
+// it, 24 steps, O(n) each: its values are the modes that the bend is made of, each with its share of the bend's energy. In a crown of many alike
+// branches no one mode sways; what stands out is then a band of modes, which so few steps show as one.
+struct Sway {
+    double frequency = 0; // [Hz] of what has most of the bend
+    double share = 0;     // [1] of its energy
+    double lowest = 0;    // [Hz] of the lowest in it
+};
+Sway sway_along(const SmallMotion&, const Vec3& direction);
 
 } // namespace bough

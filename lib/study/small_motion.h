@@ -10,13 +10,14 @@
 // So K couples a body with its parent alone, and is eliminated from the tips inward in 3x3 blocks, with A the sum over the children of what they pass:
 //   W = S + G + A,   C = B + A,   passed to the parent: A - C^T W^-1 C,   W = L L^T
 //   a^T K a = sum |y_k|^2,   y_k = L^T (a_k + W^-1 C phi_p)
-// The tree stands where every W is positive definite; else the branch of the first that is not buckles.
+// The tree stands where every W is positive definite. Where it does not, a branch buckles (a twig with much weight beside its axis twists over, which
+// no check of bending sees): the tree is then followed downhill to where it stands. Newton's steps, blocks that are not positive definite lifted by a
+// multiple of 1, halved until the energy falls; at a balance that is none, first 0.05 rad along the softest block's worst direction.
 // M is never formed: velocities pass outward, momenta inward. What is solved for is y: the operator R^-T M R^-1, K = R^T R, is symmetric, its
 // eigenvalues are 1 / omega^2.
 // Cost. O(n) to make, O(n) an operation, 28 doubles a body.
 #pragma once
-#include "../model/scene.h"
-#include "../model/tree.h"
+#include "../plan/pose.h"
 #include <Eigen/Core>
 
 namespace bough {
@@ -24,8 +25,12 @@ namespace bough {
 class SmallMotion {
 public:
     // Of a tree without rigid bodies, its wood as scaled by the scene, standing under gravity [m/s^2]: as drawn (Pose::drawn), else where its springs
-    // come to rest. Throws std::domain_error where it does not stand: names body and branch, as start_pose.
+    // come to rest. Throws std::domain_error, naming body and branch, as start_pose, for a joint without stiffness that something hangs on, and where no
+    // pose is found in which it stands.
     SmallMotion(const Tree&, const Vec3& gravity, Pose);
+
+    // Bodies whose joint buckled, one or more a branch; empty where the tree stands as it is drawn or settled.
+    const std::vector<std::size_t>& buckled() const { return buckled_; }
 
     Eigen::Index rows() const { return 3 * Eigen::Index(body_.size()); }
     // out = R^-T M R^-1 y. y, out: rows() numbers.
@@ -56,9 +61,23 @@ private:
         double L[6]; // Cholesky factor of W, lower: 11 21 22 31 32 33
         Mat3 W_C;    // W^-1 C
     };
-    // Dual of a, from momenta of bodies, to that of y.
+    void stand(const Tree&); // R_, x_, rates_, and all of a body but the factors
+    // The factors of K; with `lift`, of blocks made positive definite. Returns the first body whose block is not, or -1.
+    std::int64_t factor(const Tree&, bool lift);
+    void go_over(const Tree&);
+    std::vector<Vec3>
+    softest(std::size_t body) const;           // 0.05 rad of its joint along soft_axis_, what it carries giving way
+    std::vector<Vec3> carried_moments() const; // H
+    std::vector<Vec3> unbalanced(const Tree&) const; // [N m] on each joint, world: what of gravity its spring leaves
+    double energy(const Tree&) const;                // [J]
+    // Dual of a to that of y: of torques on joints; of momenta of bodies.
+    void inward(const std::vector<Vec3>& torque, double* out) const;
     void inward(std::vector<Vec3>& linear, std::vector<Vec3>& angular, double* out) const;
 
+    Vec3 gravity_;
+    StartPose pose_;
+    std::vector<std::size_t> buckled_;
+    Vec3 soft_axis_ = Vec3::Zero(); // of the body that factor() returned: along which its block is the least
     std::vector<Body> body_;
     std::vector<Mat3> R_, rates_;
     std::vector<Vec3> x_;

@@ -195,6 +195,10 @@ Scene still(Pose pose = Pose::drawn, const Vec3& gravity = Vec3(0, -9.81, 0)) {
     return scene;
 }
 
+std::vector<Mode> modes_of(const Tree& tree, const Scene& scene, const ModeOptions& options) {
+    return natural_modes(SmallMotion(tree, scene.gravity, scene.pose), tree, scene, options);
+}
+
 // One upright rod on a spring.
 Tree rod(const Vec3& K, double mass = 2, double length = 1.5) {
     Tree tree;
@@ -236,7 +240,7 @@ Tree cantilever(int n) {
 TEST_CASE("a rod on a spring swings as sqrt((K - m g h) / J)") {
     const Tree tree = rod(Vec3(40, 55, 9));
     const double J = 2 * 1.5 * 1.5 / 3, sinking = 2 * 9.81 * 0.75;
-    const std::vector<Mode> modes = natural_modes(tree, still(), {2, false});
+    const std::vector<Mode> modes = modes_of(tree, still(), {2, false});
     REQUIRE(modes.size() == 2);
     CHECK(modes[0].frequency == Approx(std::sqrt((40 - sinking) / J) / (2 * pi)).epsilon(1e-12));
     CHECK(modes[1].frequency == Approx(std::sqrt((55 - sinking) / J) / (2 * pi)).epsilon(1e-12));
@@ -246,13 +250,13 @@ TEST_CASE("a rod on a spring swings as sqrt((K - m g h) / J)") {
     // About one axis: p = m h per radian, (m h)^2 / J of the mass.
     CHECK(modes[0].effective_mass.sum() == Approx(2.25 / J).epsilon(1e-10));
     CHECK(modes[0].turn[0].norm() * 1.5 == Approx(1).epsilon(1e-12));
-    CHECK(first_sway(tree, Vec3(0, -9.81, 0), Pose::drawn, Vec3::UnitX()).frequency +
-              first_sway(tree, Vec3(0, -9.81, 0), Pose::drawn, Vec3::UnitZ()).frequency ==
+    const SmallMotion small(tree, Vec3(0, -9.81, 0), Pose::drawn);
+    CHECK(sway_along(small, Vec3::UnitX()).frequency + sway_along(small, Vec3::UnitZ()).frequency ==
           Approx(modes[0].frequency + modes[1].frequency).epsilon(1e-9));
 }
 
 TEST_CASE("a cantilever has Euler and Bernoulli's first frequencies, each twice") {
-    const std::vector<Mode> modes = natural_modes(cantilever(200), still(Pose::drawn, Vec3::Zero()), {6, false});
+    const std::vector<Mode> modes = modes_of(cantilever(200), still(Pose::drawn, Vec3::Zero()), {6, false});
     REQUIRE(modes.size() == 6);
     const double first = modes[0].frequency;
     CHECK(first == Approx(1).epsilon(1e-3));
@@ -269,13 +273,45 @@ TEST_CASE("a cantilever has Euler and Bernoulli's first frequencies, each twice"
         CHECK(mode.damping == Approx(cantilever(200).damping[0] * pi * mode.frequency).epsilon(1e-9));
 }
 
+TEST_CASE("a cone's first frequency is 0.3469 of the wood's, and weight slows a rod as it nears buckling") {
+    const Material& wood = wood_presets().front();
+    const auto rod_of = [&](double base, double tip, int n) {
+        Splines s;
+        s.parent = {-1};
+        s.parent_at = {0};
+        s.level = {0};
+        s.first_point = {0, 2};
+        s.point = {Vec3(0, 0, 0), Vec3(0, 4, 0)};
+        s.radius = {base, tip};
+        SegmentOptions options;
+        options.segment_length = 4.0 / n * 1.0000001;
+        return segment(s, wood, options);
+    };
+    const auto first = [](const Tree& tree, double g) {
+        return modes_of(tree, still(Pose::drawn, Vec3(0, -g, 0)), {1, false})[0].frequency;
+    };
+    const double beam = 2 * 0.03 / 16 * std::sqrt(wood.youngs_modulus / wood.density);
+    CHECK(first(rod_of(0.03, 3e-6, 640), 0) == Approx(0.3469 * beam).epsilon(1e-3));
+    // Ritz with the shape of a uniform load: omega^2 falls by the weight over the buckling weight 7.837 E I / L^2, to 2 %.
+    const double radius = 0.006, weight = wood.density * pi * radius * radius * 4 * 9.81;
+    const double buckling = 7.837 * wood.youngs_modulus * pi / 4 * std::pow(radius, 4) / 16;
+    REQUIRE(weight < 0.9 * buckling);
+    REQUIRE(weight > 0.3 * buckling);
+    const Tree thin = rod_of(radius, radius, 80);
+    CHECK(std::pow(first(thin, 9.81) / first(thin, 0), 2) == Approx(1 - weight / buckling).margin(0.02));
+    CHECK(std::pow(first(thin, -9.81) / first(thin, 0), 2) == Approx(1 + weight / buckling).margin(0.02)); // hanging
+    CHECK_FALSE(SmallMotion(rod_of(0.002, 0.002, 80), Vec3(0, -9.81, 0), Pose::drawn)
+                    .buckled()
+                    .empty()); // longer than it can stand
+}
+
 TEST_CASE("all modes are those of the dense eigenproblem") {
     for (const Pose pose : {Pose::drawn, Pose::settled}) {
         Tree tree = lanes::grown(pose == Pose::drawn ? 300 : 60);
         if (pose == Pose::settled)
             for (Vec3& K : tree.stiffness) K *= 4; // that it stands
         const Eigen::VectorXd truth = dense(tree, Vec3(0, -9.81, 0), pose).hertz();
-        const std::vector<Mode> modes = natural_modes(tree, still(pose), {20, false});
+        const std::vector<Mode> modes = modes_of(tree, still(pose), {20, false});
         REQUIRE(modes.size() == 20);
         for (std::size_t k = 0; k < modes.size(); ++k) {
             CAPTURE(k, int(pose));
@@ -284,9 +320,19 @@ TEST_CASE("all modes are those of the dense eigenproblem") {
     }
 }
 
-TEST_CASE("who cannot stand is told, by its branch") {
-    const Tree tree = rod(Vec3(14, 55, 9)); // m g h is 14.7
-    CHECK_THROWS_WITH(natural_modes(tree, still(), {1, false}), Catch::Contains("body 0 of branch 0 buckles"));
+TEST_CASE("what buckles goes over to where it stands") {
+    const double K = 14, weight = 2 * 9.81 * 0.75; // m g h is 14.7
+    const SmallMotion small(rod(Vec3(K, 55, 9)), Vec3(0, -9.81, 0), Pose::drawn);
+    CHECK(small.buckled() == std::vector<std::size_t>{0});
+    // K theta = m g h sin theta
+    double theta = 0.5;
+    for (int k = 0; k < 100; ++k) theta -= (K * theta - weight * std::sin(theta)) / (K - weight * std::cos(theta));
+    CHECK(std::acos(small.rotations()[0](1, 2)) == Approx(theta).epsilon(1e-8));
+    const double J = 2 * 1.5 * 1.5 / 3;
+    const std::vector<Mode> modes = natural_modes(small, rod(Vec3(K, 55, 9)), still(), {1, false});
+    CHECK(modes[0].frequency == Approx(std::sqrt((K - weight * std::cos(theta)) / J) / (2 * pi)).epsilon(1e-8));
+    CHECK_THROWS_WITH(SmallMotion(rod(Vec3(0, 55, 9)), Vec3(0, -9.81, 0), Pose::drawn),
+                      Catch::Contains("body 0 of branch 0"));
 }
 
 TEST_CASE("wind damps a mode by its drag's derivative") {
@@ -295,7 +341,7 @@ TEST_CASE("wind damps a mode by its drag's derivative") {
     scene.wind = Wind();
     scene.wind->velocity = Vec3(6, 0, 0);
     scene.wind->profile = 0;
-    const std::vector<Mode> modes = natural_modes(tree, scene, {2, true});
+    const std::vector<Mode> modes = modes_of(tree, scene, {2, true});
     // At its centre of mass; along the wind the slope of u^2 is 2 u, across it u.
     const double J = 2 * 1.5 * 1.5 / 3, area = 1.2 / 2 * scene.air_density * 0.04 * 1.5;
     for (const Mode& mode : modes) {
