@@ -1,4 +1,4 @@
-/* bough_c.h: bough for C, and for whatever calls C: engines, Python, C#, a page. Plain C99; link bough_files (pkg-config bough_c).
+/* bough_c.h: bough for C, and for whatever calls C: engines, Python (bough.py), C#, a page. Plain C99; link bough_files (pkg-config bough_c).
  *
  *   bough_growth apple = bough_default_growth();
  *   bough_splines *splines;  bough_tree *tree;  bough_scene *scene;  bough_simulation *simulation;

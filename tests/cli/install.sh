@@ -57,3 +57,14 @@ if command -v pkg-config >/dev/null && [[ -z $sanitizers ]]; then
         grep -q " bodies, $hash\$" said || fail "in C by $compiler it is '$(cat said)'"
     done
 fi
+# bough.py where the prefix's Python looks, with the library found beside it: the README's program.
+module=$(find "$work/prefix" -name bough.py)
+[[ $module == */lib/python3*/site-packages/bough.py ]] || fail "bough.py is installed as '$module'"
+numpy=$(python_with_numpy)
+if [[ -n $numpy && -z $sanitizers ]]; then
+    sed -n '/^    import bough$/,$ { s/^    //p; /^$/p }' "$top/README.md" >run.py
+    env -u BOUGH_LIBRARY PYTHONPATH="$(dirname "$module")" PYTHONDONTWRITEBYTECODE=1 "$numpy" run.py >said 2>err || fail "bough.py, installed: $(cat err)"
+    grep -q " bodies, $hash\$" said || fail "in Python it is '$(cat said)'"
+else
+    echo "notice: no Python with numpy, bough.py is not tried"
+fi
