@@ -14,7 +14,7 @@
 #include "lib/growth/skin.h"
 #include "lib/model/drawn_pose.h"
 #include "lib/model/split.h"
-#include "lib/model/sway.h"
+#include "lib/study/modes.h"
 #include "merge_trial.h"
 #include "run_options.h"
 #include "tool.h"
@@ -142,6 +142,24 @@ SegmentOptions segment_options(const Options& o) {
     return options;
 }
 
+// As it stands drawn, under its weight.
+std::string sway_text(const Tree& tree) {
+    std::ostringstream text;
+    try {
+        const SmallMotion small(tree, Vec3(0, -9.81, 0), Pose::drawn);
+        const Sway x = sway_along(small, Vec3::UnitX()), z = sway_along(small, Vec3::UnitZ());
+        text << x.frequency << " and " << z.frequency << " Hz along x and z, " << std::lround(100 * x.share)
+             << " % and " << std::lround(100 * z.share) << " % of the bend under a steady push; lowest mode "
+             << std::min(x.lowest, z.lowest) << " Hz (treeprofile modes)";
+        if (!small.buckled().empty())
+            text << "; branch " << tree.branch[small.buckled().front()]
+                 << " buckles under what it carries, and leans over";
+    } catch (const std::domain_error& error) {
+        text << "none: " << error.what();
+    }
+    return text.str();
+}
+
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {
     const auto [R_wb, x_w] = drawn_pose(tree);
     std::size_t kinds[4] = {0, 0, 0, 0}, roots = 0;
@@ -163,8 +181,7 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
          << "mass        " << mass << " kg\n"
          << "height      " << top << " m\n"
          << "stiffness   " << softest << " to " << stiffest << " N m/rad\n"
-         << "sway        " << sway_frequency(tree, Vec3::UnitX()) << " and " << sway_frequency(tree, Vec3::UnitZ())
-         << " Hz along x and z (Rayleigh's estimate, articulated)\n"
+         << "sway        " << sway_text(tree) << "\n"
          << "longest     " << report.segment_length << " m of branch in one body\n"
          << "merged      " << report.merged_points << " points; dropped " << report.dropped_branches
          << " branches; radii raised " << report.thin_points << "\n";

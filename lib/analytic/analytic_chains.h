@@ -390,29 +390,6 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     }
 };
 
-// A sweep's code for what the scene loads its bodies with.
-template <template <class, bool, bool, bool, bool> class Sweep, class T, bool wind, bool pulls, bool gravity,
-          bool field = false>
-AnalyticSweeps<T> sweeps_with() {
-    return {[](const AnalyticRows<T>& rows, const Block& block, T* scratch, SweepFlags& flags) {
-                const FlushToZero flush;
-                Sweep<T, wind, pulls, gravity, field>(rows, block, scratch, flags).out();
-            },
-            [](const AnalyticRows<T>& rows, const Block& block, T* scratch, SweepFlags& flags) {
-                const FlushToZero flush;
-                Sweep<T, wind, pulls, gravity, field>(rows, block, scratch, flags).in();
-            }};
-}
-template <template <class, bool, bool, bool, bool> class Sweep, class T>
-AnalyticSweeps<T> sweeps_of(AnalyticLoads loads) {
-    if (loads.field) return sweeps_with<Sweep, T, true, false, true, true>();
-    if (loads.wind) // it has forces, and so room for pulls
-        return loads.gravity ? sweeps_with<Sweep, T, true, false, true>() : sweeps_with<Sweep, T, true, false, false>();
-    if (loads.pulls)
-        return loads.gravity ? sweeps_with<Sweep, T, false, true, true>() : sweeps_with<Sweep, T, false, true, false>();
-    return loads.gravity ? sweeps_with<Sweep, T, false, false, true>() : sweeps_with<Sweep, T, false, false, false>();
-}
-
 } // namespace analytic_step
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

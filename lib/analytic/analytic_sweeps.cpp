@@ -24,10 +24,26 @@ struct AnalyticSweep : AnalyticJoints<T, wind, pulls, gravity, field, AnalyticSw
     }
 };
 
+// A sweep's code for what the scene loads its bodies with.
+template <class T, bool wind, bool pulls, bool gravity, bool field = false> AnalyticSweeps<T> sweeps_with() {
+    return {[](const AnalyticRows<T>& rows, const Block& block, T* scratch, SweepFlags& flags) {
+                const FlushToZero flush;
+                AnalyticSweep<T, wind, pulls, gravity, field>(rows, block, scratch, flags).out();
+            },
+            [](const AnalyticRows<T>& rows, const Block& block, T* scratch, SweepFlags& flags) {
+                const FlushToZero flush;
+                AnalyticSweep<T, wind, pulls, gravity, field>(rows, block, scratch, flags).in();
+            }};
+}
+
 } // namespace
 
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads loads) {
-    return sweeps_of<AnalyticSweep, T>(loads);
+    if (loads.field) return sweeps_with<T, true, false, true, true>();
+    if (loads.wind) // it has forces, and so room for pulls
+        return loads.gravity ? sweeps_with<T, true, false, true>() : sweeps_with<T, true, false, false>();
+    if (loads.pulls) return loads.gravity ? sweeps_with<T, false, true, true>() : sweeps_with<T, false, true, false>();
+    return loads.gravity ? sweeps_with<T, false, false, true>() : sweeps_with<T, false, false, false>();
 }
 
 template AnalyticSweeps<float> analytic_sweeps(AnalyticLoads);

@@ -1,4 +1,8 @@
 // sweep_parts.h: what the sweeps of both steps over lanes share: constants, the wind and the air.
+//
+// The air's law (laws/air.h) and the look-up of the wind (laws/wind.h, wind_field.h) stand here a second time: a kind is known for a whole group of
+// rows, speed and its inverse are worked out once and early for force, damping and turning together, and tables are looked up for all lanes at once.
+// Each of the scalar's functions takes a root and a quotient of its own. The lanes' tests hold the two together.
 #pragma once
 #include "../laws/air_constants.h"
 #include "wide_maps.h"

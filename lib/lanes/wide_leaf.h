@@ -1,4 +1,6 @@
 // wide_leaf.h: leaf_air.h in lanes. Called for scenes with /leaves alone; never inlined into a sweep, which is then the same code for all others.
+// Written a second time: registers have no Eigen, symmetric matrices are six numbers, and sums stand in the order that can be fused.
+// tests/lib/coupled/lanes.cpp and tests/lib/analytic/lanes.cpp hold the two together.
 #pragma once
 #include "../laws/leaf_terms.h"
 #include "wide_pair.h"

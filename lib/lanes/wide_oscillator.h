@@ -1,4 +1,7 @@
 // wide_oscillator.h: one step of damped oscillators in closed form (base/oscillator.h), for registers of lanes.
+//
+// Written a second time: a register has lanes of every case, so sine, cosine and exponentials are series that all lanes go through, several
+// oscillators at once, where one number takes its case and the C library's functions. tests/lib/lanes/wide_spring.cpp holds the two together.
 #pragma once
 #include "wide_pair.h"
 
