@@ -4,6 +4,7 @@
 #include "formats/mapped.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
+#include "reader_options.h"
 
 namespace bough {
 
@@ -15,6 +16,7 @@ void add_import_options(OptionList& list, ImportChoice& choice) {
                                         : "is '" + text + "', expected m, cm, mm, ft, in or a number above 0";
         });
     list.add("--up", choice.up, "Up axis of the imported file: y or z").takes("AXIS").one_of_any_case({"y", "z"});
+    add_reader_options(list);
 }
 
 std::optional<double> unit_in_metres(const std::string& units) {

@@ -127,6 +127,7 @@ void work(Options& o) {
         return;
     }
     refuse_contradictions(o);
+    require_outputs({{"-o", o.common.output}});
     Splines splines = o.import.empty() ? grow_tree(o.growth, o.choice, o.common) : imported(o);
     splines.source = with_command_line(splines.source, o.common);
     write(splines, o.common);

@@ -1,8 +1,8 @@
 #include "assimp_scene.h"
 #include "formats/error.h"
-#include "formats/forked.h"
 #include "formats/plain_text.h"
 #include "model_collada.h"
+#include "reader_limits.h"
 #include "user_model.h"
 #include <algorithm>
 #include <assimp/Exporter.hpp>
@@ -177,7 +177,8 @@ std::string not_turned(const std::string& why) {
 }
 
 std::string glb_by_assimp(std::string_view content, AssimpKind kind, const ImportOptions& options) {
-    const ChildResult child = run_forked([&] { return convert(content, kind, options.name); }, reader_limits);
+    const ChildResult child =
+        run_forked([&] { return convert(content, kind, options.name); }, reader_limits(content.size()));
     if (child.failure.empty()) return child.bytes;
     const std::string own = options.name + ": "; // of an InputError in the child
     if (child.failure.starts_with(own)) throw InputError(options.name, valid_utf8(child.failure.substr(own.size())));

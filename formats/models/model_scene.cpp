@@ -1,9 +1,9 @@
 #include "model_scene.h"
 #include "assimp_scene.h"
-#include "formats/forked.h"
 #include "formats/plain_text.h"
 #include "model_collada.h"
 #include "model_gltf.h"
+#include "reader_limits.h"
 #include "skin_joint.h"
 #include <algorithm>
 #include <assimp/Importer.hpp>
@@ -265,7 +265,8 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
 ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOptions& options) {
     ChildResult child;
     try {
-        child = run_forked([&] { return bytes_of(read_in_child(content, kind, options)); }, reader_limits);
+        child =
+            run_forked([&] { return bytes_of(read_in_child(content, kind, options)); }, reader_limits(content.size()));
         if (child.failure.empty()) return model_scene_of(child.bytes);
     } catch (const std::bad_alloc&) { // here, of what the child could read
         throw InputError(options.name, "what is in it needs more memory than there is");
