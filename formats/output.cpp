@@ -82,6 +82,9 @@ void Output::write_out(std::string_view bytes) {
     }
 }
 
+Output::Output(char* to, std::size_t capacity, const std::string& name)
+    : name_(name), memory_(to), capacity_(capacity), in_memory_(true) {}
+
 void Output::write(std::string_view bytes) {
     if (in_memory_) {
         if (bytes_ < capacity_)
@@ -132,6 +135,7 @@ void Output::take_out(std::uint64_t at, std::uint64_t count) {
 }
 
 void Output::finish() {
+    if (in_memory_) return;
     flush();
     if (temporary_) {
         try {

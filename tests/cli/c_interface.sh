@@ -33,7 +33,7 @@ for compiler in "${compilers[@]}"; do
     ./threads birch.safetensors 30 >said 2>err || fail "100 threads: $(cat said err)"
     [[ $(cat said) == "$threaded" && ! -s err ]] || fail "100 threads have '$(cat said err)', treesim '$threaded'"
     if [[ -z $sanitizers ]]; then # (those bring an allocator of their own)
-        "$compiler" -std=c11 "${strict[@]}" "$top/examples/engine.c" -o engine "${libraries[@]}" 2>err || fail "$compiler, engine.c: $(cat err)"
+        "$compiler" -std=c11 "${strict[@]}" "$top/formats/c/examples/engine.c" -o engine "${libraries[@]}" 2>err || fail "$compiler, engine.c: $(cat err)"
         ./engine 100 >said 2>err || fail "engine.c: $(cat said err)"
         grep -q '^[0-9]* bodies in 3 trees: .* ms a frame, .*; 0 allocations in 600 frames' said || fail "engine.c: $(cat said)"
     fi

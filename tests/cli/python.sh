@@ -17,7 +17,7 @@ hash park.json --frames 15 --precision float >park.hash
 
 # The example's tip swings at the frequency that a solve of the tree's modes gives; its resolution is 0.05 Hz, of which it shows eighths.
 if command -v gnuplot >/dev/null; then
-    "$python" "$top/examples/tip.py" pine tip.svg >said 2>err || fail "tip.py: $(tail -n 3 err)"
+    "$python" "$top/formats/c/examples/tip.py" pine tip.svg >said 2>err || fail "tip.py: $(tail -n 3 err)"
     treegen --species pine --bodies 1000 --seed 1 | treeconvert - | treeprofile modes - --modes 2 >modes 2>err || fail "treeprofile modes: $(cat err)"
     swings=$(sed -n 's/^pine: [0-9]* bodies, [0-9.]* mm, strongest at \([0-9.]*\) Hz$/\1/p' said)
     lowest=$(awk '$1 == 1 { print $2 }' modes)
