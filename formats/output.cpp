@@ -40,9 +40,6 @@ Output::Output(const std::string& path) : name_(path == "-" ? "<stdout>" : path)
     file_ = temporary_->file();
 }
 
-Output::Output(char* to, std::size_t capacity, const std::string& name)
-    : name_(name), memory_(to), capacity_(capacity), in_memory_(true) {}
-
 // What stands in a file that another process has open (`-o /dev/fd/3 3>>log`) stays before what is written now.
 void Output::open_direct(const std::string& path) {
     file_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
