@@ -55,6 +55,7 @@ for mine, key in ((tree.parents, "parent"), (tree.sizes, "size"), (tree.masses, 
     assert np.array_equal(mine.ravel(), np.ravel(document[key])), key
     assert len(mine) == len(tree) and not mine.flags.writeable and not mine.flags.owndata, key
 assert bough.read_tree(tree.to_bytes()).stiffness.tolist() == tree.stiffness.tolist()
+tree.save("saved.safetensors")
 with open("birch.json", "rb") as file:
     assert len(bough.read_tree(file)) == len(tree)
 

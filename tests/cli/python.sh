@@ -14,6 +14,7 @@ echo '{"format": "bough-scene", "version": 1, "wind": "storm", "material": {"E":
 hash park.json --frames 15 --precision float >park.hash
 "$python" -W error "$top/tests/cli/python.py" >out 2>err || fail "python.py: $(tail -n 5 err)"
 [[ ! -s out && ! -s err ]] || fail "python.py says: $(cat out err)"
+[[ $(hash saved.safetensors --wind gusty --frames 15) == "$(hash birch.json --wind gusty --frames 15)" ]] || fail "the tree that bough.py saved moves otherwise"
 
 # The example's tip swings at the frequency that a solve of the tree's modes gives; its resolution is 0.05 Hz, of which it shows eighths.
 if command -v gnuplot >/dev/null; then
