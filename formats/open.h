@@ -54,6 +54,8 @@ std::string folder_of(const std::string& path);
 class Output {
 public:
     explicit Output(const std::string& path);
+    // To memory, `capacity` bytes of it: what does not fit is counted (bytes()) and left out. `name` stands in messages.
+    Output(char* to, std::size_t capacity, const std::string& name);
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
     ~Output();
@@ -76,6 +78,9 @@ private:
     std::string name_; // in messages
     std::string buffer_;
     std::uint64_t bytes_ = 0;
+    char* memory_ = nullptr;
+    std::size_t capacity_ = 0; // of memory_
+    bool in_memory_ = false;
     int file_ = -1;                        // temporary_'s, or of direct output
     std::unique_ptr<Temporary> temporary_; // none: direct output
 };

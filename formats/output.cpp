@@ -1,8 +1,10 @@
 #include "open.h"
 #include "output_place.h"
 #include "temporary.h"
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -77,7 +79,16 @@ void Output::write_out(std::string_view bytes) {
     }
 }
 
+Output::Output(char* to, std::size_t capacity, const std::string& name)
+    : name_(name), memory_(to), capacity_(capacity), in_memory_(true) {}
+
 void Output::write(std::string_view bytes) {
+    if (in_memory_) {
+        if (bytes_ < capacity_)
+            std::memcpy(memory_ + bytes_, bytes.data(), std::min(bytes.size(), capacity_ - std::size_t(bytes_)));
+        bytes_ += bytes.size();
+        return;
+    }
     if (file_ < 0) throw OutputError(name_, "cannot be written: it is closed");
     bytes_ += bytes.size();
     if (buffer_.size() + bytes.size() > buffer_size) flush();
@@ -87,6 +98,7 @@ void Output::write(std::string_view bytes) {
 }
 
 void Output::flush() {
+    if (in_memory_) return;
     if (file_ < 0) throw OutputError(name_, "cannot be written: it is closed");
     write_out(buffer_);
     buffer_.clear();
@@ -120,6 +132,7 @@ void Output::take_out(std::uint64_t at, std::uint64_t count) {
 }
 
 void Output::finish() {
+    if (in_memory_) return;
     flush();
     if (temporary_) {
         try {

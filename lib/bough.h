@@ -4,10 +4,12 @@
 //   segment     growth/segment.h         splines into rigid bodies with their wood's mass, stiffness and damping
 //   Scene       model/scene.h            what trees stand where and what acts on them
 //   Simulation  simulation/simulation.h  one run of it, step by step
+//   pick        simulation/pick.h        which body a ray meets
 // Species by name and documents by file name are bough/files.h, of a library beside this one (bough::files).
 #pragma once
 #include "growth/grow.h"
 #include "growth/segment.h"
 #include "model/scene.h"
 #include "model/wood.h"
+#include "simulation/pick.h"
 #include "simulation/simulation.h"

@@ -44,7 +44,7 @@ void declare(OptionList& list, ModesCommand& o) {
 }
 
 ModesReport report_of(const ModesCommand& o, const Setting& setting, const SmallMotion& small,
-                      std::vector<Mode> modes) {
+                      std::vector<NaturalMode> modes) {
     const Tree& tree = setting.tree;
     ModesReport report;
     report.name = tree.name.empty() ? "the tree" : tree.name;
@@ -58,7 +58,7 @@ ModesReport report_of(const ModesCommand& o, const Setting& setting, const Small
         high = std::max(high, (standing.position[i] + standing.rotation[i] * Vec3(0, 0, tree.size[i][0])).y());
     }
     report.height = high - low;
-    for (const Mode& mode : modes) {
+    for (const NaturalMode& mode : modes) {
         report.branch.push_back(tree.branch[mode.farthest]);
         report.level.push_back(tree.level[mode.farthest]);
     }
@@ -69,7 +69,7 @@ ModesReport report_of(const ModesCommand& o, const Setting& setting, const Small
 // Seen across the mode's widest horizontal way.
 DrawnShape drawn(const Setting& setting, const SmallMotion& small, const ModesReport& report, std::size_t k) {
     const Tree& tree = setting.tree;
-    const Mode& mode = report.modes[k];
+    const NaturalMode& mode = report.modes[k];
     const double amplitude = drawn_amplitude * report.height;
     const ShapePose rest = swung(small, tree, mode, 0), out = swung(small, tree, mode, amplitude);
     const auto end = [&](const ShapePose& pose, std::size_t i) {
@@ -110,7 +110,7 @@ void write_report(const ModesCommand& o, const Setting& setting, const SmallMoti
 
 // One whole swing, first and last frame alike.
 void write_swing(ModesCommand& o, const Setting& setting, const SmallMotion& small, const ModesReport& report) {
-    const Mode& mode = report.modes[std::size_t(o.swing - 1)];
+    const NaturalMode& mode = report.modes[std::size_t(o.swing - 1)];
     const std::string source = with_command_line(setting.source, o.common);
     const RustleMaker still = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     const double fps = frames_of_a_swing * mode.frequency;
@@ -152,7 +152,7 @@ void work(ModesCommand& o) {
     ModeOptions options;
     options.count = o.modes;
     options.air = setting.scene.wind || setting.scene.leaves;
-    std::vector<Mode> modes;
+    std::vector<NaturalMode> modes;
     std::optional<SmallMotion> standing;
     try {
         standing.emplace(setting.tree, setting.scene.gravity, setting.scene.pose);

@@ -11,7 +11,7 @@ std::string moves_name(std::size_t k, std::size_t count) {
 }
 
 ReportRow row_of(const ModesReport& report, std::size_t k) {
-    const Mode& mode = report.modes[k];
+    const NaturalMode& mode = report.modes[k];
     ReportRow row = {{"mode", std::int64_t(k + 1)},
                      {"frequency", mode.frequency},
                      {"damping", mode.damping},
@@ -43,11 +43,10 @@ std::string modes_table(const ModesReport& report) {
     std::string text = padded("mode", 4) + padded("Hz", 10) + padded("damping", 10) + padded("mass x", 12) +
                        padded("y", 12) + padded("z", 12) + "   who moves (kinetic energy)\n";
     for (std::size_t k = 0; k < report.modes.size(); ++k) {
-        const Mode& mode = report.modes[k];
+        const NaturalMode& mode = report.modes[k];
         text +=
             padded(std::to_string(k + 1), 4) + padded(figure(mode.frequency), 10) + padded(percent(mode.damping), 10);
-        for (int axis = 0; axis < 3; ++axis)
-            text += padded(percent(mode.effective_mass[axis] / report.mass), 12);
+        for (int axis = 0; axis < 3; ++axis) text += padded(percent(mode.effective_mass[axis] / report.mass), 12);
         text += "   ";
         std::vector<std::size_t> order(mode.share.size());
         for (std::size_t l = 0; l < order.size(); ++l) order[l] = l;

@@ -11,7 +11,7 @@ struct ModesReport {
     double mass = 0;   // [kg]
     double height = 0; // [m] of its highest end over its lowest joint
     std::int64_t bodies = 0;
-    std::vector<Mode> modes;
+    std::vector<NaturalMode> modes;
     std::vector<std::int32_t> branch; // of each mode's farthest end
     std::vector<std::int32_t> level;
 };

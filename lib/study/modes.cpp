@@ -124,12 +124,12 @@ Vec3 far_end(const Tree& tree, std::size_t i, const Mat3& R) {
     return R.col(2) * tree.size[i][0];
 }
 
-Mode mode_of(const Tree& tree, const SmallMotion& small, const std::vector<AirDamping>& air, double value,
-             std::vector<Vec3> a) {
+NaturalMode mode_of(const Tree& tree, const SmallMotion& small, const std::vector<AirDamping>& air, double value,
+                    std::vector<Vec3> a) {
     const double omega = 1 / std::sqrt(value);
     const std::vector<SmallMotion::Motion> moved = small.motion(a);
     const auto levels = std::size_t(*std::max_element(tree.level.begin(), tree.level.end())) + 1;
-    Mode mode;
+    NaturalMode mode;
     mode.share.assign(levels + 1, 0);
     double kinetic = 0, wood = 0, drag = 0, largest = 0;
     Vec3 momentum = Vec3::Zero();
@@ -159,17 +159,17 @@ Mode mode_of(const Tree& tree, const SmallMotion& small, const std::vector<AirDa
 
 } // namespace
 
-std::vector<Mode> natural_modes(const SmallMotion& small, const Tree& tree, const Scene& scene,
-                                const ModeOptions& options, const std::function<void(std::int64_t)>& progress) {
+std::vector<NaturalMode> natural_modes(const SmallMotion& small, const Tree& tree, const Scene& scene,
+                                       const ModeOptions& options, const std::function<void(std::int64_t)>& progress) {
     const Pairs pairs = lowest_modes(small, std::min<Index>(options.count, small.rows() - 1), progress);
     const std::vector<AirDamping> air = options.air ? air_on(tree, scene, small) : std::vector<AirDamping>();
-    std::vector<Mode> modes;
+    std::vector<NaturalMode> modes;
     for (Index k = 0; k < pairs.value.size(); ++k)
         modes.push_back(mode_of(tree, small, air, pairs.value[k], small.turns(pairs.vector.col(k).data())));
     return modes;
 }
 
-ShapePose swung(const SmallMotion& small, const Tree& tree, const Mode& mode, double amplitude) {
+ShapePose swung(const SmallMotion& small, const Tree& tree, const NaturalMode& mode, double amplitude) {
     const std::size_t n = tree.size_bodies();
     ShapePose pose;
     pose.position.resize(n);

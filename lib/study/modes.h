@@ -15,7 +15,7 @@
 
 namespace bough {
 
-struct Mode {
+struct NaturalMode {
     double frequency = 0; // [Hz]
     double damping = 0;   // [1] zeta
     double wood = 0;      // [1] of which the wood's
@@ -34,8 +34,8 @@ struct ModeOptions {
 // The lowest `count` modes of the tree that `small` is of, frequencies rising; stiffness and damping as scaled by the scene already.
 // progress: called now and then with the number of operations; may throw. O(n count) a restart, memory about (2 count + 40) x 24 B + 400 B a body.
 // Throws std::domain_error where the iteration does not converge.
-std::vector<Mode> natural_modes(const SmallMotion& small, const Tree&, const Scene&, const ModeOptions&,
-                                const std::function<void(std::int64_t)>& progress = {});
+std::vector<NaturalMode> natural_modes(const SmallMotion& small, const Tree&, const Scene&, const ModeOptions&,
+                                       const std::function<void(std::int64_t)>& progress = {});
 
 // Where bodies are as the mode has swung by `amplitude` [m] of its farthest end, joints turning about their axes by the shape: positions of joints and
 // rotations, world from body.
@@ -43,7 +43,7 @@ struct ShapePose {
     std::vector<Vec3> position;
     std::vector<Quat> rotation;
 };
-ShapePose swung(const SmallMotion&, const Tree&, const Mode&, double amplitude);
+ShapePose swung(const SmallMotion&, const Tree&, const NaturalMode&, double amplitude);
 
 // How a tree as a whole sways along a horizontal direction. Lanczos' method from the bend that a steady push of that direction on all of its mass gives
 // it, 24 steps, O(n) each: its values are the modes that the bend is made of, each with its share of the bend's energy. In a crown of many alike

@@ -132,3 +132,14 @@ full_disk() {
     [[ -z $left ]] || fail "left on the full tmpfs: $left"
     one_line "space" "$@"
 }
+
+# A Python that has numpy, the system's where another stands before it; empty: none.
+python_with_numpy() {
+    local python
+    for python in python3 /usr/bin/python3; do
+        if "$python" -c 'import numpy' 2>/dev/null; then
+            echo "$python"
+            return
+        fi
+    done
+}

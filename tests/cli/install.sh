@@ -3,10 +3,10 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 cmake --install "$build" --prefix "$work/prefix" >log 2>&1 || fail "cmake --install: $(tail -n 5 log)"
-# Two headers are for programs; the others are what these bring.
+# Three headers are for programs, C's among them; the others are what these bring.
 headers=$(cd "$work/prefix/include/bough" && find . -name '*.h' | sort | tr '\n' ' ')
-[[ $headers == "./base/math.h ./bough.h ./error.h ./files.h ./growth/grow.h ./growth/rules.h ./growth/segment.h ./model/kind.h ./model/motion.h \
-./model/scene.h ./model/splines.h ./model/tree.h ./model/wood.h ./simulation/method.h ./simulation/scene_error.h ./simulation/simulation.h " ]] ||
+[[ $headers == "./base/math.h ./bough.h ./bough_c.h ./error.h ./files.h ./growth/grow.h ./growth/rules.h ./growth/segment.h ./model/kind.h ./model/motion.h \
+./model/scene.h ./model/splines.h ./model/tree.h ./model/wood.h ./simulation/method.h ./simulation/pick.h ./simulation/scene_error.h ./simulation/simulation.h " ]] ||
     fail "installed headers are $headers"
 
 mkdir program
@@ -45,4 +45,26 @@ if command -v pkg-config >/dev/null && [[ -z $sanitizers ]]; then
     g++ -std=c++20 program/program.cpp -o by_hand $(pkg-config --cflags --libs bough) >log 2>&1 || fail "pkg-config: $(tail -n 5 log)"
     LD_LIBRARY_PATH=$(dirname "$(find "$work/prefix" -name 'libbough.so' | head -n 1)") ./by_hand >said || fail "the program by pkg-config does not run"
     grep -q " bodies, $hash\$" said || fail "by pkg-config it is '$(cat said)'"
+fi
+# In C, by its own pkg-config file (without Eigen), the program of lib/README.md.
+if command -v pkg-config >/dev/null && [[ -z $sanitizers ]]; then
+    sed -n '/^    #include <bough\/bough_c.h>/,$ { s/^    //p; /^$/p }' "$top/lib/README.md" >apple.c
+    for compiler in gcc clang; do
+        command -v "$compiler" >/dev/null || { echo "SKIPPED: no $compiler"; continue; }
+        # shellcheck disable=SC2046
+        "$compiler" -std=c99 apple.c -o apple $(PKG_CONFIG_LIBDIR=$PKG_CONFIG_PATH pkg-config --cflags --libs bough_c) >log 2>&1 || fail "C by pkg-config, $compiler: $(tail -n 5 log)"
+        LD_LIBRARY_PATH=$(dirname "$(find "$work/prefix" -name 'libbough.so' | head -n 1)") ./apple >said || fail "the C program of $compiler does not run"
+        grep -q " bodies, $hash\$" said || fail "in C by $compiler it is '$(cat said)'"
+    done
+fi
+# bough.py where the prefix's Python looks, with the library found beside it: the README's program.
+module=$(find "$work/prefix" -name bough.py)
+[[ $module == */lib/python3*/site-packages/bough.py ]] || fail "bough.py is installed as '$module'"
+numpy=$(python_with_numpy)
+if [[ -n $numpy && -z $sanitizers ]]; then
+    sed -n '/^    import bough$/,$ { s/^    //p; /^$/p }' "$top/README.md" >run.py
+    env -u BOUGH_LIBRARY PYTHONPATH="$(dirname "$module")" PYTHONDONTWRITEBYTECODE=1 "$numpy" run.py >said 2>err || fail "bough.py, installed: $(cat err)"
+    grep -q " bodies, $hash\$" said || fail "in Python it is '$(cat said)'"
+else
+    echo "notice: no Python with numpy, bough.py is not tried"
 fi

@@ -65,11 +65,14 @@ refused 1 "which is one of the files that are read" treesim scene.json --watch -
 treesim scene.json --frames 2 -o long.json
 cp long.json before.json
 python3 - <<'END' || fail "an interrupt while it runs: $(cat err)"
-import glob, signal, subprocess, time
+import glob, os, signal, subprocess, time
 child = subprocess.Popen(["treesim", "scene.json", "--watch", "--frames", "1000000", "-o", "long.json"], stderr=open("err", "wb"),
                          stdin=subprocess.DEVNULL, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
 end = time.time() + 60
-while child.poll() is None and time.time() < end and not glob.glob(".bough-*"): time.sleep(0.01)
+def unfinished(): # a temporary file, with a name or without
+    links = [os.readlink(fd) for fd in glob.glob(f"/proc/{child.pid}/fd/*") if os.path.islink(fd)]
+    return glob.glob(".bough-*") or [link for link in links if link.startswith(os.getcwd()) and link.endswith("(deleted)")]
+while child.poll() is None and time.time() < end and not unfinished(): time.sleep(0.01)
 time.sleep(0.3)
 child.send_signal(signal.SIGINT)
 assert child.wait(60) == 130, child.returncode

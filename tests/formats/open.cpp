@@ -213,3 +213,20 @@ TEST_CASE("the ending says the form") {
     CHECK(form_of_name("-") == Form::json);
     CHECK(input_name("-") == "<stdin>");
 }
+
+TEST_CASE("an output to memory keeps to it, and counts what does not fit") {
+    std::string memory(8, '.');
+    Output output(memory.data(), 6, "here");
+    output.write("abcd");
+    output.flush();
+    CHECK(memory == "abcd....");
+    output.write("efgh");
+    output.write("ij");
+    output.finish();
+    CHECK(memory == "abcdef..");
+    CHECK(output.bytes() == 10);
+    CHECK_FALSE(output.changeable());
+    Output nothing(nullptr, 0, "nowhere");
+    nothing.write("abc");
+    CHECK(nothing.bytes() == 3);
+}

@@ -195,7 +195,7 @@ Scene still(Pose pose = Pose::drawn, const Vec3& gravity = Vec3(0, -9.81, 0)) {
     return scene;
 }
 
-std::vector<Mode> modes_of(const Tree& tree, const Scene& scene, const ModeOptions& options) {
+std::vector<NaturalMode> modes_of(const Tree& tree, const Scene& scene, const ModeOptions& options) {
     return natural_modes(SmallMotion(tree, scene.gravity, scene.pose), tree, scene, options);
 }
 
@@ -240,7 +240,7 @@ Tree cantilever(int n) {
 TEST_CASE("a rod on a spring swings as sqrt((K - m g h) / J)") {
     const Tree tree = rod(Vec3(40, 55, 9));
     const double J = 2 * 1.5 * 1.5 / 3, sinking = 2 * 9.81 * 0.75;
-    const std::vector<Mode> modes = modes_of(tree, still(), {2, false});
+    const std::vector<NaturalMode> modes = modes_of(tree, still(), {2, false});
     REQUIRE(modes.size() == 2);
     CHECK(modes[0].frequency == Approx(std::sqrt((40 - sinking) / J) / (2 * pi)).epsilon(1e-12));
     CHECK(modes[1].frequency == Approx(std::sqrt((55 - sinking) / J) / (2 * pi)).epsilon(1e-12));
@@ -256,7 +256,7 @@ TEST_CASE("a rod on a spring swings as sqrt((K - m g h) / J)") {
 }
 
 TEST_CASE("a cantilever has Euler and Bernoulli's first frequencies, each twice") {
-    const std::vector<Mode> modes = modes_of(cantilever(200), still(Pose::drawn, Vec3::Zero()), {6, false});
+    const std::vector<NaturalMode> modes = modes_of(cantilever(200), still(Pose::drawn, Vec3::Zero()), {6, false});
     REQUIRE(modes.size() == 6);
     const double first = modes[0].frequency;
     CHECK(first == Approx(1).epsilon(1e-3));
@@ -269,7 +269,7 @@ TEST_CASE("a cantilever has Euler and Bernoulli's first frequencies, each twice"
     for (const double m : cantilever(200).mass) mass += m;
     CHECK((modes[0].effective_mass + modes[1].effective_mass).x() / mass == Approx(0.6131).epsilon(5e-3));
     CHECK((modes[2].effective_mass + modes[3].effective_mass).x() / mass == Approx(0.1883).epsilon(2e-2));
-    for (const Mode& mode : modes)
+    for (const NaturalMode& mode : modes)
         CHECK(mode.damping == Approx(cantilever(200).damping[0] * pi * mode.frequency).epsilon(1e-9));
 }
 
@@ -311,7 +311,7 @@ TEST_CASE("all modes are those of the dense eigenproblem") {
         if (pose == Pose::settled)
             for (Vec3& K : tree.stiffness) K *= 4; // that it stands
         const Eigen::VectorXd truth = dense(tree, Vec3(0, -9.81, 0), pose).hertz();
-        const std::vector<Mode> modes = modes_of(tree, still(pose), {20, false});
+        const std::vector<NaturalMode> modes = modes_of(tree, still(pose), {20, false});
         REQUIRE(modes.size() == 20);
         for (std::size_t k = 0; k < modes.size(); ++k) {
             CAPTURE(k, int(pose));
@@ -329,7 +329,7 @@ TEST_CASE("what buckles goes over to where it stands") {
     for (int k = 0; k < 100; ++k) theta -= (K * theta - weight * std::sin(theta)) / (K - weight * std::cos(theta));
     CHECK(std::acos(small.rotations()[0](1, 2)) == Approx(theta).epsilon(1e-8));
     const double J = 2 * 1.5 * 1.5 / 3;
-    const std::vector<Mode> modes = natural_modes(small, rod(Vec3(K, 55, 9)), still(), {1, false});
+    const std::vector<NaturalMode> modes = natural_modes(small, rod(Vec3(K, 55, 9)), still(), {1, false});
     CHECK(modes[0].frequency == Approx(std::sqrt((K - weight * std::cos(theta)) / J) / (2 * pi)).epsilon(1e-8));
     CHECK_THROWS_WITH(SmallMotion(rod(Vec3(0, 55, 9)), Vec3(0, -9.81, 0), Pose::drawn),
                       Catch::Contains("body 0 of branch 0"));
@@ -341,10 +341,10 @@ TEST_CASE("wind damps a mode by its drag's derivative") {
     scene.wind = Wind();
     scene.wind->velocity = Vec3(6, 0, 0);
     scene.wind->profile = 0;
-    const std::vector<Mode> modes = modes_of(tree, scene, {2, true});
+    const std::vector<NaturalMode> modes = modes_of(tree, scene, {2, true});
     // At its centre of mass; along the wind the slope of u^2 is 2 u, across it u.
     const double J = 2 * 1.5 * 1.5 / 3, area = 1.2 / 2 * scene.air_density * 0.04 * 1.5;
-    for (const Mode& mode : modes) {
+    for (const NaturalMode& mode : modes) {
         const bool along = mode.effective_mass.x() > mode.effective_mass.z();
         const double drag = area * (along ? 2 : 1) * 6 * 0.75 * 0.75;
         CHECK(mode.damping - mode.wood == Approx(drag / (2 * 2 * pi * mode.frequency * J)).epsilon(1e-9));

@@ -1,0 +1,598 @@
+"""bough: trees that move as wood moves.
+
+    import bough
+    tree = bough.convert(bough.grow("apple", bodies=2000, seed=7))
+    scene = bough.Scene(wind="gusty")
+    scene.add(tree)
+    run = bough.Simulation(scene, step=1 / 30, precision="single")
+    for frame in range(90):
+        run.step()
+        use(run.positions, run.rotations)
+
+SI units; world axes, y up; quaternions x, y, z, w, world from body. A body's origin is its own joint, its z axis runs along it. Bodies stand in
+document order, the trees' one after another, then balls, then walkers.
+
+Arrays are numpy's, without a copy and not to be written to: they show memory of the object that they were asked of, which lives as long as they do. Those
+of a simulation change when they are asked for again after a step (`run.positions.copy()` keeps a moment).
+
+Errors are exceptions with the message that bough's tools print: UsageError (a ValueError: the call is wrong), InputError (a document is broken, a scene
+cannot be run), NonFiniteError, OutputError; all are Error, with the tools' exit code in `code`.
+
+Any thread may call; one simulation or scene is used by one thread at a time. Python's lock is not held in a call.
+
+The library, libbough_files.so, is looked for beside this file's installation, then where the system has its libraries; the environment's
+BOUGH_LIBRARY names another.
+"""
+import collections
+import ctypes
+import ctypes.util
+import os
+import pathlib
+import weakref
+
+import numpy as np
+
+__all__ = ["Error", "UsageError", "InputError", "NonFiniteError", "OutputError", "Splines", "Tree", "Scene", "Simulation", "Wind", "Report", "Events",
+           "Hit", "species", "grow", "convert", "read_splines", "read_tree", "read_scene", "wind_preset", "__version__"]
+
+_ABI = 1
+
+
+class Error(Exception):
+    """What bough refused; `code` is the tools' exit code."""
+    code = 0
+
+
+class UsageError(Error, ValueError):
+    """The call is wrong: a number out of range, a body that is not there, an unknown name."""
+    code = 1
+
+
+class InputError(Error):
+    """A document is broken, or a scene cannot be run."""
+    code = 2
+
+
+class NonFiniteError(Error):
+    """The simulation became non-finite; the message names stage and body."""
+    code = 3
+
+
+class OutputError(Error):
+    """What was to be written cannot be."""
+    code = 4
+
+
+# --- The C interface, bough_c.h -----------------------------------------------------------------------------------------------------------------
+
+_double3 = ctypes.c_double * 3
+_size = ctypes.c_size_t
+
+
+class _Growth(ctypes.Structure):
+    _fields_ = [("check", ctypes.c_uint64), ("species", ctypes.c_char_p), ("bodies", ctypes.c_int64), ("seed", ctypes.c_uint64),
+                ("leaves", ctypes.c_int32), ("petals", ctypes.c_int32), ("fruit", ctypes.c_int32)]
+
+
+class _Conversion(ctypes.Structure):
+    _fields_ = [("check", ctypes.c_uint64), ("material", ctypes.c_char_p), ("segment_length", ctypes.c_double), ("max_bend", ctypes.c_double),
+                ("max_bodies", ctypes.c_int64)]
+
+
+class _Bodies(ctypes.Structure):
+    _fields_ = [("count", _size)] + [(name, ctypes.c_void_p) for name in ("parent", "kind", "size", "mass", "com", "stiffness", "damping", "branch",
+                                                                          "level")] + [("trees", _size), ("first_body", ctypes.c_void_p)]
+
+
+class Wind(ctypes.Structure):
+    """A wind's fields that may change in a run: velocity (3) [m/s] at the reference height, reference_height [m], profile [1], turbulence [1],
+    gust_factor [1], gust_period [s], seed. From wind_preset()."""
+    _fields_ = [("_check", ctypes.c_uint64), ("_velocity", _double3), ("reference_height", ctypes.c_double), ("profile", ctypes.c_double),
+                ("turbulence", ctypes.c_double), ("gust_factor", ctypes.c_double), ("gust_period", ctypes.c_double), ("seed", ctypes.c_uint64)]
+
+    @property
+    def velocity(self):
+        """(3) [m/s], blowing toward."""
+        return np.array(self._velocity)
+
+    @velocity.setter
+    def velocity(self, value):
+        self._velocity = _vector(value, "velocity")
+
+    def __repr__(self):
+        return "Wind(" + ", ".join(f"{name}={value}" for name, value in [("velocity", list(self._velocity))] + [
+            (name, getattr(self, name)) for name, _ in self._fields_[2:]]) + ")"
+
+
+class _Settings(ctypes.Structure):
+    _fields_ = [("check", ctypes.c_uint64), ("step", ctypes.c_double), ("precision", ctypes.c_int32), ("method", ctypes.c_int32),
+                ("sleep", ctypes.c_double), ("threads", ctypes.c_int32), ("velocities", ctypes.c_int32), ("torques", ctypes.c_int32),
+                ("pulls", ctypes.c_int32), ("portable", ctypes.c_int32)]
+
+
+class _Report(ctypes.Structure):
+    _fields_ = [("steps", ctypes.c_int64), ("time", ctypes.c_double)] + [
+        (name, ctypes.c_uint64) for name in ("fast_turns", "guarded", "limited", "broke", "hits", "landed")]
+
+
+class _Array(ctypes.Structure):
+    _fields_ = [("data", ctypes.c_void_p), ("count", _size), ("components", _size), ("stride", _size)]
+
+
+class _Events(ctypes.Structure):
+    _fields_ = [("count", _size), ("what", ctypes.c_void_p), ("body", ctypes.c_void_p), ("on", ctypes.c_void_p), ("value", ctypes.c_void_p)]
+
+
+class _Hit(ctypes.Structure):
+    _fields_ = [("body", _size), ("point", _double3), ("world", _double3), ("distance", ctypes.c_double)]
+
+
+def _library():
+    named = os.environ.get("BOUGH_LIBRARY")
+    if named:
+        return ctypes.CDLL(named)
+    here = pathlib.Path(__file__).resolve()
+    for folder in here.parents:  # PREFIX/lib/python3.11/site-packages/bough.py: the library is in PREFIX/lib or PREFIX/lib/<architecture>
+        for pattern in ("libbough_files.so.*", "*-linux-gnu*/libbough_files.so.*", "lib/libbough_files.so.*", "lib/*/libbough_files.so.*",
+                        "lib64/libbough_files.so.*"):
+            for file in sorted(folder.glob(pattern)):
+                return ctypes.CDLL(str(file))
+        if (folder / "bin").is_dir() or folder.parent == folder.parent.parent:
+            break
+    name = ctypes.util.find_library("bough_files")
+    if name is None:
+        raise ImportError("bough: no libbough_files.so beside this file's installation or among the system's libraries; BOUGH_LIBRARY may name it")
+    return ctypes.CDLL(name)
+
+
+_c = _library()
+_pointer, _string = ctypes.c_void_p, ctypes.c_char_p
+_c.bough_abi.restype = ctypes.c_int32
+if _c.bough_abi() != _ABI:
+    raise ImportError(f"bough: the library's interface is of version {_c.bough_abi()}, this file's of {_ABI}; install both of one bough")
+for _name, _result, _arguments in (
+        ("version", _string, []), ("error", _string, []), ("free", None, [_pointer]), ("species", _string, [_size]),
+        ("default_growth", _Growth, []), ("default_conversion", _Conversion, []), ("default_settings", _Settings, []),
+        ("grow", int, [_pointer] * 2), ("read_splines", int, [_string, _size, _string, _pointer]), ("convert", int, [_pointer] * 3),
+        ("read_tree", int, [_string, _size, _string, _pointer]), ("write_tree", int, [_pointer, _pointer, _size, _pointer]),
+        ("tree_bodies", int, [_pointer] * 2), ("read_scene", int, [_string, _size, _string, _pointer]), ("scene_file", _string, [_pointer, _size]),
+        ("scene_put", int, [_pointer, _size, _pointer]), ("scene_add", int, [_pointer, _pointer, _pointer, ctypes.c_double]),
+        ("wind_preset", int, [_string, _pointer]), ("scene_set_wind", int, [_pointer] * 2), ("simulate", int, [_pointer] * 4),
+        ("step", int, [_pointer] * 2), ("read", int, [_pointer, ctypes.c_int, _pointer]), ("read_events", int, [_pointer] * 2),
+        ("simulation_bodies", int, [_pointer] * 2), ("pick", int, [_pointer, _pointer, _pointer, ctypes.c_double, _pointer, _pointer]),
+        ("pull", int, [_pointer, _size, _pointer, _pointer]), ("set_wind", int, [_pointer] * 2), ("set_gravity", int, [_pointer] * 2),
+        ("set_wood", int, [_pointer, ctypes.c_double, ctypes.c_double]), ("save", int, [_pointer, _pointer, _size, _pointer]),
+        ("restore", int, [_pointer, _string, _size, _string]), ("hash", int, [_pointer] * 2)):
+    _function = getattr(_c, "bough_" + _name)
+    _function.restype = ctypes.c_int if _result in (int, None) else _result
+    _function.argtypes = _arguments
+
+__version__ = _c.bough_version().decode()
+
+
+def _check(result):
+    if result != 0:
+        kinds = {kind.code: kind for kind in (UsageError, InputError, NonFiniteError, OutputError)}
+        raise kinds[result](_c.bough_error().decode(errors="replace"))
+
+
+def _vector(value, name):
+    numbers = np.asarray(value, float)
+    if numbers.shape != (3,):
+        raise UsageError(f"{name}: has shape {numbers.shape}, expected (3,)")
+    return _double3(*numbers)
+
+
+def _whole(value, name, least, most):
+    try:
+        number = value.__index__()
+    except AttributeError:
+        raise UsageError(f"{name}: is {value!r}, expected a whole number") from None
+    if not least <= number <= most:
+        raise UsageError(f"{name}: is {number}, expected {least} to {most}")
+    return number
+
+
+def _number(value, name):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise UsageError(f"{name}: is {value!r}, expected a number") from None
+
+
+def _text(value):
+    return None if value is None else os.fsencode(value)
+
+
+class _Handle:
+    """One of the library's objects: freed with the last that uses it, arrays' memory among them."""
+
+    def __init__(self, handle):
+        self._handle = handle
+        weakref.finalize(self, _c.bough_free, handle).atexit = False  # the process frees all; others may look at an array until then
+
+    def _view(self, address, shape, dtype):
+        """Memory of this object as an array that keeps it alive."""
+        if address is None or 0 in shape:
+            return np.zeros(shape, dtype)
+        return np.asarray(_Memory(self, address, shape, dtype))
+
+
+class _Memory:
+    """numpy asks this for the array, and keeps it as the array's base."""
+
+    def __init__(self, owner, address, shape, dtype):
+        self._owner = owner
+        self.__array_interface__ = {"version": 3, "data": (address, True), "shape": shape, "typestr": np.dtype(dtype).str}
+
+
+def _made(function, *arguments):
+    handle = _pointer()
+    _check(function(*arguments, ctypes.byref(handle)))
+    return handle.value
+
+
+def _content(source):
+    """Bytes and a name of a file's name, bytes, or what has read()."""
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return bytes(source), None
+    if hasattr(source, "read"):
+        data = source.read()
+        return data.encode() if isinstance(data, str) else data, getattr(source, "name", None)
+    try:
+        return pathlib.Path(source).read_bytes(), source
+    except OSError as error:
+        raise InputError(f"{source}: {error.strerror}") from error
+
+
+class _HasBodies:
+    """Arrays of bodies, one entry each, never written to."""
+
+    def _body_arrays(self):
+        found = _Bodies()
+        _check((_c.bough_tree_bodies if isinstance(self, Tree) else _c.bough_simulation_bodies)(self._handle, ctypes.byref(found)))
+        return found
+
+    def _bodies_of(self, field, dtype, *components):
+        found = self._body_arrays()
+        return self._view(getattr(found, field), (found.count,) + components, dtype)
+
+    @property
+    def parents(self):
+        """(bodies) int32: the parent's index, less than the body's own; -1: stands on the ground."""
+        return self._bodies_of("parent", np.int32)
+
+    @property
+    def kinds(self):
+        """(bodies) uint8: 0 branch, 1 leaf, 2 fruit, 3 petal."""
+        return self._bodies_of("kind", np.uint8)
+
+    @property
+    def sizes(self):
+        """(bodies, 3) [m]: branch: length, radius at its base, at its tip; leaf, petal: length, width, thickness; fruit: joint to centre,
+        radius, radius."""
+        return self._bodies_of("size", np.float64, 3)
+
+    @property
+    def masses(self):
+        """(bodies) [kg]."""
+        return self._bodies_of("mass", np.float64)
+
+    @property
+    def centers_of_mass(self):
+        """(bodies, 3) [m] body frame."""
+        return self._bodies_of("com", np.float64, 3)
+
+    @property
+    def stiffness(self):
+        """(bodies, 3) [N m/rad] of joints: bend, bend, twist; leaf: flap, sway, twist."""
+        return self._bodies_of("stiffness", np.float64, 3)
+
+    @property
+    def damping(self):
+        """(bodies) [s] stiffness-proportional."""
+        return self._bodies_of("damping", np.float64)
+
+    @property
+    def branches(self):
+        """(bodies) int32: number of the branch that the body belongs to, or hangs on."""
+        return self._bodies_of("branch", np.int32)
+
+    @property
+    def levels(self):
+        """(bodies) int32: that branch's level, 0 for trunks."""
+        return self._bodies_of("level", np.int32)
+
+
+# --- Trees --------------------------------------------------------------------------------------------------------------------------------------
+
+def species():
+    """Names of the species that come with bough."""
+    names = []
+    while (name := _c.bough_species(len(names))) is not None:
+        names.append(name.decode())
+    return names
+
+
+class Splines(_Handle):
+    """A tree's branches as curves. From grow() or read_splines()."""
+
+
+class Tree(_Handle, _HasBodies):
+    """A tree as rigid bodies on joints; never changes. From convert() or read_tree(). len(tree): its bodies."""
+
+    def __len__(self):
+        return self._body_arrays().count
+
+    def to_bytes(self):
+        """The tree as a document in safetensors, which bough's tools read."""
+        return _written(_c.bough_write_tree, self._handle)
+
+    def save(self, file):
+        """Writes to_bytes() to a file, whose name ends in .safetensors by custom."""
+        pathlib.Path(file).write_bytes(self.to_bytes())
+
+
+def grow(species="broadleaf", bodies=0, seed=0, leaves=False, petals=False, fruit=False):
+    """A mature tree of a species, as `treegen --species SPECIES --bodies BODIES --seed SEED`. bodies: that convert() will make of it, within 10 %;
+    0: as many as the species has. Returns Splines."""
+    growth = _c.bough_default_growth()
+    growth.species = _text(species)
+    growth.bodies = _whole(bodies, "bodies", 0, 2**63 - 1)
+    growth.seed = _whole(seed, "seed", 0, 2**64 - 1)
+    growth.leaves, growth.petals, growth.fruit = bool(leaves), bool(petals), bool(fruit)
+    return Splines(_made(_c.bough_grow, ctypes.byref(growth)))
+
+
+def convert(splines, material=None, segment_length=0, max_bend=0.35, max_bodies=0):
+    """Rigid bodies of the splines, as treeconvert. material: a preset of wood, None: the splines' own; segment_length [m]: of the longest
+    body, 0: by the splines; max_bend [rad]: largest turn of the curve in one body; max_bodies: 0: as many as come. Returns a Tree."""
+    if not isinstance(splines, Splines):
+        raise UsageError(f"splines: is {type(splines).__name__}, expected Splines")
+    conversion = _c.bough_default_conversion()
+    conversion.material = _text(material)
+    conversion.segment_length = _number(segment_length, "segment_length")
+    conversion.max_bend = _number(max_bend, "max_bend")
+    conversion.max_bodies = _whole(max_bodies, "max_bodies", 0, 2**63 - 1)
+    return Tree(_made(_c.bough_convert, splines._handle, ctypes.byref(conversion)))
+
+
+def read_splines(source):
+    """A bough-splines document: a file's name, bytes, or what has read()."""
+    data, name = _content(source)
+    return Splines(_made(_c.bough_read_splines, data, len(data), _text(name)))
+
+
+def read_tree(source):
+    """A bough-tree document: a file's name, bytes, or what has read()."""
+    data, name = _content(source)
+    return Tree(_made(_c.bough_read_tree, data, len(data), _text(name)))
+
+
+# --- Scenes -------------------------------------------------------------------------------------------------------------------------------------
+
+def wind_preset(name=None):
+    """A Wind: "calm", "breeze", "gusty", "storm"; None: air that stands still, from which wind may rise."""
+    wind = Wind()
+    _check(_c.bough_wind_preset(_text(name), ctypes.byref(wind)))
+    return wind
+
+
+def _wind(value):
+    if isinstance(value, Wind):
+        return value
+    if isinstance(value, str):
+        return wind_preset(value)
+    raise UsageError(f"wind: is {value!r}, expected a Wind or a preset's name")
+
+
+class Scene(_Handle):
+    """Which trees stand where, and what acts on them. wind: a preset's name or a Wind."""
+
+    def __init__(self, wind=None, document=None):
+        """document: a bough-scene document's bytes, whose trees put() takes; see read_scene()."""
+        data, name = (None, None) if document is None else _content(document)
+        super().__init__(_made(_c.bough_read_scene, data, 0 if data is None else len(data), _text(name)))
+        if wind is not None:
+            self.set_wind(wind)
+
+    def set_wind(self, wind):
+        """A preset's name, a Wind, or None: none, not even the air's drag."""
+        _check(_c.bough_scene_set_wind(self._handle, None if wind is None else ctypes.byref(_wind(wind))))
+
+    def add(self, tree, position=(0, 0, 0), yaw=0):
+        """One more tree: position (3) [m] on the ground, turned by yaw [deg] about +y."""
+        _check(_c.bough_scene_add(self._handle, _tree(tree), _vector(position, "position"), _number(yaw, "yaw")))
+
+    @property
+    def files(self):
+        """The files that the document names for its places, "" for a tree of add()."""
+        names = []
+        while (name := _c.bough_scene_file(self._handle, len(names))) is not None:
+            names.append(os.fsdecode(name))
+        return names
+
+    def put(self, place, tree):
+        """The tree of a place that the document names; place: its number in files."""
+        _check(_c.bough_scene_put(self._handle, _whole(place, "place", 0, 2**32), _tree(tree)))
+
+
+def _tree(tree):
+    if not isinstance(tree, Tree):
+        raise UsageError(f"tree: is {type(tree).__name__}, expected Tree")
+    return tree._handle
+
+
+def read_scene(file, outside=False):
+    """A bough-scene document with its trees, each file once. outside: trees may stand elsewhere than in the document's folder and below it."""
+    scene = Scene(document=file)
+    folder, known = pathlib.Path(file).parent, {}
+    for place, name in enumerate(scene.files):
+        if name not in known:
+            if not outside and not (folder / name).resolve().is_relative_to(folder.resolve()):
+                raise InputError(f"{file}: /trees: names '{name}', which leads out of the folder of the file that names it; outside=True lets it")
+            known[name] = read_tree(folder / name)
+        scene.put(place, known[name])
+    return scene
+
+
+# --- Simulations --------------------------------------------------------------------------------------------------------------------------------
+
+Report = collections.namedtuple("Report", [name for name, _ in _Report._fields_])
+Report.__doc__ = """What a step says: steps taken, time [s]; numbers of bodies that in this step turned by more than a radian (fast_turns), were kept from
+gaining energy (guarded), ended at a joint's limit (limited); events (broke, hits, landed)."""
+Hit = collections.namedtuple("Hit", "body point world distance")
+Hit.__doc__ = "What a ray met: body, point (3) [m] in its frame, world (3) [m], distance [m]."
+Events = collections.namedtuple("Events", "what body on value")
+Events.__doc__ = """Of the last step, arrays over events: what ("broke", "hit", "landed", "leapt"), body, on (-1: the ground, or nothing), value (broke: torque
+[N m]; hit: impulse [N s]; landed, leapt: speed [m/s])."""
+_EVENTS = ("broke", "hit", "landed", "leapt")
+
+
+def _written(function, handle):
+    size = _size()
+    _check(function(handle, None, 0, ctypes.byref(size)))
+    buffer = ctypes.create_string_buffer(size.value)
+    _check(function(handle, buffer, size, ctypes.byref(size)))
+    return buffer.raw
+
+
+class Simulation(_Handle, _HasBodies):
+    """One run of a scene. len(run): bodies that positions has."""
+
+    def __init__(self, scene, step=1 / 30, precision="double", method="coupled", sleep=0, threads=0, velocities=False, torques=False, pulls=False,
+                 portable=False, before=None):
+        """step [s] of one step(). precision "double" or "single" (twice as fast; arrays are doubles with both). method "coupled" or "analytic". sleep
+        [rad/s]: slower than this for a while, trees are left out; 0: never. threads of a step at most; 0: as many as there are cores. velocities,
+        torques: are wanted; pulls: pull() will be called. portable: the same on every machine, several times slower. before: another Simulation, whose
+        trees' motion goes on where trees are connected alike."""
+        if not isinstance(scene, Scene):
+            raise UsageError(f"scene: is {type(scene).__name__}, expected Scene")
+        if before is not None and not isinstance(before, Simulation):
+            raise UsageError(f"before: is {type(before).__name__}, expected Simulation")
+        settings = _c.bough_default_settings()
+        settings.step = _number(step, "step")
+        settings.sleep = _number(sleep, "sleep")
+        settings.threads = _whole(threads, "threads", 0, 2**31 - 1)
+        for field, value, names in (("precision", precision, ("single", "double")), ("method", method, ("coupled", "analytic"))):
+            if value not in names:
+                raise UsageError(f"{field}: is {value!r}, expected {' or '.join(names)}")
+            setattr(settings, field, names.index(value))
+        for field, value in (("velocities", velocities), ("torques", torques), ("pulls", pulls), ("portable", portable)):
+            setattr(settings, field, bool(value))
+        super().__init__(_made(_c.bough_simulate, scene._handle, ctypes.byref(settings), None if before is None else before._handle))
+
+    def __len__(self):
+        return self._array(0).count
+
+    def step(self):
+        """From now to now + step. Returns a Report; raises NonFiniteError, and then at each further step."""
+        report = _Report()
+        _check(_c.bough_step(self._handle, ctypes.byref(report)))
+        return Report(*(getattr(report, name) for name in Report._fields))
+
+    def _array(self, field):
+        found = _Array()
+        _check(_c.bough_read(self._handle, field, ctypes.byref(found)))
+        return found
+
+    def _read(self, field):
+        found = self._array(field)
+        return self._view(found.data, (found.count, found.components), np.float64)
+
+    @property
+    def positions(self):
+        """(bodies, 3) [m] of own joints (balls: centres), world."""
+        return self._read(0)
+
+    @property
+    def rotations(self):
+        """(bodies, 4) x, y, z, w, world from body."""
+        return self._read(1)
+
+    @property
+    def velocities(self):
+        """(bodies, 3) [m/s] of centres of mass (Simulation(velocities=True))."""
+        return self._read(2)
+
+    @property
+    def angular_velocities(self):
+        """(bodies, 3) [rad/s] world (Simulation(velocities=True))."""
+        return self._read(3)
+
+    @property
+    def angles(self):
+        """(trees' bodies, 3) [rad] rotation vectors of joints, joint frames."""
+        return self._read(4)
+
+    @property
+    def rates(self):
+        """(trees' bodies, 3) [rad/s] how angles change."""
+        return self._read(5)
+
+    @property
+    def torques(self):
+        """(trees' bodies, 3) [N m] of springs and dampers on bodies, joint frames (Simulation(torques=True))."""
+        return self._read(6)
+
+    @property
+    def tips(self):
+        """(bodies, 3) [m] far ends of the trees' bodies, world; an array of its own."""
+        count = len(self.parents)
+        turned = self.rotations[:count]
+        x, y, z, w = turned.T
+        ahead = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], 1)
+        return self.positions[:count] + self.sizes[:, :1] * ahead
+
+    @property
+    def first_bodies(self):
+        """(trees + 1) where each tree's bodies begin; the last entry: how many there are."""
+        found = self._body_arrays()
+        return self._view(found.first_body, (found.trees + 1,), np.uintp)
+
+    @property
+    def events(self):
+        """Events of the last step; arrays of their own."""
+        found = _Events()
+        _check(_c.bough_read_events(self._handle, ctypes.byref(found)))
+        view = lambda field, dtype: self._view(getattr(found, field), (found.count,), dtype).copy()
+        return Events([_EVENTS[k] for k in view("what", np.int32)], view("body", np.int32), view("on", np.int32), view("value", np.float64))
+
+    def pick(self, origin, direction, aperture=0):
+        """The first of the trees' bodies that a ray from origin (3) [m] along direction (3) meets; where it meets none, the one whose axis is least
+        off it, up to aperture [rad]. A Hit, or None."""
+        hit, found = _Hit(), ctypes.c_int32()
+        _check(_c.bough_pick(self._handle, _vector(origin, "origin"), _vector(direction, "direction"), _number(aperture, "aperture"),
+                             ctypes.byref(hit), ctypes.byref(found)))
+        return Hit(hit.body, np.array(hit.point), np.array(hit.world), hit.distance) if found.value else None
+
+    def pull(self, body, point, force):
+        """A force (3) [N], world, on a point (3) [m] of a body, body frame, in the next step alone (Simulation(pulls=True))."""
+        _check(_c.bough_pull(self._handle, _whole(body, "body", 0, 2**63), _vector(point, "point"), _vector(force, "force")))
+
+    def set_wind(self, wind):
+        """A preset's name or a Wind, from the next step on; the scene began with one (wind_preset() at least)."""
+        _check(_c.bough_set_wind(self._handle, ctypes.byref(_wind(wind))))
+
+    def set_gravity(self, gravity):
+        """(3) [m/s^2], from the next step on."""
+        _check(_c.bough_set_gravity(self._handle, _vector(gravity, "gravity")))
+
+    def set_wood(self, stiffness=1, damping=1):
+        """All joints' stiffness and damping over what they had when the run began."""
+        _check(_c.bough_set_wood(self._handle, _number(stiffness, "stiffness"), _number(damping, "damping")))
+
+    def save(self):
+        """The state as bytes, as `treesim --save-state` writes it."""
+        return _written(_c.bough_save, self._handle)
+
+    def restore(self, state):
+        """Goes on from what save() gave, or a file or bytes of `treesim --save-state`."""
+        data, name = _content(state)
+        _check(_c.bough_restore(self._handle, data, len(data), _text(name)))
+
+    def hash(self):
+        """What `treesim --hash` prints: 16 hexadecimal digits."""
+        value = ctypes.c_uint64()
+        _check(_c.bough_hash(self._handle, ctypes.byref(value)))
+        return f"{value.value:016x}"

@@ -1,0 +1,51 @@
+#include "call.h"
+#include "formats/error.h"
+#include <cstring>
+#include <new>
+
+namespace bough::c {
+namespace {
+
+thread_local char last_message[2048]; // of fixed size, so that it is there when memory has ended
+
+bough_result keep(bough_result result, const char* message) noexcept {
+    const std::size_t length = std::min(std::strlen(message), sizeof last_message - 1);
+    std::memcpy(last_message, message, length);
+    last_message[length] = 0;
+    for (char& c : last_message) c = c == '\n' ? ' ' : c;
+    return result;
+}
+
+} // namespace
+
+bough_result caught() noexcept {
+    try {
+        throw;
+    } catch (const WrongCall& error) {
+        return keep(BOUGH_USAGE, error.what());
+    } catch (const NonFinite& error) {
+        return keep(BOUGH_NON_FINITE, error.what());
+    } catch (const OutputError& error) {
+        return keep(BOUGH_OUTPUT, error.what());
+    } catch (const std::bad_alloc&) {
+        return keep(BOUGH_INPUT, "out of memory");
+    } catch (const std::exception& error) {
+        return keep(BOUGH_INPUT, error.what());
+    } catch (...) {
+        return keep(BOUGH_INPUT, "an unknown error");
+    }
+}
+
+} // namespace bough::c
+
+int32_t bough_abi(void) {
+    return BOUGH_ABI;
+}
+
+const char* bough_version(void) {
+    return BOUGH_VERSION;
+}
+
+const char* bough_error(void) {
+    return bough::c::last_message;
+}

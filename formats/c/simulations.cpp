@@ -1,0 +1,230 @@
+#include "formats/documents/motion.h"
+#include "handle.h"
+#include "lib/simulation/pick.h"
+#include "wind.h"
+#include "write.h"
+
+using namespace bough;
+using namespace bough::c;
+
+namespace {
+
+SimulationOptions options_of(const bough_settings& s) {
+    const auto fail = [](const char* field, const std::string& value, const char* expected) {
+        throw WrongCall(std::string(field) + ": is " + value + ", expected " + expected);
+    };
+    if (!(s.step > 0) || !std::isfinite(s.step)) fail("step", std::to_string(s.step), "seconds, above 0");
+    if (!(s.sleep >= 0)) fail("sleep", std::to_string(s.sleep), "rad/s, 0 or more");
+    if (s.threads < 0) fail("threads", std::to_string(s.threads), "0 or more");
+    if (s.precision != BOUGH_FLOAT && s.precision != BOUGH_DOUBLE)
+        fail("precision", std::to_string(s.precision), "BOUGH_FLOAT or BOUGH_DOUBLE");
+    if (s.method != BOUGH_COUPLED && s.method != BOUGH_ANALYTIC)
+        fail("method", std::to_string(s.method), "BOUGH_COUPLED or BOUGH_ANALYTIC");
+    SimulationOptions o;
+    o.step = s.step;
+    o.precision = s.precision == BOUGH_FLOAT ? Precision::single : Precision::double_;
+    o.method = s.method == BOUGH_ANALYTIC ? Method::analytic : Method::coupled;
+    o.sleep = s.sleep;
+    o.threads = s.threads;
+    o.velocities = s.velocities != 0;
+    o.torques = s.torques != 0;
+    o.pulls = s.pulls != 0;
+    o.portable = s.portable != 0;
+    return o;
+}
+
+// What the caller brings where the scene's document names files.
+void require_trees(const Scene& scene) {
+    for (std::size_t k = 0; k < scene.trees.size(); ++k)
+        if (!scene.trees[k].tree)
+            throw WrongCall("scene: place " + std::to_string(k) + " (" + scene.trees[k].file +
+                            ") has no tree yet; bough_scene_put gives it one");
+    if (scene.trees.empty()) throw WrongCall("scene: has no tree; bough_scene_add gives it one");
+}
+
+template <class Numbers> bough_array array_of(std::span<const Numbers> values) {
+    constexpr std::size_t components = sizeof(Numbers) / sizeof(double);
+    static_assert(components == 3 || components == 4);
+    return {reinterpret_cast<const double*>(values.data()), values.size(), components, sizeof(Numbers)};
+}
+
+bough_array read(const Simulation& s, bough_field field) {
+    const auto wanted = [](bool is, const char* setting) {
+        if (!is) throw WrongCall(std::string("field: is not kept; settings.") + setting + " asks for it");
+    };
+    switch (field) {
+    case BOUGH_POSITION:
+        return array_of(s.positions());
+    case BOUGH_ROTATION:
+        return array_of(s.rotations());
+    case BOUGH_VELOCITY:
+        wanted(s.options().velocities, "velocities");
+        return array_of(s.velocities());
+    case BOUGH_ANGULAR_VELOCITY:
+        wanted(s.options().velocities, "velocities");
+        return array_of(s.angular_velocities());
+    case BOUGH_ANGLE:
+        return array_of(s.angles());
+    case BOUGH_RATE:
+        return array_of(s.rates());
+    case BOUGH_TORQUE:
+        wanted(s.options().torques, "torques");
+        return array_of(s.torques());
+    }
+    throw WrongCall("field: is " + std::to_string(int(field)) + ", expected BOUGH_POSITION to BOUGH_TORQUE");
+}
+
+std::int32_t number_of(const std::string& event) {
+    return event == "broke" ? BOUGH_BROKE : event == "hit" ? BOUGH_HIT : event == "landed" ? BOUGH_LANDED : BOUGH_LEAPT;
+}
+
+} // namespace
+
+bough_settings bough_default_settings(void) {
+    const SimulationOptions o;
+    bough_settings s{};
+    s.check = mark<bough_settings>(settings_mark);
+    s.step = o.step;
+    s.precision = o.precision == Precision::single ? BOUGH_FLOAT : BOUGH_DOUBLE;
+    s.method = o.method == Method::analytic ? BOUGH_ANALYTIC : BOUGH_COUPLED;
+    s.sleep = o.sleep;
+    s.threads = o.threads;
+    return s;
+}
+
+bough_result bough_simulate(const bough_scene* scene, const bough_settings* settings, const bough_simulation* before,
+                            bough_simulation** simulation) {
+    return call([&] {
+        const Use<SceneObject> use(scene);
+        const bough_settings defaults = bough_default_settings();
+        const SimulationOptions options =
+            options_of(settings ? marked(settings, settings_mark, "settings", "bough_default_settings()") : defaults);
+        required(simulation, "simulation");
+        const Scene& from = use->document.scene;
+        require_trees(from);
+        std::optional<Use<SimulationObject>> old;
+        if (before) old.emplace(before);
+        auto object = std::make_shared<SimulationObject>(old ? Simulation(from, options, (*old)->simulation)
+                                                             : Simulation(from, options));
+        object->wind = from.wind;
+        object->first_body = {0};
+        for (const TreeRange& tree : object->simulation.trees())
+            object->first_body.push_back(tree.first_body + tree.bodies);
+        *simulation = static_cast<bough_simulation*>(give(object));
+    });
+}
+
+bough_result bough_step(bough_simulation* simulation, bough_report* report) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        Simulation& own = use->simulation;
+        const StepReport made = own.step();
+        if (report)
+            *report = {own.steps(),  own.time(), made.fast_turns, made.guarded,
+                       made.limited, made.broke, made.hits,       made.landed};
+        if (!made.finite())
+            throw NonFinite("the simulation became non-finite in step " + std::to_string(own.steps()) + ": " +
+                            made.non_finite);
+    });
+}
+
+bough_result bough_read(bough_simulation* simulation, bough_field field, bough_array* array) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        required(array, "array") = read(use->simulation, field);
+    });
+}
+
+bough_result bough_read_events(bough_simulation* simulation, bough_events* events) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        required(events, "events");
+        const MotionEvents& own = use->simulation.events();
+        use->events.clear();
+        for (const std::string& what : own.what) use->events.push_back(number_of(what));
+        *events = {own.what.size(), use->events.data(), own.body.data(), own.on.data(), own.value.data()};
+    });
+}
+
+bough_result bough_simulation_bodies(const bough_simulation* simulation, bough_bodies* bodies) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        required(bodies, "bodies") = bodies_of(use->simulation.tree(), use->first_body);
+    });
+}
+
+bough_result bough_pick(bough_simulation* simulation, const double from[3], const double direction[3], double aperture,
+                        bough_hit* hit, int32_t* found) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        const Ray ray{Vec3(required_vector(from, "from")), Vec3(required_vector(direction, "direction")), aperture};
+        required(hit, "hit");
+        required(found, "found");
+        const std::optional<RayHit> met = pick(use->simulation, ray);
+        *found = met ? 1 : 0;
+        if (!met) return;
+        hit->body = met->body;
+        Eigen::Map<Vec3>(hit->point) = met->point;
+        Eigen::Map<Vec3>(hit->world) = met->world;
+        hit->distance = met->distance;
+    });
+}
+
+bough_result bough_pull(bough_simulation* simulation, size_t body, const double point[3], const double force[3]) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        use->simulation.pull(body, Vec3(required_vector(point, "point")), Vec3(required_vector(force, "force")));
+    });
+}
+
+bough_result bough_set_wind(bough_simulation* simulation, const bough_wind* wind) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        Wind changed = use->wind ? *use->wind : Wind();
+        change(changed, wind);
+        use->simulation.set_wind(changed);
+        use->wind = changed;
+    });
+}
+
+bough_result bough_set_gravity(bough_simulation* simulation, const double gravity[3]) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        use->simulation.set_gravity(Vec3(required_vector(gravity, "gravity")));
+    });
+}
+
+bough_result bough_set_wood(bough_simulation* simulation, double stiffness, double damping) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        use->simulation.set_wood(stiffness, damping);
+    });
+}
+
+bough_result bough_save(const bough_simulation* simulation, void* buffer, size_t capacity, size_t* size) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        write_to(buffer, capacity, size,
+                 [&](Output& to) { write_state(to, use->simulation.save(), Form::safetensors); });
+    });
+}
+
+bough_result bough_restore(bough_simulation* simulation, const void* bytes, size_t size, const char* name) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        const std::string place = name_or_memory(name);
+        const SavedState state = read_state(content(bytes, size), place);
+        try {
+            use->simulation.restore(state);
+        } catch (const SceneError& error) {
+            throw InputError(place, error.what());
+        }
+    });
+}
+
+bough_result bough_hash(const bough_simulation* simulation, uint64_t* hash) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        required(hash, "hash") = use->simulation.hash();
+    });
+}

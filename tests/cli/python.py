@@ -1,0 +1,220 @@
+"""bough.py against the tools' documents, read here with json, against geometry, and against itself where it must not differ. Run by python.sh in a folder
+that has birch.json (a tree), park.json (a scene of it), birch.jsonl (its motion), park.hash, birch.state. Prints nothing where all is well."""
+import gc
+import json
+import math
+import pathlib
+import threading
+import weakref
+
+import numpy as np
+
+import bough
+
+
+def raises(kind, text, call):
+    try:
+        call()
+    except bough.Error as error:
+        assert type(error) is kind, f"{type(error)}: {error}"
+        assert text in str(error), f"{text!r} is not in {str(error)!r}"
+        assert error.code == {"UsageError": 1, "InputError": 2, "NonFiniteError": 3, "OutputError": 4}[kind.__name__]
+        return
+    raise AssertionError(f"nothing was raised, expected {kind.__name__}: {text}")
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+def rotated(q, v):
+    """By the definition q v q*, not as bough.py does it."""
+    def product(a, b):
+        ax, ay, az, aw = np.moveaxis(a, -1, 0)
+        bx, by, bz, bw = np.moveaxis(b, -1, 0)
+        return np.stack([aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw,
+                         aw * bw - ax * bx - ay * by - az * bz], -1)
+    pure = np.concatenate([v, np.zeros(v.shape[:-1] + (1,))], -1)
+    return product(product(q, pure), q * [-1, -1, -1, 1])[..., :3]
+
+
+def of(tree, wind="gusty", **options):
+    scene = bough.Scene(wind=wind)
+    scene.add(tree)
+    return bough.Simulation(scene, **options)
+
+
+tree = bough.read_tree("birch.json")
+with open("birch.json") as file:
+    document = json.load(file)
+
+# A tree's arrays are the document's numbers.
+assert len(tree) == len(document["parent"])
+for mine, key in ((tree.parents, "parent"), (tree.sizes, "size"), (tree.masses, "mass"), (tree.centers_of_mass, "com"), (tree.stiffness, "stiffness"),
+                  (tree.damping, "damping"), (tree.branches, "branch"), (tree.levels, "level")):
+    assert np.array_equal(mine.ravel(), np.ravel(document[key])), key
+    assert len(mine) == len(tree) and not mine.flags.writeable and not mine.flags.owndata, key
+assert bough.read_tree(tree.to_bytes()).stiffness.tolist() == tree.stiffness.tolist()
+tree.save("saved.safetensors")
+with open("birch.json", "rb") as file:
+    assert len(bough.read_tree(file)) == len(tree)
+
+# The motion is what treesim wrote, number for number; bodies that go on along a branch hang where the one before ends.
+run = of(tree, velocities=True, torques=True)
+joined = np.flatnonzero((tree.parents >= 0) & (tree.kinds == 0) & (tree.branches == tree.branches[tree.parents]))
+assert len(joined) > 20
+before = run.positions
+at = address(before)
+with open("birch.jsonl") as file:
+    frames = [json.loads(line) for line in file]
+frames = [frame for frame in frames if "position" in frame]
+assert len(frames) == 15
+for k, frame in enumerate(frames):
+    if k > 0:
+        report = run.step()
+        assert report.steps == k and math.isclose(report.time, k / 30)
+    for mine, key in ((run.positions, "position"), (run.rotations, "rotation"), (run.velocities, "velocity"),
+                      (run.angular_velocities, "angular_velocity")):
+        assert np.array_equal(mine.ravel(), np.ravel(frame[key])), (k, key)
+    assert np.abs(run.positions[joined] - run.tips[tree.parents[joined]]).max() < 1e-9
+    assert np.allclose(run.tips, run.positions + rotated(run.rotations, np.outer(tree.sizes[:, 0], [0, 0, 1])), atol=1e-12)
+assert run.angles.shape == run.rates.shape == run.torques.shape == (len(tree), 3)
+
+# Views: no copy, not to be written to, the same memory from step to step, alive as long as one of them.
+assert address(run.positions) == at and np.array_equal(before, run.positions)
+try:
+    before[0] = 1
+except ValueError:
+    pass
+else:
+    raise AssertionError("a view was written to")
+alive = weakref.ref(run)
+part = run.positions[3:7, 1]
+expected = part.copy()
+del run, before, mine
+gc.collect()
+assert alive() is not None and np.array_equal(part, expected)
+del part
+gc.collect()
+assert alive() is None
+sizes = bough.convert(bough.grow("palm", bodies=50)).sizes  # the tree has gone, its numbers have not
+gc.collect()
+assert np.isfinite(sizes).all() and (sizes >= 0).all()
+
+# A scene's document with its trees; the hash is treesim's.
+run = bough.Simulation(bough.read_scene("park.json"), precision="single")
+assert bough.read_scene("park.json").files == ["birch.json", "birch.json"]
+assert run.first_bodies.tolist() == [0, len(tree), 2 * len(tree)]
+for _ in range(14):
+    run.step()
+assert run.hash() == pathlib.Path("park.hash").read_text().split()[-1], run.hash()
+
+# A state of treesim's goes on here, one of ours bit by bit.
+run = of(tree)
+run.restore("birch.state")
+other = of(tree)
+for _ in range(14):
+    other.step()
+assert run.hash() == other.hash()
+state = other.save()
+other.step()
+run.restore(state)
+run.step()
+assert run.hash() == other.hash()
+raises(bough.InputError, "<memory>", lambda: run.restore(b"{}"))
+
+# Picked, pulled, it comes along; let go, a quarter of the pull at most is left after 20 s in still air.
+run = of(tree, wind=None, pulls=True)
+rest = run.tips.copy()
+end = int(np.argmax(np.where(tree.kinds == 0, rest[:, 1], 0)))
+hit = run.pick(rest[end] + [9, 0, 0], [-3, 0, 0], 0.02)
+assert hit is not None and np.linalg.norm(hit.world - rest[end]) < 0.3
+assert run.pick(rest[end] + [9, 0, 0], [3, 0, 0]) is None
+spot = lambda: run.positions[hit.body] + rotated(run.rotations[hit.body], hit.point)
+assert np.allclose(spot(), hit.world)
+for _ in range(30):
+    run.pull(hit.body, hit.point, [0, 0, 0.02])
+    run.step()
+moved = (spot() - hit.world)[2]
+assert moved > 1e-4, moved
+for _ in range(600):
+    run.step()
+assert abs((spot() - hit.world)[2]) < moved / 4
+
+# What may change in a run.
+run = of(tree, wind=bough.wind_preset())
+for _ in range(5):
+    run.step()
+still = np.abs(run.rates).max()
+wind = bough.wind_preset("storm")
+wind.velocity = [0, 0, 15]
+run.set_wind(wind)
+run.set_gravity([0, -9, 0])
+run.set_wood(0.8, 1.2)
+for _ in range(20):
+    run.step()
+assert np.abs(run.rates).max() > 100 * still
+assert wind.velocity.tolist() == [0, 0, 15] and "gust_factor" in repr(wind)
+following = bough.Simulation((lambda s: (s.add(tree), s)[1])(bough.Scene()), before=run)
+assert np.abs(following.positions - run.positions).max() < 1e-3
+broken = bough.Scene(document=b'{"format": "bough-scene", "version": 1, "trees": [{"file": "t"}], "fracture": {"leaf": 1e-9}}')
+broken.put(0, tree)
+run = bough.Simulation(broken)
+report = run.step()
+assert report.broke > 0 and run.events.what.count("broke") == report.broke
+assert (tree.kinds[run.events.body] == 1).all() and (run.events.value > 0).all()
+
+# Threads of their own.
+hashes = []
+def alone():
+    own = of(tree)
+    for _ in range(10):
+        own.step()
+    hashes.append(own.hash())
+threads = [threading.Thread(target=alone) for _ in range(8)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+assert len(hashes) == 8 and len(set(hashes)) == 1
+
+# Refusals, each with its message.
+raises(bough.UsageError, "is 'yggdrasil', expected one of broadleaf, apple", lambda: bough.grow("yggdrasil"))
+raises(bough.UsageError, "bodies: is -1", lambda: bough.grow("apple", bodies=-1))
+raises(bough.UsageError, "seed: is 1.5, expected a whole number", lambda: bough.grow("apple", seed=1.5))
+raises(bough.UsageError, "splines: is Tree, expected Splines", lambda: bough.convert(tree))
+raises(bough.UsageError, "material: is 'iron'", lambda: bough.convert(bough.grow("palm", bodies=50), material="iron"))
+raises(bough.InputError, "none.json: No such file", lambda: bough.read_tree("none.json"))
+raises(bough.InputError, "park.json", lambda: bough.read_tree("park.json"))
+pathlib.Path("below").mkdir()
+pathlib.Path("below/scene.json").write_text('{"format": "bough-scene", "version": 1, "trees": [{"file": "../birch.json"}]}')
+raises(bough.InputError, "names '../birch.json', which leads out of the folder", lambda: bough.read_scene("below/scene.json"))
+assert bough.read_scene("below/scene.json", outside=True).files == ["../birch.json"]
+raises(bough.UsageError, "has no tree", lambda: bough.Simulation(bough.Scene()))
+raises(bough.UsageError, "wind: is 'gale'", lambda: bough.Scene(wind="gale"))
+raises(bough.UsageError, "position: has shape (2,)", lambda: bough.Scene().add(tree, (0, 0)))
+raises(bough.UsageError, "position: is not finite", lambda: bough.Scene().add(tree, (0, math.nan, 0)))
+raises(bough.UsageError, "step: is -1", lambda: of(tree, step=-1))
+raises(bough.UsageError, "precision: is 'half', expected single or double", lambda: of(tree, precision="half"))
+raises(bough.UsageError, "settings.velocities", lambda: of(tree).velocities)
+raises(bough.UsageError, "body 100000 is not there", lambda: of(tree, pulls=True).pull(100000, [0, 0, 0], [1, 0, 0]))
+raises(bough.UsageError, "pulls is not set", lambda: of(tree).pull(0, [0, 0, 0], [1, 0, 0]))
+raises(bough.UsageError, "direction is 0", lambda: of(tree).pick([0, 0, 0], [0, 0, 0]))
+raises(bough.UsageError, "began without one", lambda: of(tree, wind=None).set_wind("gusty"))
+run = of(tree, pulls=True)
+for _ in range(3):
+    run.pull(20, [0, 0, 0.1], [1e308, 1e308, 0])
+def until_broken():
+    for _ in range(5):
+        run.step()
+raises(bough.NonFiniteError, "became non-finite in step", until_broken)
+raises(bough.OutputError, "not finite", run.save)
+assert isinstance(bough.UsageError("x"), ValueError)
+
+# Each name that is public says what it is.
+for name in bough.__all__[:-1]:
+    thing = getattr(bough, name)
+    assert thing.__doc__, name
+    for key, value in vars(thing).items() if isinstance(thing, type) else ():
+        if not key.startswith("_") and (callable(value) or isinstance(value, property)) and key not in ("velocity",):
+            assert value.__doc__, f"{name}.{key}"
