@@ -212,13 +212,13 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
         result.failure = "found the file cut short while it was read";
     else if (killed)
         result.failure = "was killed (signal 9), as the system does for want of memory";
-    else if (WIFSIGNALED(status))
+    else if (WIFSIGNALED(status)) {
         // Not all code outlives the lack of memory that its limit makes.
-        result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")" +
-                         (limits.bytes > 0 && most > limits.bytes / 2
-                              ? " when it had taken " + std::to_string(most >> 20) + " MB of " + kept.bytes_text
-                              : "");
-    else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+        result.limited = limits.bytes > 0 && most > limits.bytes / 2;
+        if (result.limited)
+            result.failure += " when it had taken " + std::to_string(most >> 20) + " MB of " + kept.bytes_text;
+    } else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         result.failure = "crashed";
     else if (bytes[0] != kDone) {
         result.failure = bytes.size() > 1 ? bytes.substr(1) : unnamed_failure;

@@ -82,6 +82,7 @@ END
 for megabytes in 80 90 100 105 110 115 120 1000; do
     treegen --import skinned.dae -q --reader-memory $megabytes -o bones.json 2>/dev/null || continue
     code=0
+    rm -f skinned.glb
     treesim skinned.dae -q --frames 2 --gravity 0,0,0 --reader-memory $megabytes -o skinned.glb 2>err </dev/null || code=$?
     if [[ $code -eq 0 ]]; then
         [[ $(wc -c <skinned.glb) -gt 1000000 ]] || fail "another mesh than skinned.dae's own, with --reader-memory $megabytes"
