@@ -25,7 +25,7 @@
 namespace bough {
 namespace {
 
-constexpr char kDone = 'D', kFailed = 'F'; // first byte of what the child sends
+constexpr char kDone = 'D', kFailed = 'F', kLimited = 'L'; // first byte of what the child sends
 
 bool send(int pipe, const char* data, std::size_t size) {
     while (size > 0) {
@@ -95,11 +95,13 @@ std::string outcome(const std::function<std::string()>& work, const Kept& kept) 
         bytes[0] = kDone;
         bytes += made;
     } catch (const std::bad_alloc&) {
+        bytes[0] = kLimited;
         bytes += "needs more memory than " + kept.bytes_text;
     } catch (const std::exception& error) {
         // assimp catches what is thrown in it, and hands on its text.
         const std::string what = error.what();
         const bool memory = what.find("std::bad_alloc") != std::string::npos;
+        if (memory) bytes[0] = kLimited;
         bytes += memory ? "needs more memory than " + kept.bytes_text : in_words(what);
     } catch (...) {
         bytes += unnamed_failure;
@@ -202,24 +204,26 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
     const auto [status, seconds, most] = ended(child);
     ChildResult result;
     const bool killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL; // also where both limits of time are one
-    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) ||
-        (killed && seconds > double(kept.seconds.rlim_cur) - 0.5))
+    result.limited = (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) ||
+                     (killed && seconds > double(kept.seconds.rlim_cur) - 0.5);
+    if (result.limited)
         result.failure = "takes longer than " + kept.seconds_text;
     else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGBUS) // as an input does that is mapped (mapped.h)
         result.failure = "found the file cut short while it was read";
     else if (killed)
         result.failure = "was killed (signal 9), as the system does for want of memory";
-    else if (WIFSIGNALED(status))
+    else if (WIFSIGNALED(status)) {
         // Not all code outlives the lack of memory that its limit makes.
-        result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")" +
-                         (limits.bytes > 0 && most > limits.bytes / 2
-                              ? " when it had taken " + std::to_string(most >> 20) + " MB of " + kept.bytes_text
-                              : "");
-    else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+        result.limited = limits.bytes > 0 && most > limits.bytes / 2;
+        if (result.limited)
+            result.failure += " when it had taken " + std::to_string(most >> 20) + " MB of " + kept.bytes_text;
+    } else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         result.failure = "crashed";
-    else if (bytes[0] == kFailed)
+    else if (bytes[0] != kDone) {
         result.failure = bytes.size() > 1 ? bytes.substr(1) : unnamed_failure;
-    else
+        result.limited = bytes[0] == kLimited;
+    } else
         result.bytes = bytes.substr(1);
     return result;
 }

@@ -12,6 +12,7 @@ inline constexpr const char* unnamed_failure = "failed";
 struct ChildResult {
     std::string bytes;   // what `work` returned
     std::string failure; // empty, or why there is nothing: what `work` threw, or "crashed (signal 11)"
+    bool limited = false; // ... which is a limit
 };
 
 // What the child may take; 0: no limit of its own. Sanitized builds keep no memory limit (they reserve terabytes). A lower limit that the

@@ -3,6 +3,7 @@
 #include "formats/mapped.h"
 #include "formats/models/gltf_document.h"
 #include "formats/models/model_kind.h"
+#include "formats/models/reader_limits.h"
 #include "import_file.h"
 
 namespace bough {
@@ -67,6 +68,10 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
         UserModel own = read_user_model(o.run.input, notes);
         if (!has_skinned_mesh(own)) return model;
         model.driven = std::move(own);
+    } catch (const LimitError& error) {
+        throw InputError(input_name(o.run.input) + ": its own mesh",
+                         std::string(error.what()).substr(input_name(o.run.input).size() + 2) +
+                             "; --mesh made shows one that is made from the tree");
     } catch (const InputError&) {
         return model; // no armature; and what is wrong with the file, its import says
     }

@@ -182,6 +182,7 @@ std::string glb_by_assimp(std::string_view content, AssimpKind kind, const Impor
     if (child.failure.empty()) return child.bytes;
     const std::string own = options.name + ": "; // of an InputError in the child
     if (child.failure.starts_with(own)) throw InputError(options.name, valid_utf8(child.failure.substr(own.size())));
+    if (child.limited) throw LimitError(options.name, not_turned(child.failure));
     throw InputError(options.name, not_turned(child.failure));
 }
 

@@ -65,7 +65,9 @@ TEST_CASE("processor time is limited, by the lower of two limits, which is named
     ChildLimits limits;
     limits.seconds = 1;
     limits.seconds_from = "as the test says";
-    CHECK(run_forked(forever, limits).failure == "takes longer than 1 s of processor time (as the test says)");
+    const ChildResult late = run_forked(forever, limits);
+    CHECK(late.failure == "takes longer than 1 s of processor time (as the test says)");
+    CHECK(late.limited);
     // One of the process itself, which it may not raise, is in a process of its own.
     const pid_t child = ::fork();
     if (child == 0) {
@@ -83,8 +85,10 @@ TEST_CASE("processor time is limited, by the lower of two limits, which is named
 #ifndef BOUGH_SANITIZED // a sanitizer's own memory is no matter of limits
 TEST_CASE("memory is limited, and what limits it is named") {
     CHECK(run_forked(taking(100), of_memory(200)).bytes == "took 100");
-    CHECK(run_forked(taking(300), of_memory(200)).failure ==
-          "needs more memory than the 200 MB it may take (as the test says)");
+    const ChildResult large = run_forked(taking(300), of_memory(200));
+    CHECK(large.failure == "needs more memory than the 200 MB it may take (as the test says)");
+    CHECK(large.limited);
+    CHECK(!run_forked([]() -> std::string { throw std::runtime_error("why"); }, of_memory(200)).limited);
     // Code that does not outlive the lack of it.
     const auto crashes = []() noexcept { return taking(400)(); };
     const auto fills = [&] {
