@@ -423,12 +423,14 @@ def _tree(tree):
     return tree._handle
 
 
-def read_scene(file):
-    """A bough-scene document with its trees, which stand beside it; each file is read once."""
+def read_scene(file, outside=False):
+    """A bough-scene document with its trees, each file once. outside: trees may stand elsewhere than in the document's folder and below it."""
     scene = Scene(document=file)
     folder, known = pathlib.Path(file).parent, {}
     for place, name in enumerate(scene.files):
         if name not in known:
+            if not outside and not (folder / name).resolve().is_relative_to(folder.resolve()):
+                raise InputError(f"{file}: /trees: names '{name}', which leads out of the folder of the file that names it; outside=True lets it")
             known[name] = read_tree(folder / name)
         scene.put(place, known[name])
     return scene

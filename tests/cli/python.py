@@ -55,6 +55,7 @@ for mine, key in ((tree.parents, "parent"), (tree.sizes, "size"), (tree.masses, 
     assert np.array_equal(mine.ravel(), np.ravel(document[key])), key
     assert len(mine) == len(tree) and not mine.flags.writeable and not mine.flags.owndata, key
 assert bough.read_tree(tree.to_bytes()).stiffness.tolist() == tree.stiffness.tolist()
+tree.save("saved.safetensors")
 with open("birch.json", "rb") as file:
     assert len(bough.read_tree(file)) == len(tree)
 
@@ -185,6 +186,10 @@ raises(bough.UsageError, "splines: is Tree, expected Splines", lambda: bough.con
 raises(bough.UsageError, "material: is 'iron'", lambda: bough.convert(bough.grow("palm", bodies=50), material="iron"))
 raises(bough.InputError, "none.json: No such file", lambda: bough.read_tree("none.json"))
 raises(bough.InputError, "park.json", lambda: bough.read_tree("park.json"))
+pathlib.Path("below").mkdir()
+pathlib.Path("below/scene.json").write_text('{"format": "bough-scene", "version": 1, "trees": [{"file": "../birch.json"}]}')
+raises(bough.InputError, "names '../birch.json', which leads out of the folder", lambda: bough.read_scene("below/scene.json"))
+assert bough.read_scene("below/scene.json", outside=True).files == ["../birch.json"]
 raises(bough.UsageError, "has no tree", lambda: bough.Simulation(bough.Scene()))
 raises(bough.UsageError, "wind: is 'gale'", lambda: bough.Scene(wind="gale"))
 raises(bough.UsageError, "position: has shape (2,)", lambda: bough.Scene().add(tree, (0, 0)))

@@ -1,67 +1,19 @@
 // bough_c.h against the C++ door: the same trees, the same motion, what was written read by the other.
-#include "formats/c/bough_c.h"
 #include "formats/documents/motion.h"
 #include "formats/documents/tree.h"
 #include "formats/files.h"
 #include "lib/simulation/pick.h"
+#include "tests/support/c_support.h"
 #include "tests/support/random_documents.h"
-#include <catch2/catch.hpp>
 #include <cstring>
-#include <thread>
 
 using namespace bough;
+using namespace bough::test;
 
 namespace {
 
-#define OK(call)                                                                                                       \
-    do {                                                                                                               \
-        const bough_result result_ = (call);                                                                           \
-        INFO(bough_error());                                                                                           \
-        REQUIRE(result_ == BOUGH_OK);                                                                                  \
-    } while (false)
-
-bough_tree* birch(bool leaves = true) {
-    bough_growth growth = bough_default_growth();
-    growth.species = "birch";
-    growth.bodies = 300;
-    growth.seed = 2;
-    growth.leaves = leaves;
-    bough_splines* splines = nullptr;
-    bough_tree* tree = nullptr;
-    OK(bough_grow(&growth, &splines));
-    OK(bough_convert(splines, nullptr, &tree));
-    OK(bough_free(splines));
-    return tree;
-}
-
 Tree own_birch() {
     return convert(grow("birch", {.bodies = 300, .seed = 2, .leaves = true}));
-}
-
-bough_scene* scene_of(const std::string& document) {
-    bough_scene* scene = nullptr;
-    OK(bough_read_scene(document.empty() ? nullptr : document.data(), document.size(), "here.json", &scene));
-    return scene;
-}
-
-bough_simulation* simulation_of(bough_scene* scene, const bough_settings* settings = nullptr,
-                                const bough_simulation* before = nullptr) {
-    bough_simulation* simulation = nullptr;
-    OK(bough_simulate(scene, settings, before, &simulation));
-    return simulation;
-}
-
-bough_simulation* in_wind(const char* wind, const bough_settings& settings) {
-    bough_tree* tree = birch();
-    bough_scene* scene = scene_of("");
-    OK(bough_scene_add(scene, tree, nullptr, 0));
-    bough_wind blows;
-    OK(bough_wind_preset(wind, &blows));
-    OK(bough_scene_set_wind(scene, &blows));
-    bough_simulation* simulation = simulation_of(scene, &settings);
-    OK(bough_free(tree));
-    OK(bough_free(scene)); // the run keeps what it needs
-    return simulation;
 }
 
 Scene own_scene(const char* wind) {
@@ -71,34 +23,9 @@ Scene own_scene(const char* wind) {
     return scene;
 }
 
-std::uint64_t hash(bough_simulation* simulation) {
-    std::uint64_t value = 0;
-    OK(bough_hash(simulation, &value));
-    return value;
-}
-
-void steps(bough_simulation* simulation, int n) {
-    for (int k = 0; k < n; ++k) OK(bough_step(simulation, nullptr));
-}
-
-bough_array array(bough_simulation* simulation, bough_field field) {
-    bough_array a{};
-    OK(bough_read(simulation, field, &a));
-    return a;
-}
-
 template <class Numbers> bool same(const bough_array& a, std::span<const Numbers> b) {
     return a.count == b.size() && a.components * sizeof(double) == sizeof(Numbers) && a.stride == sizeof(Numbers) &&
            std::memcmp(a.data, b.data(), b.size() * sizeof(Numbers)) == 0;
-}
-
-std::string saved(const bough_simulation* simulation) {
-    std::size_t size = 0, again = 0;
-    OK(bough_save(simulation, nullptr, 0, &size));
-    std::string bytes(size, 0);
-    OK(bough_save(simulation, bytes.data(), bytes.size(), &again));
-    REQUIRE(again == size);
-    return bytes;
 }
 
 } // namespace
@@ -347,62 +274,4 @@ TEST_CASE("a state goes on bit by bit, and is treesim's document; another run's 
     CHECK(same(array(after, BOUGH_ANGLE), own_after.angles()));
     for (void* handle : {(void*)whole, (void*)second, (void*)other, (void*)scene, (void*)tree, (void*)after})
         OK(bough_free(handle));
-}
-
-TEST_CASE("arrays stay where they are, with balls and held joints too") {
-    bough_tree* const tree = birch(false);
-    for (
-        const char* const document :
-        {R"({"format": "bough-scene", "version": 1, "trees": [{"file": "t"}], "balls": [{"position": [0, 9, 0], "radius": 0.2, "mass": 2}]})",
-         R"({"format": "bough-scene", "version": 1, "trees": [{"file": "t"}], "wind": "gusty", "simulate": {"radius": 0.01}})"}) {
-        bough_scene* const scene = scene_of(document);
-        OK(bough_scene_put(scene, 0, tree));
-        bough_settings settings = bough_default_settings();
-        settings.velocities = 1;
-        bough_simulation* const simulation = simulation_of(scene, &settings);
-        std::vector<const double*> first;
-        for (int k = 0; k < 20; ++k) {
-            std::vector<const double*> now;
-            for (const bough_field field : {BOUGH_POSITION, BOUGH_ROTATION, BOUGH_VELOCITY, BOUGH_ANGULAR_VELOCITY})
-                now.push_back(array(simulation, field).data);
-            if (k == 0) first = now;
-            CHECK(now == first);
-            if (k == 10) {
-                const std::string state = saved(simulation);
-                OK(bough_restore(simulation, state.data(), state.size(), nullptr));
-            }
-            steps(simulation, 1);
-        }
-        OK(bough_free(scene));
-        OK(bough_free(simulation));
-    }
-    OK(bough_free(tree));
-}
-
-TEST_CASE("each thread has its own message, and one simulation one caller") {
-    CHECK(bough_free(reinterpret_cast<void*>(std::uintptr_t(2))) == BOUGH_USAGE);
-    const std::string here = bough_error();
-    bough_settings settings = bough_default_settings();
-    bough_simulation* const simulation = in_wind("gusty", settings);
-    std::string there;
-    std::atomic<int> taken = 0, refused = 0, else_ = 0;
-    std::thread([&] { there = bough_error(); }).join();
-    CHECK(there.empty());
-    std::vector<std::thread> threads;
-    for (int t = 0; t < 4; ++t)
-        threads.emplace_back([&] {
-            for (int k = 0; k < 50; ++k) {
-                const bough_result result = bough_step(simulation, nullptr);
-                ++(result == BOUGH_OK ? taken : result == BOUGH_USAGE ? refused : else_);
-            }
-        });
-    for (std::thread& thread : threads) thread.join();
-    CHECK(else_ == 0);
-    CHECK(taken + refused == 200);
-    bough_report report;
-    OK(bough_step(simulation, &report));
-    CHECK(report.steps == taken + 1);
-    CHECK(here == bough_error());
-    CHECK(bough_abi() == BOUGH_ABI);
-    OK(bough_free(simulation));
 }

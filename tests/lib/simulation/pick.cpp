@@ -64,7 +64,7 @@ TEST_CASE("the first body on a ray is the one that a march along it comes to") {
     const Cloud bodies = cloud(42, 3);
     std::mt19937_64 engine(8);
     int met = 0, missed = 0;
-    for (int k = 0; k < 250; ++k) {
+    for (int k = 0; k < 160; ++k) {
         const Ray ray = random_ray(engine);
         const std::optional<RayHit> hit = pick(bodies.tree, bodies.x, bodies.R, ray);
         const double step = 2e-3;
@@ -91,25 +91,25 @@ TEST_CASE("the first body on a ray is the one that a march along it comes to") {
             CHECK(first == 100);
         }
     }
-    CHECK(met > 60);
+    CHECK(met > 40);
     CHECK(missed > 40);
 }
 
 TEST_CASE("near a ray that meets nothing, the body is the one whose axis is least off it, within the aperture") {
-    Cloud bodies = cloud(40, 5);
+    Cloud bodies = cloud(24, 5);
     for (Vec3& size : bodies.tree.size) size = {size.x(), 1e-9, 1e-9}; // no wider than a line
-    bodies.tree.leaf_count.assign(40, 1);
+    bodies.tree.leaf_count.assign(24, 1);
     for (Kind& kind : bodies.tree.kind) kind = Kind::branch;
     std::mt19937_64 engine(2);
     int found = 0;
-    for (int k = 0; k < 200; ++k) {
+    for (int k = 0; k < 60; ++k) {
         Ray ray = random_ray(engine);
         CHECK_FALSE(pick(bodies.tree, bodies.x, bodies.R, ray));
         double least = 10;
         std::size_t body = 0;
         for (std::size_t i = 0; i < bodies.x.size(); ++i)
-            for (int j = 0; j <= 20000; ++j) {
-                const Vec3 p = bodies.x[i] + bodies.R[i] * Vec3(0, 0, bodies.tree.size[i].x() * j / 20000) - ray.from;
+            for (int j = 0; j <= 4000; ++j) {
+                const Vec3 p = bodies.x[i] + bodies.R[i] * Vec3(0, 0, bodies.tree.size[i].x() * j / 4000) - ray.from;
                 const double off = std::atan2(p.cross(ray.direction).norm(), p.dot(ray.direction));
                 if (off < least) least = off, body = i;
             }
@@ -118,13 +118,13 @@ TEST_CASE("near a ray that meets nothing, the body is the one whose axis is leas
         REQUIRE(hit);
         CHECK(hit->body == body);
         const Vec3 to = hit->world - ray.from;
-        CHECK(std::atan2(to.cross(ray.direction).norm(), to.dot(ray.direction)) == Approx(least).epsilon(1e-4));
+        CHECK(std::atan2(to.cross(ray.direction).norm(), to.dot(ray.direction)) == Approx(least).epsilon(1e-3));
         CHECK(hit->point.head<2>().norm() == 0);
         ray.aperture = least * 0.999;
         CHECK_FALSE(pick(bodies.tree, bodies.x, bodies.R, ray));
         ++found;
     }
-    CHECK(found == 200);
+    CHECK(found == 60);
 }
 
 TEST_CASE("a ray picks of a simulation what it can pull, and a ray that is none is refused") {
