@@ -4,13 +4,10 @@
 
 namespace bough {
 
-// Guards that acted in so many steps, and what was left out or kept.
-template <class T>
-void note_flags(const Plan<T>&, const StepFlags&, std::int64_t steps, std::vector<std::string>& notes);
-// What broke, landed and hit.
-template <class T> void note_world(const World<T>&, std::vector<std::string>& notes);
+// Guards that acted in the steps since `started`, and what was left out or kept; what broke, landed and hit.
+void note_run(const RunAccount&, std::int64_t started, std::vector<std::string>& notes);
 
 // --report-cost. ms: of all frames.
-template <class T> std::string cost_line(const Plan<T>&, const RunOptions&, double ms, std::int64_t frames);
+std::string cost_line(const RunAccount&, const RunOptions&, double ms, std::int64_t frames);
 
 } // namespace bough

@@ -1,11 +1,10 @@
 #include "converted.h"
 #include "file_names.h"
 #include "lib/lanes/operations.h"
-#include "machine_limits.h"
+#include "lib/study/machine_limits.h"
 #include "profile.h"
 #include "progress.h"
 #include "report_file.h"
-#include "rigid_parts.h"
 #include "scaling.h"
 #include "signals.h"
 #include "threads.h"
@@ -132,7 +131,7 @@ std::vector<ScalingTree> chosen_trees(ScalingCommand& o, const Scene& scene, std
     if (!trees.empty()) return trees;
     for (const std::string& shape : words("--shape", o.shape, shapes))
         for (const std::int64_t bodies : counts("--bodies", o.bodies, 2e7))
-            trees.push_back({shape, standing(scaling_tree(shape, bodies, o.common))});
+            trees.push_back({shape, standing(scaling_tree(shape, bodies))});
     return trees;
 }
 

@@ -32,29 +32,28 @@ void declare_stages(OptionList& list, StagesOptions& o) {
 }
 
 // One timed run. Times are of the steps alone, from the second frame on.
-template <class T> Report measure(const StagesOptions& o, const Setting& setting, Run<T>& run, std::int64_t frames) {
+Report measure(const StagesOptions& o, Simulation& simulation, std::int64_t frames) {
     using Time = std::chrono::steady_clock;
-    const Plan<T>& plan = run.plan;
-    State<T>& state = run.state;
+    AnyRun& run = run_of(simulation);
     StageClock clock;
-    advance_frame(run, setting.tree, 1, o.run.substeps);
-    const auto calls_before = state.calls;
+    run.begin_again();
+    advance_frame(simulation, 1, o.run.substeps);
+    const auto calls_before = run.account().calls;
     double total = 0;
     for (std::int64_t f = 2; f < frames; ++f) {
         for (int k = 0; k < o.run.substeps; ++k) {
             const Time::time_point start = Time::now();
-            advance(run.plan, state, run.world, &clock);
-            run.world.events = {};
+            run.advance(&clock);
             total += std::chrono::duration<double>(Time::now() - start).count();
         }
-        require_finite(plan, state, setting.tree, f);
+        require_finite(run, f);
     }
+    const RunAccount account = run.account();
     Report report;
-    report.bodies = std::int64_t(plan.bodies);
+    report.bodies = std::int64_t(account.bodies);
     report.frames = frames - 2;
-    report.hash = hash_text(state_hash(plan, state, run.world));
-    const fast::PlannedLanes<T>* const lanes = fast::planned_lanes(plan);
-    report.simd = lanes ? fast::target_name(lanes->target) : "none";
+    report.hash = hash_text(run.hash());
+    report.simd = account.simd;
     const double ns = 1e9 / double(report.bodies) / double(report.frames);
     double inside = 0;
     const auto add = [&](const char* name, std::uint64_t calls, double seconds) {
@@ -62,23 +61,19 @@ template <class T> Report measure(const StagesOptions& o, const Setting& setting
         inside += seconds;
     };
     for (std::size_t k = 0; k < stage_count; ++k)
-        if (state.calls[k] > 0) add(stage_name(Stage(k)), state.calls[k] - calls_before[k], clock.seconds[k]);
+        if (account.calls[k] > 0) add(stage_name(Stage(k)), account.calls[k] - calls_before[k], clock.seconds[k]);
     add("other", std::uint64_t(report.frames * o.run.substeps), std::max(0.0, total - inside));
     report.total_ns_per_body_frame = total * ns;
     return report;
 }
 
-template <class T> Report fastest(const StagesOptions& o, Setting setting, std::int64_t frames) {
-    const bool free = has_free_bodies(setting.scene); // then the tree is needed, and plans change on the way
-    Plan<T> plan = free ? planned<T>(setting, {false, false, false}, o.run)
-                        : planned<T>(std::move(setting), {false, false, false}, o.run);
+Report fastest(const StagesOptions& o, const std::shared_ptr<Setting>& setting, std::int64_t frames) {
+    Simulation run = started(setting, o.run, o.common.threads, {});
     Progress progress(o.common, "run", o.repeat);
     Report best;
     for (int k = 0; k < o.repeat; ++k) {
         progress.at(k);
-        Run<T> run = started(free ? Plan<T>(plan) : std::move(plan), setting, o.run);
-        const Report report = measure(o, setting, run, frames);
-        if (!free) plan = std::move(run.plan);
+        const Report report = measure(o, run, frames);
         if (k > 0 && report.hash != best.hash)
             throw PromiseError("two runs of the same gave hash " + best.hash + " and " + report.hash);
         if (k == 0 || report.total_ns_per_body_frame < best.total_ns_per_body_frame) best = report;
@@ -106,11 +101,10 @@ void work_stages(StagesOptions& o) {
     require_outputs({{"-o", o.common.output}, {"--report", o.report}});
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
-    Setting setting = read_setting(o.run);
-    refuse_overwriting_trees(setting, written);
-    o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
-    Report report = o.run.precision == "float" ? fastest<float>(o, std::move(setting), frames)
-                                               : fastest<double>(o, std::move(setting), frames);
+    const auto setting = std::make_shared<Setting>(read_setting(o.run));
+    refuse_overwriting_trees(*setting, written);
+    o.common.notes.insert(o.common.notes.end(), setting->notes.begin(), setting->notes.end());
+    Report report = fastest(o, setting, frames);
     report.tool = profile_name;
     report.version = bough_version();
     report.compiler = compiler_name();

@@ -6,19 +6,18 @@
 namespace bough {
 
 // --report-rigid: the whole tree beside the run, with all its joints.
-template <class T> class RigidReport {
+class RigidReport {
 public:
-    // At the start of a run. Keeps a reference to the setting's whole tree. Throws UsageError where nothing is held.
-    RigidReport(const Setting&, const RunOptions&);
-    // After each frame of the run, whose poses are up to date: takes the whole tree there, and compares.
-    void follow(const Plan<T>&, const State<T>&, std::int64_t frame);
+    // At the start of a run. Throws UsageError where nothing is held.
+    RigidReport(const Setting&, const RunOptions&, int threads);
+    // After each frame of the run: takes the whole tree there, and compares.
+    void follow(Simulation&, std::int64_t frame);
     std::string line(double run_ms, std::int64_t frames) const; // run_ms: of all the run's frames
 
 private:
-    Setting setting_; // of the whole tree
-    const Whole& whole_;
+    std::shared_ptr<const Whole> whole_;
     RunOptions options_;
-    Run<T> run_;
+    Simulation run_; // of the whole tree
     RigidComparison comparison_;
     std::vector<Vector3<float>> there_, here_;
     double ms_ = 0;

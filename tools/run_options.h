@@ -24,6 +24,7 @@ struct RunOptions {
     std::optional<std::uint64_t> seed;
     std::vector<std::string> set; // as given: PATH=VALUE, set_option.h
     std::string shard;            // "i/n", of treesim; empty: all
+    bool asks_for_sleep() const { return !sleep.empty() && sleep != "off"; }
 };
 
 // seconds_default: what runs without --seconds and --frames.

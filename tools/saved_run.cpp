@@ -1,55 +1,58 @@
 #include "saved_run.h"
-#include "exits.h"
 #include "formats/documents/motion.h"
-#include "formats/open.h"
-#include "lib/simulation/saved.h"
+#include "formats/documents/tree.h"
 
 namespace bough {
+namespace {
 
-template <class T> void restore(const TreesimOptions& o, const Setting& setting, const SavedState& saved, Run<T>& run) {
-    const auto refuse = [&](const std::string& field, const std::string& found, const std::string& expected) {
-        if (found != expected)
-            throw InputError(input_name(o.resume), "/" + field + ": is " + found + ", but this run has " + expected);
-    };
-    refuse("precision", saved.precision, o.run.precision);
-    refuse("solver", saved.solver, o.run.solver);
-    refuse("scheme", saved.scheme, scheme_name(o.run));
-    refuse("substeps", std::to_string(saved.substeps), std::to_string(o.run.substeps));
-    if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
-    refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(run.plan.bodies) + " bodies");
-    if (saved.fingerprint != setting.fingerprint)
-        throw InputError(input_name(o.resume), "/fingerprint: is " + hash_text(saved.fingerprint) +
-                                                   ", but this run's tree and scene have " +
-                                                   hash_text(setting.fingerprint));
-    refuse("whole", saved.whole, setting.part.parts > 1 ? hash_text(setting.part.whole) : "");
-    try {
-        restore_run(saved, saved.frame * o.run.substeps, run);
-    } catch (const SceneError& error) {
-        throw InputError(input_name(o.resume), error.what());
-    }
-}
-
-template <class T> void save(const TreesimOptions& o, const Setting& setting, Run<T>& run, std::int64_t frame) {
-    SavedState saved;
-    save_run(run, frame, saved);
+void save_state(const TreesimOptions& o, const Simulation& run, std::int64_t frame) {
+    SavedState saved = run.save();
+    saved.frame = frame;
     saved.fps = o.run.fps;
     saved.substeps = o.run.substeps;
-    saved.precision = o.run.precision;
-    saved.solver = o.run.solver;
-    saved.scheme = scheme_name(o.run);
-    saved.fingerprint = setting.fingerprint;
-    saved.part = setting.part.part;
-    saved.parts = setting.part.parts;
-    if (setting.part.parts > 1) saved.whole = hash_text(setting.part.whole);
-    saved.source = with_command_line(setting.source, o.common);
+    saved.source = with_command_line(saved.source, o.common);
     Output output(o.save_state);
     write_state(output, saved, form_of_name(o.save_state));
     output.finish();
 }
 
-template void restore(const TreesimOptions&, const Setting&, const SavedState&, Run<float>&);
-template void restore(const TreesimOptions&, const Setting&, const SavedState&, Run<double>&);
-template void save(const TreesimOptions&, const Setting&, Run<float>&, std::int64_t);
-template void save(const TreesimOptions&, const Setting&, Run<double>&, std::int64_t);
+void save_tree(const TreesimOptions& o, const Simulation& run) {
+    Tree tree;
+    try {
+        tree = run.posed_tree();
+    } catch (const SceneError& error) {
+        throw OutputError(o.save_tree, std::string("--save-tree: ") + error.what());
+    }
+    tree.source = with_command_line(tree.source, o.common);
+    Output output(o.save_tree);
+    write_tree(output, tree, form_of_name(o.save_tree));
+    output.finish();
+}
+
+} // namespace
+
+void restore(const TreesimOptions& o, const SavedState& saved, Simulation& run) {
+    if (saved.substeps != o.run.substeps)
+        throw InputError(input_name(o.resume), "/substeps: is " + std::to_string(saved.substeps) +
+                                                   ", but this run has " + std::to_string(o.run.substeps));
+    if (saved.fps != o.run.fps) throw InputError(input_name(o.resume), "/fps: differs from this run's (--fps)");
+    try {
+        run.restore(saved);
+    } catch (const SceneError& error) {
+        throw InputError(input_name(o.resume), error.what());
+    }
+}
+
+void save(const TreesimOptions& o, const Simulation& run, std::int64_t frame) {
+    if (!o.save_state.empty()) save_state(o, run, frame);
+    if (!o.save_tree.empty()) save_tree(o, run);
+}
+
+void require_one_tree(const Setting& setting) {
+    if (setting.whole) throw UsageError("--save-tree: not where joints are held (/simulate, /rigid)");
+    if (setting.ranges.size() != 1)
+        throw UsageError("--save-tree: the scene has " + std::to_string(setting.ranges.size()) +
+                         " trees, expected one: a document holds one tree");
+}
 
 } // namespace bough

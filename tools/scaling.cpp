@@ -1,13 +1,8 @@
 #include "scaling.h"
-#include "growth.h"
-#include "lib/coupled/coupled_lanes_stepper.h"
+#include "formats/files.h"
 #include "lib/growth/segment.h"
-#include "lib/lanes/operations.h"
-#include "lib/lanes/plan_lanes.h"
-#include "lib/lanes/shared_constants.h"
-#include "lib/study/step_bytes.h"
-#include "machine_limits.h"
-#include "resident.h"
+#include "lib/study/machine_limits.h"
+#include "lib/study/resident.h"
 #include "threads.h"
 #include <algorithm>
 #include <chrono>
@@ -23,56 +18,9 @@ double median(std::vector<double> values) {
     return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-// What code `plan` runs with, and by which target's limits it is held.
-template <class T> std::string simd_of(const Plan<T>& plan) {
-    const auto* const lanes = fast::planned_lanes(plan);
-    return lanes ? fast::target_name(lanes->target) : "none";
-}
+// By which target's limits a run is held.
 fast::Target target_of(const RunOptions& way) {
     return chosen_simd(way).value_or(fast::Target::baseline); // what the plain step is compiled for
-}
-
-template <class T> void count_operations(Plan<T>& plan, std::int64_t frames, ScalingCost& cost) {
-    fast::PlannedLanes<T>& lanes = *fast::planned_lanes(plan);
-    const fast::Target target = lanes.target;
-    use_threads(1);
-    State<T> state = make_state(plan);
-    advance(plan, state); // the one of warm-up
-    lanes.target = fast::counted_target;
-    fast::counted_operations() = {};
-    const std::int64_t steps = std::clamp<std::int64_t>(400000 / std::int64_t(plan.bodies), 1, frames);
-    for (std::int64_t k = 0; k < steps; ++k) advance(plan, state);
-    lanes.target = target;
-    const fast::Operations& done = fast::counted_operations();
-    const double each = 1 / (double(plan.bodies) * double(steps));
-    cost.additions = double(done.additions) * each;
-    cost.multiplications = double(done.multiplications) * each;
-    cost.divisions = double(done.divisions) * each;
-    cost.roots = double(done.roots) * each;
-}
-
-template <class T> void count_bytes(const Plan<T>& plan, ScalingCost& cost) {
-    const fast::PlannedLanes<T>& lanes = *fast::planned_lanes(plan);
-    const fast::Layout& layout = lanes.layout;
-    // wide.h writes past the caches where a register is a line.
-    const bool streamed = lanes.target == fast::Target::avx512 && fast::streams(layout);
-    const std::uint64_t shared = fast::shared_rows(lanes);
-    const fast::StepBytes bytes =
-        fast::coupled_plan(plan)
-            ? fast::coupled_step_bytes(layout, plan.wind, plan.gravity, sizeof(T), streamed, shared)
-            : fast::analytic_step_bytes(layout, plan.wind, plan.pushes(), plan.gravity, sizeof(T), plan.field, shared);
-    const auto each = [&](std::uint64_t all) { return double(all) / double(plan.bodies); };
-    cost.slots = each(std::uint64_t(layout.rows) * std::uint64_t(layout.lanes));
-    cost.constants_in = each(bytes.constants.in);
-    cost.now_in = each(bytes.now.in);
-    cost.next_in = each(bytes.next.in);
-    cost.next_out = each(bytes.next.out);
-    cost.solved_in = each(bytes.solved.in);
-    cost.solved_out = each(bytes.solved.out);
-    cost.records_in = each(bytes.records.in);
-    cost.records_out = each(bytes.records.out);
-    cost.indices_in = each(bytes.indices.in);
-    cost.tables = double(bytes.tables);
 }
 
 class Measurement {
@@ -90,11 +38,7 @@ public:
             at = 0;
             limits_once();
             for (const ScalingTree& tree : trees)
-                for (const RunOptions& way : choice.ways)
-                    if (way.precision == "float")
-                        plan_once<float>(tree, way);
-                    else
-                        plan_once<double>(tree, way);
+                for (const RunOptions& way : choice.ways) plan_once(tree, way);
         }
         finish();
         return std::move(report);
@@ -121,30 +65,29 @@ private:
             }
     }
 
-    template <class T> void plan_once(const ScalingTree& tree, const RunOptions& way) {
+    void plan_once(const ScalingTree& tree, const RunOptions& way) {
         const std::optional<std::size_t> before = resident();
         const bool counts_peak = before && forget_peak();
         use_threads(choice.threads.front());
         RunOptions named = way; // for what is said of the tree
         named.input = tree.shape;
-        Plan<T> plan = planned<T>(Setting(tree.setting), {false, false, false}, named); // as treesim --no-output
+        Simulation simulation = started(std::make_shared<Setting>(tree.setting), named, choice.threads.front(), {});
+        AnyRun& run = run_of(simulation); // as treesim --no-output
         const std::size_t first = at;
         for (const int threads : choice.threads) {
-            time_once(tree, way, plan, threads);
+            time_once(tree, way, run, threads);
             if (round == 0 && counts_peak && at == first + 1)
                 report.runs[first].memory = double(*peak_resident() - *before);
         }
         if (round > 0) return;
+        const RunAccount account = run.account();
         ScalingCost c;
+        static_cast<StepCost&>(c) = step_cost(run, report.runs[first].frames);
         c.shape = tree.shape;
         c.solver = way.solver;
         c.precision = way.precision;
-        c.simd = simd_of(plan);
-        c.bodies = std::int64_t(plan.bodies);
-        if (fast::planned_lanes(plan)) {
-            count_operations(plan, report.runs[first].frames, c);
-            count_bytes(plan, c);
-        }
+        c.simd = account.simd;
+        c.bodies = std::int64_t(account.bodies);
         for (std::size_t k = first; k < at; ++k) {
             cost.push_back(report.costs.size());
             report.runs[k].memory = report.runs[first].memory;
@@ -152,37 +95,37 @@ private:
         report.costs.push_back(c);
     }
 
-    template <class T>
-    void time_once(const ScalingTree& tree, const RunOptions& way, const Plan<T>& plan, int threads) {
+    void time_once(const ScalingTree& tree, const RunOptions& way, AnyRun& run, int threads) {
         using Time = std::chrono::steady_clock;
         tick_(std::int64_t(std::size_t(round) * all_runs() + at),
               std::int64_t(std::size_t(choice.repeat) * all_runs()));
-        const auto bodies = std::int64_t(plan.bodies);
+        const RunAccount account = run.account();
+        const auto bodies = std::int64_t(account.bodies);
         const std::int64_t frames = choice.frames > 0 ? choice.frames : scaling_frames(bodies);
         use_threads(threads);
-        State<T> state = make_state(plan);
-        advance(plan, state);
-        require_finite(plan, state, tree.setting.tree, 1);
+        run.begin_again();
+        run.advance(nullptr);
+        require_finite(run, 1);
         double seconds = 0;
         for (std::int64_t f = 0; f < frames; ++f) {
             const Time::time_point start = Time::now();
-            advance(plan, state);
+            run.advance(nullptr);
             seconds += std::chrono::duration<double>(Time::now() - start).count();
-            require_finite(plan, state, tree.setting.tree, f + 2);
+            require_finite(run, f + 2);
         }
-        const std::string hash = hash_text(state_hash(plan, state));
+        const std::string hash = hash_text(run.hash());
         if (round == 0) {
-            ScalingRun run;
-            run.shape = tree.shape;
-            run.solver = way.solver;
-            run.scheme = scheme_name(way);
-            run.precision = way.precision;
-            run.simd = simd_of(plan);
-            run.threads = threads;
-            run.bodies = bodies;
-            run.frames = frames;
-            run.hash = hash;
-            report.runs.push_back(run);
+            ScalingRun made;
+            made.shape = tree.shape;
+            made.solver = way.solver;
+            made.scheme = scheme_name(way);
+            made.precision = way.precision;
+            made.simd = account.simd;
+            made.threads = threads;
+            made.bodies = bodies;
+            made.frames = frames;
+            made.hash = hash;
+            report.runs.push_back(made);
             ns.emplace_back();
             target.push_back(target_of(way));
             const ScalingRun& first = report.runs[at - at % choice.threads.size()];
@@ -231,7 +174,7 @@ private:
 
 } // namespace
 
-Tree scaling_tree(const std::string& shape, std::int64_t bodies, CommonOptions& common) {
+Tree scaling_tree(const std::string& shape, std::int64_t bodies) {
     if (shape == "chain") {
         constexpr double height = 20, radius = 0.2;
         Splines pole;
@@ -246,13 +189,11 @@ Tree scaling_tree(const std::string& shape, std::int64_t bodies, CommonOptions& 
         options.segment_length = height / (double(bodies) - 0.5); // the least number of even pieces no longer than this
         return segment(pole, wood_presets().front(), options);
     }
-    GrowthOptions growth;
-    growth.species = shape == "willow" ? "willow" : "apple";
-    growth.bodies = bodies;
-    growth.seed = 1;
-    const Splines splines = grow_tree(growth, {}, common);
-    const Material* wood = find_wood(splines.material);
-    return segment(splines, wood ? *wood : wood_presets().front(), {});
+    try {
+        return convert(grow(shape == "willow" ? "willow" : "apple", {.bodies = bodies, .seed = 1}));
+    } catch (const SceneError& error) {
+        throw UsageError(std::string("--") + error.what());
+    }
 }
 
 std::int64_t scaling_frames(std::int64_t bodies) {

@@ -15,7 +15,7 @@ struct ScalingTree {
 
 // bushy: an apple tree, willow: a willow, both bare, as `treegen --species NAME --bodies N --seed 1 | treeconvert -` makes them; chain: a straight
 // upright pole of 20 m and 0.2 m radius, cut into `bodies` pieces. Throws UsageError for a number that cannot be grown.
-Tree scaling_tree(const std::string& shape, std::int64_t bodies, CommonOptions&);
+Tree scaling_tree(const std::string& shape, std::int64_t bodies);
 
 struct ScalingChoice {
     std::vector<RunOptions> ways; // solver, precision, simd

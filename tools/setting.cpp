@@ -102,7 +102,9 @@ Setting read_setting(const RunOptions& o) {
     setting.scene = std::move(document.scene);
     if (scene) {
         setting.tree_files = tree_files(o.input, setting.scene);
-        stand_trees(setting, o.input, o.shard, document.material);
+        TreesRead read = read_trees(setting, o.input, o.shard, document.material);
+        setting.notes = std::move(read.notes);
+        setting.converted = std::move(read.converted);
     } else {
         if (!o.shard.empty()) throw UsageError("--shard: only with a scene, whose trees it parts");
         if (!setting.scene.trees.empty())

@@ -9,8 +9,6 @@ namespace bough {
 
 // What a run is of, and where it came from.
 struct Setting : Assembly {
-    std::uint64_t fingerprint =
-        0; // of tree and scene, where a state is saved or resumed: before the tree is handed over
     std::vector<std::string> tree_files{}; // of a scene: where its trees are read from, each once, of other parts too
     std::vector<std::string> notes{};      // on trees that were converted (converted.h)
     std::vector<std::string> converted{};  // those: files, INPUT among them

@@ -1,28 +1,27 @@
-// simulation.h: what treesim and treeprofile share: one run as frames.
+// simulation.h: what treesim and treeprofile share: one run as frames, its errors as the tool's.
 #pragma once
-#include "lib/lanes/plan_lanes.h"
-#include "lib/simulation/run.h"
-#include "lib/study/solvers.h"
+#include "lib/simulation/any_run.h"
 #include "setting.h"
 
 namespace bough {
 
 double step_length(const RunOptions&); // [s]
 
-// plan_run and start_run with their errors as the tool's.
-template <class T> Plan<T> planned(const Setting&, const Wishes&, const RunOptions&);
-template <class T> Plan<T> planned(Setting&&, const Wishes&, const RunOptions&);
-template <class T> Run<T> started(Plan<T> plan, const Setting&, const RunOptions&);
+// What is read of a run: the arrays of its frames, its bodies' poses, its trees once it has begun; its state, to go on from.
+struct RunWishes {
+    MotionFields fields{false, false, false, false};
+    bool poses = false, trees = false, state = false;
+};
+// At its start. The setting stays the caller's and the run's; without wishes for trees its tree is the plan's. Throws InputError for what the
+// library refuses.
+Simulation started(const std::shared_ptr<Setting>&, const RunOptions&, int threads, const RunWishes&);
 
-// Takes the steps of one frame. A state that became non-finite throws PromiseError with frame, stage and body.
-template <class T>
-void advance_frame(Run<T>&, const Tree&, std::int64_t frame, int substeps, StageClock* clock = nullptr);
-
-// Throws that PromiseError where theta or theta_dot is non-finite.
-template <class T> void require_finite(const Plan<T>&, State<T>&, const Tree&, std::int64_t frame);
+// Takes the steps of one frame. A run that became non-finite throws PromiseError with frame, stage and body.
+void advance_frame(Simulation&, std::int64_t frame, int substeps);
+// Throws that PromiseError where it has.
+void require_finite(AnyRun&, std::int64_t frame);
 
 // The frame's number, time and arrays, as far as `fields` asks for them. Throws PromiseError where a pose is non-finite.
-template <class T>
-void fill_frame(const State<T>&, std::int64_t frame, double fps, const MotionFields& fields, MotionFrame&);
+void fill_frame(Simulation&, std::int64_t frame, double fps, const MotionFields& fields, MotionFrame&);
 
 } // namespace bough

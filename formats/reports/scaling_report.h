@@ -1,6 +1,7 @@
 // scaling_report.h: what `treeprofile scaling` writes: the document "bough-scaling-report" (formats/README.md), CSV, and a table.
 // Figures a body are means over all bodies; one that was not measured, or that nothing is known to count, is NAN.
 #pragma once
+#include "lib/study/step_cost.h"
 #include "report_rows.h"
 #include <cmath>
 
@@ -16,16 +17,10 @@ struct ScalingLimits {
     double peak(const std::string& precision) const;
 };
 
-// What a step computes and moves, a body, counted (lib/lanes/operations.h, lib/study/step_bytes.h).
-struct ScalingCost {
+// What a step computes and moves, a body.
+struct ScalingCost : StepCost {
     std::string shape, solver, precision, simd;
     std::int64_t bodies = 0;
-    double slots = NAN; // places in rows of lanes a body: 1 without pads
-    double additions = NAN, multiplications = NAN, divisions = NAN, roots = NAN;
-    // [B] each way
-    double constants_in = NAN, now_in = NAN, next_in = NAN, next_out = NAN, solved_in = NAN, solved_out = NAN,
-           records_in = NAN, records_out = NAN, indices_in = NAN;
-    double tables = NAN; // [B] that these take
     double operations() const;
     double bytes() const;
 };

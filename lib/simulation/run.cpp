@@ -40,13 +40,11 @@ void keep_to_the_whole(const Part& part, Method method, StepChoice& choice) {
     if (part.moved && method == Method::analytic) choice.simd.reset(); // as for the whole
 }
 
-template <class T> Plan<T> plan_run(const Assembly& assembly, const Wishes& wishes, StepChoice choice) {
+template <class T> std::unique_ptr<Stepper<T>> stepper_of(const Assembly& assembly, StepChoice choice) {
     keep_to_the_whole(assembly.part, choice.method, choice);
-    const Scene& scene = assembly.scene;
-    return plan_run<T>(assembly, wishes, choice.dt,
-                       choice.method == Method::coupled
-                           ? fast::coupled_stepper<T>(scene, Scheme::p12, choice.simd, choice.sleep)
-                           : fast::analytic_stepper<T>(scene, choice.simd, choice.sleep));
+    return choice.method == Method::coupled
+               ? fast::coupled_stepper<T>(assembly.scene, Scheme::p12, choice.simd, choice.sleep)
+               : fast::analytic_stepper<T>(assembly.scene, choice.simd, choice.sleep);
 }
 
 template <class T>
@@ -72,21 +70,17 @@ template <class T> Run<T> start_run(Plan<T> plan, const Assembly& assembly) {
     return run;
 }
 
-template <class T> std::string advance_run(Run<T>& run, const Tree& tree, StageClock* clock) {
-    advance(run.plan, run.state, run.world, clock);
-    std::string place = non_finite(run.plan, run.state, tree);
-    if (!place.empty()) return place;
+template <class T> std::string non_finite(Run<T>& run, const Tree& tree) {
+    if (!run.plan.stepper->known_finite(run.state)) {
+        present(run.plan, run.state);
+        if (first_non_finite(run.state)) {
+            const NonFinite found = run.plan.stepper->non_finite(run.state);
+            return "stage " + found.what + ", " + body_text(tree, found.body);
+        }
+    }
     if (const std::optional<std::size_t> free = first_non_finite(run.world))
         return "stage contacts, " + free_text(run.world, *free);
     return {};
-}
-
-template <class T> std::string non_finite(const Plan<T>& plan, State<T>& state, const Tree& tree) {
-    if (plan.stepper->known_finite(state)) return {};
-    present(plan, state);
-    if (!first_non_finite(state)) return {};
-    const NonFinite found = plan.stepper->non_finite(state);
-    return "stage " + found.what + ", " + body_text(tree, found.body);
 }
 
 template <class T>
@@ -126,18 +120,16 @@ std::string hash_text(std::uint64_t hash) {
     return text;
 }
 
-template Plan<float> plan_run(const Assembly&, const Wishes&, StepChoice);
-template Plan<double> plan_run(const Assembly&, const Wishes&, StepChoice);
+template std::unique_ptr<Stepper<float>> stepper_of(const Assembly&, StepChoice);
+template std::unique_ptr<Stepper<double>> stepper_of(const Assembly&, StepChoice);
 template Plan<float> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<float>>);
 template Plan<double> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<double>>);
 template Plan<float> plan_run(Assembly&&, const Wishes&, double, std::unique_ptr<Stepper<float>>);
 template Plan<double> plan_run(Assembly&&, const Wishes&, double, std::unique_ptr<Stepper<double>>);
 template Run<float> start_run(Plan<float>, const Assembly&);
 template Run<double> start_run(Plan<double>, const Assembly&);
-template std::string advance_run(Run<float>&, const Tree&, StageClock*);
-template std::string advance_run(Run<double>&, const Tree&, StageClock*);
-template std::string non_finite(const Plan<float>&, State<float>&, const Tree&);
-template std::string non_finite(const Plan<double>&, State<double>&, const Tree&);
+template std::string non_finite(Run<float>&, const Tree&);
+template std::string non_finite(Run<double>&, const Tree&);
 template std::optional<std::size_t> fill_frame(const State<float>&, const MotionFields&, MotionFrame&);
 template std::optional<std::size_t> fill_frame(const State<double>&, const MotionFields&, MotionFrame&);
 template void show_all(const Assembly&, const Run<float>&, MotionFrame&);

@@ -1,5 +1,4 @@
-// run.h: one run, step after step: plan, state, and what is free beside the trees. The inside of the door (simulation.h); treesim and
-// treeprofile, which report on plans and states themselves, stand on it too.
+// run.h: one run, step after step: plan, state, and what is free beside the trees. any_run.h makes of it what the door (simulation.h) stands on.
 #pragma once
 #include "../free/world.h"
 #include "../lanes/target.h"
@@ -12,7 +11,6 @@ namespace bough {
 
 // How the steps are made.
 struct StepChoice {
-    double dt = 1.0 / 30; // [s]
     Method method = Method::coupled;
     std::optional<fast::Target> simd; // SIMD lanes for it, where they hold all that the scene has; none: the plain path
     double sleep = 0; // [rad/s] the rate below which what has settled is left out of steps (coupled/sleep.h)
@@ -21,9 +19,10 @@ struct StepChoice {
 // What a part of a scene must not do that the whole would not: its trees share blocks with others, and the ground of some may move.
 void keep_to_the_whole(const Part&, Method, StepChoice&);
 
-// Throws SceneError. An assembly that is handed over keeps of its tree what make_plan says, and memory low.
-template <class T> Plan<T> plan_run(const Assembly&, const Wishes&, StepChoice);
-// The same with a stepper of any solver, for steps of dt [s].
+// Of the coupled or the analytic method.
+template <class T> std::unique_ptr<Stepper<T>> stepper_of(const Assembly&, StepChoice);
+
+// For steps of dt [s]. Throws SceneError. An assembly that is handed over keeps of its tree what make_plan says, and memory low.
 template <class T> Plan<T> plan_run(const Assembly&, const Wishes&, double dt, std::unique_ptr<Stepper<T>>);
 template <class T> Plan<T> plan_run(Assembly&&, const Wishes&, double dt, std::unique_ptr<Stepper<T>>);
 
@@ -36,11 +35,8 @@ template <class T> struct Run {
 // At the start. Keeps a reference to the assembly's tree where the scene has something free. Throws SceneError.
 template <class T> Run<T> start_run(Plan<T> plan, const Assembly&);
 
-// One step. Returns "", or where the run became non-finite: "stage spring (theta), body 17 (branch 3)".
-template <class T> std::string advance_run(Run<T>&, const Tree&, StageClock* clock = nullptr);
-
-// The same of a state as it stands, whose arrays are brought up to date where that takes it.
-template <class T> std::string non_finite(const Plan<T>&, State<T>&, const Tree&);
+// After a step: "", or where the run became non-finite: "stage spring (theta), body 17 (branch 3)". Arrays are brought up to date where that takes it.
+template <class T> std::string non_finite(Run<T>&, const Tree&);
 
 // The arrays of a state that is up to date (present()), as far as `fields` asks for them, in the precision of frames. Returns the first body
 // whose numbers are non-finite, if there is one. Allocates nothing once the frame has grown.

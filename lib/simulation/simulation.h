@@ -29,8 +29,12 @@
 
 namespace bough {
 
+class AnyRun; // what stands behind the door is no user's business
+struct Assembly;
+struct RunChoice;
+
 struct SimulationOptions {
-    double step = 1.0 / 30; // [s] above 0: of one call of step()
+    double step = 1.0 / 30; // [s] above 0: of one step
     Precision precision = Precision::double_;
     Method method = Method::coupled;
     double sleep =
@@ -40,13 +44,23 @@ struct SimulationOptions {
     bool velocities = false; // velocities() and angular_velocities() are wanted: else empty
     bool torques = false;    // likewise torques()
     bool pulls = false;      // pull() will be called: without, the step has no place for it
+    bool grounds =
+        false; // set_ground() will be called: nothing sleeps then, and the analytic method takes the plain path
     bool portable =
         false; // the plain path, one number at a time, whose rounding does not hang on the machine's SIMD; several times slower
 };
 
+// How a tree's ground has moved from where the tree was drawn: what was drawn at X is at pivot + position + rotation (X - pivot), the pivot the tree's
+// own place (Placement::position).
+struct GroundMotion {
+    Vec3 position = Vec3::Zero(); // [m]
+    Quat rotation = Quat::Identity();
+    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero(); // [m/s] of the pivot, [rad/s], world
+};
+
 struct StepReport {
     std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
-    // Bodies of which the step could not follow the motion, in this step (README.md, "Conventions and limits"): none of it is an error.
+    // Bodies of which the steps could not follow the motion, in this call (README.md, "Conventions and limits"): none of it is an error.
     std::uint64_t fast_turns = 0;                // turned by more than a radian
     std::uint64_t guarded = 0;                   // were kept from gaining energy
     std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for
@@ -65,9 +79,12 @@ public:
     Simulation(Simulation&&) noexcept; // what was moved from may only be assigned to or destroyed
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
+    // A run of its own from here on, which ends as this one. The trees are shared. O(bodies).
+    Simulation copy() const;
 
-    // From now to now + step. O(bodies); allocates nothing once it has run a few times, but where something breaks.
-    StepReport step();
+    // From now to now + step, so many times, up to a step that becomes non-finite; the report and events() are of all of them. O(bodies) a step; allocates
+    // nothing once it has run a few times, but where something breaks.
+    StepReport step(int times = 1);
 
     std::size_t bodies() const; // that are shown: of trees, balls and walkers
     std::int64_t steps() const; // taken
@@ -85,7 +102,10 @@ public:
     std::span<const Vec3> angles() const;  // [rad] rotation vectors of joints in their joint frames; of trees alone
     std::span<const Vec3> rates() const;   // [rad/s] how those change
     std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (Options::torques)
-    const MotionEvents& events() const;    // of the last step: what broke, hit, landed
+    const MotionEvents& events() const;    // of the last call of step(): what broke, hit, landed
+    // The trees drawn as they stand, to be run again from there or written: with pose drawn they stay so by themselves. Stiffness and damping are the
+    // trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.
+    Tree posed_tree() const;
 
     // What may change between two steps. None of it plans anew or allocates; each is taken from the next step on, and wakes what sleeps.
     // The wind of a scene that has one (of no velocity at all: still air). Its grid, swirl, shelter, profile and period stay; where trees may
@@ -100,8 +120,14 @@ public:
     // without Options::pulls (with which nothing sleeps), where joints are held, for bodies that are not there or have broken off.
     void pull(std::size_t body, const Vec3& point, const Vec3& force);
 
+    // The ground under a tree, its roots with it: in `steps` steps from now it is there with that velocity, on a smooth way from where it is and how it
+    // moves; then it goes on as it moves by then. 0: it is there at once, and the tree as it stands on it, unmoved. A ground that is told of each step
+    // moves as one of the same keys in the scene (/root_motion), to O(step^4). The wind is taken from heights as the trees were drawn: above their top
+    // it is as there. Throws SceneError without Options::grounds, for a tree that is not there or has keys of its own.
+    void set_ground(std::size_t tree, const GroundMotion&, int steps = 1);
+
     std::uint64_t hash() const; // of angles and rates, broken joints and free bodies: what `treesim --hash` prints
-    // A run that goes on from what save() gave ends as this one, bit by bit; wind, gravity and wood are those that this run has by now. restore() throws
+    // A run that goes on from what save() gave ends as this one, bit by bit; wind, gravity, wood and grounds are those that this run has by now. restore() throws
     // SceneError where it was another run's, and then changes nothing.
     SavedState save() const;
     void restore(const SavedState&);
@@ -110,9 +136,12 @@ public:
     std::size_t bytes() const;   // [B] of the state
 
 private:
-    class Inside;
-    template <class T> class InsideOf;
-    std::unique_ptr<Inside> inside_;
+    explicit Simulation(std::unique_ptr<AnyRun>);
+    friend Simulation make_simulation(std::shared_ptr<Assembly>, const RunChoice&);
+    friend AnyRun& run_of(Simulation&);
+    friend const AnyRun& run_of(const Simulation&);
+
+    std::unique_ptr<AnyRun> run_;
 };
 
 } // namespace bough

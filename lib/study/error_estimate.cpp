@@ -2,6 +2,7 @@
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
 #include "../lanes/plan_lanes.h"
+#include "../simulation/any_run.h"
 #include "trajectory.h"
 #include <algorithm>
 #include <cassert>
@@ -105,6 +106,28 @@ template <class T> TipError ErrorEstimate<T>::result() const {
     if (scheme_of(fast::coupled_plan(plan_)->scheme).poles == 1)
         result.rough = rms(rough_squares_, double(steps_ - 4) * double(found_.tips));
     return result;
+}
+
+RunError::RunError(Simulation& simulation) : run_(run_of(simulation)) {
+    const Tree& tree = run_.assembly().tree;
+    if (const Run<float>* const run = run_.single())
+        single_.emplace(tree, run->plan, run->state);
+    else
+        double_.emplace(tree, run_.double_()->plan, run_.double_()->state);
+}
+
+void RunError::follow() {
+    visit_run(run_, [this](auto& run) {
+        present(run.plan, run.state);
+        if constexpr (std::is_same_v<decltype(run), Run<float>&>)
+            single_->follow(run.state);
+        else
+            double_->follow(run.state);
+    });
+}
+
+TipError RunError::result() const {
+    return single_ ? single_->result() : double_->result();
 }
 
 template class ErrorEstimate<float>;

@@ -32,9 +32,13 @@
 #include "../plan/plan.h"
 #include "../plan/state.h"
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace bough {
+
+class AnyRun;
+class Simulation;
 
 // Over tips and samples; tips and positions as in trajectory.h.
 struct TipError {
@@ -76,6 +80,19 @@ private:
     double squares_ = 0, worst_ = 0, deflection_squares_ = 0; // [m^2]
     double rough_squares_ = 0;                                // [m^2]
     TipError found_;
+};
+
+// The same of a simulation, of the coupled method, in its precision.
+class RunError {
+public:
+    explicit RunError(Simulation&); // as it stands: at its start, or resumed. Keeps a reference to the run
+    void follow();
+    TipError result() const;
+
+private:
+    AnyRun& run_;
+    std::optional<ErrorEstimate<float>> single_;
+    std::optional<ErrorEstimate<double>> double_;
 };
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "rigid_error.h"
 #include "../laws/added_motion.h"
+#include "../simulation/any_run.h"
 #include "trajectory.h"
 #include <algorithm>
 #include <limits>
@@ -36,6 +37,13 @@ void RigidComparison::tips_of(const Reduced& reduced, const Plan<T>& plan, const
         const WholePose pose = whole_pose(reduced, plan, state, tips_[k]);
         to[k] = Vec3(pose.x + pose.R.col(2) * tree_.size[tips_[k]][0]).cast<float>();
     }
+}
+
+void RigidComparison::tips_of(Simulation& run, std::vector<Vector3<float>>& to) const {
+    std::vector<Vec3> ends;
+    run_of(run).shown_ends(tips_, ends);
+    to.resize(ends.size());
+    for (std::size_t k = 0; k < ends.size(); ++k) to[k] = ends[k].cast<float>();
 }
 
 double RigidComparison::compare(const std::vector<Vector3<float>>& whole, const std::vector<Vector3<float>>& reduced) {

@@ -6,6 +6,8 @@
 
 namespace bough {
 
+class Simulation;
+
 struct RigidError {
     double rms = 0, worst = 0; // [m] over tips and frames
     double deflection = 0;     // [m] RMS of the whole tree's tips from where they are drawn
@@ -24,6 +26,8 @@ public:
     template <class T> void tips_of(const State<T>& whole, std::vector<Vector3<float>>& to) const;
     template <class T>
     void tips_of(const Reduced&, const Plan<T>&, const State<T>&, std::vector<Vector3<float>>& to) const;
+
+    void tips_of(Simulation&, std::vector<Vector3<float>>& to) const; // of either
 
     // One frame. Returns its largest distance [m].
     double compare(const std::vector<Vector3<float>>& whole, const std::vector<Vector3<float>>& reduced);

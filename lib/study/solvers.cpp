@@ -1,6 +1,7 @@
 #include "solvers.h"
 #include "../analytic/analytic_lanes_stepper.h"
 #include "../coupled/coupled_lanes_stepper.h"
+#include "../simulation/any_run.h"
 #include "articulated_stepper.h"
 #include <stdexcept>
 
@@ -29,6 +30,20 @@ template <class T> std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice& 
     } else {
         throw std::logic_error(std::string("make_stepper: ") + name + " exists in double alone");
     }
+}
+
+StepperMaker stepper_maker(const SolverChoice& choice) {
+    const auto of = [choice](const Assembly& assembly) {
+        StepChoice step{choice.solver == Solver::analytic ? Method::analytic : Method::coupled, choice.simd,
+                        choice.sleep};
+        keep_to_the_whole(assembly.part, step.method, step);
+        SolverChoice kept = choice;
+        kept.simd = step.simd;
+        kept.sleep = step.sleep;
+        return kept;
+    };
+    return {[of](const Assembly& assembly) { return make_stepper<float>(of(assembly), assembly.scene); },
+            [of](const Assembly& assembly) { return make_stepper<double>(of(assembly), assembly.scene); }};
 }
 
 template <class T>

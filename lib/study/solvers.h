@@ -46,6 +46,10 @@ struct SolverChoice {
 // Throws std::logic_error for an articulated solver in float.
 template <class T> std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice&, const Scene&);
 
+// The same for a simulation, of a part of a scene as of the whole.
+struct StepperMaker; // simulation/any_run.h
+StepperMaker stepper_maker(const SolverChoice&);
+
 // make_plan with any solver.
 template <class T>
 Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,

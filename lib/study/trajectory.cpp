@@ -77,16 +77,6 @@ Trajectory run(const Problem& problem, const Variant& how, bool all_bodies, int 
 
 } // namespace
 
-std::vector<std::size_t> tip_bodies(const Tree& tree) {
-    std::vector<bool> inner(tree.size_bodies(), false);
-    for (std::size_t i = 0; i < inner.size(); ++i)
-        if (tree.parent[i] >= 0 && tree.kind[i] == Kind::branch) inner[std::size_t(tree.parent[i])] = true;
-    std::vector<std::size_t> tips;
-    for (std::size_t i = 0; i < inner.size(); ++i)
-        if (!inner[i] && tree.kind[i] == Kind::branch) tips.push_back(i);
-    return tips;
-}
-
 template <class T> Vec3 tip_position(const Plan<T>& plan, const State<T>& state, const Tree& tree, std::size_t body) {
     const Vec3 x =
         state.x_w[body].template cast<double>() + state.R_wb[body].template cast<double>().col(2) * tree.size[body][0];

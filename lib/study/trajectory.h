@@ -1,6 +1,7 @@
 // trajectory.h: one run of one solver at one step length, kept as the positions of the tree's tips in each frame; where all
 // bodies are asked for, also as those of the ends of its wood, the joints' angles, and what the motion is like.
 #pragma once
+#include "../model/tips.h"
 #include "../plan/plan.h"
 #include "../plan/state.h"
 #include "motion_statistics.h"
@@ -30,10 +31,6 @@ struct Variant {
     double tolerance = 1e-8;                     // articulated_reference alone
     Scheme scheme = Scheme::p12;                 // coupled alone
 };
-
-// The branches' tips: pieces that no piece goes on from or leaves; the point meant is the far end (its length along z). Leaves
-// and fruit are not tips: what flutters at the end of a twig is chaotic, and no error of the tree.
-std::vector<std::size_t> tip_bodies(const Tree&);
 
 // [m] The far end of a body, as seen from its tree's ground: being carried is no deflection. O(log moved trees).
 template <class T> Vec3 tip_position(const Plan<T>&, const State<T>&, const Tree&, std::size_t body);

@@ -1,6 +1,6 @@
 // Many trees as one: each moves as it does alone, to the last bit, whatever stands beside it; the parts that a park is cut into.
+#include "lib/simulation/parts.h"
 #include "tests/support/lanes_support.h"
-#include "tools/scene_trees.h"
 
 using namespace bough;
 

@@ -1,4 +1,4 @@
-#include "tools/machine_limits.h"
+#include "lib/study/machine_limits.h"
 #include "lib/lanes/row.h"
 #include "lib/lanes/target.h"
 #include "lib/study/machine_kernels.h"

@@ -1,0 +1,126 @@
+// any_run.h: what stands behind the door (simulation.h): a run in either precision, by any solver. For tools and studies too, where what they report
+// is no engine's business; not installed.
+#pragma once
+#include "run.h"
+#include "simulation.h"
+#include <functional>
+
+namespace bough {
+
+// Makes the steppers of a run, in place of those that the options' method says. One of a precision that it lacks is not asked for.
+struct StepperMaker {
+    std::function<std::unique_ptr<Stepper<float>>(const Assembly&)> single;
+    std::function<std::unique_ptr<Stepper<double>>(const Assembly&)> double_;
+};
+
+// How a run is made, beyond the options that every user has.
+struct RunChoice {
+    SimulationOptions options;
+    StepperMaker steppers{}; // empty: by options.method, portable and sleep
+    bool poses = true;       // Wishes::pose
+    bool saves = true;       // save() and restore() are called
+    bool keeps_trees =
+        true; // else, where nothing is free, the assembly's tree keeps what make_plan says, and memory low
+};
+
+// What a run says of itself.
+struct RunAccount {
+    std::size_t bodies = 0; // whose joints move
+    std::string solver;     // as in --solver
+    std::string simd;       // the target's name; none
+    std::string awake;      // why nothing sleeps; empty where trees may
+    double sleep = 0;       // [rad/s] below which they do
+    std::int64_t steps = 0;
+    std::array<std::uint64_t, stage_count> calls{};
+    StepFlags flags;
+    bool free = false; // something is, or may become so
+    bool fell = false; // something is, or has broken off
+    WorldCounts counts;
+    ContactModel contact{};
+    std::size_t state_bytes = 0, free_bytes = 0;
+};
+
+// How a joint stands and turns, whatever its spring's rest is: in the axes of the body that carries it.
+struct JointMotion {
+    Mat3 R = Mat3::Identity();
+    Vec3 omega = Vec3::Zero(); // [rad/s]
+};
+
+// Calls that the door has too are described there.
+class AnyRun {
+public:
+    virtual ~AnyRun() = default;
+    virtual std::unique_ptr<AnyRun> copy() const = 0; // the assembly is shared
+
+    virtual StepReport step(int times) = 0;
+    // step() in its parts: the step alone, then whether it became non-finite, and where.
+    virtual void advance(StageClock*) = 0;
+    virtual std::string non_finite() = 0;
+    virtual void begin_again() = 0; // as at the start, with nothing changed. Where nothing is free: the plan stays
+
+    virtual std::size_t bodies() const = 0;
+    virtual std::int64_t steps() const = 0;
+    virtual const MotionFrame& frame() = 0;
+    virtual std::optional<std::size_t> fill(const MotionFields&, MotionFrame&) = 0; // the first body that is non-finite
+    virtual const MotionEvents& events() const = 0;
+    virtual const std::vector<std::uint32_t>& broken() const = 0; // joints, in the order in which they did
+    virtual std::vector<Ball> balls() const = 0;                  // shown_balls
+    virtual Tree posed() = 0;
+    // [m] Far ends of bodies (along z): of those that move, and of all that are shown, where some are held.
+    virtual void ends(const std::vector<std::size_t>& bodies, std::vector<Vec3>&) = 0;
+    virtual void shown_ends(const std::vector<std::size_t>& bodies, std::vector<Vec3>&) = 0;
+
+    virtual Scene& scene() = 0;                                    // the plan's
+    virtual bool coupled() const = 0;                              // by its method
+    virtual void scale_wood(double stiffness, double damping) = 0; // factors on what they are now
+    virtual bool pushed() const = 0;                               // free bodies may push the trees
+    virtual bool sleeps() const = 0;                               // trees may
+    virtual void wake() = 0;
+    virtual bool gone(std::size_t body) const = 0; // has broken off
+    virtual void pull(std::size_t body, const Vec3& point, const Vec3& force) = 0;
+    virtual bool drives(std::size_t tree) const = 0; // set_ground() may be called for it
+    virtual void set_ground(std::size_t tree, const GroundMotion&, int steps) = 0;
+    virtual GroundMotion ground(std::size_t tree) const = 0; // of one that it drives
+    virtual std::vector<JointMotion> joints() = 0;
+    virtual void go_on(const std::vector<JointMotion>&, const std::vector<std::uint8_t>& known, double time) = 0;
+
+    virtual std::uint64_t hash() = 0;
+    virtual void save(SavedState&) = 0;
+    virtual void restore(const SavedState&) = 0;
+    virtual std::string explain() const = 0;
+    virtual RunAccount account() const = 0;
+
+    // For what is written for either precision (study/): null where the run is in the other.
+    virtual Run<float>* single() { return nullptr; }
+    virtual Run<double>* double_() { return nullptr; }
+
+    const SimulationOptions& options() const { return choice_.options; }
+    const Assembly& assembly() const { return *assembly_; }
+    const Tree& whole_tree() const { return assembly_->whole ? assembly_->whole->tree : assembly_->tree; }
+    const std::vector<TreeRange>& whole_ranges() const {
+        return assembly_->whole ? assembly_->whole->places.whole : assembly_->ranges;
+    }
+
+    double stiffness = 1, damping = 1; // set_wood
+
+protected:
+    AnyRun(std::shared_ptr<Assembly>, RunChoice);
+    AnyRun(const AnyRun&) = default;
+
+    RunChoice choice_;
+    std::shared_ptr<Assembly> assembly_; // the run refers to its tree
+};
+
+// Throws SceneError.
+std::unique_ptr<AnyRun> make_run(std::shared_ptr<Assembly>, const RunChoice&);
+Simulation make_simulation(std::shared_ptr<Assembly>, const RunChoice&);
+AnyRun& run_of(Simulation&);
+const AnyRun& run_of(const Simulation&);
+
+// f of the Run<T> that it is.
+template <class F> auto visit_run(AnyRun& run, F&& f) {
+    if (Run<float>* const single = run.single()) return f(*single);
+    return f(*run.double_());
+}
+
+} // namespace bough

@@ -1,0 +1,80 @@
+// loop.h: one period of a motion that repeats.
+//
+// The wind is made to repeat after the loop's length (Wind::period), and whole periods are run until the motion repeats as well: a
+// damped tree forgets how it began. Two periods are held beside each other at five times, the seam and the frame after it among
+// them: where the far ends of all that carries nothing (tips, leaves, fruit) are, in all of them, within the tolerance of where they
+// were a period before, so are places and velocities at the seam. Then one period is what is shown, and the frame behind it, which is
+// what the first would be a period later, tells how far its ends are off: the loop's seam.
+//
+// What never repeats by itself, as leaves that turn over in the wind, can be made to (blend): over the loop's last third each joint's
+// rotation in its parent's body passes from what it is, q(t), to what it was a period before, q(t - T), which runs into the loop's first frame:
+//   q'(t) = slerp(q(t), q(t - T), w),   w = x^2 (3 - 2 x),   x from 0 to 1 over that third
+// so that poses and velocities are continuous, also from the last frame to the first; each body's pose follows from its parent's. It takes a second
+// copy of the run, which is made again from where the third began a period before.
+#pragma once
+#include "simulation.h"
+#include <functional>
+#include <optional>
+
+namespace bough {
+
+// Gives the wind the period of so many seconds. Throws SceneError for a scene without wind, with one of another period, or with something whose
+// times do not repeat.
+void make_periodic(double seconds, Scene&);
+
+struct LoopOptions {
+    std::int64_t frames = 0;             // of a period, 2 and more
+    double tolerance = 1e-4;             // [1] of the height
+    std::optional<std::int64_t> periods; // at most, before the one that is shown
+    bool blend = false;
+};
+// That, or 20; 5 where ends are blended, for these only let the start be forgotten.
+std::int64_t most_periods(const LoopOptions&);
+
+// Takes a run to frame f, counted from its start: steps of one frame. May throw to end.
+using ToFrame = std::function<void(Simulation&, std::int64_t f)>;
+
+// How far the ends of two periods are apart [m], at most.
+struct LoopGap {
+    double branches = 0, others = 0;
+    double largest() const { return branches > others ? branches : others; }
+};
+
+// A run at the loop's first frame.
+struct LoopStart {
+    std::int64_t periods = 0;         // that were run before
+    bool closed = false;              // the motion repeats, within the tolerance
+    LoopGap gap;                      // of the last two periods, in all that was compared
+    double height = 0;                // [m] of the tree: the farthest end's distance from its root
+    std::vector<std::size_t> bodies;  // whose ends are compared: branches' tips, then leaves, petals and fruit
+    std::size_t tips = 0;             // how many of them are branches'
+    std::vector<Vec3> end;            // [m] where they are
+    std::optional<Simulation> before; // where ends are blended: the run where that begins, a period before
+};
+
+// From a run's start to the loop's first frame. Throws what `to` throws.
+LoopStart close_loop(Simulation&, const LoopOptions&, const ToFrame& to);
+
+// Of a run that is one frame behind the loop's last.
+LoopGap loop_seam(Simulation&, const LoopStart&);
+
+// Of so many frames, how many are blended.
+constexpr std::int64_t blended_frames(std::int64_t frames) {
+    return frames - 2 * frames / 3;
+}
+
+// The frames of a loop whose ends are made to meet, one after another from the first that is blended.
+class LoopBlend {
+public:
+    // before: LoopStart's.
+    LoopBlend(Simulation before, std::int64_t frames, ToFrame to);
+    // frame: with positions and rotations, which are changed.
+    void blend(MotionFrame& frame);
+
+private:
+    Simulation before_;
+    std::int64_t frames_, made_ = 0;
+    ToFrame to_;
+};
+
+} // namespace bough

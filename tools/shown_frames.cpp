@@ -1,0 +1,118 @@
+#include "shown_frames.h"
+#include "formats/documents/motion.h"
+#include "lib/base/counted.h"
+#include "lib/free/shown_tree.h"
+#include "progress.h"
+#include "rustling.h"
+#include "sized_sink.h"
+#include <iostream>
+#include <numbers>
+
+namespace bough {
+namespace {
+
+DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, const std::string& source) {
+    DrivenOptions options;
+    options.fps = o.run.fps;
+    options.key_tolerance = gltf_options(o.gltf, source).key_tolerance;
+    options.source = source;
+    if (!setting.scene.trees.empty()) {
+        options.position = setting.scene.trees.front().position;
+        options.yaw = setting.scene.trees.front().yaw * std::numbers::pi / 180;
+    }
+    return options;
+}
+
+// Where a scene puts its tree.
+Eigen::Affine3d place_of_tree(const Setting& setting) {
+    if (setting.scene.trees.empty()) return Eigen::Affine3d::Identity();
+    const Placement& place = setting.scene.trees.front();
+    return Eigen::Translation3d(place.position) * Eigen::AngleAxisd(place.yaw * std::numbers::pi / 180, Vec3::UnitY());
+}
+
+// shown: the tree that meshes are made of, the balls with it.
+std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
+                                     const std::string& format, std::int64_t first, std::int64_t last,
+                                     ShownModel model) {
+    RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
+    if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
+    std::optional<OwnMesh> own;
+    if (model.bound) own = bound_to(std::move(*model.bound), shown, place_of_tree(setting), o.common.notes);
+    if (is_point_cache(format) || format == "obj") {
+        Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
+        if (format == "obj") return obj_sink(o.common.output, shown, std::move(skin), rustle, o.common.notes);
+        return cache_sink(o.common.output, format, shown, std::move(skin), rustle, o.run.fps, first, last - first + 1,
+                          o.common.notes);
+    }
+    const std::string source = with_command_line(setting.source, o.common);
+    if (model.driven)
+        return driven_sink(o.common.output, std::move(*model.driven), shown, driven_options(o, setting, source),
+                           o.common.notes);
+    if (own) return own_sink(o.common.output, shown, std::move(*own), o.run.fps, o.gltf, source, o.common.notes);
+    if (format == "glb")
+        return gltf_sink(o.common.output, shown, o.sides.value_or(8), rustle, o.run.fps, o.gltf, source,
+                         o.common.notes);
+    MotionHeader header;
+    header.fps = o.run.fps;
+    header.balls = std::int64_t(setting.scene.balls.size() + setting.scene.walkers.size());
+    header.bodies = std::int64_t(bodies);
+    header.events = has_free_bodies(setting.scene);
+    header.fields = chosen_fields(o);
+    header.part = setting.part.part;
+    header.parts = setting.part.parts;
+    header.first_body = setting.part.first_body;
+    if (setting.part.parts > 1) header.whole = hash_text(setting.part.whole);
+    header.name = setting.tree.name;
+    header.source = source;
+    return motion_sink(o.common.output, format, header);
+}
+
+// A point cache is of a mesh that is written elsewhere, whole.
+void refuse_broken_cache(const TreesimOptions& o, std::size_t broken) {
+    if (broken == 0) return;
+    throw UsageError(
+        "-o is '" + o.common.output + "': " + std::to_string(broken) +
+        " joints break in this run, and what breaks off is a mesh of its own, which a point cache does not "
+        "hold; expected .glb or frames of .obj");
+}
+
+void note_cache(TreesimOptions& o, const Setting& setting, std::size_t balls, bool own) {
+    if (balls == 0 && setting.ranges.size() == 1 && !own) return;
+    if (own) {
+        o.common.notes.push_back(
+            "the vertices are those of the file's own mesh, material by material: the mesh that they "
+            "move is the first frame of an OBJ sequence (the same run with --frames 1 -o rest_%d.obj)");
+        return;
+    }
+    o.common.notes.push_back("the vertices are those of " + counted(setting.ranges.size(), "tree", "trees") + " and " +
+                             counted(balls, "ball", "balls") +
+                             ": the mesh that they move is the first frame of an OBJ sequence (the same run with "
+                             "--frames 1 -o rest_%d.obj)");
+}
+
+} // namespace
+
+ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simulation& run, const std::string& format,
+                         const std::vector<std::uint32_t>& broken, std::int64_t first, std::int64_t last,
+                         ShownModel model) {
+    ShownFrames shown;
+    if (o.no_output) return shown;
+    if (is_point_cache(format)) refuse_broken_cache(o, broken.size());
+    const std::vector<Ball> balls = is_mesh(format) ? run_of(run).balls() : std::vector<Ball>();
+    if (!broken.empty() || !balls.empty())
+        shown.own = std::make_unique<const Tree>(shown_tree(setting.tree, broken, balls));
+    o.gltf.loose = broken.size() + balls.size();
+    const bool bound = model.bound.has_value();
+    shown.sink =
+        open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, std::move(model));
+    if (o.common.output != "-")
+        shown.sink = sized_sink(std::move(shown.sink), format, last - first + 1, [&o](const std::string& text) {
+            if (o.common.quiet) return;
+            clear_progress();
+            std::cerr << treesim_info.name << ": " << text << "\n";
+        });
+    if (is_point_cache(format)) note_cache(o, setting, balls.size(), bound);
+    return shown;
+}
+
+} // namespace bough
