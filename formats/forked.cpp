@@ -54,6 +54,7 @@ std::string in_brackets(const std::string& text) {
 struct Kept {
     rlimit seconds{RLIM_INFINITY, RLIM_INFINITY}, bytes{RLIM_INFINITY, RLIM_INFINITY};
     std::string seconds_text, bytes_text;
+    std::size_t room = 0; // [bytes] that the second leaves beside what the caller has; 0: no limit
 };
 
 Kept kept_limits(const ChildLimits& limits) {
@@ -69,10 +70,13 @@ Kept kept_limits(const ChildLimits& limits) {
     }
     ::getrlimit(RLIMIT_AS, &kept.bytes);
     kept.bytes_text = kept.bytes.rlim_cur == RLIM_INFINITY ? "there is" : "ulimit -v leaves";
+    if (const std::size_t taken = address_space(); kept.bytes.rlim_cur != RLIM_INFINITY)
+        kept.room = std::max<std::size_t>(1, kept.bytes.rlim_cur > taken ? kept.bytes.rlim_cur - taken : 0);
 #ifndef BOUGH_CHILD_UNLIMITED
     const std::size_t most = address_space() + limits.stack + limits.bytes;
     if (limits.bytes > 0 && most <= kept.bytes.rlim_cur) {
         kept.bytes.rlim_cur = most;
+        kept.room = limits.bytes;
         kept.bytes_text =
             "the " + std::to_string(limits.bytes >> 20) + " MB it may take" + in_brackets(limits.bytes_from);
     }
@@ -215,7 +219,7 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
     else if (WIFSIGNALED(status)) {
         // Not all code outlives the lack of memory that its limit makes.
         result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
-        result.limited = limits.bytes > 0 && most > limits.bytes / 2;
+        result.limited = kept.room > 0 && most > kept.room / 2;
         if (result.limited)
             result.failure += " when it had taken " + std::to_string(most >> 20) + " MB of " + kept.bytes_text;
     } else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
