@@ -119,14 +119,23 @@ void read_skinned(Reading& r, const aiMesh& mesh, const Matrix& mesh_world, std:
             if (weight > most_weight[v]) most_weight[v] = weight, most[v] = node;
         }
     }
+    std::vector<std::int32_t> taken(n, -1);
     for (std::size_t v = 0; v < n; ++v) {
         if (!(sum[v] > 0)) continue;
         moved[v] /= sum[v];
         if (mesh.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON) && moved[v].allFinite()) {
+            taken[v] = static_cast<std::int32_t>(r.out.vertex.size());
             r.out.vertex.push_back(moved[v]);
             r.out.vertex_node.push_back(most[v]);
             r.out.vertex_by_node.push_back(placed(mesh_world, mesh.mVertices[v]));
         }
+    }
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices != 3) continue;
+        std::array<std::int32_t, 3> corner;
+        for (unsigned k = 0; k < 3; ++k) corner[k] = face.mIndices[k] < n ? taken[face.mIndices[k]] : -1;
+        if (std::min({corner[0], corner[1], corner[2]}) >= 0) r.out.face.push_back(corner);
     }
 }
 

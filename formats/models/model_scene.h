@@ -26,8 +26,9 @@ struct ModelScene {
     std::vector<Mat3> axes;          // columns: directions of the node's own axes there, unit length
     std::vector<Vec3> tip; // [file unit] of a bone's end where the file states it (Blender's COLLADA), else NaN
 
-    // Vertices of skinned meshes in that pose, and the node that moves each most.
+    // Vertices of skinned meshes in that pose, and the node that moves each most; triangles between them.
     std::vector<Vec3> vertex;
+    std::vector<std::array<std::int32_t, 3>> face;
     std::vector<std::int32_t> vertex_node;
     std::vector<Vec3> vertex_by_node; // the same as the mesh's own node places them; empty: all there already
 
