@@ -207,6 +207,8 @@ std::vector<BarkTaper> bark_tapers(const Bark& bark, const std::vector<speedtree
             const BarkRing ring = bark.ring(std::int32_t(b), bones[b].start + place * way, way.normalized());
             if (!(ring.radius > 0)) continue;
             result[b].square += ring.square;
+            if (result[b].pieces.empty() || result[b].pieces.back() != ring.piece)
+                result[b].pieces.push_back(ring.piece);
             for (std::size_t k = 0; k < at.size(); ++k) slope.push_back((ring.radius - radius[k]) / (place - at[k]));
             at.push_back(place);
             radius.push_back(ring.radius);

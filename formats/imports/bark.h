@@ -38,6 +38,9 @@ public:
     // it: no farther off than `within` and a third of the way. 0: none. O(triangles of the bone).
     double reach(std::int32_t bone, std::int32_t piece, const Vec3& place, const Vec3& direction, double within) const;
 
+    const BarkSurface& surface() const { return surface_; } // triangles name one point of those in one place
+    std::int32_t piece(std::int32_t point) const { return piece_[point]; }
+
 private:
     BarkSurface surface_;
     std::vector<std::int32_t> first_,
@@ -49,7 +52,8 @@ private:
 // median of those between any two (Theil and Sen), at least a tenth of their median. 0: no ring.
 struct BarkTaper {
     double start = 0, end = 0;
-    int rings = 0, square = 0; // how many there are, and of them square ones
+    int rings = 0, square = 0;        // how many there are, and of them square ones
+    std::vector<std::int32_t> pieces; // that they are on
 };
 std::vector<BarkTaper> bark_tapers(const Bark&, const std::vector<speedtree::Bone>&);
 

@@ -44,9 +44,16 @@ void measure_radii(const Bark& bark, const ModelScene& scene, Armature& armature
             first = quoted(scene.name[armature.node[b]]) + ", " + shown(bones[b].radius / before) + " times as thick";
     }
     if (measured == 0) return;
+    armature.twigs = twigs_without_bones(bark, bones, tapers);
+    for (Twig& twig : armature.twigs)
+        for (double& r : twig.radius) r *= factor;
     notes.lines.push_back("radii of " + std::to_string(measured) + " of " + std::to_string(bones.size()) +
                           " bones measured on the mesh: the circle of the bark around each" +
                           (factor < 1 ? ", square as Blender's Skin modifier draws it: half its sides" : ""));
+    if (!armature.twigs.empty())
+        notes.lines.push_back(counted(armature.twigs.size(), "twig without a bone of its own is wood",
+                                      "twigs without bones of their own are wood") +
+                              " by the mesh; --skin moves them with the bones they have");
     if (growing > 0)
         notes.lines.push_back("the bark of " + counted(growing, "bone is", "bones is") +
                               " more than twice as thick as that of the bone before (" + first + ")");

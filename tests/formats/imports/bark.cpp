@@ -1,4 +1,4 @@
-#include "formats/imports/bark.h"
+#include "formats/imports/bark_twigs.h"
 #include "tests/support/tubes.h"
 #include <catch2/catch.hpp>
 
@@ -81,6 +81,50 @@ TEST_CASE("bark is told from twigs, cards and shoots that move with the same bon
     BarkSurface twigs;
     add_tube(twigs, {{0.5, 0.5, 0}, {1.5, 0.6, 0}}, {0.02, 0.01}, {0}, 6);
     CHECK(bark_tapers(Bark(twigs, 5), s.bones)[0].start == 0);
+}
+
+TEST_CASE("twigs without bones: axis, radii and forks of tubes, welded to the stem or not; no leaves, fruit or bark") {
+    const Stem s = stem();
+    BarkSurface surface;
+    add_tube(surface, s.point, s.radius, bones, 6);
+    // A bent twig that tapers, turned so that its tip leans back to the stem.
+    const std::vector<Vec3> bent{{0, 0.5, 0}, {0.4, 0.6, 0}, {0.8, 0.8, 0.1}, {1.1, 1.1, 0.2}, {1.3, 1.5, 0.2}};
+    const std::vector<double> thick{0.03, 0.025, 0.02, 0.015, 0.01};
+    add_tube(surface, bent, thick, {0}, 8);
+    // A ball and a card.
+    add_tube(surface, {{2, 0, 0}, {2, 0.1, 0}, {2, 0.2, 0}, {2, 0.3, 0}}, {0.1, 0.2, 0.2, 0.1}, {0}, 8);
+    const auto first = std::int32_t(surface.point.size());
+    for (const Vec3& p : {Vec3(0.2, 1, 0), Vec3(0.2, 1, 0.2), Vec3(1.2, 1, 0.2), Vec3(1.2, 1, 0)}) {
+        surface.point.push_back(p);
+        surface.bone.push_back(0);
+    }
+    surface.triangle.push_back({first, first + 1, first + 2});
+    surface.triangle.push_back({first, first + 2, first + 3});
+    const auto found_in = [&](const BarkSurface& of) {
+        const Bark bark(of, s.bones.size());
+        return twigs_without_bones(bark, s.bones, bark_tapers(bark, s.bones));
+    };
+    const std::vector<Twig> twigs = found_in(surface);
+    REQUIRE(twigs.size() == 1);
+    CHECK((twigs[0].point.front() - bent.front()).norm() < 0.01);
+    CHECK((twigs[0].point.back() - bent.back()).norm() < 0.01);
+    CHECK(twigs[0].radius.front() == Approx(0.03).epsilon(0.05));
+    CHECK(twigs[0].radius.back() == Approx(0.01).epsilon(0.05));
+    // The same with an arm that is welded to its middle ring, as it is to the stem's own bark.
+    BarkSurface forked = surface;
+    const std::size_t ring = 6 * s.point.size() + 8 * 2; // the twig's third
+    const std::size_t arm = forked.point.size();
+    add_tube(forked, {{0.85, 0.9, 0.3}, {0.9, 1, 0.8}, {0.9, 1, 1.2}}, {0.015, 0.012, 0.01}, {0}, 8);
+    for (std::size_t c = 0; c < 8; ++c) {
+        const auto at = [&](std::size_t from, std::size_t k) { return std::int32_t(from + k % 8); };
+        forked.triangle.push_back({at(ring, c), at(ring, c + 1), at(arm, c)});
+        forked.triangle.push_back({at(ring, c + 1), at(arm, c + 1), at(arm, c)});
+    }
+    const std::vector<Twig> two = found_in(forked);
+    REQUIRE(two.size() == 2);
+    const Vec3 ends[2] = {bent.back(), {0.9, 1, 1.2}};
+    for (const Vec3& end : ends)
+        CHECK(std::min((two[0].point.back() - end).norm(), (two[1].point.back() - end).norm()) < 0.02);
 }
 
 TEST_CASE("a tube that ends in a point, corners twice in one place, squares, how far bark goes") {

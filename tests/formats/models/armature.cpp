@@ -557,7 +557,7 @@ TEST_CASE("twigs without bones of their own make no stem thicker and no tip long
                 const Vec3 out(std::cos(2.4 * k), 1, std::sin(2.4 * k));
                 add_tube(mesh, {base, base + 0.7 * out, base + 1.4 * out}, {0.015, 0.01, 0.005}, {b}, 6);
             }
-        if (thick) add_tube(mesh, {{3, 3.1, 0}, {3, 4.4, 0}}, {0.2, 0.2}, {2}, 8); // far from the bone
+        if (thick) add_tube(mesh, {{3, 3.1, 0}, {3, 4.4, 0}}, {0.2, 0.2}, {2}, 8); // far from the bone, no twig
         scene.vertex = mesh.point;
         scene.face = mesh.triangle;
         scene.vertex_node = mesh.bone;
@@ -571,6 +571,25 @@ TEST_CASE("twigs without bones of their own make no stem thicker and no tip long
             for (std::size_t b = 0; b < 4; ++b) CHECK(armature.bones[b].radius == Approx(radius[b]).epsilon(0.01));
             CHECK(armature.bones[3].tip == Approx(radius[4]).epsilon(0.01));
             CHECK(near(armature.bones[3].end, axis[4], 1e-6));
+            CHECK(armature.twigs.size() == std::size_t(twigs ? 80 : 0));
+            // Their wood is in the tree: of the twigs as much as their frusta hold.
+            ImportNotes none;
+            double wood = 0, twigs_wood = 0;
+            const ImportedTree tree = tree_of(armature, none);
+            for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+                const ImportedBranch& branch = tree.branches[b];
+                CHECK((branch.parent >= 0) == (b > 0));
+                for (std::size_t k = 1; k < branch.point.size(); ++k) {
+                    const double r = branch.radius[k - 1], q = branch.radius[k];
+                    (b == 0 ? wood : twigs_wood) +=
+                        (r * r + r * q + q * q) * (branch.point[k] - branch.point[k - 1]).norm();
+                }
+            }
+            const auto frusta = [](double r, double q, double length) { return (r * r + r * q + q * q) * length; };
+            if (twigs && !thick)
+                CHECK(twigs_wood == Approx(80 * (frusta(0.015, 0.01, 0.7 * std::sqrt(2.0)) +
+                                                 frusta(0.01, 0.005, 0.7 * std::sqrt(2.0))))
+                                        .epsilon(0.2));
             for (const std::string& line : notes.lines) CHECK(line.find("twice as thick") == std::string::npos);
         }
     ModelScene swollen = scene_of(true, false);
