@@ -1,4 +1,6 @@
 #include "forked.h"
+#include "plain_text.h"
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -44,31 +46,61 @@ bool send(int pipe, const char* data, std::size_t size) {
     return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void keep_limits([[maybe_unused]] const ChildLimits& limits) {
-    const rlimit no_core{0, 0};
-    ::setrlimit(RLIMIT_CORE, &no_core);
-    if (limits.seconds > 0) {
-        const rlimit seconds{limits.seconds, limits.seconds + 1};
-        ::setrlimit(RLIMIT_CPU, &seconds);
-    }
-#ifndef BOUGH_CHILD_UNLIMITED
-    if (limits.bytes > 0) {
-        const rlimit bytes{address_space() + limits.bytes, RLIM_INFINITY};
-        ::setrlimit(RLIMIT_AS, &bytes);
-    }
-#endif
+std::string in_brackets(const std::string& text) {
+    return text.empty() ? "" : " (" + text + ")";
 }
 
-std::string outcome(const std::function<std::string()>& work) {
+// What holds for the child in the end, and how it is called.
+struct Kept {
+    rlimit seconds{RLIM_INFINITY, RLIM_INFINITY}, bytes{RLIM_INFINITY, RLIM_INFINITY};
+    std::string seconds_text, bytes_text;
+};
+
+Kept kept_limits(const ChildLimits& limits) {
+    Kept kept;
+    ::getrlimit(RLIMIT_CPU, &kept.seconds);
+    const std::string second = " s of processor time";
+    kept.seconds_text = std::to_string(kept.seconds.rlim_cur) + second + " (ulimit -t)";
+    if (limits.seconds > 0 && limits.seconds <= kept.seconds.rlim_cur) {
+        kept.seconds.rlim_cur = limits.seconds;
+        kept.seconds.rlim_max =
+            std::min<rlim_t>(kept.seconds.rlim_max, limits.seconds + 1); // what ignores the first ends by the second
+        kept.seconds_text = std::to_string(limits.seconds) + second + in_brackets(limits.seconds_from);
+    }
+    ::getrlimit(RLIMIT_AS, &kept.bytes);
+    kept.bytes_text = kept.bytes.rlim_cur == RLIM_INFINITY ? "there is" : "ulimit -v leaves";
+#ifndef BOUGH_CHILD_UNLIMITED
+    const std::size_t most = address_space() + limits.stack + limits.bytes;
+    if (limits.bytes > 0 && most <= kept.bytes.rlim_cur) {
+        kept.bytes.rlim_cur = most;
+        kept.bytes_text =
+            "the " + std::to_string(limits.bytes >> 20) + " MB it may take" + in_brackets(limits.bytes_from);
+    }
+#endif
+    return kept;
+}
+
+// Throws where a limit cannot be kept: what is read is not to be trusted.
+void keep(const Kept& kept) {
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    if (::setrlimit(RLIMIT_CPU, &kept.seconds) != 0 || ::setrlimit(RLIMIT_AS, &kept.bytes) != 0)
+        throw std::runtime_error(std::string("its time and memory could not be limited: ") + std::strerror(errno));
+}
+
+std::string outcome(const std::function<std::string()>& work, const Kept& kept) {
     std::string bytes(1, kFailed);
     try {
         std::string made = work();
         bytes[0] = kDone;
         bytes += made;
     } catch (const std::bad_alloc&) {
-        bytes += "needs more memory than there is";
+        bytes += "needs more memory than " + kept.bytes_text;
     } catch (const std::exception& error) {
-        bytes += error.what();
+        // assimp catches what is thrown in it, and hands on its text.
+        const std::string what = error.what();
+        const bool memory = what.find("std::bad_alloc") != std::string::npos;
+        bytes += memory ? "needs more memory than " + kept.bytes_text : in_words(what);
     } catch (...) {
         bytes += unnamed_failure;
     }
@@ -77,34 +109,39 @@ std::string outcome(const std::function<std::string()>& work) {
 
 struct Job {
     const std::function<std::string()>& work;
+    const Kept& kept;
     std::string bytes{};
 };
 
 void* run_job(void* job) {
-    static_cast<Job*>(job)->bytes = outcome(static_cast<Job*>(job)->work);
+    Job& own = *static_cast<Job*>(job);
+    own.bytes = outcome(own.work, own.kept);
     return nullptr;
 }
 
 // On a stack of its own size; without one where there is no memory for it.
-std::string outcome(const std::function<std::string()>& work, std::size_t stack) {
-    Job job{work};
+std::string outcome(const std::function<std::string()>& work, const Kept& kept, std::size_t stack) {
+    Job job{work, kept};
     pthread_attr_t size;
     pthread_t thread;
     ::pthread_attr_init(&size);
     if (stack == 0 || ::pthread_attr_setstacksize(&size, stack) != 0 ||
         ::pthread_create(&thread, &size, run_job, &job) != 0)
-        return outcome(work);
+        return outcome(work, kept);
     ::pthread_join(thread, nullptr);
     return std::move(job.bytes);
 }
 
-[[noreturn]] void be_child(int pipe, const std::function<std::string()>& work, const ChildLimits& limits) {
-    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGHUP, SIGXCPU})
+[[noreturn]] void be_child(int pipe, const std::function<std::string()>& work, const Kept& kept, std::size_t stack) {
+    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU})
         ::signal(crash, SIG_DFL);
     const int nowhere = ::open("/dev/null", O_WRONLY);
     if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
-    keep_limits(limits);
-    const std::string bytes = outcome(work, limits.stack);
+    const std::function<std::string()> limited = [&] {
+        keep(kept);
+        return work();
+    };
+    const std::string bytes = outcome(limited, kept, stack);
     ::_exit(send(pipe, bytes.data(), bytes.size()) ? 0 : 1);
 }
 
@@ -120,11 +157,20 @@ std::string received(int pipe) {
 }
 
 // When it has ended.
-int status_of(pid_t child) {
+struct Ended {
     int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    double seconds = 0;    // of processor time
+    std::size_t bytes = 0; // resident at most
+};
+Ended ended(pid_t child) {
+    Ended end;
+    rusage used{};
+    while (::wait4(child, &end.status, 0, &used) < 0 && errno == EINTR) {
     }
-    return status;
+    end.bytes = std::size_t(used.ru_maxrss) << 10;
+    for (const timeval& time : {used.ru_utime, used.ru_stime})
+        end.seconds += double(time.tv_sec) + 1e-6 * double(time.tv_usec);
+    return end;
 }
 
 } // namespace
@@ -132,6 +178,7 @@ int status_of(pid_t child) {
 ChildResult run_forked(const std::function<std::string()>& work, const ChildLimits& limits) {
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error(std::string("no pipe to a child process: ") + std::strerror(errno));
+    const Kept kept = kept_limits(limits);
     const pid_t child = ::fork();
     if (child < 0) {
         const int error = errno;
@@ -140,7 +187,7 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
     }
     if (child == 0) {
         ::close(ends[0]);
-        be_child(ends[1], work, limits);
+        be_child(ends[1], work, kept, limits.stack);
     }
     ::close(ends[1]);
     std::string bytes;
@@ -148,18 +195,26 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
         bytes = received(ends[0]);
     } catch (...) {       // no memory for it
         ::close(ends[0]); // on which the child ends
-        (void)status_of(child);
+        (void)ended(child);
         throw;
     }
     ::close(ends[0]);
-    const int status = status_of(child);
+    const auto [status, seconds, most] = ended(child);
     ChildResult result;
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-        result.failure = "took longer than " + std::to_string(limits.seconds) + " s";
+    const bool killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL; // also where both limits of time are one
+    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) ||
+        (killed && seconds > double(kept.seconds.rlim_cur) - 0.5))
+        result.failure = "takes longer than " + kept.seconds_text;
     else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGBUS) // as an input does that is mapped (mapped.h)
         result.failure = "found the file cut short while it was read";
+    else if (killed)
+        result.failure = "was killed (signal 9), as the system does for want of memory";
     else if (WIFSIGNALED(status))
-        result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+        // Not all code outlives the lack of memory that its limit makes.
+        result.failure = "crashed (signal " + std::to_string(WTERMSIG(status)) + ")" +
+                         (limits.bytes > 0 && most > limits.bytes / 2
+                              ? " when it had taken " + std::to_string(most >> 20) + " MB of " + kept.bytes_text
+                              : "");
     else if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         result.failure = "crashed";
     else if (bytes[0] == kFailed)

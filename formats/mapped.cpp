@@ -6,22 +6,16 @@
 
 namespace bough {
 
-MappedInput::Version MappedInput::version(int file) {
-    struct stat known {};
-    if (::fstat(file, &known) != 0) return {};
-    return {known.st_size, known.st_mtim.tv_sec, known.st_mtim.tv_nsec};
-}
-
 MappedInput::MappedInput(const std::string& path) : name_(input_name(path)) {
     struct stat known {}; // asked before it is opened: a pipe is read once
     const bool regular = path != "-" && ::stat(path.c_str(), &known) == 0 && S_ISREG(known.st_mode);
     file_ = regular ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : -1;
     if (file_ >= 0 && ::fstat(file_, &known) == 0 && S_ISREG(known.st_mode) && known.st_size > 0) {
-        void* pages = ::mmap(nullptr, std::size_t(known.st_size), PROT_READ, MAP_PRIVATE, file_, 0);
+        opened_ = settled_version(file_);
+        void* pages = ::mmap(nullptr, std::size_t(opened_.size), PROT_READ, MAP_PRIVATE, file_, 0);
         if (pages != MAP_FAILED) {
             pages_ = static_cast<const char*>(pages);
-            size_ = std::size_t(known.st_size);
-            opened_ = version(file_);
+            size_ = std::size_t(opened_.size);
         }
     }
     if (pages_) return;
@@ -35,7 +29,7 @@ void MappedInput::give_back() const {
 }
 
 void MappedInput::check() const {
-    if (pages_ && version(file_) != opened_)
+    if (pages_ && file_version(file_) != opened_)
         throw InputError(name_, "was written to while it was read, expected a finished file");
 }
 

@@ -21,12 +21,7 @@ public:
 private:
     std::string name_, content_;
     int file_ = -1; // of pages_
-    struct Version {
-        std::int64_t size = 0, seconds = 0, nanoseconds = 0;
-        bool operator==(const Version&) const = default;
-    };
-    static Version version(int file); // as written last
-    Version opened_{};
+    FileVersion opened_{};
     const char* pages_ = nullptr;
     std::size_t size_ = 0;
 };

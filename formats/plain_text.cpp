@@ -146,10 +146,38 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
 std::string valid_utf8(std::string text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t length = utf8_length(text, at);
-        const bool control = length == 1 && (static_cast<unsigned char>(text[at]) < 0x20 || text[at] == 0x7F);
+        const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[at + k]); };
+        const bool control = length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F);
         if (length == 0 || control) text[at] = '?';
-        at += std::max<std::size_t>(1, length);
+        if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) // the other control characters, U+0080 to U+009F
+            text.replace(at, 2, "?"), at += 1;
+        else
+            at += std::max<std::size_t>(1, length);
     }
+    return text;
+}
+
+std::string in_words(std::string text) {
+    constexpr std::string_view tag = "[json.exception.";
+    for (std::size_t at; (at = text.find(tag)) != std::string::npos;) {
+        const std::size_t end = text.find(']', at);
+        if (end == std::string::npos) break;
+        text.erase(at, std::min(end + 2, text.size()) - at);
+    }
+    constexpr std::string_view sizes[] = {"cannot create std::vector larger than max_size()",
+                                          "vector::_M_default_append",
+                                          "vector::_M_realloc_insert",
+                                          "vector::_M_fill_insert",
+                                          "vector::reserve",
+                                          "basic_string::_M_create",
+                                          "basic_string::_M_replace_aux",
+                                          "basic_string::append",
+                                          "basic_string::reserve",
+                                          "std::bad_array_new_length",
+                                          "std::bad_alloc"};
+    for (const std::string_view size : sizes)
+        for (std::size_t at; (at = text.find(size)) != std::string::npos;)
+            text.replace(at, size.size(), "it needs more memory than there is");
     return text;
 }
 

@@ -1,6 +1,6 @@
 // plain_text.h: strict numbers and places in plain text, for the readers of foreign formats. No locale takes part.
 #pragma once
-#include "lib/model/shortest_text.h"
+#include "lib/base/shortest_text.h"
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -65,6 +65,9 @@ std::string file_line(const std::string& name, std::size_t line);
 std::string quoted(std::string_view);
 // The text with every byte that is not part of valid UTF-8, and every control character, replaced by '?'.
 std::string valid_utf8(std::string text);
+// What the standard library and nlohmann-json say of an error, as a user may read it: without `[json.exception.type_error.302] `, and of
+// sizes and memory that cannot be had in words.
+std::string in_words(std::string text);
 // A number for a message.
 inline std::string shown(double value) {
     return four_digits(value);

@@ -4,7 +4,7 @@
 #include "formats/mapped.h"
 #include "formats/plain_text.h"
 #include "import_file.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 
 namespace bough {
 namespace {

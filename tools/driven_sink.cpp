@@ -1,5 +1,5 @@
 #include "frame_sink.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 
 namespace bough {
 namespace {

@@ -1,8 +1,8 @@
 #include "envelope.h"
 #include "formats/models/envelope_mesh.h"
 #include "formats/plain_text.h"
+#include "lib/base/counted.h"
 #include "lib/growth/colonize.h"
-#include "lib/model/counted.h"
 #include <algorithm>
 
 namespace bough {
@@ -27,9 +27,18 @@ Vec3 vector_of(const std::string& option, const std::string& text) {
     return {v[0], v[1], v[2]};
 }
 
+// What was expected of a volume in which no tree grows, "" of others.
+std::string absurd(const Vec3& size) {
+    constexpr double least = 1e-3, most = 1e5; // [m]
+    if (size.maxCoeff() <= most && size.maxCoeff() >= least) return "";
+    return "its longest side to be " + shown(least) + " to " + shown(most) + " m";
+}
+
 Vec3 size_of(const std::string& text) {
     const Vec3 size = vector_of("--envelope-size", text);
     if (!(size.minCoeff() > 0)) throw UsageError("--envelope-size is '" + text + "', expected three lengths above 0 m");
+    if (const std::string wrong = absurd(size); !wrong.empty())
+        throw UsageError("--envelope-size is '" + text + "', expected " + wrong);
     return size;
 }
 
@@ -44,6 +53,9 @@ void place_mesh(EnvelopeMesh& mesh, const EnvelopeOptions& o, const std::string&
     const Vec3 base((lower.x() + upper.x()) / 2, lower.y(), (lower.z() + upper.z()) / 2);
     if (!((upper - lower).minCoeff() > 0))
         throw InputError(name, "is flat and encloses no volume, expected a closed mesh");
+    if (const std::string wrong = absurd(upper - lower); o.size.empty() && !wrong.empty())
+        throw InputError(name, "is " + shown((upper - lower).maxCoeff()) + " m large, expected " + wrong +
+                                   "; are its coordinates, or --units, right?");
     const Vec3 scale = o.size.empty() ? Vec3(1, 1, 1) : Vec3(size_of(o.size).cwiseQuotient(upper - lower));
     const Vec3 at(base.x(), o.crown_base.value_or(base.y()), base.z());
     for (Vec3& p : mesh.vertex) p = at + (p - base).cwiseProduct(scale);
@@ -65,7 +77,8 @@ Envelope mesh_envelope(const EnvelopeOptions& o, const ImportChoice& choice, Com
     } catch (const std::invalid_argument& error) {
         throw InputError(options.name, error.what());
     }
-    if (!(volume(e) > 0)) throw InputError(options.name, "encloses no volume, expected a closed mesh");
+    e.space = volume(e);
+    if (!(e.space > 0)) throw InputError(options.name, "encloses no volume, expected a closed mesh");
     const MeshClosure& c = e.mesh->closure();
     if (c.open_edges > 0)
         notes.lines.push_back("warning: the mesh is not closed (" + counted(c.open_edges, "open edge", "open edges") +
@@ -103,14 +116,18 @@ ColonizeParameters parameters(const EnvelopeOptions& o, const ImportChoice& choi
     return p;
 }
 
-// The library's complaint, "name: ...", by the option of that name where there is one ("tip radius": --tip-radius).
+// The library's complaint, "name: is ...", by the option of that name where there is one ("tip radius": --tip-radius). A length that was not
+// given follows from the others and the volume.
 std::string by_option(const std::string& error, const EnvelopeOptions& o) {
     std::string option = "--" + error.substr(0, error.find(':'));
     std::replace(option.begin(), option.end(), ' ', '-');
     std::vector<std::pair<std::string, bool>> options = o.given();
     options.insert(options.end(), {{"--envelope", true}, {"--bodies", true}});
     for (const auto& [name, is_given] : options)
-        if (name == option) return option + error.substr(option.size() - 2);
+        if (name == option)
+            return (is_given ? option + ":"
+                             : "--envelope: the " + option.substr(2) + " that follows from what is given") +
+                   error.substr(option.size() - 1);
     return error;
 }
 

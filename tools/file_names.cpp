@@ -1,17 +1,72 @@
 #include "file_names.h"
 #include "exits.h"
+#include "formats/exports/sequence.h"
+#include "formats/output_place.h"
 #include "formats/plain_text.h"
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace bough {
 
-bool same_file(const std::string& one, const std::string& other) {
+namespace {
+
+bool is_pattern(const std::string& file) {
+    return file.find('%') != std::string::npos && valid_sequence(file).empty();
+}
+
+// The files that a name stands for, as far as they can be told apart: itself, or of a pattern those that are links, and the pattern.
+struct Written {
+    std::string option, pattern; // "": one file
+    std::vector<OutputPlace> places;
+};
+
+Written written_by(const NamedFile& output) {
+    if (!is_pattern(output.file)) return {output.option, {}, {output_place(output.file)}};
+    // The last number has as many digits as a pattern can ask for, so that %d and %04d give one name.
+    constexpr std::int64_t last = 999'999'999'999'999'999;
+    Written files{output.option,
+                  output.file,
+                  {output_place(sequence_name(output.file, 0)), output_place(sequence_name(output.file, last))}};
     std::error_code none;
-    return one != "-" && other != "-" && !one.empty() && !other.empty() &&
-           (one == other ||
-            std::filesystem::weakly_canonical(one, none) == std::filesystem::weakly_canonical(other, none));
+    for (const SequenceFile& file : sequence_files(output.file))
+        if (std::filesystem::is_symlink(file.name, none)) files.places.push_back(output_place(file.name));
+    return files;
+}
+
+bool holds(const Written& files, const OutputPlace& place) {
+    for (const OutputPlace& own : files.places)
+        if (same_output(own, place)) return true;
+    if (files.pattern.empty() || place.direct) return false;
+    const std::optional<std::int64_t> frame = sequence_frame(files.pattern, place.name);
+    return frame && same_output(output_place(sequence_name(files.pattern, *frame)), place);
+}
+
+bool meet(const Written& one, const Written& other) {
+    for (const OutputPlace& place : other.places)
+        if (holds(one, place)) return true;
+    for (const OutputPlace& place : one.places)
+        if (holds(other, place)) return true;
+    return false;
+}
+
+bool replaces(const Written& output, const std::string& input) {
+    struct stat status {};
+    const bool there = input == "-" ? ::fstat(STDIN_FILENO, &status) == 0 : ::stat(input.c_str(), &status) == 0;
+    if (!there || S_ISDIR(status.st_mode)) return false;
+    if (input != "-") return holds(output, output_place(input));
+    if (!S_ISREG(status.st_mode)) return false;
+    const OutputPlace::File file{std::uint64_t(status.st_dev), std::uint64_t(status.st_ino)};
+    return std::any_of(output.places.begin(), output.places.end(),
+                       [&](const OutputPlace& place) { return place.exists && place.file == file; });
+}
+
+} // namespace
+
+bool same_file(const std::string& input, const std::string& output) {
+    return !input.empty() && !output.empty() && replaces(written_by({"", output}), input);
 }
 
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written) {
@@ -20,6 +75,21 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
             if (same_file(input.file, output.file))
                 throw UsageError(output.option + ": is '" + output.file + "', which " + input.option +
                                  " reads and the output would replace");
+}
+
+void require_outputs(const std::vector<NamedFile>& written) {
+    std::vector<Written> all;
+    for (const NamedFile& output : written) {
+        if (output.file.empty()) continue;
+        Written files = written_by(output);
+        for (const Written& other : all)
+            if (meet(files, other))
+                throw UsageError(output.option + ": is '" + output.file + "', the same file as " + other.option +
+                                 " writes");
+        all.push_back(std::move(files));
+    }
+    for (const NamedFile& output : written)
+        if (!output.file.empty()) require_output(is_pattern(output.file) ? sequence_name(output.file, 0) : output.file);
 }
 
 std::string in_shell(const std::string& argument) {

@@ -5,14 +5,19 @@
 
 namespace bough {
 
-bool same_file(const std::string& one, const std::string& other); // two names of one file; - is none
+// Whether what is written to `output` would replace what `input` names, under whatever name: links are followed; - is stdin (a regular file
+// may stand behind it) and stdout. A pattern of a sequence (x_%04d.obj) stands for all its files.
+bool same_file(const std::string& input, const std::string& output);
 
-// Throws UsageError where an output is one of the inputs, another kind of file that would be lost. Empty names and - are
-// none.
+// Throws UsageError where an output is one of the inputs, another kind of file that would be lost. Empty names are none.
 struct NamedFile {
     std::string option, file; // "--skin", "oak.glb"
 };
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written);
+
+// Before the work: throws UsageError where two outputs are one file, and OutputError where one cannot be written, as in a folder that is not
+// there. Empty names are none; a pattern stands for all its files, and is tried with its number 0.
+void require_outputs(const std::vector<NamedFile>& written);
 
 // The ending of a file's name in lower case, ".glb", or "".
 std::string ending(const std::string& path);

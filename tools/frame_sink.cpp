@@ -1,7 +1,7 @@
 #include "frame_sink.h"
 #include "formats/documents/motion.h"
 #include "formats/exports/obj.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "skin_mover.h"
 #include <filesystem>
 
@@ -26,8 +26,9 @@ private:
 
 class ObjSink : public FrameSink {
 public:
-    ObjSink(const std::string& pattern, const Tree& tree, Skin skin, const RustleMaker& rustle)
-        : pattern_(pattern), skin_(std::move(skin)), mover_(skin_, tree, rustle(skin_, false)),
+    ObjSink(const std::string& pattern, const Tree& tree, Skin skin, const RustleMaker& rustle,
+            std::vector<std::string>& notes)
+        : pattern_(pattern), notes_(notes), skin_(std::move(skin)), mover_(skin_, tree, rustle(skin_, false)),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
         Output output(sequence_mtl(pattern));
         write_mtl(output, skin_);
@@ -44,17 +45,26 @@ public:
             throw OutputError(pattern_, "stopped after " + counted(written_, "frame", "frames") + ": " + error.what());
         }
         ++written_;
+        last_ = frame.frame;
     }
-    void finish() override {}
+    void finish() override {
+        std::vector<SequenceFile> older = sequence_files(pattern_);
+        std::erase_if(older, [this](const SequenceFile& file) { return file.frame <= last_; });
+        if (!older.empty())
+            notes_.push_back(pattern_ + ": " + counted(older.size(), "frame", "frames") +
+                             " of an earlier run stay behind the last one: " + older.front().name +
+                             (older.size() > 1 ? " to " + older.back().name : ""));
+    }
     std::uint64_t bytes() const override { return bytes_; }
 
 private:
     std::string pattern_;
+    std::vector<std::string>& notes_;
     Skin skin_;
     SkinMover mover_;
     std::string mtl_;
     std::vector<Vec3> position_, normal_;
-    std::int64_t written_ = 0;
+    std::int64_t written_ = 0, last_ = -1;
     std::uint64_t bytes_ = 0;
 };
 
@@ -67,9 +77,9 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
     return std::make_unique<MotionSink>(file, form, header);
 }
 
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin,
-                                    const RustleMaker& rustle) {
-    return std::make_unique<ObjSink>(pattern, tree, std::move(skin), rustle);
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const RustleMaker& rustle,
+                                    std::vector<std::string>& notes) {
+    return std::make_unique<ObjSink>(pattern, tree, std::move(skin), rustle, notes);
 }
 
 } // namespace bough

@@ -1,7 +1,7 @@
 #include "exits.h"
 #include "frame_sink.h"
+#include "lib/base/counted.h"
 #include "lib/growth/skin.h"
-#include "lib/model/counted.h"
 #include "made_with.h"
 #include <algorithm>
 #include <numbers>

@@ -4,6 +4,7 @@
 #include "formats/mapped.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
+#include "reader_options.h"
 
 namespace bough {
 
@@ -20,6 +21,7 @@ void add_import_options(OptionList& list, ImportChoice& choice) {
              "alike")
         .takes("M")
         .check(positive_number());
+    add_reader_options(list);
 }
 
 std::optional<double> unit_in_metres(const std::string& units) {

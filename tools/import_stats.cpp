@@ -1,5 +1,5 @@
 #include "import_stats.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "lib/model/polyline.h"
 #include <algorithm>
 #include <array>

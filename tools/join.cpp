@@ -2,9 +2,9 @@
 #include "formats/documents/motion.h"
 #include "formats/mapped.h"
 #include "frame_sink.h"
-#include "lib/model/counted.h"
-#include "lib/model/shortest_text.h"
-#include "lib/stages/state.h"
+#include "lib/base/counted.h"
+#include "lib/base/shortest_text.h"
+#include "lib/plan/state.h"
 #include "signals.h"
 #include "simulation.h"
 #include <deque>

@@ -1,6 +1,6 @@
 #include "loop.h"
 #include "formatted.h"
-#include "lib/reference/trajectory.h"
+#include "lib/study/trajectory.h"
 #include "progress.h"
 #include "signals.h"
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "machine_limits.h"
-#include "lib/fast/machine_kernels.h"
-#include "lib/fast/row.h"
+#include "lib/lanes/row.h"
+#include "lib/study/machine_kernels.h"
 #include <algorithm>
 #include <chrono>
 #include <functional>

@@ -1,9 +1,9 @@
-// machine_limits.h: what the machine can do at most, measured with loops that do nothing else (lib/fast/machine_kernels.h): memory read, written and
+// machine_limits.h: what the machine can do at most, measured with loops that do nothing else (lib/study/machine_kernels.h): memory read, written and
 // copied over an array much larger than its caches, and multiply-adds in registers, by one thread or several at once.
 //
 // One pass each: to be called again and again between other measurements, so that a machine that others use as well is taken as it is then.
 #pragma once
-#include "lib/fast/targets.h"
+#include "lib/lanes/target.h"
 #include <cstddef>
 
 namespace bough {

@@ -1,5 +1,5 @@
 #include "made_with.h"
-#include "lib/fast/targets.h"
+#include "lib/lanes/target.h"
 
 namespace bough {
 

@@ -1,6 +1,6 @@
 #include "merge_trial.h"
 #include "formatted.h"
-#include "lib/reference/merge_below.h"
+#include "lib/study/merge_below.h"
 #include "progress.h"
 #include "signals.h"
 #include "simulation.h"

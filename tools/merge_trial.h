@@ -1,4 +1,4 @@
-// merge_trial.h: treeconvert --merge-below: joints that a trial run finds to hardly move are made rigid (lib/reference/merge_below.h).
+// merge_trial.h: treeconvert --merge-below: joints that a trial run finds to hardly move are made rigid (lib/study/merge_below.h).
 #pragma once
 #include "common.h"
 #include "lib/model/tree.h"

@@ -1,6 +1,6 @@
 #include "notes.h"
-#include "lib/fast/lane_steppers.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
+#include "lib/lanes/plan_lanes.h"
 #include <algorithm>
 #include <array>
 #include <iomanip>

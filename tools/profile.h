@@ -22,6 +22,7 @@ Subcommand profile_compare(CommonOptions&); // profile_compare.cpp: what became 
 
 Subcommand profile_error(CommonOptions&);     // profile_error.cpp: error against run time
 Subcommand profile_stability(CommonOptions&); // profile_stability.cpp: the grid of extremes
+Subcommand profile_modes(CommonOptions&);     // profile_modes.cpp: natural frequencies and shapes
 Subcommand profile_scaling(CommonOptions&);   // profile_scaling.cpp: cost over size, held against the machine's limits
 
 } // namespace bough

@@ -1,5 +1,5 @@
 #include "file_names.h"
-#include "lib/reference/work_precision.h"
+#include "lib/study/work_precision.h"
 #include "profile.h"
 #include "progress.h"
 #include "report_file.h"
@@ -103,8 +103,7 @@ void work(ErrorCommand& o) {
     if (o.run.joint_limit) throw UsageError("--joint-limit: the reference solution keeps no limits");
     if (o.run.solver == solver_name(Solver::articulated_reference))
         throw UsageError("--solver articulated-reference is what the others are held against");
-    if (!o.report.empty() && same_file(o.report, o.common.output))
-        throw UsageError("--report and -o name the same file");
+    require_outputs({{"-o", o.common.output}, {"--report", o.report}});
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
     require_report(o.report);

@@ -1,6 +1,6 @@
 #include "converted.h"
 #include "file_names.h"
-#include "lib/fast/operations.h"
+#include "lib/lanes/operations.h"
 #include "machine_limits.h"
 #include "profile.h"
 #include "progress.h"
@@ -141,8 +141,7 @@ void work(ScalingCommand& o) {
     if (!o.trees.empty())
         for (const char* option : {"--bodies", "--shape"})
             if (given(option)) throw UsageError(std::string(option) + ": not with --tree, which says what there is");
-    if (!o.report.empty() && same_file(o.report, o.common.output))
-        throw UsageError("--report and -o name the same file");
+    require_outputs({{"-o", o.common.output}, {"--report", o.report}});
     std::vector<NamedFile> read{{"--wind", wind_file(o.run.wind)}};
     for (const std::string& tree : o.trees) read.push_back({"--tree", tree});
     refuse_overwriting(read, {{"--report", o.report}, {"-o", o.common.output}});

@@ -1,5 +1,5 @@
 #include "file_names.h"
-#include "lib/reference/stability.h"
+#include "lib/study/stability.h"
 #include "profile.h"
 #include "progress.h"
 #include "report_file.h"
@@ -28,8 +28,7 @@ void declare(OptionList& list, StabilityCommand& o) {
 }
 
 void work(StabilityCommand& o) {
-    if (!o.report.empty() && same_file(o.report, o.common.output))
-        throw UsageError("--report and -o name the same file");
+    require_outputs({{"-o", o.common.output}, {"--report", o.report}});
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
     refuse_overwriting({{"INPUT", o.run.input}}, written);
     require_report(o.report);

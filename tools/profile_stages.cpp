@@ -103,8 +103,7 @@ std::string table(const Report& r) {
 void work_stages(StagesOptions& o) {
     const std::int64_t frames = frames_of(o.run, seconds_default);
     if (frames < 3) throw UsageError("--frames: at least 3 (the start, a warm-up, and one to measure)");
-    if (!o.report.empty() && same_file(o.report, o.common.output))
-        throw UsageError("--report and -o name the same file");
+    require_outputs({{"-o", o.common.output}, {"--report", o.report}});
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
     Setting setting = read_setting(o.run);

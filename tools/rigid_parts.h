@@ -1,6 +1,6 @@
 // rigid_parts.h: what holding joints costs in accuracy and saves in time (treesim --report-rigid).
 #pragma once
-#include "lib/reference/rigid_error.h"
+#include "lib/study/rigid_error.h"
 #include "simulation.h"
 
 namespace bough {

@@ -1,5 +1,6 @@
 #include "run_options.h"
 #include "exits.h"
+#include "reader_options.h"
 #include "set_option.h"
 #include <array>
 #include <cmath>
@@ -61,7 +62,8 @@ void add_sleep_option(OptionList& list, RunOptions& o) {
 
 void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
     const std::string seconds_text = std::to_string(int(seconds_default));
-    list.add("INPUT", o.input, "A tree, any file that treeconvert takes (converted with its defaults), or a scene; - for stdin");
+    list.add("INPUT", o.input,
+             "A tree, any file that treeconvert takes (converted with its defaults), or a scene; - for stdin");
     OptionEntry seconds = list.add("--seconds", o.seconds, "Length of the run [s] (" + seconds_text + ")")
                               .takes("S")
                               .check(not_negative_number());
@@ -110,6 +112,7 @@ void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
              "Largest angle of every joint about each of its axes, from its spring's rest [deg] (none)")
         .takes("DEG")
         .check(positive_number());
+    add_reader_options(list);
 }
 
 std::int64_t frames_of(const RunOptions& o, double seconds_default) {

@@ -1,7 +1,7 @@
 // run_options.h: the options that decide how trees move, the same for treesim and treeprofile, and what they choose.
 #pragma once
 #include "lib/model/scene.h"
-#include "lib/reference/solvers.h"
+#include "lib/study/solvers.h"
 #include "option_list.h"
 
 namespace bough {
@@ -48,7 +48,7 @@ std::string scheme_name(const RunOptions&);
 // The SIMD target that --simd names; none for the plain path. Throws UsageError for one that this machine lacks.
 std::optional<fast::Target> chosen_simd(const RunOptions&);
 
-// [rad/s] below which what has settled sleeps (lib/fast/sleep.h); 0: nothing does. Throws UsageError for what is no rate, and for
+// [rad/s] below which what has settled sleeps (lib/coupled/sleep.h); 0: nothing does. Throws UsageError for what is no rate, and for
 // one given with --simd off.
 double chosen_sleep(const RunOptions&);
 std::string rate_text(double rate); // "1e-05"

@@ -1,6 +1,6 @@
 #include "rustling.h"
+#include "lib/laws/wind_speeds.h"
 #include "lib/model/drawn_pose.h"
-#include "lib/stages/wind_speeds.h"
 
 namespace bough {
 

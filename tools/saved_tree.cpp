@@ -2,7 +2,7 @@
 #include "exits.h"
 #include "formats/documents/tree.h"
 #include "formats/open.h"
-#include "lib/stages/posed_tree.h"
+#include "lib/plan/posed_tree.h"
 
 namespace bough {
 

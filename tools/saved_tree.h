@@ -1,4 +1,4 @@
-// saved_tree.h: `treesim --save-tree`: the run's tree as a document, drawn as it stands at the last frame (lib/stages/posed_tree.h).
+// saved_tree.h: `treesim --save-tree`: the run's tree as a document, drawn as it stands at the last frame (lib/plan/posed_tree.h).
 #pragma once
 #include "common.h"
 #include "simulation.h"

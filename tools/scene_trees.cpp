@@ -3,9 +3,9 @@
 #include "exits.h"
 #include "formats/documents/scene.h"
 #include "formats/open.h"
-#include "lib/fast/stands.h"
+#include "lib/lanes/stands.h"
+#include "lib/laws/wind_field.h"
 #include "lib/simulation/fingerprint.h"
-#include "lib/stages/wind_field.h"
 #include <algorithm>
 #include <filesystem>
 #include <map>

@@ -22,7 +22,7 @@ struct TreeSize {
     std::size_t bodies;
     std::vector<std::size_t> roots;
 };
-// Trees before which a scene may be cut (lib/fast/stands.h), the first among them.
+// Trees before which a scene may be cut (lib/lanes/stands.h), the first among them.
 std::vector<std::size_t> cuts(const std::vector<TreeSize>&);
 // What of a scene concerns those trees. Throws UsageError for what goes from tree to tree, and for what names bodies by place.
 Scene scene_of_part(const Scene&, std::size_t first, std::size_t end);

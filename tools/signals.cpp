@@ -1,6 +1,6 @@
 #include "signals.h"
 #include "exits.h"
-#include "formats/open.h"
+#include "formats/temporary.h"
 #include "progress.h"
 #include <csignal>
 #include <string_view>
@@ -13,14 +13,21 @@ volatile std::sig_atomic_t caught_signal = 0;
 volatile std::sig_atomic_t at_boundary = 0;
 
 extern "C" void on_signal(int signal) {
+    const int before = caught_signal;
     caught_signal = signal;
-    if (at_boundary) {
-        std::signal(signal, SIG_DFL); // a second one ends the program at once
-        return;
-    }
+    // At a boundary, unless this is the second one. The system sends SIGXCPU once a second.
+    if (at_boundary && (before == 0 || signal == SIGXCPU)) return;
     remove_unfinished_outputs();
     clear_progress();
     _exit(128 + signal);
+}
+
+// Ends at once, as it is meant to, with the core that the system may keep.
+extern "C" void on_quit(int signal) {
+    remove_unfinished_outputs();
+    clear_progress();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
 }
 
 const char* running_tool = "";
@@ -41,10 +48,12 @@ extern "C" void on_missing_page(int) {
 void catch_signals(const char* tool) {
     running_tool = tool;
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGBUS, on_missing_page);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT}) {
         struct sigaction before;
-        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) std::signal(signal, on_signal);
+        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+            std::signal(signal, signal == SIGQUIT ? on_quit : on_signal);
     }
 }
 

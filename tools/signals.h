@@ -3,13 +3,14 @@
 
 namespace bough {
 
-// Interrupts (SIGINT, SIGTERM, SIGHUP; not those that the caller has ignored) remove unfinished outputs and end the tool with 128 + the
-// signal. An input that becomes shorter, or whose disk fails, while it is looked at where it lies (formats/mapped.h) ends it in one line with exit_input. A
-// closed pipe is an error of the output that is written to it. `tool` is kept.
+// Interrupts (SIGINT, SIGTERM, SIGHUP, SIGXCPU of `ulimit -t`; not those that the caller has ignored) remove unfinished outputs and end
+// the tool with 128 + the signal; SIGQUIT does so too, and dies of the signal. An input that becomes shorter, or whose disk fails, while it
+// is looked at where it lies (formats/mapped.h) ends it in one line with exit_input. A closed pipe and a file larger than `ulimit -f` are
+// errors of the output that is written to it. `tool` is kept.
 void catch_signals(const char* tool);
 
-// From now on Ctrl-C only sets a flag: the caller looks at interrupted() at each frame and ends there. Before, and in
-// tools that never call it, Ctrl-C ends the program at once; unfinished outputs are removed.
+// From now on the first interrupt only sets a flag: the caller looks at interrupted() at each frame and ends there. Before, in tools that
+// never call it, and by a second one, the program ends at once; unfinished outputs are removed.
 void interrupt_at_boundary();
 bool interrupted();
 

@@ -1,8 +1,8 @@
 // simulation.h: what treesim and treeprofile share: one run as frames.
 #pragma once
-#include "lib/fast/lane_steppers.h"
-#include "lib/reference/solvers.h"
+#include "lib/lanes/plan_lanes.h"
 #include "lib/simulation/run.h"
+#include "lib/study/solvers.h"
 #include "setting.h"
 
 namespace bough {

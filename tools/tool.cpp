@@ -1,5 +1,6 @@
 #include "tool.h"
 #include "file_names.h"
+#include "formats/plain_text.h"
 #include "made_with.h"
 #include "progress.h"
 #include "signals.h"
@@ -37,7 +38,7 @@ std::string joined(const std::string& name, int argc, char** argv) {
 std::string one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+    return valid_utf8(in_words(std::move(text))); // names and pieces of a file are whatever they are
 }
 
 void say(const char* tool, const std::string& text) {

@@ -9,12 +9,12 @@
 #include "frame_sink.h"
 #include "import_file.h"
 #include "import_stats.h"
+#include "lib/base/counted.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
-#include "lib/model/counted.h"
 #include "lib/model/drawn_pose.h"
 #include "lib/model/split.h"
-#include "lib/model/sway.h"
+#include "lib/study/modes.h"
 #include "merge_trial.h"
 #include "run_options.h"
 #include "tool.h"
@@ -93,6 +93,19 @@ void refuse_own_inputs(const Options& o, const std::string& output, const std::s
                        {{"-o", output}, {"--mesh", mesh}, {"--wind-groups", wind_groups}});
 }
 
+void refuse_no_patterns(const Options& o) {
+    for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh),
+                                     std::pair("--wind-groups", &o.wind_groups)}) {
+        if (file->empty()) continue;
+        const std::string wrong = *file == "-" ? "a pattern such as trunk_%d.json is needed" : valid_sequence(*file);
+        if (!wrong.empty()) throw UsageError("--split: " + std::string(name) + " is '" + *file + "': " + wrong);
+    }
+}
+
+std::string mtl_of(const std::string& mesh) {
+    return std::filesystem::path(mesh).replace_extension(".mtl").string();
+}
+
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
     refuse_merge_contradictions(o.merge);
@@ -103,19 +116,12 @@ void refuse_contradictions(const Options& o) {
     const char* const glb = o.gltf.given() ? o.gltf.given() : !o.wind_groups.empty() ? "--wind-groups" : nullptr;
     if (glb && ending(o.mesh) != ".glb") throw UsageError(std::string(glb) + ": only with --mesh FILE.glb");
     if (o.wind_groups == "-") throw UsageError("--wind-groups is '-', expected a file name");
-    for (const std::string* other : {&o.common.output, &o.mesh})
-        if (!o.wind_groups.empty() && same_file(o.wind_groups, *other))
-            throw UsageError("--wind-groups and " + std::string(other == &o.mesh ? "--mesh" : "-o") +
-                             " name the same file");
-    if (!o.mesh.empty() && same_file(o.mesh, o.common.output)) throw UsageError("--mesh and -o name the same file");
     refuse_own_inputs(o, o.common.output, o.mesh, o.wind_groups);
-    if (!o.split) return;
-    for (const auto& [name, file] : {std::pair("-o", &o.common.output), std::pair("--mesh", &o.mesh),
-                                     std::pair("--wind-groups", &o.wind_groups)}) {
-        if (file->empty()) continue;
-        const std::string wrong = *file == "-" ? "a pattern such as trunk_%d.json is needed" : valid_sequence(*file);
-        if (!wrong.empty()) throw UsageError("--split: " + std::string(name) + " is '" + *file + "': " + wrong);
-    }
+    if (o.split) refuse_no_patterns(o);
+    require_outputs({{"-o", o.common.output},
+                     {"--mesh", o.mesh},
+                     {"the .mtl of --mesh", ending(o.mesh) == ".obj" ? mtl_of(o.mesh) : ""},
+                     {"--wind-groups", o.wind_groups}});
 }
 
 Material chosen_material(const Options& o, const Splines& splines) {
@@ -142,6 +148,24 @@ SegmentOptions segment_options(const Options& o) {
     return options;
 }
 
+// As it stands drawn, under its weight.
+std::string sway_text(const Tree& tree) {
+    std::ostringstream text;
+    try {
+        const SmallMotion small(tree, Vec3(0, -9.81, 0), Pose::drawn);
+        const Sway x = sway_along(small, Vec3::UnitX()), z = sway_along(small, Vec3::UnitZ());
+        text << x.frequency << " and " << z.frequency << " Hz along x and z, " << std::lround(100 * x.share)
+             << " % and " << std::lround(100 * z.share) << " % of the bend under a steady push; lowest mode "
+             << std::min(x.lowest, z.lowest) << " Hz (treeprofile modes)";
+        if (!small.buckled().empty())
+            text << "; branch " << tree.branch[small.buckled().front()]
+                 << " buckles under what it carries, and leans over";
+    } catch (const std::domain_error& error) {
+        text << "none: " << error.what();
+    }
+    return text.str();
+}
+
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {
     const auto [R_wb, x_w] = drawn_pose(tree);
     std::size_t kinds[4] = {0, 0, 0, 0}, roots = 0;
@@ -163,8 +187,7 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
          << "mass        " << mass << " kg\n"
          << "height      " << top << " m\n"
          << "stiffness   " << softest << " to " << stiffest << " N m/rad\n"
-         << "sway        " << sway_frequency(tree, Vec3::UnitX()) << " and " << sway_frequency(tree, Vec3::UnitZ())
-         << " Hz along x and z (Rayleigh's estimate, articulated)\n"
+         << "sway        " << sway_text(tree) << "\n"
          << "longest     " << report.segment_length << " m of branch in one body\n"
          << "merged      " << report.merged_points << " points; dropped " << report.dropped_branches
          << " branches; radii raised " << report.thin_points << "\n";
@@ -194,7 +217,7 @@ void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::strin
                 (o.gltf.instances() ? " joints (--max-joints, --leaves-as instances)" : " joints (--max-joints)"));
         return;
     }
-    const std::string mtl = std::filesystem::path(mesh).replace_extension(".mtl").string();
+    const std::string mtl = mtl_of(mesh);
     outputs.push_back(std::make_unique<Output>(mtl));
     write_mtl(*outputs.back(), skin);
     outputs.push_back(std::make_unique<Output>(mesh));

@@ -6,7 +6,7 @@
 #include "growth.h"
 #include "import_file.h"
 #include "import_stats.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "tool.h"
 #include <iostream>
 
@@ -128,6 +128,7 @@ void work(Options& o) {
         return;
     }
     refuse_contradictions(o);
+    require_outputs({{"-o", o.common.output}});
     Splines splines = o.import.empty() ? grow_tree(o.growth, o.choice, o.common) : imported(o);
     splines.source = with_command_line(splines.source, o.common);
     write(splines, o.common);

@@ -15,6 +15,7 @@ const ToolInfo info = {
     "Usage: treeprofile [stages] TREE|SCENE [--report FILE.json|FILE.csv] [treesim's run options]\n"
     "       treeprofile error TREE|SCENE [--steps LIST] [--report FILE.json|.csv|.svg|.html] [treesim's run options]\n"
     "       treeprofile stability TREE|SCENE [--frames N] [--only TEXT] [--report FILE.json|.csv|.svg|.html]\n"
+    "       treeprofile modes TREE|SCENE [--modes N] [--wind NAME] [--report FILE.json|.csv|.svg] [-o SWINGING.glb]\n"
     "       treeprofile scaling [--bodies LIST] [--shape LIST] [--threads LIST] [--wind NAME] [--report FILE]\n"
     "       treeprofile compare OLD.json NEW.json [--fail-above 1.1]",
     "stages is what runs unless another of these is the first word. Nothing is written while it measures. The first "
@@ -23,6 +24,7 @@ const ToolInfo info = {
     "the start is left out as a warm-up; of --repeat runs the fastest counts.\n"
     "error runs each solver at each number of steps a frame against a reference solution of the articulated dynamics.\n"
     "stability runs a grid of extreme cases and exits with 3 where a promised one does not hold.\n"
+    "modes finds the lowest natural frequencies, their damping and who moves in them.\n"
     "scaling measures ns a body and frame over the number of bodies, beside what the machine can do at most.\n"
     "compare exits with 3 when the total, or a stage that had at least 5 % of it, costs more than --fail-above times\n"
     "what it did. Reports of different bodies, precision, solver, scheme or substeps are refused (2).\n"
@@ -41,9 +43,9 @@ bool is_no_file(const std::string& word) {
 
 int main(int argc, char** argv) {
     CommonOptions common;
-    const std::vector<Subcommand> subcommands = {profile_stages(common), profile_error(common),
-                                                 profile_stability(common), profile_scaling(common),
-                                                 profile_compare(common)};
+    const std::vector<Subcommand> subcommands = {profile_stages(common),    profile_error(common),
+                                                 profile_stability(common), profile_modes(common),
+                                                 profile_scaling(common),   profile_compare(common)};
     // A tree is never called like a subcommand by accident, because ./compare is another word.
     const std::string word = argc > 1 ? argv[1] : "";
     std::vector<char*> arguments(argv, argv + argc);

@@ -3,8 +3,8 @@
 #include "file_names.h"
 #include "formats/documents/motion.h"
 #include "frame_queue.h"
+#include "lib/base/counted.h"
 #include "lib/free/shown_tree.h"
-#include "lib/model/counted.h"
 #include "lib/simulation/explanation.h"
 #include "lib/simulation/fingerprint.h"
 #include "notes.h"
@@ -56,7 +56,7 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     if (model.bound) own = bound_to(std::move(*model.bound), shown, place_of_tree(setting), o.common.notes);
     if (is_point_cache(format) || format == "obj") {
         Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
-        if (format == "obj") return obj_sink(o.common.output, shown, std::move(skin), rustle);
+        if (format == "obj") return obj_sink(o.common.output, shown, std::move(skin), rustle, o.common.notes);
         return cache_sink(o.common.output, format, shown, std::move(skin), rustle, o.run.fps, first, last - first + 1,
                           o.common.notes);
     }

@@ -159,11 +159,6 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.save_tree == "-" && ((!o.no_output && o.common.output == "-") || o.save_state == "-"))
         throw UsageError("--save-tree -: the tree and " + std::string(o.save_state == "-" ? "the state" : "frames") +
                          " cannot both go to stdout");
-    for (const auto& [option, file, other, same] : {std::tuple{"--save-state", o.save_state, "-o", o.common.output},
-                                                    {"--save-tree", o.save_tree, "-o", o.common.output},
-                                                    {"--save-tree", o.save_tree, "--save-state", o.save_state}})
-        if (!file.empty() && file != "-" && file == same)
-            throw UsageError(std::string(option) + ": is '" + file + "', which " + other + " writes already");
     // --save-tree INPUT, where that is a tree, and --save-state of what is resumed are another state of the same thing.
     const std::string wind = wind_file(o.run.wind);
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind}, {"--skin", o.skin}},
@@ -190,6 +185,10 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (!o.resume.empty()) throw UsageError("--watch: not with --resume, which goes on with one scene alone");
     }
     if (o.resume == "-" && o.run.input == "-") throw UsageError("--resume -: the input is read from stdin already");
+    require_outputs({{"-o", o.no_output ? "" : o.common.output},
+                     {"the .mtl of -o", format == "obj" ? sequence_mtl(o.common.output) : ""},
+                     {"--save-state", o.save_state},
+                     {"--save-tree", o.save_tree}});
 }
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "watch.h"
 #include "file_names.h"
+#include "formats/plain_text.h"
 #include "signals.h"
 #include <chrono>
 #include <ctime>
@@ -77,7 +78,7 @@ void watch(const TreesimOptions& o, const std::function<std::int64_t()>& run) {
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {
-            line = error.what();
+            line = valid_utf8(in_words(error.what()));
             failed = true;
         }
         if (failed || !o.common.quiet) std::cerr << "treesim: " + time_of_day() + " " + line + "\n" << std::flush;

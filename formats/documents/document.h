@@ -6,7 +6,7 @@
 // where a field is wrong (same pointer in the binary form, numbers counted through the flat array).
 #pragma once
 #include "formats/open.h"
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include "lib/model/splines.h"
 #include "lib/model/tree.h"
 #include <functional>

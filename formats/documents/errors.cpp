@@ -1,6 +1,6 @@
 #include "document_parts.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 
 namespace bough {

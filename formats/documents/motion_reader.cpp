@@ -1,5 +1,5 @@
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "motion_fields.h"
 #include <algorithm>
 #include <cstring>

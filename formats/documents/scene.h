@@ -21,7 +21,7 @@ struct SceneOverride {
 // "wind.velocity=[8,0,0]". Throws std::invalid_argument with what is wrong.
 SceneOverride parse_override(const std::string& option, const std::string& text);
 
-// Where a scene's tree is read from.
+// Where a scene's tree is read from. Throws InputError where that is out of the scene's folder (inside.h).
 std::string tree_file(const std::string& scene_file, const Placement&);
 // The tree of this file with its wood changed. Throws InputError where what the wood was is not known.
 Tree with_material(Tree, const MaterialChange&, const std::string& file);

@@ -1,5 +1,5 @@
 #include "scene_fields.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <limits>
 

@@ -1,3 +1,5 @@
+#include "formats/inside.h"
+#include "formats/open.h"
 #include "scene_parts.h"
 #include <filesystem>
 #include <stdexcept>
@@ -73,7 +75,10 @@ ordered_json value_of(const Walker& walker) {
 
 std::string tree_file(const std::string& scene_file, const Placement& place) {
     const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
-    return (folder / place.file).string();
+    const std::string path = (folder / place.file).string();
+    if (!within_reach(path, folder.string()))
+        throw InputError(input_name(scene_file) + ": /trees", "names '" + place.file + "', which " + out_of_reach);
+    return path;
 }
 
 Tree with_material(Tree tree, const MaterialChange& change, const std::string& file) {

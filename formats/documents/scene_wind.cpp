@@ -1,4 +1,4 @@
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "scene_parts.h"
 
 namespace bough {

@@ -1,6 +1,6 @@
 // float_range.h: whether positions keep their shape in floats.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <algorithm>
 #include <limits>
 #include <vector>

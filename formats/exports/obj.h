@@ -2,6 +2,7 @@
 #pragma once
 #include "formats/open.h"
 #include "lib/growth/skin.h"
+#include "sequence.h"
 #include <string>
 #include <vector>
 
@@ -17,12 +18,5 @@ void write_obj(Output&, const Skin&, const std::vector<Vec3>& position, const st
                const std::string& mtl);
 // Materials of the skin's parts (bark, leaf, fruit): a diffuse colour each.
 void write_mtl(Output&, const Skin&);
-
-// frames/oak_%04d.obj -> frames/oak_0007.obj. The pattern must hold one %d or %0Nd (N 1 to 18) and a prefix before it in
-// the file name; valid_sequence says what is wrong with it, or returns an empty string. The others need a valid pattern.
-std::string valid_sequence(const std::string& pattern);
-std::string sequence_name(const std::string& pattern, std::int64_t frame);
-// frames/oak_%04d.obj -> frames/oak.mtl
-std::string sequence_mtl(const std::string& pattern);
 
 } // namespace bough

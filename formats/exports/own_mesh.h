@@ -3,8 +3,8 @@
 // Standing vertices are moved by one body or two; what is placed is a shape of its own, drawn wherever it is placed, and moved by one.
 // Places of one shape share its arrays until they are written, so that ten thousand twigs cost little more than one.
 #pragma once
+#include "lib/base/math.h"
 #include "lib/growth/skin.h"
-#include "lib/model/math.h"
 #include <array>
 #include <string>
 #include <vector>

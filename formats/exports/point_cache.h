@@ -14,7 +14,7 @@
 //         a pipe; std::length_error for more frames or vertices than an int32 counts.
 #pragma once
 #include "formats/open.h"
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <vector>
 
 namespace bough {

@@ -1,4 +1,4 @@
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "skeleton_text.h"
 #include "skeleton_writer.h"
 #include <numeric>

@@ -1,6 +1,6 @@
 // curve_points.h: points along the curves that model files hold, so that a curve becomes a polyline.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <optional>
 #include <vector>
 

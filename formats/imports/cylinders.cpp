@@ -1,7 +1,7 @@
 #include "cylinders.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 
 namespace bough {

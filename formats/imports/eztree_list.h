@@ -1,7 +1,7 @@
 // eztree_list.h: the numbers of a list of ez-tree's branches (JSON), nothing interpreted; eztree_branches.cpp makes a tree
 // of them.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <string>
 #include <string_view>
 #include <vector>

@@ -55,6 +55,7 @@ Splines import_splines(std::string_view content, const ImportOptions& options, I
         notes.format = "bough-splines";
         Splines splines = read_splines(content, options.name);
         refuse_too_far(splines, 0, options.name);
+        refuse_outlier(splines, options.name);
         return splines;
     }
     const std::optional<std::string> lines = with_line_feeds(content);
@@ -62,7 +63,9 @@ Splines import_splines(std::string_view content, const ImportOptions& options, I
     const SplineFormat* format = content.empty() ? nullptr : format_of(content, options.name);
     if (!format) refuse_unread(content, options.name);
     notes.format = format->name;
-    return format->read(content, options, notes);
+    Splines splines = format->read(content, options, notes);
+    refuse_outlier(splines, options.name);
+    return splines;
 }
 
 } // namespace bough

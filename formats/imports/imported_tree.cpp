@@ -1,8 +1,8 @@
 #include "imported_tree.h"
 #include "formats/plain_text.h"
 #include "leaf_hosts.h"
+#include "lib/base/counted.h"
 #include "lib/growth/leaf_count.h"
-#include "lib/model/counted.h"
 #include "placed_import.h"
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 #include "attach.h"
 #include "formats/plain_text.h"
 #include "formats/release.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "pipe_rule.h"
 #include "skeleton.h"
 #include "up_axis.h"

@@ -1,7 +1,7 @@
 #include "loose_curves.h"
 #include "attach.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "lib/model/polyline.h"
 #include "up_axis.h"
 #include <algorithm>

@@ -1,6 +1,6 @@
 // mesh_measure.h: how much leaf a mesh is: its area as sheets, and of how many pieces it is.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <array>
 #include <vector>
 

@@ -7,7 +7,7 @@
 // scale). A graph without positions is refused: lengths and diameters alone do
 // not say where branches point.
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "mtg_code.h"
 #include "pipe_rule.h"
 #include "skeleton.h"

@@ -2,7 +2,7 @@
 // radii where those are known. Segments are sorted by size and along a Morton curve, and boxed in a tree of bounds, four to
 // a node so that one look at it tells of all four. Making it O(segments log segments); a search O(log segments) in the usual case.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <limits>
 #include <span>
 #include <vector>

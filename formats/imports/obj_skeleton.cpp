@@ -4,7 +4,7 @@
 // control points are the line. The format states neither unit nor axis.
 #include "curve_points.h"
 #include "formats/release.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "loose_curves.h"
 #include "obj_lines.h"
 #include "pipe_rule.h"

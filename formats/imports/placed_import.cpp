@@ -11,6 +11,7 @@ constexpr double tallest = 120, lowest = 0.1;   // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
+constexpr double aloof = 1e4;                       // of the median distance: a neuron's axon stays below it
 
 struct Box {
     Vec3 low, high;
@@ -23,6 +24,12 @@ Box box_of(const Splines& s) {
         box.high = box.high.cwiseMax(p);
     }
     return box;
+}
+
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 } // namespace
@@ -75,6 +82,28 @@ void refuse_too_small(const Splines& s, const std::string& name) {
     const Box box = box_of(s);
     if (const double extent = (box.high - box.low).maxCoeff(); extent < smallest)
         throw InputError(name, "is " + shown(extent) + " m large, expected at least " + shown(smallest) + " m" + right);
+}
+
+void refuse_outlier(const Splines& s, const std::string& name) {
+    if (s.point.empty()) return;
+    std::vector<double> values(s.point.size());
+    Vec3 middle;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::transform(s.point.begin(), s.point.end(), values.begin(), [=](const Vec3& p) { return p[axis]; });
+        middle[axis] = median(values);
+    }
+    const auto distance = [&](const Vec3& p) { return (p - middle).norm(); };
+    std::transform(s.point.begin(), s.point.end(), values.begin(), distance);
+    const std::size_t worst = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
+    const double most = values[worst], half = median(values);
+    if (!(most > aloof * half) || half == 0) return;
+    const Vec3& p = s.point[worst];
+    const auto after = std::upper_bound(s.first_point.begin(), s.first_point.end(), std::int32_t(worst));
+    throw InputError(name, "a point of branch " + std::to_string(after - s.first_point.begin() - 1) + " is at " +
+                               shown(p.x() + 0.0) + ", " + shown(p.y() + 0.0) + ", " + shown(p.z() + 0.0) +
+                               " m (x, y up, z), " + shown(most) +
+                               " m from the middle of the tree, half of which is within " + shown(half) +
+                               " m; expected all of it in one place" + right);
 }
 
 } // namespace bough

@@ -3,7 +3,7 @@
 // for each branch become one. Metres and Z up, as laser scans have it, are what the format's users mean; it states
 // neither, so both are guessed.
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "line_graph.h"
 #include "ply_elements.h"
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "curve_points.h"
 #include "formats/plain_text.h"
 #include "json_pull.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "loose_curves.h"
 #include "pipe_rule.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "skeleton.h"
 #include "formats/plain_text.h"
 #include "formats/release.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 
 namespace bough {
 namespace {

@@ -1,6 +1,6 @@
 #include "speedtree_bark.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "speedtree_bones.h"
 #include "speedtree_elements.h"
 #include <algorithm>

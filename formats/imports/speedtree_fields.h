@@ -1,6 +1,6 @@
 // speedtree_fields.h: attributes and number lists of a SpeedTree XML node, strict, with FILE:LINE in every error.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <initializer_list>
 #include <pugixml.hpp>
 #include <string>

@@ -1,5 +1,5 @@
 #include "speedtree_leaves.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <array>
 #include <unordered_map>

@@ -1,6 +1,6 @@
 #include "speedtree_spines.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "pipe_rule.h"
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // speedtree_xml.h: SpeedTree raw XML as plain arrays, nothing interpreted: positions are as in the file (spines and
 // surface points already moved by their object's Abs), in its unit and axes.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <limits>
 #include <optional>
 #include <string>

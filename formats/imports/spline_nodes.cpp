@@ -1,5 +1,5 @@
 #include "spline_nodes.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <limits>
 #include <numeric>

@@ -4,7 +4,7 @@
 // a comment before the first node.
 #include "formats/exports/skeleton_writer.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "skeleton.h"
 #include <array>
 #include <cmath>

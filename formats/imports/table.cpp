@@ -1,7 +1,7 @@
 #include "table.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <cmath>
 

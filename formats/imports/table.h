@@ -5,7 +5,7 @@
 // mark, CRLF, quotes around cells, blank lines and lines that begin with '#', '%' or "//" are passed over; numbers may
 // have a decimal comma where the comma does not delimit. O(size) over all rows.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <initializer_list>
 #include <span>
 #include <string>

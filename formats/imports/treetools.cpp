@@ -4,7 +4,7 @@
 // themselves, its root. x,y,z is the tip of a segment, parent_id counts the tree's segments from 0, -1 is the root,
 // whose radius has no meaning. Metres and Z up by definition of the format.
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "skeleton.h"
 
 namespace bough {

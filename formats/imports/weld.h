@@ -1,6 +1,6 @@
 // weld.h: points at one place made one.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <vector>
 
 namespace bough {

@@ -1,7 +1,7 @@
 #include "armature.h"
 #include "formats/imports/speedtree_bones.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <array>
 

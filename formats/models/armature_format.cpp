@@ -2,7 +2,7 @@
 #include "formats/imports/imported_tree.h"
 #include "formats/imports/line_graph.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 
 namespace bough {
 namespace {

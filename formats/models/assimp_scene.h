@@ -1,7 +1,7 @@
 // assimp_scene.h: a model file as assimp's scene, for the files of this folder that see assimp; called in a child
 // process (forked.h) alone, because assimp may crash on a damaged file and recurses by depth.
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include "model_kind.h"
 #include <string>
 #include <string_view>

@@ -3,7 +3,7 @@
 #include "gltf_document.h"
 #include "gltf_nodes.h"
 #include "gltf_prune.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "lib/model/drawn_pose.h"
 #include <algorithm>
 #include <map>

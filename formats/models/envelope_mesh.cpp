@@ -1,9 +1,9 @@
 #include "envelope_mesh.h"
 #include "assimp_mesh.h"
-#include "formats/forked.h"
 #include "formats/imports/imported_tree.h"
 #include "formats/plain_text.h"
 #include "model_kind.h"
+#include "reader_limits.h"
 #include <algorithm>
 #include <array>
 
@@ -74,8 +74,8 @@ double guessed_unit(const EnvelopeMesh& mesh, ImportNotes& notes) {
 EnvelopeMesh read_envelope_mesh(std::string_view content, const std::string& path, const ImportOptions& options,
                                 ImportNotes& notes) {
     const AssimpKind kind = kind_of(content, options.name);
-    const ChildResult child =
-        run_forked([&] { return packed(read_by_assimp(content, path, kind, options.up != 0)); }, reader_limits);
+    const ChildResult child = run_forked([&] { return packed(read_by_assimp(content, path, kind, options.up != 0)); },
+                                         reader_limits(content.size()));
     if (!child.failure.empty())
         throw InputError(options.name, "assimp could not read it: " + valid_utf8(child.failure) + "; " + readable);
     AssimpMesh found = unpacked(child.bytes);

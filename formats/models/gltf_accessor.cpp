@@ -1,6 +1,6 @@
 #include "gltf_accessor.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <array>
 #include <bit>

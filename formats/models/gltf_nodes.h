@@ -1,6 +1,6 @@
 // gltf_nodes.h: where the nodes of a glTF document stand (private to this folder).
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>

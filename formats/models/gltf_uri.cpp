@@ -1,5 +1,6 @@
 #include "gltf_uri.h"
 #include "formats/error.h"
+#include "formats/inside.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
 #include <array>
@@ -67,9 +68,10 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
                                  " is not beside the file, expected a relative path or a data: URI");
     if (folder.empty())
         throw std::runtime_error(bough::quoted(uri) + " cannot be looked for: the file was read from a pipe");
-    const std::string file = unescaped(uri);
+    const std::string file = folder + "/" + unescaped(uri);
+    if (!within_reach(file, folder)) throw std::runtime_error(bough::quoted(uri) + " " + out_of_reach);
     try {
-        return read_input(folder + "/" + file);
+        return read_input(file);
     } catch (const InputError&) {
         throw std::runtime_error(bough::quoted(uri) + " is not beside the file, or cannot be read");
     }

@@ -1,6 +1,6 @@
 // model_collada.h: what a COLLADA file says of joints and assimp does not hand on (private to this folder).
 #pragma once
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <optional>
 #include <string>
 #include <string_view>

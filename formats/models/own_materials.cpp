@@ -1,6 +1,6 @@
 #include "own_materials.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "texture_file.h"
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 #include "speedtree_model.h"
 #include "formats/imports/speedtree_bones.h"
 #include "formats/plain_text.h"
-#include "lib/model/counted.h"
+#include "lib/base/counted.h"
 #include "own_materials.h"
 #include "wood_axes.h"
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "texture_file.h"
+#include "formats/inside.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
 #include "gltf_document.h"
@@ -145,7 +146,8 @@ std::string find_texture(const std::string& name, const std::string& folder, std
     if (const fs::path bare = fs::path(file).filename(); !folder.empty() && !bare.empty())
         if (places.empty() || places[0] != fs::path(folder) / bare) places.push_back(fs::path(folder) / bare);
     for (const fs::path& place : places) {
-        if (std::string found = existing(place); !found.empty()) return found;
+        const std::string found = within_reach(place.string(), folder) ? existing(place) : "";
+        if (!found.empty() && within_reach(found, folder)) return found; // a name but for capitals may be a link
         looked.push_back(place.string());
     }
     return "";

@@ -1,7 +1,8 @@
 // texture_file.h: an image that a tree's file names, found, looked at, and as PNG or JPEG, which are what glTF holds.
 //
-// Where it is looked for: where the name leads (as it is if absolute, else from the folder of the file that names it), then under its bare
-// name in that folder, both without regard to capitals where there is no exact match; names written on Windows are understood.
+// Where it is looked for: where the name leads (as it is if absolute, else from the folder of the file that names it), unless that is out of the
+// folder (inside.h), then under its bare name in that folder, both without regard to capitals where there is no exact match; names written on
+// Windows are understood.
 // PNG and JPEG stay byte for byte; TGA, BMP, TIFF and whatever else stb_image reads are decoded and written as PNG.
 #pragma once
 #include <cstdint>

@@ -1,6 +1,6 @@
 // error_motion_panel.h: the panel of error_plot.h that shows the runs' statistics beside the truth's.
 #pragma once
-#include "lib/reference/work_precision.h"
+#include "lib/study/work_precision.h"
 
 namespace bough {
 

@@ -1,6 +1,6 @@
 // error_report.h: what `treeprofile error` writes: the document "bough-error-report" (formats/README.md), CSV, and a table.
 #pragma once
-#include "lib/reference/work_precision.h"
+#include "lib/study/work_precision.h"
 #include "report_rows.h"
 
 namespace bough {

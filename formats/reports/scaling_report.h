@@ -16,7 +16,7 @@ struct ScalingLimits {
     double peak(const std::string& precision) const;
 };
 
-// What a step computes and moves, a body, counted (lib/fast/operations.h, lib/fast/step_bytes.h).
+// What a step computes and moves, a body, counted (lib/lanes/operations.h, lib/study/step_bytes.h).
 struct ScalingCost {
     std::string shape, solver, precision, simd;
     std::int64_t bodies = 0;

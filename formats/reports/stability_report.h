@@ -1,7 +1,7 @@
 // stability_report.h: what `treeprofile stability` writes: the document "bough-stability-report" (formats/README.md), CSV,
 // and a table; and how a cell is judged, for these and for the tool's exit code.
 #pragma once
-#include "lib/reference/stability.h"
+#include "lib/study/stability.h"
 #include "report_rows.h"
 
 namespace bough {

@@ -1,8 +1,8 @@
 #include "analytic_constants.h"
+#include "../laws/leaf_air.h"
 #include "../model/branch_mode.h"
-#include "../stages/carried.h"
-#include "../stages/leaf_air.h"
-#include "../stages/reduce.h"
+#include "../plan/carried.h"
+#include "../plan/reduce.h"
 #include "fictitious.h"
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // analytic_state.h: what the analytic solver has beside plan and state: constants, what it carries from step to step, what a step works in.
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "../plan/plan.h"
+#include "../plan/state.h"
 
 namespace bough {
 

@@ -1,5 +1,5 @@
 // analytic_step.h: one step of the analytic method (§4): the order of the stages, on one screen. (The same in SIMD lanes:
-// fast/analytic_lanes_step.h.)
+// analytic/analytic_lanes_step.h.)
 //
 // What was tried and taken out: keeping a joint's modes and propagators until its composite has turned by about 0.05 rad. It pays only in still air
 // (half a step, where `coupled` sleeps for nothing): 10 000 bare bodies in gusts took 34 ns in place of 44, a million a quarter more than without, as

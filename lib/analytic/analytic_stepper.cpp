@@ -1,6 +1,6 @@
 #include "analytic_stepper.h"
-#include "../stages/state_update.h"
-#include "../stages/wind.h"
+#include "../laws/wind.h"
+#include "../plan/state_update.h"
 #include "analytic_step.h"
 #include "fictitious.h"
 #include <cmath>

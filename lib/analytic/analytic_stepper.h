@@ -1,6 +1,6 @@
 // analytic_stepper.h: the analytic solver's plain path as a run's stepper: analytic_step.h, one joint at a time.
 #pragma once
-#include "../stages/plain_stepper.h"
+#include "../plan/plain_stepper.h"
 #include "analytic_constants.h"
 
 namespace bough {

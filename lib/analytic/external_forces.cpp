@@ -1,10 +1,10 @@
 #include "external_forces.h"
 #include "../base/parallel.h"
-#include "../stages/air.h"
-#include "../stages/ground.h"
-#include "../stages/leaf_air.h"
-#include "../stages/pushes.h"
-#include "../stages/shelter.h"
+#include "../laws/air.h"
+#include "../laws/leaf_air.h"
+#include "../plan/ground.h"
+#include "../plan/pushes.h"
+#include "../plan/shelter.h"
 #include <algorithm>
 
 namespace bough {

@@ -1,6 +1,6 @@
 #include "fictitious.h"
 #include "../base/parallel.h"
-#include "../stages/ground.h"
+#include "../plan/ground.h"
 
 namespace bough {
 namespace {

@@ -1,5 +1,5 @@
 #include "root_term.h"
-#include "../model/ground_course.h"
+#include "../laws/ground_course.h"
 
 namespace bough {
 

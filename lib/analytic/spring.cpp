@@ -1,6 +1,6 @@
 #include "spring.h"
 #include "../base/parallel.h"
-#include "../stages/joint_limit.h"
+#include "../laws/joint_limit.h"
 #include "spring_joint.h"
 #include <Eigen/Cholesky>
 #include <atomic>

@@ -1,5 +1,5 @@
 #include "spring_joint.h"
-#include "../stages/turn_guard.h"
+#include "../laws/turn_guard.h"
 #include "joint.h"
 #include "root_term.h"
 #include "spring.h"

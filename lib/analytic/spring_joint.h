@@ -1,6 +1,6 @@
 // spring_joint.h: one joint of spring.h at the start of its step, and its three oscillators.
 #pragma once
-#include "../stages/oscillator.h"
+#include "../base/oscillator.h"
 #include "analytic_state.h"
 
 namespace bough {

@@ -1,10 +1,10 @@
 #include "body_load.h"
 #include "../base/parallel.h"
-#include "../model/resolved_turn.h"
-#include "../stages/air.h"
-#include "../stages/leaf_air.h"
-#include "../stages/pushes.h"
-#include "../stages/shelter.h"
+#include "../base/resolved_turn.h"
+#include "../laws/air.h"
+#include "../laws/leaf_air.h"
+#include "../plan/pushes.h"
+#include "../plan/shelter.h"
 #include "own_inertia.h"
 
 namespace bough {

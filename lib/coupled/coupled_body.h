@@ -1,6 +1,6 @@
 // coupled_body.h: what the coupled step works in, one record a body (coupled_step.h names the sweeps that fill it).
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 #include <cstdint>
 
 namespace bough {

@@ -1,5 +1,5 @@
 #include "coupled_state.h"
-#include "../stages/carried.h"
+#include "../plan/carried.h"
 #include <stdexcept>
 
 namespace bough {

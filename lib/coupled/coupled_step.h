@@ -36,7 +36,7 @@
 namespace bough {
 
 // Advances the state by plan.dt. Needs a state of this plan with kinematics up to date. O(n), allocates nothing. (The same in SIMD lanes:
-// fast/coupled_lanes_step.h.)
+// coupled/coupled_lanes_step.h.)
 template <class T>
 void coupled_step(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, StageClock* clock);
 

@@ -1,5 +1,5 @@
 #include "coupled_stepper.h"
-#include "../stages/state_update.h"
+#include "../plan/state_update.h"
 #include "coupled_step.h"
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // coupled_stepper.h: the coupled solver's plain path as a run's stepper: coupled_step.h, one number at a time.
 #pragma once
-#include "../stages/plain_stepper.h"
+#include "../plan/plain_stepper.h"
 #include "coupled_state.h"
 
 namespace bough {

@@ -1,6 +1,6 @@
 #include "energy_guard.h"
-#include "../stages/pushes.h"
-#include "../stages/shelter.h"
+#include "../plan/pushes.h"
+#include "../plan/shelter.h"
 #include "midpoint.h"
 #include "turn_bounds.h"
 #include <algorithm>

@@ -1,6 +1,6 @@
 // half_turn.h: what a step carries on of a joint that turned past half a turn: the shorter way round.
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 
 namespace bough {
 

@@ -1,7 +1,7 @@
 #include "midpoint.h"
-#include "../model/ground_course.h"
-#include "../model/resolved_turn.h"
-#include "../model/rotation_maps.h"
+#include "../base/resolved_turn.h"
+#include "../base/rotation_maps.h"
+#include "../laws/ground_course.h"
 #include "turn_bounds.h"
 
 namespace bough {

@@ -1,6 +1,6 @@
 // own_inertia.h: a body's inertia about its joint as the coupled step takes it.
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 #include <limits>
 
 namespace bough {

@@ -1,6 +1,6 @@
 #include "resolvent.h"
 #include "../base/parallel.h"
-#include "../stages/leaf_air.h"
+#include "../laws/leaf_air.h"
 #include "articulated_algebra.h"
 #include "midpoint.h"
 

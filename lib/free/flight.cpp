@@ -1,5 +1,5 @@
 #include "flight.h"
-#include "../stages/air.h"
+#include "../laws/air.h"
 #include "leaf_flight.h"
 #include <Eigen/LU>
 

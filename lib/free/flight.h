@@ -8,8 +8,8 @@
 // : about L, about the middle axis, about the long one (Dullweber, Leimkuhler, McLachlan, J. Chem. Phys. 107, 1997, with the symmetric part
 // taken out). Exact for a ball and any thin rod, whatever they spin by in a step; L is kept in bits but for rounding.
 #pragma once
+#include "../laws/wind.h"
 #include "../model/scene.h"
-#include "../stages/wind.h"
 #include "free_body.h"
 
 namespace bough {

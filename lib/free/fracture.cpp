@@ -1,8 +1,8 @@
 #include "fracture.h"
+#include "../base/rotation_maps.h"
 #include "../growth/random.h"
-#include "../model/rotation_maps.h"
-#include "../stages/air.h"
-#include "../stages/leaf_air.h"
+#include "../laws/air.h"
+#include "../laws/leaf_air.h"
 #include <algorithm>
 #include <numbers>
 

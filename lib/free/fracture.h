@@ -40,7 +40,7 @@ struct Remaining {
 template <class T> Remaining whole_tree(const Plan<T>&, const Tree&);
 
 // Takes what the joints (rising) carry out of plan and state. The same calls in the same order leave the same bits. O(bodies that
-// leave + bodies on the joints' ways to the root + rows of the fast path).
+// leave + bodies on the joints' ways to the root + rows of lanes).
 template <class T>
 void detach(Plan<T>&, State<T>&, const Subtrees&, const std::vector<std::uint32_t>& joints, Remaining&);
 

@@ -1,8 +1,8 @@
 #include "free_body.h"
 #include "../coupled/own_inertia.h"
+#include "../laws/air.h"
 #include "../model/body_shape.h"
 #include "../model/scene.h"
-#include "../stages/air.h"
 #include "shape.h"
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -1,6 +1,6 @@
 // free_motion.h: where a body that no joint holds is, and how it moves. In double, whatever the trees are in: there are few of them.
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 
 namespace bough {
 

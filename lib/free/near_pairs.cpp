@@ -1,5 +1,5 @@
 #include "near_pairs.h"
-#include "../stages/state.h"
+#include "../plan/state.h"
 #include "shape.h"
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 // Cost: O(bodies + cells that boxes overlap) a step, however many free bodies there are; 28 bytes a body.
 #pragma once
 #include "../model/tree.h"
-#include "../stages/state.h"
+#include "../plan/state.h"
 #include "free_body.h"
 #include "subtree.h"
 

@@ -4,8 +4,8 @@
 //   fruit, ball  its centre, its radius
 //   leaf, petal  its length, a quarter of its width (half the triangle's mean half width): a leaf is limp, and no contact needs its rim
 #pragma once
+#include "../base/math.h"
 #include "../model/kind.h"
-#include "../model/math.h"
 
 namespace bough {
 

@@ -1,5 +1,5 @@
 #include "tree_poses.h"
-#include "../model/rotation_maps.h"
+#include "../base/rotation_maps.h"
 
 namespace bough {
 

@@ -1,11 +1,11 @@
 // tree_poses.h: where single bodies of a tree are and how they move, worked out for those that are asked for and what carries them.
 //
-// A contact or a break concerns a few bodies of a tree that may have millions, whose state stands in the fast path's rows: no array over
+// A contact or a break concerns a few bodies of a tree that may have millions, whose state stands in rows of lanes: no array over
 // bodies is made for them. Poses are kept until the next begin(). In double, from the angles in the run's precision.
 // Cost    O(bodies on the way to the root that were not asked for yet) a body; begin: O(bodies asked for), with lanes and O(rows).
 #pragma once
-#include "../stages/plan.h"
-#include "../stages/state.h"
+#include "../plan/plan.h"
+#include "../plan/state.h"
 #include <deque>
 
 namespace bough {

@@ -1,6 +1,6 @@
 #include "walker.h"
+#include "../base/shortest_text.h"
 #include "../model/drawn_pose.h"
-#include "../model/shortest_text.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>

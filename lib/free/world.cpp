@@ -1,5 +1,5 @@
 #include "world.h"
-#include "../stages/pushes.h"
+#include "../plan/pushes.h"
 #include "breaking.h"
 #include "meeting.h"
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "../model/fnv.h"
-#include "../stages/air.h"
-#include "../stages/leaf_air.h"
+#include "../base/fnv.h"
+#include "../laws/air.h"
+#include "../laws/leaf_air.h"
 #include "world.h"
 #include <algorithm>
 #include <cmath>

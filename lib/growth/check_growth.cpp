@@ -1,4 +1,4 @@
-#include "../model/shortest_text.h"
+#include "../base/shortest_text.h"
 #include "sapling_family.h"
 #include <stdexcept>
 

@@ -104,6 +104,7 @@ Splines colonize_bodies(const ColonizeParameters& parameters, std::uint64_t seed
         throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " +
                                     std::to_string(kMostBodies));
     Search s{parameters, seed, with_leaves, with_fruit, static_cast<double>(bodies), {}, {}, -1, 0};
+    s.parameters.envelope.space = volume(parameters.envelope); // once, not for each tree tried
     const bool full = search_points(s);
     if (!s.near(kWithin) && !full && s.small()) search_nearby(s);
     if (!s.near(kWithin) && s.small() && with_leaves && parameters.leaves > 0) search_leaves(s);

@@ -88,6 +88,7 @@ double volume(const Envelope& e) {
     default:
         break;
     }
+    if (e.space > 0) return e.space;
     constexpr int points = 1 << 15;
     const Vec3 lower = e.mesh->lower(), size = e.mesh->upper() - lower;
     int inside = 0;

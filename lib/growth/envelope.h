@@ -16,6 +16,7 @@ struct Envelope {
     Vec3 size = {6, 6, 6};                    // [m] > 0; not of a mesh
     Vec3 base = {0, 1.8, 0};                  // [m] not of a mesh
     std::shared_ptr<const MeshInterior> mesh; // of a mesh alone; shared, so that copies are cheap
+    double space = 0;                         // [m^3] volume() of a mesh, where it has been asked for; else 0
 };
 
 // Throws std::invalid_argument naming what is wrong: sizes, a missing mesh.
@@ -32,7 +33,7 @@ bool contains(const Envelope&, const Vec3&);
 // none of 1e6 is.
 Vec3 point_inside(const Envelope&, RandomKey key, std::uint64_t index);
 
-// [m^3] Closed forms exactly; of a mesh the share of 2^15 points of the box (a low-discrepancy sequence), about 1 %.
+// [m^3] Closed forms exactly; of a mesh `space`, else the share of 2^15 points of the box (a low-discrepancy sequence), about 1 %.
 double volume(const Envelope&);
 
 } // namespace bough

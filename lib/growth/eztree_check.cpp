@@ -1,5 +1,5 @@
 #include "eztree_check.h"
-#include "../model/shortest_text.h"
+#include "../base/shortest_text.h"
 #include <stdexcept>
 
 namespace bough {

@@ -1,6 +1,6 @@
 // eztree_rotation.h: the rotations of three.js that ez-tree turns its branches with, formula for formula. Private to growth.
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 
 namespace bough::three {
 

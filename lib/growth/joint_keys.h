@@ -10,7 +10,7 @@
 // Rotations are kept in float, 16 bytes a joint and frame. thin() is O(joints * frames), times the logarithm of the distance of keys;
 // joints of one depth are worked out at once, each alone, so that the thread count cannot change the result.
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 #include <cstdint>
 #include <string_view>
 #include <vector>

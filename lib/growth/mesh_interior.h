@@ -10,7 +10,7 @@
 // Triangles are sorted into a grid over each axis' projection: making it is O(triangles), a query takes the triangles of
 // three cells, a handful. Corners at equal positions are one.
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 #include <array>
 #include <vector>
 

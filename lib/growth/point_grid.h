@@ -2,7 +2,7 @@
 // points can be taken out. Each cell remembers the largest distance that a point of it still has, so that a place looks
 // only into cells where it can be the nearest. Making it O(points).
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 #include <algorithm>
 #include <vector>
 

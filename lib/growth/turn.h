@@ -1,6 +1,6 @@
 // turn.h: rotations and random variation as growth writes them; private to growth. Angles in radians.
 #pragma once
-#include "../model/math.h"
+#include "../base/math.h"
 #include "random.h"
 #include <algorithm>
 #include <cmath>

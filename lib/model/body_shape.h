@@ -6,7 +6,7 @@
 // a fruit is a sphere with its centre on z. Each result is exact for the solid named. Cost O(1). No errors: sizes are
 // checked by whoever made them (zero length or radius gives zero mass).
 #pragma once
-#include "math.h"
+#include "../base/math.h"
 
 namespace bough {
 

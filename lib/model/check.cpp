@@ -1,4 +1,4 @@
-#include "shortest_text.h"
+#include "../base/shortest_text.h"
 #include "splines.h"
 #include "tree.h"
 #include <Eigen/Cholesky>

@@ -1,8 +1,8 @@
 // check_parts.h: what the checks of a scene's parts (check_scene.cpp, check_walkers.cpp ...) are made of. `field`: the value's JSON pointer
 // without its first slash.
 #pragma once
+#include "../base/shortest_text.h"
 #include "scene.h"
-#include "shortest_text.h"
 
 namespace bough {
 

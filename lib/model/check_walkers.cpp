@@ -1,5 +1,5 @@
+#include "../base/counted.h"
 #include "check_parts.h"
-#include "counted.h"
 
 namespace bough {
 

@@ -1,6 +1,6 @@
 // motion.h: what a simulation gives: a header, then one frame after another. Bodies in document order.
 #pragma once
-#include "math.h"
+#include "../base/math.h"
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -84,7 +84,7 @@ struct SavedState {
     std::vector<Vec3> spin_dot;      // analytic with lagged fictitious terms: State::spin_dot [rad/s^2]
     double articulated_step = 0;     // [s] State::articulated_step
     std::vector<double> free_bodies; // saved_world of free/world.h; empty where nothing is free
-    std::vector<double> sleep;       // saved_sleep of fast/sleep.h; empty where nothing has settled
+    std::vector<double> sleep;       // saved_sleep of coupled/sleep.h; empty where nothing has settled
     std::string source;
 };
 

@@ -1,5 +1,5 @@
 #include "root_motion.h"
-#include "nearest_vector.h"
+#include "../base/nearest_vector.h"
 #include <algorithm>
 
 namespace bough {

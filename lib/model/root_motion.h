@@ -9,7 +9,7 @@
 // in the course of a whole turn, phi is a poor map and more keys do not mend it.
 // With J_l = J(-phi), J the body rates' Jacobian (math.h): omega = J_l phi', alpha = J_l phi'' + J_l' phi', exactly.
 #pragma once
-#include "quintic.h"
+#include "../base/quintic.h"
 #include "scene.h"
 #include <optional>
 

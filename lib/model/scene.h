@@ -1,7 +1,7 @@
 // scene.h: what acts on the trees and how the run is to be made: the document that people write. What a scene does not
 // name is absent (std::optional, empty vector), and what is absent is not run, not allocated, not written (plan.h).
 #pragma once
-#include "math.h"
+#include "../base/math.h"
 #include "tree.h"
 #include <cstdint>
 #include <limits>

@@ -3,7 +3,7 @@
 // A branch is a curve of points with radii from its base to its tip. Branches stand parents before children; points
 // of branch b are first_point[b] .. first_point[b+1]-1. All positions are world, SI units, Y up.
 #pragma once
-#include "math.h"
+#include "../base/math.h"
 #include <optional>
 #include <string>
 #include <vector>

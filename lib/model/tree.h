@@ -8,8 +8,8 @@
 // The geometry is the drawn pose: theta = 0 puts every body where it was drawn. What the springs' rest pose is (the
 // drawn one, or the one that gravity bends into the drawn one) is the scene's `pose` (pose.h).
 #pragma once
+#include "../base/math.h"
 #include "kind.h"
-#include "math.h"
 #include "splines.h"
 #include <optional>
 #include <string>
@@ -38,7 +38,8 @@ struct Tree {
     // Either may be empty: none.
     std::vector<std::uint8_t> rigid; // 1: the body moves as its parent does, its joint holds the drawn pose (reduce.h)
     std::vector<double> load; // [kg] what of the mass lies on the drawn tree and is not carried in its equilibrium
-    std::vector<std::int32_t> leaf_count; // how many leaves a leaf body stands for; 1 for other kinds. From 2 on: a clump
+    std::vector<std::int32_t>
+        leaf_count; // how many leaves a leaf body stands for; 1 for other kinds. From 2 on: a clump
 
     std::string name;        // what the tree is called
     std::string material;    // wood preset or file that gave mass and stiffness

@@ -1,5 +1,5 @@
 #include "wood_overrides.h"
-#include "monotone.h"
+#include "../base/monotone.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

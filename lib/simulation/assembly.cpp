@@ -2,8 +2,8 @@
 #include "../model/place.h"
 #include "../model/static_load.h"
 #include "../model/wood_overrides.h"
-#include "../stages/hold.h"
-#include "../stages/plan.h"
+#include "../plan/hold.h"
+#include "../plan/plan.h"
 #include <algorithm>
 #include <numbers>
 #include <sstream>

@@ -5,7 +5,7 @@
 //   join_rigid   bodies that are held (/simulate, a tree's own /rigid) become one with what they hang on (reduce.h)
 // in that order; then plan_run (run.h) compiles the result.
 #pragma once
-#include "../stages/reduce.h"
+#include "../plan/reduce.h"
 #include "scene_error.h"
 #include <memory>
 

@@ -1,10 +1,12 @@
 #include "explain.h"
+#include "../analytic/analytic_lanes_stepper.h"
+#include "../analytic/analytic_rows.h"
 #include "../analytic/analytic_stepper.h"
+#include "../base/shortest_text.h"
+#include "../coupled/coupled_lanes_stepper.h"
+#include "../coupled/coupled_places.h"
 #include "../coupled/coupled_stepper.h"
-#include "../fast/analytic_rows.h"
-#include "../fast/lane_steppers.h"
-#include "../model/shortest_text.h"
-#include "../reference/articulated_pass.h"
+#include "../lanes/plan_lanes.h"
 #include <string_view>
 
 namespace bough {
@@ -223,9 +225,8 @@ template <class T> PlanAccount explain(const Plan<T>& plan) {
     explain_stages(plan, way, account.stages);
     explain_arrays(plan, way, account.arrays);
     if (way.lanes) explain_rows(plan, way, account.arrays);
-    const bool articulated = !way.analytic && !way.coupled;
-    const std::size_t passes = way.solver == "solver articulated-reference" ? 8 : 1;
-    account.arrays.push_back({"articulated", articulated, plan.bodies * sizeof(ArticulatedBody) * passes, way.solver});
+    if (const std::size_t bytes = plan.stepper->pass_bytes(); bytes > 0)
+        account.arrays.push_back({"articulated", true, plan.bodies * bytes, way.solver});
     return account;
 }
 

@@ -1,8 +1,8 @@
 #include "explanation.h"
 #include "../base/parallel.h"
-#include "../fast/lane_steppers.h"
-#include "../fast/lane_tables.h"
-#include "../fast/shared_constants.h"
+#include "../lanes/lane_tables.h"
+#include "../lanes/plan_lanes.h"
+#include "../lanes/shared_constants.h"
 #include "explain.h"
 #include <cmath>
 #include <sstream>

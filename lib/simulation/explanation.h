@@ -1,6 +1,6 @@
 // explanation.h: a plan's account of itself as text: what `treesim --explain` and Simulation::explain() print.
 #pragma once
-#include "../stages/plan.h"
+#include "../plan/plan.h"
 
 namespace bough {
 

@@ -1,5 +1,5 @@
 #include "fingerprint.h"
-#include "../model/fnv.h"
+#include "../base/fnv.h"
 
 namespace bough {
 namespace {

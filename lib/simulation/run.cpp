@@ -1,6 +1,7 @@
 #include "run.h"
-#include "../fast/lane_steppers.h"
-#include "../stages/expand.h"
+#include "../analytic/analytic_lanes_stepper.h"
+#include "../coupled/coupled_lanes_stepper.h"
+#include "../plan/expand.h"
 
 namespace bough {
 namespace {

@@ -1,9 +1,9 @@
 // run.h: one run, step after step: plan, state, and what is free beside the trees. The inside of the door (simulation.h); treesim and
 // treeprofile, which report on plans and states themselves, stand on it too.
 #pragma once
-#include "../fast/target.h"
 #include "../free/world.h"
-#include "../stages/make_plan.h"
+#include "../lanes/target.h"
+#include "../plan/make_plan.h"
 #include "assembly.h"
 #include "method.h"
 #include <optional>
@@ -15,7 +15,7 @@ struct StepChoice {
     double dt = 1.0 / 30; // [s]
     Method method = Method::coupled;
     std::optional<fast::Target> simd; // SIMD lanes for it, where they hold all that the scene has; none: the plain path
-    double sleep = 0; // [rad/s] the rate below which what has settled is left out of steps (fast/sleep.h)
+    double sleep = 0; // [rad/s] the rate below which what has settled is left out of steps (coupled/sleep.h)
 };
 
 // What a part of a scene must not do that the whole would not: its trees share blocks with others, and the ground of some may move.

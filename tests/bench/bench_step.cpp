@@ -1,9 +1,9 @@
 // One step of 10 000 bodies in a gusty wind, on one thread, and what the fast path is laid out by. Items are bodies.
 #include "bench_tree.h"
 #include "lib/base/parallel.h"
-#include "lib/fast/layout.h"
-#include "lib/fast/targets.h"
-#include "lib/reference/solvers.h"
+#include "lib/lanes/layout.h"
+#include "lib/lanes/target.h"
+#include "lib/study/solvers.h"
 #include "tests/support/solver_parts.h"
 #include <benchmark/benchmark.h>
 

@@ -54,7 +54,11 @@ refused 1 "--units: only with" treegen --envelope box --units cm
 refused 1 "--leader: is 2, expected 0 to 1" treegen --envelope box --leader 2
 refused 1 "--tip-radius: is 20, expected 0 to 10 m" treegen --envelope box --tip-radius 20
 refused 1 "--step: is 1e-10, expected at least 1e-7 of the height" treegen --envelope box --step 1e-10 --kill 0.5
-refused 1 "--step: is 5e-10, expected at least" treegen --envelope sphere --kill 1e-9
+refused 1 "--envelope: the step that follows from what is given is 5e-10, expected at least" treegen --envelope sphere --kill 1e-9
+# A volume in which no tree grows is the file's matter, or the size's, and no option's that nobody gave.
+awk '/^v/ { printf "v %g %g %g\n", $2 * 1e7, $3 * 1e7, $4 * 1e7; next } { print }' cube.obj >huge.obj
+refused 2 "huge.obj: is 4e+09 m large, expected its longest side" treegen --envelope huge.obj --units m
+refused 1 "--envelope-size is '1e9,1e9,1e9', expected its longest side" treegen --envelope box --envelope-size 1e9,1e9,1e9
 refused 1 "grows to with this kill is" treegen --envelope sphere --kill 0.5 --bodies 5000
 expect 0 treegen --envelope box --envelope-size 1,1,1 --crown-base 0 --attractors 1 --leaves --fruit -o one.json
 expect 0 treeconvert one.json -o one.tree.json

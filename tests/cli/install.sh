@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 cmake --install "$build" --prefix "$work/prefix" >log 2>&1 || fail "cmake --install: $(tail -n 5 log)"
 # Two headers are for programs; the others are what these bring.
 headers=$(cd "$work/prefix/include/bough" && find . -name '*.h' | sort | tr '\n' ' ')
-[[ $headers == "./bough.h ./error.h ./files.h ./growth/grow.h ./growth/rules.h ./growth/segment.h ./model/kind.h ./model/math.h ./model/motion.h \
+[[ $headers == "./base/math.h ./bough.h ./error.h ./files.h ./growth/grow.h ./growth/rules.h ./growth/segment.h ./model/kind.h ./model/motion.h \
 ./model/scene.h ./model/splines.h ./model/tree.h ./model/wood.h ./simulation/method.h ./simulation/scene_error.h ./simulation/simulation.h " ]] ||
     fail "installed headers are $headers"
 

@@ -5,7 +5,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 treegen --bodies 3000 --seed 3 | treeconvert - -o tree.json
 
 # stop FILE COMMAND...: starts it as a shell starts a foreground job (SIGINT not ignored), interrupts it once FILE says
-# that it runs (it is not empty; a .glb is empty until its end, so 3 s after it is there), and checks the code.
+# that it runs (it is not empty; `unfinished`: what it writes that has no name yet; a .glb is empty until its end, so 3 s after it is
+# there), and checks the code.
 stop() {
     local code=0
     python3 - "$@" <<'END' || code=$?
@@ -14,9 +15,19 @@ watched, command = sys.argv[1], sys.argv[2:]
 child = subprocess.Popen(command, stderr=open("err", "wb"), stdout=open("out", "wb"), stdin=subprocess.DEVNULL,
                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
 import glob, os
+def unfinished(): # open, in this folder, and without a name or with a hidden one
+    for link in glob.glob(f"/proc/{child.pid}/fd/*"):
+        try:
+            name = os.readlink(link)
+            if name.startswith(os.getcwd()) and (name.endswith(" (deleted)") or "/.bough-" in name):
+                yield os.stat(link).st_size
+        except FileNotFoundError:
+            pass
+def sizes():
+    return unfinished() if watched == "unfinished" else (os.path.getsize(f) for f in glob.glob(watched))
 end = time.time() + 60
 empty_until_done = command[-1].endswith(".glb")
-while child.poll() is None and time.time() < end and not any(empty_until_done or os.path.getsize(f) > 0 for f in glob.glob(watched)):
+while child.poll() is None and time.time() < end and not any(empty_until_done or size > 0 for size in sizes()):
     time.sleep(0.01)
 time.sleep(3 if empty_until_done else 0.3)
 child.send_signal(signal.SIGINT)
@@ -32,10 +43,10 @@ import json
 frames = [json.loads(line) for line in open("out")][1:]
 assert [f["frame"] for f in frames] == list(range(len(frames))) and frames' || fail "the JSON lines are not whole"
 
-stop '.bough-*' treesim -q tree.json --frames 1000000 -o cut.json
+stop unfinished treesim -q tree.json --frames 1000000 -o cut.json
 python3 -c 'import json; assert json.load(open("cut.json"))' || fail "the JSON is not whole"
 
-stop '.bough-*' treesim -q tree.json --frames 1000000 -o cut.glb
+stop unfinished treesim -q tree.json --frames 1000000 -o cut.glb
 python3 -c '
 import json, struct
 data = open("cut.glb", "rb").read()
@@ -54,7 +65,7 @@ absent
 
 # A point cache tells its number of frames first: it is mended.
 for form in mdd pc2; do
-    stop '.bough-*' treesim -q tree.json --frames 1000000 -o cut.$form
+    stop unfinished treesim -q tree.json --frames 1000000 -o cut.$form
     python3 - cut.$form <<'END' || fail "a .$form cut short"
 import os, struct, sys
 head = open(sys.argv[1], "rb").read(32)

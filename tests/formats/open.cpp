@@ -1,6 +1,9 @@
 // Files in and out: whole or not at all, pipes and devices directly, and what is said when it does not work.
 #include "formats/open.h"
+#include "formats/free_memory.h"
 #include "tests/support/random_documents.h"
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <sys/stat.h>
@@ -32,7 +35,6 @@ TEST_CASE("an output appears whole under its name, or not at all") {
         output.write("half");
         output.flush();
         CHECK(read_input(folder / "out") == "old");
-        CHECK(folder.files() == 2);
     }
     CHECK(read_input(folder / "out") == "old");
     CHECK(folder.files() == 1);
@@ -152,18 +154,56 @@ TEST_CASE("a pipe whose reader left is an error, not a signal's end") {
     std::signal(SIGPIPE, SIG_DFL);
 }
 
-TEST_CASE("an interrupt can remove what is not finished") {
+TEST_CASE("an input that is written to while it is read is refused") {
     const Folder folder;
-    Output done(folder / "done");
-    done.finish();
-    Output a(folder / "a"), b(folder / "b");
-    CHECK(folder.files() == 3);
-    remove_unfinished_outputs();
-    CHECK(folder.files() == 1);
-    CHECK_THROWS_AS(a.finish(), OutputError);
-    Output c(folder / "c");
-    c.finish();
-    CHECK(folder.files() == 2);
+    // A document in the binary form, whose arrays are read when they are wanted, written anew in its place at once.
+    const std::string document = std::string("\x02\0\0\0\0\0\0\0{}", 10) + std::string(1000, 'a');
+    for (int k = 0; k < 30; ++k) {
+        put(folder / "document", document);
+        const Input input(folder / "document");
+        REQUIRE(input.content().size() == 10);
+        std::string bytes(500, ' ');
+        input.read(10, bytes.size(), bytes.data());
+        put(folder / "document", document);
+        CHECK_THROWS_WITH(input.read(510, bytes.size(), bytes.data()),
+                          Catch::Contains("document: was written to while it was read"));
+    }
+    // Read whole, while another fills it with one letter after the other.
+    std::atomic<bool> done{false};
+    const std::string large(4'000'000, 'a');
+    put(folder / "text", large);
+    std::thread writer([&] {
+        for (char letter = 'a'; !done; letter = char(letter == 'z' ? 'a' : letter + 1)) {
+            std::fstream(folder / "text", std::ios::binary | std::ios::in | std::ios::out)
+                << std::string(large.size(), letter);
+            std::this_thread::sleep_for(std::chrono::milliseconds(15));
+        }
+    });
+    int mixed = 0;
+    for (int k = 0; k < 100; ++k) {
+        try {
+            const std::string text = read_input(folder / "text");
+            mixed += text.find_first_not_of(text[0]) != std::string::npos;
+        } catch (const InputError&) {
+        }
+    }
+    done = true;
+    writer.join();
+    CHECK(mixed == 0);
+}
+
+TEST_CASE("a device that has no end is no input") {
+    if (!fs::is_character_file("/dev/zero")) return;
+    CHECK_THROWS_WITH(read_input("/dev/zero"), Catch::Contains("/dev/zero: is a device, expected a file"));
+    CHECK_THROWS_WITH(Input("/dev/urandom"), Catch::Contains("is a device, expected a file"));
+    CHECK(read_input("/dev/null").empty());
+}
+
+TEST_CASE("the memory that is free is some, and not more than there is") {
+    const std::optional<std::size_t> free = free_memory();
+    if (!free) return;
+    CHECK(*free > 0);
+    CHECK(*free < std::size_t(::sysconf(_SC_PHYS_PAGES)) * std::size_t(::sysconf(_SC_PAGESIZE)));
 }
 
 TEST_CASE("the ending says the form") {

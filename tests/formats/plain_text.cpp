@@ -3,6 +3,7 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <random>
 
 using namespace bough;
@@ -36,4 +37,34 @@ TEST_CASE("numbers of any number of digits are the nearest doubles") {
         CAPTURE(text);
         CHECK_FALSE(parse_number(text));
     }
+}
+
+TEST_CASE("what goes on one line of a terminal is valid and moves no cursor") {
+    CHECK(valid_utf8("a\xff\xc3(\xe2\x82") == std::string("a?") + "?(" + "?" + "?");
+    CHECK(valid_utf8("gr\u00fcn \u2603 \U0001F333") == "gr\u00fcn \u2603 \U0001F333");
+    CHECK(valid_utf8("a\x1b[2Jb\tc\x7f") == "a?[2Jb?c?");
+    CHECK(valid_utf8("a\xc2\x9b"
+                     "2Jb\xc2\x85") == "a?2Jb?"); // the one-character forms of the same
+    CHECK(valid_utf8("\xc2\xa0") == "\xc2\xa0");
+    CHECK(valid_utf8("\xc0\x80\xed\xa0\x80\xf4\x90\x80\x80").find_first_not_of('?') == std::string::npos);
+}
+
+TEST_CASE("errors of libraries are told in words") {
+    std::string what;
+    try {
+        nlohmann::json::parse("3").get<std::string>();
+    } catch (const nlohmann::json::exception& error) {
+        what = error.what();
+    }
+    REQUIRE(what.find("[json.exception") != std::string::npos);
+    CHECK(in_words("x.json: is no glTF: " + what) == "x.json: is no glTF: type must be string, but is number");
+    CHECK(in_words("[json.exception.") == "[json.exception.");
+    for (const std::size_t size : {std::size_t(1) << 62, SIZE_MAX}) try {
+            std::vector<char> bytes;
+            bytes.resize(size);
+        } catch (const std::exception& error) {
+            CHECK(in_words(error.what()) == "it needs more memory than there is");
+        }
+    CHECK(in_words("assimp could not read it: std::bad_alloc; expected") ==
+          "assimp could not read it: it needs more memory than there is; expected");
 }

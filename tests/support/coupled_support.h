@@ -1,9 +1,9 @@
 // coupled_support.h: a tree, a scene and the coupled step, and motions held against the articulated reference.
 #pragma once
-#include "lib/reference/energy.h"
-#include "lib/reference/solvers.h"
-#include "lib/reference/trajectory.h"
-#include "lib/stages/ground.h"
+#include "lib/plan/ground.h"
+#include "lib/study/energy.h"
+#include "lib/study/solvers.h"
+#include "lib/study/trajectory.h"
 #include "tests/support/coupled_cases.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"

@@ -5,9 +5,9 @@
 //   J_omega = R_k,  J_v = -[c_i - x_k] R_k      (c_i: centre of mass)
 // Accelerations with w' = 0 are second differences of the poses along R_k exp(s w_k), theta_dot = T w with T by differences
 // of the rotation's logarithm, the air's damping of round bodies by differences of its force: 8th order, h = 1e-3.
-// h > 0: the linearly implicit system that lib/reference/articulated.h states, for turns of less than a radian in h.
+// h > 0: the linearly implicit system that lib/study/articulated.h states, for turns of less than a radian in h.
 #pragma once
-#include "lib/reference/solvers.h"
+#include "lib/study/solvers.h"
 #include "tests/support/solver_parts.h"
 #include <Eigen/Cholesky>
 #include <functional>

@@ -2,8 +2,8 @@
 #pragma once
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
-#include "lib/reference/solvers.h"
-#include "lib/stages/state.h"
+#include "lib/plan/state.h"
+#include "lib/study/solvers.h"
 #include "tests/support/coupled_cases.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"

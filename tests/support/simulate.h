@@ -1,9 +1,9 @@
 // simulate.h: a tree, a scene, steps: what the tests of motion share.
 #pragma once
-#include "lib/reference/energy.h"
-#include "lib/reference/solvers.h"
-#include "lib/stages/state.h"
-#include "lib/stages/state_update.h"
+#include "lib/plan/state.h"
+#include "lib/plan/state_update.h"
+#include "lib/study/energy.h"
+#include "lib/study/solvers.h"
 
 namespace simulate {
 

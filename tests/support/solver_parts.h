@@ -1,15 +1,17 @@
 // solver_parts.h: what the solvers keep beside plan and state, reached from plan and state whatever the solver: empty where it has none of it.
 #pragma once
+#include "lib/analytic/analytic_lanes_stepper.h"
 #include "lib/analytic/analytic_stepper.h"
 #include "lib/analytic/composite.h"
 #include "lib/analytic/external_forces.h"
 #include "lib/analytic/fictitious.h"
+#include "lib/coupled/coupled_lanes_stepper.h"
 #include "lib/coupled/coupled_stepper.h"
-#include "lib/fast/lane_steppers.h"
-#include "lib/fast/sleep.h"
-#include "lib/reference/articulated_stepper.h"
-#include "lib/reference/solvers.h"
+#include "lib/coupled/sleep.h"
+#include "lib/lanes/plan_lanes.h"
 #include "lib/simulation/explain.h"
+#include "lib/study/articulated_stepper.h"
+#include "lib/study/solvers.h"
 
 namespace parts {
 
@@ -83,8 +85,9 @@ template <class T> const fast::PlannedLanes<T>& lanes(const Plan<T>& plan) {
     return planned ? *planned : none<fast::PlannedLanes<T>>();
 }
 template <class T> const fast::Lanes<T>& lanes(const State<T>& state) {
-    const fast::Lanes<T>* there = fast::lanes_of(state);
-    return there ? *there : none<fast::Lanes<T>>();
+    if (const auto* bodies = dynamic_cast<const fast::CoupledLanesState<T>*>(&*state.own)) return bodies->lanes;
+    if (const auto* joints = dynamic_cast<const fast::AnalyticLanesState<T>*>(&*state.own)) return joints->lanes;
+    return none<fast::Lanes<T>>();
 }
 
 // visit(name, array) for every array over bodies that a state of any solver may hold; of what this one has not, empty ones.
@@ -117,7 +120,7 @@ template <class T> void fictitious_torques(const Plan<T>& plan, State<T>& state)
     bough::fictitious_torques(plan, state, joints(state));
 }
 
-// Of a run of the coupled step in lanes (fast/sleep.h).
+// Of a run of the coupled step in lanes (coupled/sleep.h).
 template <class T> std::vector<double> saved_sleep(const Plan<T>& plan, const State<T>& state) {
     const auto& stepper = dynamic_cast<const fast::CoupledLanesStepper<T>&>(*plan.stepper);
     return fast::saved_sleep(stepper.own, of<fast::CoupledLanesState<T>>(state));

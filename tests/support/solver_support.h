@@ -1,8 +1,8 @@
 // solver_support.h: plans of one tree, and states in random motion, for the tests of the stages.
 #pragma once
-#include "lib/reference/solvers.h"
-#include "lib/stages/state.h"
-#include "lib/stages/state_update.h"
+#include "lib/plan/state.h"
+#include "lib/plan/state_update.h"
+#include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 
 namespace solver {

@@ -1,7 +1,7 @@
-#include "lib/fast/machine_kernels.h"
-#include "lib/fast/row.h"
-#include "lib/fast/targets.h"
 #include "tools/machine_limits.h"
+#include "lib/lanes/row.h"
+#include "lib/lanes/target.h"
+#include "lib/study/machine_kernels.h"
 #include <catch2/catch.hpp>
 #include <cmath>
 

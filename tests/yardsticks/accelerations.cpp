@@ -1,8 +1,8 @@
-// joint_accelerations (lib/reference/articulated.h) against MuJoCo, Simbody and the dense solve of 113 bits, on the trees and
+// joint_accelerations (lib/study/articulated.h) against MuJoCo, Simbody and the dense solve of 113 bits, on the trees and
 // motions of cases.h, by the two measures defined
 // there; two solvers may differ by twice what each may differ from the truth.
 #include "cases.h"
-#include "lib/reference/articulated.h"
+#include "lib/study/articulated.h"
 #include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>
 

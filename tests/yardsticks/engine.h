@@ -1,4 +1,4 @@
-// engine.h: other programs' articulated dynamics behind one interface, as a yardstick for lib/reference.
+// engine.h: other programs' articulated dynamics behind one interface, as a yardstick for lib/study.
 //
 // An engine is built from a Tree's masses, inertias and joints alone. It is told where the joints are, and the torques and
 // forces, and answers with joint accelerations. Springs, dampers, wind and pulls are torques and forces like any other here,

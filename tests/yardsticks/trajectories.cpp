@@ -1,9 +1,9 @@
-// Seconds of motion: Solver::articulated_reference (lib/reference/extrapolation.h), and the coupled step at small steps, against trajectories whose accelerations
+// Seconds of motion: Solver::articulated_reference (lib/study/extrapolation.h), and the coupled step at small steps, against trajectories whose accelerations
 // come from MuJoCo and from Simbody (trajectory.h). MuJoCo's run has half the steps of Simbody's: what the two differ by bounds
 // the engines' disagreement and, Runge-Kutta's order being 4, 15 times the error of the finer one's steps. The error is the
 // largest distance of a tip over all frames, relative to the root mean square of the tips' deflection from the start.
 #include "cases.h"
-#include "lib/reference/solvers.h"
+#include "lib/study/solvers.h"
 #include "tests/support/solver_parts.h"
 #include "trajectory.h"
 #include <catch2/catch.hpp>

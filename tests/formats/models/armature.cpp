@@ -1,8 +1,6 @@
 #include "formats/models/armature.h"
-#include "formats/forked.h"
 #include "formats/models/user_model.h"
 #include "tests/support/import_support.h"
-#include "tests/support/sanitized.h"
 #include "tests/support/tubes.h"
 #include <atomic>
 #include <csignal>
@@ -421,30 +419,6 @@ TEST_CASE("a chain of many bones, deeper than a stack of the usual size") {
     const Splines s = imported(json.dump(), "chain.gltf").splines;
     CHECK(segments(s) == n);
     CHECK(top_of(s) == Approx(0.001 * (n + 1)).epsilon(1e-4)); // the last bone is as long as the one before it
-}
-
-TEST_CASE("a child process keeps to its limits, and a crash in it is told") {
-    ChildLimits limits;
-    limits.seconds = 1;
-    CHECK(run_forked(
-              []() -> std::string {
-                  for (std::atomic<unsigned> k = 0;; ++k) {
-                  }
-              },
-              limits)
-              .failure == "took longer than 1 s");
-    limits = reader_limits;
-    CHECK(run_forked([] { return std::string("done"); }, limits).bytes == "done");
-    CHECK(run_forked(
-              []() -> std::string {
-                  std::raise(SIGSEGV);
-                  return {};
-              },
-              limits)
-              .failure == "crashed (signal 11)");
-    if (sanitized) return; // a sanitizer's own memory is no matter of limits
-    CHECK(run_forked([] { return std::string(std::size_t(2) << 30, 'x'); }, limits).failure.find("memory") !=
-          std::string::npos);
 }
 
 TEST_CASE("any damage to a binary FBX is read or refused in one line") {

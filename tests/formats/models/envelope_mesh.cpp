@@ -1,6 +1,5 @@
 // envelope_mesh.h: meshes written here in each format, other programs' models where they are present, and what is refused.
 #include "formats/models/envelope_mesh.h"
-#include "formats/forked.h"
 #include "tests/support/solids.h"
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -201,17 +200,6 @@ TEST_CASE("Damaged files end in an error or a mesh, never in a crash of ours") {
                 CHECK(std::strchr(error.what(), '\n') == nullptr);
             }
         }
-}
-
-TEST_CASE("A child's crash, words and bytes come back") {
-    CHECK(run_forked([] { return std::string("a\0b", 3); }).bytes == std::string("a\0b", 3));
-    CHECK(run_forked([]() -> std::string { throw std::runtime_error("no"); }).failure == "no");
-    CHECK(run_forked([]() -> std::string { throw 1; }).failure == "failed");
-    CHECK(run_forked([]() -> std::string {
-              std::raise(SIGKILL);
-              return "";
-          }).failure == "crashed (signal 9)");
-    CHECK(run_forked([] { return std::string(3'000'000, 'x'); }).bytes.size() == 3'000'000);
 }
 
 TEST_CASE("Other programs' models") {

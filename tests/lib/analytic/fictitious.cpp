@@ -1,9 +1,9 @@
 // The lagged terms (20): accelerations against differences, torques against sums over bodies, a chain against the articulated reference.
 #include "lib/analytic/fictitious.h"
 #include "lib/analytic/composite.h"
-#include "lib/fast/targets.h"
-#include "lib/reference/solvers.h"
-#include "lib/stages/ground.h"
+#include "lib/lanes/target.h"
+#include "lib/plan/ground.h"
+#include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include "tests/support/solver_parts.h"

@@ -1,5 +1,5 @@
 // Joint limits against what a rigid stop does: it holds, it lets go, it takes energy and gives none.
-#include "lib/stages/joint_limit.h"
+#include "lib/laws/joint_limit.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include "tests/support/solver_parts.h"

@@ -1,6 +1,6 @@
 // The analytic step in SIMD lanes against the plain one, which is other code in other axes with its sums in another order: in double
 // equal to rounding, in float as near to double as the plain one is, every guard as often; its targets against each other; what it refuses.
-#include "lib/stages/oscillator.h"
+#include "lib/base/oscillator.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/solver_parts.h"
 

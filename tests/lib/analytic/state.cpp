@@ -1,8 +1,8 @@
 // The state's hash against FNV-1a written here; the same hash for any number of threads and for a run cut in two.
-#include "lib/stages/state.h"
+#include "lib/plan/state.h"
 #include "lib/base/parallel.h"
-#include "lib/reference/solvers.h"
-#include "lib/stages/ground.h"
+#include "lib/plan/ground.h"
+#include "lib/study/solvers.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // Poses against products of quaternions, velocities against central differences of the poses.
-#include "lib/stages/state_update.h"
+#include "lib/plan/state_update.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Rotation vectors against Eigen's angle-axis and quaternions, the rates' Jacobian against central differences.
-#include "lib/model/math.h"
+#include "lib/base/math.h"
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>

@@ -1,5 +1,5 @@
 // One step of the damped oscillator against its closed forms in long double, and against Runge-Kutta.
-#include "lib/stages/oscillator.h"
+#include "lib/base/oscillator.h"
 #include "tests/support/oscillator_truth.h"
 #include <catch2/catch.hpp>
 #include <complex>

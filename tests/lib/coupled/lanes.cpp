@@ -1,6 +1,6 @@
 // The coupled step in SIMD lanes against the plain one, which is other code with its sums in another order: in double equal to rounding,
 // in float as near to double as the plain one is; its targets against each other; what it refuses.
-#include "lib/fast/step_bytes.h"
+#include "lib/study/step_bytes.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/solver_parts.h"

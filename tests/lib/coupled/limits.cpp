@@ -1,8 +1,8 @@
 // Joint limits of the coupled step: what stops at a limit loses the energy of a projection, and nothing else changes.
 #include "lib/coupled/limits.h"
 #include "lib/coupled/coupled_step.h"
-#include "lib/reference/energy.h"
-#include "lib/stages/state_update.h"
+#include "lib/plan/state_update.h"
+#include "lib/study/energy.h"
 #include "tests/support/paper_trees.h"
 #include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // What the coupled step makes of a beam's first mode, and of the energy of a large undamped swing.
 #include "lib/growth/segment.h"
-#include "lib/reference/ring_down.h"
+#include "lib/study/ring_down.h"
 #include "tests/support/coupled_support.h"
 
 using namespace bough;

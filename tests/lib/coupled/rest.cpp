@@ -1,7 +1,7 @@
 // Rest of the coupled step: poses that gravity holds stay, and where it comes to rest all moments balance, by
 // inverse_dynamics.h (no elimination, no linearisation, no step).
-#include "lib/reference/inverse_dynamics.h"
-#include "lib/stages/pose.h"
+#include "lib/plan/pose.h"
+#include "lib/study/inverse_dynamics.h"
 #include "tests/support/coupled_support.h"
 
 using namespace bough;

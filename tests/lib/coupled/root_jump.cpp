@@ -1,6 +1,6 @@
 // A ground that jumps within a step: its places and velocities over the step are met, and what stands on it answers as to a
 // jump, by closed forms and against the articulated reference.
-#include "lib/model/ground_course.h"
+#include "lib/laws/ground_course.h"
 #include "tests/support/coupled_support.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/solver_parts.h"

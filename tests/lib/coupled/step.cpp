@@ -2,7 +2,7 @@
 #include "lib/coupled/body_load.h"
 #include "lib/coupled/midpoint.h"
 #include "lib/coupled/resolvent.h"
-#include "lib/stages/wind.h"
+#include "lib/laws/wind.h"
 #include "tests/support/coupled_cases.h"
 #include "tests/support/coupled_support.h"
 #include "tests/support/dense_step.h"

@@ -1,5 +1,6 @@
 // envelope.h: closed forms and meshes of the same shape, uniform points, volumes.
 #include "lib/growth/envelope.h"
+#include "lib/growth/colonize.h"
 #include "tests/support/solids.h"
 #include <catch2/catch.hpp>
 #include <numbers>
@@ -91,4 +92,16 @@ TEST_CASE("An envelope without a volume is refused") {
     const solids::Solid flat{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)}, {{0, 1, 2}}};
     CHECK(volume(mesh_of(flat)) == 0);
     CHECK_THROWS_WITH(point_inside(mesh_of(flat), 7, 0), Catch::Contains("none of 1e6"));
+}
+
+TEST_CASE("A volume that is known is not measured again") {
+    Envelope e = mesh_of(solids::icosphere(3));
+    ColonizeParameters p;
+    p.envelope = e;
+    p.points = 1000;
+    const double kill = with_defaults(p).kill;
+    CHECK(kill == 0.8 * std::cbrt(volume(e) / 1000));
+    p.envelope.space = 8 * volume(e); // as no measurement would find it
+    CHECK(volume(p.envelope) == 8 * volume(e));
+    CHECK(with_defaults(p).kill == Approx(2 * kill).epsilon(1e-14));
 }

@@ -6,7 +6,7 @@
 #include "lib/growth/grow.h"
 #include "lib/growth/lop.h"
 #include "lib/model/split.h"
-#include "lib/stages/reduce.h"
+#include "lib/plan/reduce.h"
 #include "tests/support/hand_made.h"
 #include "tests/support/random_documents.h"
 #include <numeric>

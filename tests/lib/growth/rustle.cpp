@@ -1,7 +1,7 @@
 // The rustle of a clump's leaves against its law: what the vertices' normals do, in steady winds, gusts and calm.
 #include "lib/growth/rustle.h"
-#include "lib/stages/wind.h"
-#include "lib/stages/wind_speeds.h"
+#include "lib/laws/wind.h"
+#include "lib/laws/wind_speeds.h"
 #include "tests/support/skin_checks.h"
 
 using namespace bough;

@@ -1,5 +1,5 @@
 // The layout of bodies in rows of lanes, held against what its header says of it, which is looked up body by body in the tree.
-#include "lib/fast/layout.h"
+#include "lib/lanes/layout.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "tests/support/make_tree.h"

@@ -1,10 +1,10 @@
 // The kernels' own algebra, compiled to be counted.
 #define BOUGH_TARGET counted
 #define BOUGH_COUNTED
-#include "lib/fast/wide_algebra.h"
+#include "lib/lanes/wide_algebra.h"
 #undef BOUGH_TARGET
 
-#include "lib/fast/operations.h"
+#include "lib/lanes/operations.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/make_tree.h"
 

@@ -1,12 +1,12 @@
-// Leaves and clumps in the wind (lib/stages/air.h): how their drag grows with its speed, what the air takes of their turning, and trees in leaf
+// Leaves and clumps in the wind (lib/laws/air.h): how their drag grows with its speed, what the air takes of their turning, and trees in leaf
 // in storms and in light air, which move as many small steps move them.
 #include "formats/documents/species.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
+#include "lib/laws/air.h"
 #include "lib/model/stiffness.h"
-#include "lib/reference/energy.h"
-#include "lib/reference/ring_down.h"
-#include "lib/stages/air.h"
+#include "lib/study/energy.h"
+#include "lib/study/ring_down.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"
 #include <numeric>

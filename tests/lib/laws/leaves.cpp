@@ -1,9 +1,9 @@
 // Leaves and petals that hang, with /leaves and without: their three springs by three frequencies, forces and torque in the wind, the steps' limits,
 // lanes, and the grid of extremes. (Those that fly: tests/lib/free/leaf_flight.cpp.)
-#include "lib/reference/articulated.h"
-#include "lib/reference/inverse_dynamics.h"
-#include "lib/reference/ring_down.h"
-#include "lib/reference/stability.h"
+#include "lib/study/articulated.h"
+#include "lib/study/inverse_dynamics.h"
+#include "lib/study/ring_down.h"
+#include "lib/study/stability.h"
 #include "tests/support/coupled_support.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"

@@ -1,5 +1,5 @@
 // The wind's means, peaks and spreads by numerical integration over time; its table against the field itself.
-#include "lib/stages/wind.h"
+#include "lib/laws/wind.h"
 #include "tests/support/integrate.h"
 #include <catch2/catch.hpp>
 #include <limits>

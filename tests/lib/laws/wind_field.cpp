@@ -1,6 +1,6 @@
 // The wind over the ground: values of cells by Fourier sums over time, the swirl by the paper's own formula, the tables that steps look up
 // against the direct evaluation, what repeats against itself a period on.
-#include "lib/stages/wind.h"
+#include "lib/laws/wind.h"
 #include <catch2/catch.hpp>
 #include <complex>
 #include <numbers>

@@ -1,5 +1,5 @@
 // The curve through keys: its keys, its smoothness, its closed form for two keys, and that no other has less jerk.
-#include "lib/model/quintic.h"
+#include "lib/base/quintic.h"
 #include "tests/support/make_tree.h"
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

@@ -2,9 +2,9 @@
 #include "lib/model/static_load.h"
 #include "formats/documents/tree.h"
 #include "lib/growth/segment.h"
-#include "lib/reference/inverse_dynamics.h"
-#include "lib/reference/solvers.h"
-#include "lib/stages/pose.h"
+#include "lib/plan/pose.h"
+#include "lib/study/inverse_dynamics.h"
+#include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // What a scene makes of its trees' wood: factors, curves over radius, subtrees, forks; and that no plan is made without it.
 #include "lib/model/wood_overrides.h"
-#include "lib/model/monotone.h"
-#include "lib/reference/solvers.h"
+#include "lib/base/monotone.h"
+#include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 #include <catch2/catch.hpp>
 #include <map>

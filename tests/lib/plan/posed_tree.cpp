@@ -1,7 +1,7 @@
 // A pose reached under forces made the tree's own: it stays there when they are gone.
-#include "lib/stages/posed_tree.h"
+#include "lib/plan/posed_tree.h"
 #include "lib/model/static_load.h"
-#include "lib/reference/solvers.h"
+#include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>

@@ -1,9 +1,9 @@
 // Trees with rigid bodies: their reduced tree against sums over bodies, closed forms, and the same tree with very stiff joints.
-#include "lib/stages/reduce.h"
+#include "lib/plan/reduce.h"
+#include "lib/laws/added_motion.h"
 #include "lib/model/split.h"
-#include "lib/reference/solvers.h"
-#include "lib/stages/added_motion.h"
-#include "lib/stages/expand.h"
+#include "lib/plan/expand.h"
+#include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/random_documents.h"
 #include "tests/support/simulate.h"

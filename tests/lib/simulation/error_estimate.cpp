@@ -1,8 +1,8 @@
 // The error that a run tells of itself, against the one it has.
-#include "lib/reference/error_estimate.h"
-#include "lib/reference/solvers.h"
-#include "lib/reference/trajectory_difference.h"
-#include "lib/stages/state_update.h"
+#include "lib/study/error_estimate.h"
+#include "lib/plan/state_update.h"
+#include "lib/study/solvers.h"
+#include "lib/study/trajectory_difference.h"
 #include "tests/support/paper_trees.h"
 #include "tests/support/solver_parts.h"
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // Joints merged by a trial run: what is found is within what was asked for, seen by another run.
-#include "lib/reference/merge_below.h"
-#include "lib/reference/solvers.h"
+#include "lib/study/merge_below.h"
+#include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/paper_trees.h"
 #include "tests/support/simulate.h"

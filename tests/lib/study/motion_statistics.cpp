@@ -1,5 +1,5 @@
 // Statistics of motions whose figures are known in closed form.
-#include "lib/reference/motion_statistics.h"
+#include "lib/study/motion_statistics.h"
 #include "lib/model/drawn_pose.h"
 #include "tests/support/make_tree.h"
 #include <catch2/catch.hpp>

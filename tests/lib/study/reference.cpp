@@ -1,9 +1,9 @@
 // Trajectories of the articulated solvers: closed forms, conserved quantities, orders of convergence, what the reference
 // says of its own error, and the same bits however a run is cut and shared out.
 #include "lib/base/parallel.h"
-#include "lib/reference/articulated.h"
-#include "lib/reference/energy.h"
-#include "lib/reference/solvers.h"
+#include "lib/study/articulated.h"
+#include "lib/study/energy.h"
+#include "lib/study/solvers.h"
 #include "tests/support/integrate.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"

@@ -1,10 +1,10 @@
 // The grid of extremes: every promised cell holds, and the audit that says so can say no.
-#include "lib/reference/stability.h"
+#include "lib/study/stability.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "lib/model/wood.h"
-#include "lib/reference/solvers.h"
-#include "lib/reference/stability_motion.h"
+#include "lib/study/solvers.h"
+#include "lib/study/stability_motion.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/sanitized.h"
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // Error against run time: on trees whose answers are known from elsewhere, the table must say them.
-#include "lib/reference/work_precision.h"
-#include "lib/reference/ring_down.h"
-#include "lib/reference/trajectory_difference.h"
+#include "lib/study/work_precision.h"
+#include "lib/study/ring_down.h"
+#include "lib/study/trajectory_difference.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/paper_trees.h"
 #include <catch2/catch.hpp>

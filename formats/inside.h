@@ -1,0 +1,17 @@
+// inside.h: what files may reach that name other files. A scene or model that came from somewhere opens nothing but what came with it.
+#pragma once
+#include <string>
+
+namespace bough {
+
+// Whether `path`, which a file in `folder` names (a relative one from the working folder), is in that folder or below it: also when links are
+// followed. What is not there yet counts as where it would be. With may_reach_outside() always true.
+bool within_reach(const std::string& path, const std::string& folder);
+
+// What is said where it is not: "leads out of the folder of the file that names it; --outside lets it".
+extern const char* const out_of_reach;
+
+// Of this process, false unless the user says so (--outside). Set before anything is read.
+bool& may_reach_outside();
+
+} // namespace bough

@@ -1,0 +1,39 @@
+// temporary.h: a file that is being written beside the name that it is to have.
+#pragma once
+#include <string>
+
+namespace bough {
+
+// Without a name where the file system has such files (O_TMPFILE): however the process ends, nothing is left of it. Else it is
+// `.bough-PID-N.tmp`, locked (flock) for as long as it is written: the destructor and remove_unfinished_outputs() remove it, and after a
+// kill -9 the next process that writes in that folder does, to which the lock says that nobody writes it any more. Of other users, and
+// where locks do not work, none is taken away. Errors are std::system_error.
+class Temporary {
+public:
+    // For `path`, in whose folder it is made. mode: its permissions, 0: those that the umask gives.
+    Temporary(const std::string& path, unsigned mode, bool nameless = true);
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    ~Temporary();                      // gone, unless finish() has been called
+    int file() const { return file_; } // open to read and write
+    // Gets the name, in place of what has it, in one step that cannot be seen half done; then it is closed. Errors of the disk that the
+    // system has kept back are thrown before.
+    void finish();
+
+private:
+    bool open_nameless();
+    void open_named();
+    void give_name();
+    std::string next_name() const;
+
+    std::string path_, folder_;
+    std::string name_; // of its own; "": it has none
+    int file_ = -1;
+    void* registered_ = nullptr; // name_'s entry in the list of remove_unfinished_outputs()
+};
+
+// Removes the temporary files of this process that have names. For a signal handler that is about to end the process (async-signal-safe);
+// everywhere else the destructors do it.
+void remove_unfinished_outputs() noexcept;
+
+} // namespace bough

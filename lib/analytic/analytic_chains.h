@@ -1,0 +1,395 @@
+// analytic_chains.h: the analytic step's way over a block's chains of lanes, apart from what a joint does (analytic_joints.h): outward where the bodies
+// are and what loads them (state_update.h, external_forces.h), inward the composites (composite.h). Everything of a body is in its own axes.
+//
+// Own, the sweep that is derived, has joint_rate(row, lane, theta, turn), the joint's rate in the axes of its body; joint_loaded(row, lane), called
+// as soon as the composite of the register's bodies is there, outermost first; and joints_done(), at the end of each visit to a block.
+#pragma once
+#include "../lanes/sweep_parts.h"
+#include "../lanes/wide_leaf.h"
+#include "../lanes/wide_turn.h"
+#include "analytic_sweeps.h"
+
+namespace bough::fast {
+inline namespace BOUGH_TARGET {
+
+namespace analytic_step {
+namespace motion = analytic::motion;
+namespace constant = analytic::constant;
+namespace loaded = analytic::loaded;
+namespace outward = analytic::outward;
+namespace inward = analytic::inward;
+
+template <class T, bool wind, bool pulls, bool gravity, bool field, class Own>
+struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
+    using Base = SweepParts<T, AnalyticRows<T>>;
+    using Base::L;
+    using Base::prefetch;
+    using Base::rows;
+    using Base::vector;
+    using typename Base::W;
+
+    static constexpr bool forces = wind || pulls;
+    static constexpr bool placed = forces || gravity; // something of the world's is felt
+    static constexpr int constant_count = analytic::constants(wind), inward_count = analytic::inward_count(wind, pulls),
+                         outward_count = analytic::outward_count(field);
+
+    const Block& block;
+    T* scratch;
+    SweepFlags& flags;
+
+    AnalyticChains(const AnalyticRows<T>& r, const Block& b, T* s, SweepFlags& f)
+        : Base(r), block(b), scratch(s), flags(f) {}
+    const Own& own() const { return static_cast<const Own&>(*this); }
+    Own& own() { return static_cast<Own&>(*this); }
+
+    const T* constants_at(std::uint32_t row, int lane) const {
+        return rows.constants + this->constants_row(row) * std::size_t(constant_count) * L + lane;
+    }
+    T* motion_at(std::uint32_t row, int lane) const {
+        return rows.motion + row * std::size_t(motion::count) * L + lane;
+    }
+    T* loaded_at(std::uint32_t row, int lane) const {
+        return scratch + (row - block.first_row) * std::size_t(loaded::count) * L + lane;
+    }
+    Rows<const T> constants_of(std::uint32_t row, int lane) const { return {constants_at(row, lane)}; }
+    Rows<T> loaded_of(std::uint32_t row, int lane) const { return {loaded_at(row, lane)}; }
+
+    // ---- outward
+
+    struct Frame {
+        M3<W> R_bw;
+        V3<W> omega, v; // v of the joint
+        W y;
+        W x{}, z{}; // with a field alone
+    };
+
+    // The air's force over kappa rho A, and its speed (air.h).
+    template <Kind kind> BOUGH_FORCE static V3<W> air_force(const V3<W>& u, W& speed, T fold) {
+        if constexpr (kind == Kind::branch) {
+            speed = root(W(u.x * u.x + u.y * u.y));
+            return {speed * u.x, speed * u.y, W{}};
+        } else {
+            speed = root(dot(u, u));
+            speed = Base::unfolded(fold, speed) * speed;
+            if constexpr (kind == Kind::fruit) return speed * u;
+            const W streams = T(streaming_drag) * speed;
+            return {streams * u.x, speed * u.y, streams * u.z};
+        }
+    }
+
+    [[gnu::noinline]] void add_pulls(std::uint32_t row, int lane, const M3<W>& R_bw, const Rows<T>& out) const {
+        for (auto k = std::size_t(rows.pull_of_row[row]); k < rows.pull_count && rows.pulls[k].row == row; ++k) {
+            const PullOnLane<T>& pull = rows.pulls[k];
+            const int l = int(pull.lane) - lane;
+            if (l < 0 || l >= width<T>) continue;
+            const V3<T> x{R_bw.x.x[l], R_bw.x.y[l], R_bw.x.z[l]}, y{R_bw.y.x[l], R_bw.y.y[l], R_bw.y.z[l]},
+                z{R_bw.z.x[l], R_bw.z.y[l], R_bw.z.z[l]};
+            const V3<T> f = pull.force[0] * x + pull.force[1] * y + pull.force[2] * z;
+            const V3<T> tau = cross(V3<T>{pull.point[0], pull.point[1], pull.point[2]}, f);
+            const T add[6] = {f.x, f.y, f.z, tau.x, tau.y, tau.z};
+            static_assert(loaded::tau == loaded::f + 3);
+            for (int j = 0; j < 6; ++j) out.at[(loaded::f + j) * L + l] += add[j];
+        }
+    }
+
+    Rows<T> leaf_torque_of(std::uint32_t row, int lane) const {
+        const std::size_t loads = (block.end_row - block.first_row) * std::size_t(loaded::count);
+        return {scratch + (loads + (row - block.first_row) * std::size_t(analytic::leaf_torque_count)) * L + lane};
+    }
+
+    // damp_spin of external_forces.cpp, onto what is loaded.
+    BOUGH_FORCE void damp_spin(const Rows<const T>& k, std::uint32_t row, int lane, const W& rate,
+                               const V3<W>& omega) const {
+        const Rows<T> out = loaded_of(row, lane);
+        const W mass = k.real(constant::mass);
+        const V3<W> c = k.vector(constant::com);
+        const Symmetric<W> spin = spin_damping(rate, mass, k.symmetric(constant::inertia_joint), c);
+        leaf_torque_of(row, lane).set(0, -(spin * omega));
+        const W per_arm = 1 / larger(k.real(constant::com_distance), all(T(1e-9)));
+        const W bound = mass * rate * (1 - dot(c, c) * (per_arm * per_arm));
+        out.set(loaded::drag, W(out.real(loaded::drag) + k.real(constant::sway) * bound));
+    }
+
+    // leaf_in_wind of external_forces.cpp, onto what is loaded.
+    [[gnu::noinline]] void add_leaf(std::uint32_t row, int lane, V3<W> still, V3<W> moving) const {
+        const Rows<const T> k = constants_of(row, lane);
+        const Rows<T> out = loaded_of(row, lane);
+        const LeafTerms<T>& terms = rows.leaf;
+        const W mass = k.real(constant::mass), lever = leaf_lever(terms, k.real(constant::drag_area));
+        const V3<W> c = k.vector(constant::com), n{W{}, all(T(1)), W{}}, v = still - moving;
+        const W along = terms.along * mass, across = terms.across * mass;
+        const V3<W> f{along * still.x, across * still.y, along * still.z},
+            drag_f{along * v.x, across * v.y, along * v.z};
+        const V3<W> at_rest = leaf_torque(terms, lever, n, still);
+        out.set(loaded::f, out.vector(loaded::f) + f);
+        out.set(loaded::tau, out.vector(loaded::tau) + cross(c, f) + at_rest);
+        out.set(loaded::drag_f, out.vector(loaded::drag_f) - drag_f);
+        const Rows<T> torque = leaf_torque_of(row, lane);
+        torque.set(0, torque.vector(0) + leaf_torque(terms, lever, n, moving) - at_rest);
+        const W speed = root(dot(still, still)), per_arm = 1 / larger(k.real(constant::com_distance), all(T(1e-9)));
+        const W resisted = terms.most * mass, pressed = lever * per_arm;
+        const W bound = resisted + pressed * (root(dot(moving, moving)) + speed);
+        const W sway = k.real(constant::sway);
+        out.set(loaded::drag, W(out.real(loaded::drag) + sway * bound));
+        out.set(loaded::wind, W(out.real(loaded::wind) + sway * resisted));
+        out.set(loaded::turn, W(out.real(loaded::turn) + 2 * speed * (resisted + pressed * speed)));
+    }
+
+    // On the body at rest, in its axes. p: the profile's factor there.
+    BOUGH_FORCE V3<W> wind_on(const Frame& f, std::uint32_t row, int lane, const W& p, const V3<W>& c) const {
+        if constexpr (field) {
+            const auto over = this->over_ground(row, lane, f.x + dot(f.R_bw.x, c), f.z + dot(f.R_bw.z, c));
+            return this->sheltered(row, lane, p) * (f.R_bw * this->field_at(over, rows.field.middle));
+        } else {
+            return p * (f.R_bw * vector(rows.wind));
+        }
+    }
+
+    template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane, T fold) const {
+        const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
+        const Rows<T> out = loaded_of(row, lane);
+        prefetch(constants_at(row + 1, lane), constant_count * L);
+        prefetch(y0.at + motion::count * L, motion::count * L);
+        const V3<W> theta = y0.vector(motion::theta);
+        const W q = dot(theta, theta);
+        const Turn<W> turn = turn_of(q);
+        const M3<W> R = this->joint_rotation(k) * turn_form(theta, q, turn.s, turn.c1);
+        out.set(loaded::R_pb, R);
+        if constexpr (!placed) return;
+        const V3<W> r = k.vector(constant::joint_position);
+        if constexpr (wind) {
+            f.y = f.y + dot(f.R_bw.y, r);
+            if constexpr (field) {
+                f.x = f.x + dot(f.R_bw.x, r);
+                f.z = f.z + dot(f.R_bw.z, r);
+            }
+            f.v = transposed_times(R, f.v + cross(f.omega, r));
+            f.omega = transposed_times(R, f.omega) + own().joint_rate(row, lane, theta, turn);
+        }
+        f.R_bw = {transposed_times(R, f.R_bw.x), transposed_times(R, f.R_bw.y), transposed_times(R, f.R_bw.z)};
+        if constexpr (gravity) out.set(loaded::g, f.R_bw * vector(rows.gravity));
+        if constexpr (wind) {
+            const V3<W> c = k.vector(constant::com);
+            const W p = this->profile(f.y + dot(f.R_bw.y, c));
+            const V3<W> still = wind_on(f, row, lane, p, c), moving = still - f.v - cross(f.omega, c);
+            const W scale = k.real(constant::drag_area);
+            const W still2 = dot(still, still), still_speed = root(still2);
+            W speed_0, speed_1;
+            const V3<W> f0 = air_force<kind>(still, speed_0, fold), f1 = air_force<kind>(moving, speed_1, fold);
+            const V3<W> force = scale * f0;
+            out.set(loaded::f, force);
+            out.set(loaded::tau, cross(c, force));
+            out.set(loaded::drag_f, scale * (f1 - f0));
+            const W sway = scale * k.real(constant::sway);
+            out.set(loaded::drag, W(sway * (speed_1 + speed_0)));
+            const W pressing = kind == Kind::branch ? still_speed : speed_0;
+            out.set(loaded::wind, W(sway * pressing));
+            constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);
+            out.set(loaded::turn, W(turns * scale * pressing * still_speed));
+            if constexpr (kind != Kind::branch)
+                if (fold > 0) {
+                    W rate = T(kind == Kind::leaf ? blade_turning : clump_turning) * scale /
+                             larger(k.real(constant::mass), all(T(1e-30))) * speed_1;
+                    if (kind == Kind::leaf && rows.leaf.on) rate = rate + rows.leaf.across;
+                    damp_spin(k, row, lane, rate, f.omega);
+                }
+            if constexpr (kind == Kind::leaf)
+                if (rows.leaf.on) add_leaf(row, lane, still, moving);
+        } else if constexpr (pulls) {
+            for (int j = 0; j < 6; ++j) out.set(loaded::f + j, W{});
+        }
+        if constexpr (forces)
+            if (rows.pulls && rows.pull_of_row[row] >= 0) add_pulls(row, lane, f.R_bw, out);
+    }
+
+    template <Kind kind> void group_out(const Group& g) const {
+        for (int lane = 0; lane < L; lane += width<T>) {
+            Records<T, outward_count> base;
+            Frame f{};
+            const Rows<T> q = base.rows();
+            if constexpr (placed) {
+                base.gather(rows.outward_records, &rows.base[g.first_base + std::size_t(lane)]);
+                f = {q.matrix(outward::R_bw), q.vector(outward::omega), q.vector(outward::v), q.real(outward::y)};
+                if constexpr (field) {
+                    f.x = q.real(outward::x);
+                    f.z = q.real(outward::z);
+                }
+            }
+            for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
+                step_out<kind>(f, row, lane, Base::fold_of(g.kind));
+                if (!placed || rows.fork_of_row[row] < 0) continue;
+                q.set(outward::R_bw, f.R_bw);
+                q.set(outward::omega, f.omega);
+                q.set(outward::v, f.v);
+                q.set(outward::y, f.y);
+                if constexpr (field) {
+                    q.set(outward::x, f.x);
+                    q.set(outward::z, f.z);
+                }
+                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
+                             [&](std::uint32_t joint, int k, W w) {
+                                 write(rows.outward_records + joint * record(outward_count, L) + std::size_t(k), w);
+                             });
+            }
+        }
+    }
+
+    // ---- inward
+
+    struct Composite {
+        V3<W> h;
+        Symmetric<W> J;
+        W mass;
+        V3<W> f, tau, drag_f, drag_tau;
+        W drag, drag_row, wind_, wind_row, turn, turn_row;
+    };
+
+    BOUGH_FORCE static void add(Composite& q, const Rows<T>& more) {
+        q.h = q.h + more.vector(inward::h);
+        q.J = q.J + more.symmetric(inward::J);
+        q.mass = q.mass + more.real(inward::mass);
+        if constexpr (forces) {
+            q.f = q.f + more.vector(inward::f);
+            q.tau = q.tau + more.vector(inward::tau);
+        }
+        if constexpr (wind) {
+            q.drag_f = q.drag_f + more.vector(inward::drag_f);
+            q.drag_tau = q.drag_tau + more.vector(inward::drag_tau);
+            q.drag = q.drag + more.real(inward::drag);
+            q.drag_row = q.drag_row + more.real(inward::drag_row);
+            q.wind_ = q.wind_ + more.real(inward::wind);
+            q.wind_row = q.wind_row + more.real(inward::wind_row);
+            q.turn = q.turn + more.real(inward::turn);
+            q.turn_row = q.turn_row + more.real(inward::turn_row);
+        }
+    }
+    BOUGH_FORCE static void keep(const Composite& q, const Rows<T>& out) {
+        out.set(inward::h, q.h);
+        out.set(inward::J, q.J);
+        out.set(inward::mass, q.mass);
+        if constexpr (forces) {
+            out.set(inward::f, q.f);
+            out.set(inward::tau, q.tau);
+        }
+        if constexpr (wind) {
+            out.set(inward::drag_f, q.drag_f);
+            out.set(inward::drag_tau, q.drag_tau);
+            out.set(inward::drag, q.drag);
+            out.set(inward::drag_row, q.drag_row);
+            out.set(inward::wind, q.wind_);
+            out.set(inward::wind_row, q.wind_row);
+            out.set(inward::turn, q.turn);
+            out.set(inward::turn_row, q.turn_row);
+        }
+    }
+
+    BOUGH_FORCE void step_in(Composite& q, std::uint32_t row, int lane) const {
+        const Rows<const T> k = constants_of(row, lane);
+        const Rows<T> io = loaded_of(row, lane);
+        const M3<W> R = io.matrix(loaded::R_pb);
+        const V3<W> c = k.vector(constant::com);
+        const W mass = k.real(constant::mass);
+        q.h = q.h + mass * c;
+        q.J = q.J + k.symmetric(constant::inertia_joint);
+        q.mass = q.mass + mass;
+        io.set(loaded::J, q.J);
+        io.set(loaded::h, q.h);
+        if constexpr (forces) {
+            q.f = q.f + io.vector(loaded::f);
+            q.tau = q.tau + io.vector(loaded::tau);
+            io.set(loaded::tau, q.tau);
+        }
+        if constexpr (wind) {
+            const V3<W> f = io.vector(loaded::drag_f);
+            q.drag_f = q.drag_f + f;
+            q.drag_tau = q.drag_tau + cross(c, f);
+            io.set(loaded::drag_f, q.drag_tau);
+            const W arm = k.real(constant::com_distance), drag = io.real(loaded::drag), wind_ = io.real(loaded::wind),
+                    turn = io.real(loaded::turn);
+            q.drag = q.drag + drag;
+            q.wind_ = q.wind_ + wind_;
+            q.turn = q.turn + turn;
+            q.drag_row = q.drag_row + arm * drag;
+            q.wind_row = q.wind_row + arm * wind_;
+            q.turn_row = q.turn_row + arm * turn;
+            io.set(loaded::drag, q.drag_row);
+            io.set(loaded::wind, q.wind_row);
+            io.set(loaded::turn, q.turn_row);
+        }
+        // To the parent's joint, in its body's axes.
+        const V3<W> r = k.vector(constant::joint_position);
+        const V3<W> h = R * q.h, way = T(0.5) * q.mass * r, p = h + way;
+        const W xx = r.x * p.x, yy = r.y * p.y, zz = r.z * p.z;
+        const Symmetric<W> J = turned(R, q.J);
+        q.J = {J.xx + 2 * (yy + zz), J.xy - (r.x * p.y + r.y * p.x), J.xz - (r.x * p.z + r.z * p.x),
+               J.yy + 2 * (xx + zz), J.yz - (r.y * p.z + r.z * p.y), J.zz + 2 * (xx + yy)};
+        q.h = p + way;
+        if constexpr (forces) {
+            q.f = R * q.f;
+            q.tau = R * q.tau + cross(r, q.f);
+        }
+        if constexpr (wind) {
+            q.drag_f = R * q.drag_f;
+            q.drag_tau = R * q.drag_tau + cross(r, q.drag_f);
+            const W distance = k.real(constant::joint_distance);
+            q.drag_row = q.drag_row + distance * q.drag;
+            q.wind_row = q.wind_row + distance * q.wind_;
+            q.turn_row = q.turn_row + distance * q.turn;
+        }
+    }
+
+    void group_in(const Group& g) {
+        for (int lane = 0; lane < L; lane += width<T>) {
+            Composite q{};
+            for (std::uint32_t k = g.length; k-- > 0;) {
+                const std::uint32_t row = g.first_row + k;
+                if (rows.fork_of_row[row] >= 0) {
+                    Records<T, inward_count> forks;
+                    forks.gather(rows.inward_records,
+                                 &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)]);
+                    add(q, forks.rows());
+                }
+                if constexpr (wind)
+                    if (is_foliage(g.kind)) q.drag_tau = q.drag_tau + leaf_torque_of(row, lane).vector(0);
+                step_in(q, row, lane);
+                own().joint_loaded(row, lane);
+            }
+            Records<T, inward_count> base;
+            keep(q, base.rows());
+            for (int k = inward_count; k < base.quantities; ++k) base.rows().set(k, W{});
+            base.scatter(&rows.landing[g.first_base + std::size_t(lane)], nothing,
+                         [&](std::uint32_t joint, int k, W w) {
+                             T* at = rows.inward_records + joint * record(inward_count, L) + std::size_t(k);
+                             write(at, read(at) + w);
+                         });
+        }
+    }
+
+    // ---- a block
+
+    void out() {
+        T* forks = rows.inward_records + block.first_fork * record(inward_count, L);
+        std::memset(forks, 0, (block.end_fork - block.first_fork) * record(inward_count, L) * sizeof(T));
+        for (std::uint32_t k = block.first_group; k < block.end_group; ++k) {
+            const Group& g = rows.groups[k];
+            if (!wind || g.kind == Kind::branch)
+                group_out<Kind::branch>(g);
+            else if constexpr (wind) {
+                if (!is_flat(g.kind))
+                    group_out<Kind::fruit>(g);
+                else
+                    group_out<Kind::leaf>(g);
+            }
+            if (k >= block.terminal_group) group_in(g);
+        }
+        own().joints_done();
+    }
+    void in() {
+        for (std::uint32_t k = block.terminal_group; k-- > block.first_group;) group_in(rows.groups[k]);
+        own().joints_done();
+    }
+};
+
+} // namespace analytic_step
+} // namespace BOUGH_TARGET
+} // namespace bough::fast

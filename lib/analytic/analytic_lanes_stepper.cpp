@@ -1,0 +1,122 @@
+#include "analytic_lanes_stepper.h"
+#include "../lanes/clear_lanes.h"
+#include "../lanes/lane_motion.h"
+#include "../lanes/plan_lanes.h"
+#include "../laws/wind.h"
+#include "../plan/state_update.h"
+#include "analytic_lanes_step.h"
+#include "analytic_rows.h"
+#include "analytic_stepper.h"
+#include "fictitious.h"
+
+namespace bough::fast {
+namespace {
+
+template <class T> AnalyticLanesState<T>& analytic_work(State<T>& state) {
+    return static_cast<AnalyticLanesState<T>&>(*state.own);
+}
+template <class T> const AnalyticLanesState<T>& analytic_work(const State<T>& state) {
+    return static_cast<const AnalyticLanesState<T>&>(*state.own);
+}
+
+} // namespace
+
+template <class T>
+AnalyticLanesStepper<T>::AnalyticLanesStepper(Target target, double sleep)
+    : Cloned<AnalyticLanesStepper<T>, Stepper<T>>(std::string()) {
+    own.lanes.target = target;
+    if (sleep > 0) own.lanes.sleep.reason = "solver analytic";
+}
+
+template <class T> void AnalyticLanesStepper<T>::take_constants(const Plan<T>& plan, const Tree& tree) {
+    take_analytic_constants(plan, tree, own);
+}
+
+template <class T> void AnalyticLanesStepper<T>::lay_out(const Plan<T>& plan, const std::vector<TreeRange>& ranges) {
+    lay_out_lanes(plan, ranges, own.lanes);
+    fill_analytic(plan, own);
+    give_back(own.gravity_row, own.sway, own.joint_distance, own.com_distance, own.inverse_weight);
+    if (!plan.pose) give_back(own.inertia_factor);
+}
+
+template <class T> void AnalyticLanesStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
+    auto work = std::make_unique<AnalyticLanesState<T>>();
+    if (plan.pose) work->scaled_rate.assign(plan.bodies, Vector3<T>::Zero());
+    if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
+    state.own = Copied<StepperState>(std::move(work));
+}
+
+template <class T>
+void AnalyticLanesStepper<T>::begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) const {
+    AnalyticLanesState<T>& work = analytic_work(state);
+    update_kinematics(plan, state);
+    pack_analytic(plan, own, state, work, theta);
+    if (plan.pose) return;
+    give_back(state.theta, state.theta_dot, work.scaled_rate); // present() makes them again
+    work.lanes.presented = false;
+}
+
+template <class T>
+void AnalyticLanesStepper<T>::advance(const Plan<T>& plan, State<T>& state, StageClock* clock) const {
+    analytic_lanes_step(plan, own, state, analytic_work(state), clock);
+}
+
+template <class T> void AnalyticLanesStepper<T>::present(const Plan<T>& plan, State<T>& state) const {
+    AnalyticLanesState<T>& work = analytic_work(state);
+    if (work.lanes.presented) return;
+    unpack_analytic(plan, own, state, work);
+    work.lanes.presented = true;
+    if (plan.pose) update_kinematics(plan, state);
+}
+
+template <class T> std::uint64_t AnalyticLanesStepper<T>::hash(const Plan<T>& plan, const State<T>& state) const {
+    MotionView<T> view;
+    view_motion(plan, state, view);
+    return hash_of(view, plan.bodies);
+}
+
+template <class T> bool AnalyticLanesStepper<T>::known_finite(const State<T>& state) const {
+    return analytic_work(state).lanes.finite;
+}
+
+template <class T> NonFinite AnalyticLanesStepper<T>::non_finite(const State<T>& state) const {
+    return non_finite_in_analytic(*first_non_finite(state));
+}
+
+template <class T> std::vector<CarriedArray<T>> AnalyticLanesStepper<T>::carried(State<T>& state) const {
+    return {{"scaled_rate", &analytic_work(state).scaled_rate}};
+}
+
+template <class T>
+void AnalyticLanesStepper<T>::view_motion(const Plan<T>&, const State<T>& state, MotionView<T>& view) const {
+    static_assert(analytic::motion::theta == 0);
+    view_rows(own.lanes, analytic_work(state).lanes.now, analytic::motion::theta_dot, view);
+    view.first = even_rows(own.lanes.layout, analytic::motion::count);
+}
+
+template <class T>
+void AnalyticLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+    for (const std::size_t i : bodies) drop_from_analytic(plan, state, i);
+    clear_lanes<T>(own.lanes, analytic_work(state).lanes.now, even_rows(own.lanes.layout, analytic::motion::count),
+                   analytic::constants(plan.wind), analytic::motion::count, put_analytic_pad<T>, bodies);
+}
+
+template <class T>
+std::unique_ptr<Stepper<T>> analytic_stepper(const Scene& scene, std::optional<Target> simd, double sleep) {
+    const char* const plainly = !simd                                         ? "not asked for"
+                                : scene.joint_limit                           ? "/joint_limit"
+                                : !scene.root_motion.empty()                  ? "/root_motion"
+                                : scene.fictitious && lags(*scene.fictitious) ? "/fictitious"
+                                                                              : "";
+    if (*plainly == 0) return std::make_unique<AnalyticLanesStepper<T>>(*simd, sleep);
+    return std::make_unique<AnalyticStepper<T>>(plainly);
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template class AnalyticLanesStepper<T>;                                                                            \
+    template std::unique_ptr<Stepper<T>> analytic_stepper(const Scene&, std::optional<Target>, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough::fast

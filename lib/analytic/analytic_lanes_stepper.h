@@ -1,0 +1,34 @@
+// analytic_lanes_stepper.h: the analytic solver with its steps made in lanes, as a run's stepper.
+#pragma once
+#include "analytic_lanes_state.h"
+
+namespace bough::fast {
+
+// The scene is without joint limits, moved roots and /fictitious.
+template <class T> class AnalyticLanesStepper final : public Cloned<AnalyticLanesStepper<T>, Stepper<T>> {
+public:
+    AnalyticLanesStepper(Target, double sleep); // sleep: is not for it, which the plan says where it was asked for
+    const char* name() const override { return "analytic"; }
+    void take_constants(const Plan<T>&, const Tree&) override;
+    void lay_out(const Plan<T>&, const std::vector<TreeRange>&) override;
+    void allocate(const Plan<T>&, State<T>&) const override;
+    void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
+    void advance(const Plan<T>&, State<T>&, StageClock*) const override;
+    void present(const Plan<T>&, State<T>&) const override;
+    std::uint64_t hash(const Plan<T>&, const State<T>&) const override;
+    bool known_finite(const State<T>&) const override;
+    NonFinite non_finite(const State<T>&) const override;
+    std::vector<CarriedArray<T>> carried(State<T>&) const override;
+    void view_motion(const Plan<T>&, const State<T>&, MotionView<T>&) const override;
+    const std::vector<Vector3<T>>& inertia_factor() const override { return own.inertia_factor; }
+    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
+    const PlannedLanes<T>* lanes() const override { return &own.lanes; }
+
+    AnalyticLanesPlan<T> own;
+};
+
+// The solver on a scene, with its steps in lanes of that target where it is asked for and they hold all that the scene has, else plainly
+// (Stepper::plainly says why). sleep: [rad/s] as above.
+template <class T> std::unique_ptr<Stepper<T>> analytic_stepper(const Scene&, std::optional<Target>, double sleep = 0);
+
+} // namespace bough::fast

@@ -1,0 +1,11 @@
+// analytic_targets.h: the analytic step's sweeps as they are compiled for a SIMD target.
+#pragma once
+#include "../lanes/target.h"
+#include "analytic_sweeps.h"
+
+namespace bough::fast {
+
+// The target's code, which must be available.
+template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target, AnalyticLoads);
+
+} // namespace bough::fast

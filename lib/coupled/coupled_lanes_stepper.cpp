@@ -1,0 +1,150 @@
+#include "coupled_lanes_stepper.h"
+#include "../lanes/clear_lanes.h"
+#include "../lanes/lane_motion.h"
+#include "../lanes/plan_lanes.h"
+#include "../plan/state_update.h"
+#include "coupled_lanes_step.h"
+#include "coupled_stepper.h"
+#include "coupled_tables.h"
+#include "sleep.h"
+
+namespace bough::fast {
+namespace {
+
+template <class T> CoupledLanesState<T>& coupled_work(State<T>& state) {
+    return static_cast<CoupledLanesState<T>&>(*state.own);
+}
+template <class T> const CoupledLanesState<T>& coupled_work(const State<T>& state) {
+    return static_cast<const CoupledLanesState<T>&>(*state.own);
+}
+
+} // namespace
+
+template <class T>
+CoupledLanesStepper<T>::CoupledLanesStepper(Scheme scheme, Target target, double sleep)
+    : Cloned<CoupledLanesStepper<T>, Stepper<T>>(std::string()), sleep_(sleep) {
+    own.scheme = scheme;
+    own.lanes.target = target;
+}
+
+template <class T> void CoupledLanesStepper<T>::lay_out(const Plan<T>& plan, const std::vector<TreeRange>& ranges) {
+    gravity_ = plan.gravity;
+    lay_out_lanes(plan, ranges, own.lanes);
+    fill_coupled(plan, own);
+    give_back(own.carried_moment, own.carried_drag);
+    plan_sleep(plan, own, sleep_);
+}
+
+template <class T> void CoupledLanesStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
+    auto work = std::make_unique<CoupledLanesState<T>>();
+    allocate_coupled(plan, state, *work, own.lanes.layout.ground.size());
+    state.own = Copied<StepperState>(std::move(work));
+}
+
+template <class T>
+void CoupledLanesStepper<T>::begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) const {
+    CoupledLanesState<T>& work = coupled_work(state);
+    update_kinematics(plan, state);
+    pack(plan, own, state, work, theta);
+    if (plan.pose) return;
+    give_back(state.theta, state.theta_dot, work.theta_change, work.theta_dot_change); // present() makes them again
+    work.lanes.presented = false;
+}
+
+template <class T> void CoupledLanesStepper<T>::advance(const Plan<T>& plan, State<T>& state, StageClock* clock) const {
+    coupled_lanes_step(plan, own, state, coupled_work(state), clock);
+}
+
+template <class T> void CoupledLanesStepper<T>::present(const Plan<T>& plan, State<T>& state) const {
+    CoupledLanesState<T>& work = coupled_work(state);
+    if (work.lanes.presented) return;
+    unpack(plan, own, state, work);
+    work.lanes.presented = true;
+    if (plan.pose) update_kinematics(plan, state);
+}
+
+template <class T> std::uint64_t CoupledLanesStepper<T>::hash(const Plan<T>& plan, const State<T>& state) const {
+    MotionView<T> view;
+    view_motion(plan, state, view);
+    return hash_of(view, plan.bodies);
+}
+
+template <class T> bool CoupledLanesStepper<T>::known_finite(const State<T>& state) const {
+    return coupled_work(state).lanes.finite;
+}
+
+template <class T> NonFinite CoupledLanesStepper<T>::non_finite(const State<T>& state) const {
+    return non_finite_in_coupled(*first_non_finite(state));
+}
+
+template <class T> std::vector<CarriedArray<T>> CoupledLanesStepper<T>::carried(State<T>& state) const {
+    return carried_by_coupled(state);
+}
+
+template <class T> void CoupledLanesStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
+    saved.sleep = saved_sleep(own, coupled_work(state));
+}
+
+template <class T>
+void CoupledLanesStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
+    if (own.lanes.sleep.on) restore_sleep(own, coupled_work(state), saved.sleep); // else what slept goes on awake
+}
+
+template <class T>
+void CoupledLanesStepper<T>::view_motion(const Plan<T>&, const State<T>& state, MotionView<T>& view) const {
+    static_assert(motion::theta == 0);
+    const CoupledLanesState<T>& work = coupled_work(state);
+    view_rows(own.lanes, work.lanes.table, motion::theta_dot, view);
+    motion_of_rows(own, work, view.first);
+}
+
+template <class T>
+void CoupledLanesStepper<T>::set_carried_moment(const Plan<T>&, std::size_t body, const Vec3& moment) {
+    const Slot<T> row(own.lanes.constants, constant::count,
+                      own.lanes.layout.slot[body]); // with /fracture none is shared
+    row.put(constant::carried_moment, Vector3<T>(moment.template cast<T>()));
+}
+
+template <class T>
+void CoupledLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+    CoupledLanesState<T>& work = coupled_work(state);
+    for (const std::size_t i : bodies) drop_from_coupled(plan, state, i);
+    std::vector<std::size_t> motion_at;
+    motion_of_rows(own, work, motion_at);
+    clear_lanes<T>(own.lanes, work.lanes.table, motion_at, constant::count, motion::count, put_pad<T>, bodies);
+}
+
+template <class T> void CoupledLanesStepper<T>::scale_wood(const Plan<T>&, T stiffness, T damping) {
+    fast::scale_wood(own.lanes, stiffness, damping);
+}
+
+template <class T> void CoupledLanesStepper<T>::wake(const Plan<T>&, State<T>& state) const {
+    wake_all(own, coupled_work(state));
+}
+
+template <class T>
+std::unique_ptr<Stepper<T>> coupled_stepper(const Scene& scene, Scheme scheme, std::optional<Target> simd,
+                                            double sleep) {
+    const std::string plainly = !simd                    ? "not asked for"
+                                : scene.joint_limit      ? "/joint_limit"
+                                : scheme_of(scheme).real ? std::string("scheme ") + scheme_of(scheme).name
+                                                         : "";
+    if (plainly.empty()) return std::make_unique<CoupledLanesStepper<T>>(scheme, *simd, sleep);
+    return std::make_unique<CoupledStepper<T>>(scheme, plainly);
+}
+
+template <class T> CoupledPlan<T>* coupled_plan(Plan<T>& plan) {
+    if (auto* lanes = dynamic_cast<CoupledLanesStepper<T>*>(&*plan.stepper)) return &lanes->own;
+    if (auto* plain = dynamic_cast<CoupledStepper<T>*>(&*plan.stepper)) return &plain->own;
+    return nullptr;
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template class CoupledLanesStepper<T>;                                                                             \
+    template std::unique_ptr<Stepper<T>> coupled_stepper(const Scene&, Scheme, std::optional<Target>, double);         \
+    template CoupledPlan<T>* coupled_plan(Plan<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough::fast

@@ -1,0 +1,335 @@
+// coupled_out.h: the coupled step's first sweep outward over lanes (coupled_sweeps.h): where each body is half a step on (midpoint.h), and
+// what it is loaded with there (body_load.h, the joint's own spring and damper).
+//
+// Reads   constants, now, records outward of the joints that chains begin on, the wind's profile, pulls
+// Writes  loaded; of solved rates and r, which then wait no longer in the cache than the row takes; records outward of forks
+// Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1800. Errors none; what turns fast is counted and marked.
+#pragma once
+#include "../lanes/wide_leaf.h"
+#include "coupled_parts.h"
+#include "frame_over_ground.h"
+#include <algorithm>
+
+namespace bough::fast {
+inline namespace BOUGH_TARGET {
+
+// field: with a wind that varies over the ground (WindField).
+template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
+    using Parts = CoupledParts<T>;
+    using Parts::constants;
+    using Parts::fast2;
+    using Parts::L;
+    using Parts::mark;
+    using Parts::now;
+    using Parts::number;
+    using Parts::Parts;
+    using Parts::prefetch;
+    using Parts::rows;
+    using Parts::solved_row;
+    using Parts::vector;
+    using typename Parts::C;
+    using typename Parts::W;
+
+    struct Frame : FrameOverGround<W, field> { // of a body, at y*
+        M3<W> R;
+        W y;
+        V3<W> omega, v, ahead_omega, ahead_v, own, turn, alpha, a;
+    };
+
+    BOUGH_FORCE static Frame read_frame(Records<T, outward::count>& r) {
+        const Rows<T> q = r.rows();
+        FrameOverGround<W, field> over;
+        if constexpr (field) over = {q.real(outward::x), q.real(outward::z)};
+        return {over,
+                q.matrix(outward::R),
+                q.real(outward::y),
+                q.vector(outward::omega),
+                q.vector(outward::v),
+                q.vector(outward::ahead_omega),
+                q.vector(outward::ahead_v),
+                q.vector(outward::own),
+                q.vector(outward::turn),
+                q.vector(outward::alpha),
+                q.vector(outward::a)};
+    }
+    BOUGH_FORCE static void write_frame(Records<T, outward::count>& r, const Frame& f) {
+        const Rows<T> q = r.rows();
+        q.set(outward::R, f.R);
+        q.set(outward::y, f.y);
+        q.set(outward::omega, f.omega);
+        q.set(outward::v, f.v);
+        q.set(outward::ahead_omega, f.ahead_omega);
+        q.set(outward::ahead_v, f.ahead_v);
+        q.set(outward::own, f.own);
+        q.set(outward::turn, f.turn);
+        q.set(outward::alpha, f.alpha);
+        q.set(outward::a, f.a);
+        if constexpr (field) {
+            q.set(outward::x, f.x);
+            q.set(outward::z, f.z);
+        }
+    }
+
+    // resolved_turn.h
+    [[gnu::noinline]] static V3<W> bounded(V3<W> omega, W turn2, W mass, std::uint64_t& count) {
+        V3<W> out = omega;
+        const W scale = 1 / root(turn2);
+        for (int l = 0; l < width<T>; ++l)
+            if (turn2[l] > 1) {
+                out.x[l] *= scale[l];
+                out.y[l] *= scale[l];
+                out.z[l] *= scale[l];
+                if (mass[l] > 0) ++count;
+            }
+        return out;
+    }
+    BOUGH_FORCE static V3<W> resolved(const V3<W>& omega, T h, W mass, std::uint64_t& count) {
+        const W turn2 = (h * h) * dot(omega, omega);
+        return any_above(turn2, all(T(1))) ? bounded(omega, turn2, mass, count) : omega;
+    }
+
+    // What they ask for. By value, as what a function is given the place of cannot stay in registers.
+    struct Pulls {
+        V3<C> N, F;
+    };
+    [[gnu::noinline]] Pulls pulls_on(std::uint32_t row, int lane, M3<W> R) const {
+        Pulls out{};
+        for (auto k = std::size_t(rows.pull_of_row[row]); k < rows.pull_count && rows.pulls[k].row == row; ++k) {
+            const PullOnLane<T>& pull = rows.pulls[k];
+            const int l = int(pull.lane) - lane;
+            if (l < 0 || l >= width<T>) continue;
+            const V3<T> r = V3<T>{R.x.x[l], R.x.y[l], R.x.z[l]}, s{R.y.x[l], R.y.y[l], R.y.z[l]},
+                        t{R.z.x[l], R.z.y[l], R.z.z[l]};
+            const V3<T> arm = pull.point[0] * r + pull.point[1] * s + pull.point[2] * t;
+            const V3<T> f{pull.force[0], pull.force[1], pull.force[2]},
+                c{pull.change[0], pull.change[1], pull.change[2]};
+            const V3<T> fr = f + rows.slope[0] * c, fi = rows.slope[1] * c;
+            const V3<T> nr = cross(arm, fr), ni = cross(arm, fi);
+            out.F.x.re[l] -= fr.x, out.F.y.re[l] -= fr.y, out.F.z.re[l] -= fr.z;
+            out.F.x.im[l] -= fi.x, out.F.y.im[l] -= fi.y, out.F.z.im[l] -= fi.z;
+            out.N.x.re[l] -= nr.x, out.N.y.re[l] -= nr.y, out.N.z.re[l] -= nr.z;
+            out.N.x.im[l] -= ni.x, out.N.y.im[l] -= ni.y, out.N.z.im[l] -= ni.z;
+        }
+        return out;
+    }
+
+    // The wind where the profile is 1, and its change over the step.
+    BOUGH_FORCE V3<W> wind_here(const typename Parts::OverGround& over) const {
+        if constexpr (field)
+            return this->field_at(over, rows.field.middle);
+        else
+            return vector(rows.wind);
+    }
+    BOUGH_FORCE V3<W> wind_change_here(const typename Parts::OverGround& over) const {
+        if constexpr (field)
+            return this->field_at(over, rows.field_end) - this->field_at(over, rows.field_start);
+        else
+            return vector(rows.wind_change);
+    }
+
+    struct LeafIn {
+        M3<W> R;
+        V3<W> u, ahead, change; // [m/s] past the centre of mass; its velocity ahead; the wind's over the step
+        V3<W> turn, own;
+    };
+    // What the air takes of a body's own turning, onto what is loaded. It is damping, which the sweep inward has none of in turning: as s1 = 1/s
+    // and s2 = s1^2 are complex, s1 = x + y s2 with the reals x = |s1|^2 / (2 Re s1), y = 1 / (2 Re s1), and it goes to J and H in these parts.
+    BOUGH_FORCE void damp_spin(const Rows<T>& out, const W& rate, const W& mass, const V3<W>& c, const V3<W>& omega_0,
+                               Symmetric<W>& J, Symmetric<W>& H, V3<C>& N) const {
+        const Symmetric<W> G = spin_damping(rate, mass, J, c);
+        const V3<W> taken = G * omega_0;
+        N = N + complex(taken, V3<W>{});
+        const T y = 1 / (2 * rows.s1[0]), x = (rows.s1[0] * rows.s1[0] + rows.s1[1] * rows.s1[1]) * y;
+        J = J + x * G;
+        H = H + y * G;
+        out.set(loaded::J, J);
+    }
+    // leaf_air.h, but for nu I w, onto what is loaded.
+    [[gnu::noinline]] void add_leaf(const Rows<const T>& k, const Rows<T>& out, LeafIn in) const {
+        const LeafTerms<T>& terms = rows.leaf;
+        const W mass = k.real(constant::mass), scale = k.real(constant::drag_area), lever = leaf_lever(terms, scale);
+        const V3<W> com = k.vector(constant::com), c = out.vector(loaded::c);
+        const W speed2 = dot(in.u, in.u);
+        const Symmetric<W> D = leaf_damping(terms, mass, in.R.y);
+        const Symmetric<W> H = across(W(2 * lever * speed2), in.R.y) +
+                               across(W(2 * terms.most * mass * root(dot(com, com)) * root(speed2)), in.R.z);
+        const V3<W> slope = D * in.change, f = D * (in.u + in.ahead) + rows.slope[0] * slope,
+                    fi = rows.slope[1] * slope;
+        const V3<W> bent_by = in.turn - rows.s1[0] * in.own;
+        const V3<W> N = -leaf_torque(terms, lever, in.R.y, in.u) - cross(c, f) - H * bent_by,
+                    Ni = rows.s1[1] * (H * in.own) - cross(c, fi);
+        out.set(loaded::N, out.complex_vector(loaded::N) + complex(N, Ni));
+        out.set(loaded::F, out.complex_vector(loaded::F) + complex(-f, -fi));
+        out.set(loaded::D, out.symmetric(loaded::D) + D);
+        out.set(loaded::H, out.symmetric(loaded::H) + H);
+    }
+
+    // One row: the frame of its bodies from their parents'.
+    template <bool wind, bool gravity, Kind kind>
+    BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
+                              W& fastest, SweepFlags& flags, T fold) const {
+        const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
+        prefetch(constants(row + 1, lane).at, constant::count * L);
+        prefetch(now(row + 1, lane).at, motion::count * L);
+        const T h = rows.h;
+        const W mass = k.real(constant::mass);
+        const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
+
+        const M3<W> G = f.R * this->joint_rotation(k);
+        V3<W> half, half_rate;
+        this->halfway(y0, G, f.turn, half, half_rate);
+        const V3<W> theta = theta_0 + half, eta = eta_0 + half_rate;
+        const WideMaps<T> maps = wide_maps<T>(theta);
+        const M3<W> GJ = G * maps.J;
+        const M3<W> rates = maps.J_inverse * transposed(G);
+        const V3<W> r = f.R * k.vector(constant::joint_position);
+        const M3<W> R = G * maps.R;
+        const V3<W> c = R * k.vector(constant::com);
+        W wind_factor{};
+        if constexpr (wind) {
+            f.y = f.y + r.y;
+            wind_factor = this->profile(f.y + c.y);
+        }
+        typename Parts::OverGround over{};
+        if constexpr (field) {
+            f.x = f.x + r.x;
+            f.z = f.z + r.z;
+            over = this->over_ground(row, lane, f.x + c.x, f.z + c.z);
+            wind_factor = this->sheltered(row, lane, wind_factor);
+        }
+        const V3<W> w_0 = GJ * eta_0, w_ahead = GJ * half_rate, w = w_0 + w_ahead;
+
+        const V3<W> spin_p = resolved(f.omega, h, mass, flags.fast_turns),
+                    turning = resolved(w, h, mass, flags.fast_turns);
+        const V3<W> alpha =
+            f.alpha + cross(spin_p, turning) + G * maps.rate_bias(resolved(eta, h, mass, flags.fast_turns));
+        f.a = f.a + cross(f.alpha, r) + cross(spin_p, cross(spin_p, r));
+        f.alpha = alpha;
+        f.v = f.v + cross(f.omega, r);
+        f.ahead_v = f.ahead_v + cross(f.ahead_omega, r);
+        f.omega = f.omega + w;
+        f.ahead_omega = f.ahead_omega + w_ahead;
+        f.own = f.own + w_0;
+        f.turn = f.turn + GJ * half;
+        f.R = R;
+        const W omega2 = dot(f.omega, f.omega);
+        fastest = larger(omega2, fastest);
+        constexpr bool wood = kind == Kind::branch;
+        if (any_above(omega2, fast2(wood))) mark(row_base, lane, omega2, wood, flags);
+
+        V3<W> u{};
+        typename Parts::Speed speed{};
+        if constexpr (wind) {
+            u = wind_factor * wind_here(over) - f.v - cross(f.omega, c);
+            speed = Parts::template air_speed<kind>(u, R);
+        }
+
+        // The joint's spring and damper, while the air's speed is on its way.
+        const V3<W> K = k.vector(constant::K);
+        const M3<W> KT{{K.x * rates.x.x, K.y * rates.x.y, K.z * rates.x.z},
+                       {K.x * rates.y.x, K.y * rates.y.y, K.z * rates.y.z},
+                       {K.x * rates.z.x, K.y * rates.z.y, K.z * rates.z.z}};
+        const V3<W> bent = theta_0 + W(k.real(constant::beta) + rows.s1[0]) * eta_0;
+        out.set(loaded::torque, complex(-transposed_times(KT, bent), -(rows.s1[1] * transposed_times(KT, eta_0))));
+        out.set(loaded::K, symmetric_transposed_product(rates, KT));
+        out.set(loaded::c, c);
+        out.set(loaded::r, r);
+        const auto keep = [&](const auto& to) {
+            to.set(solved::rates, rates);
+            to.set(solved::r, r);
+        };
+        if (rows.stream)
+            keep(Rows<T, true>{solved_row(row, lane).at});
+        else
+            keep(solved_row(row, lane));
+
+        // body_load.h
+        std::uint64_t seen = 0; // counted at the next body's turn about it
+        const V3<W> spin = resolved(f.omega, h, mass, seen);
+        const V3<W> g = vector(rows.gravity);
+        Symmetric<W> J = turned(R, k.symmetric(constant::inertia_joint));
+        out.set(loaded::J, J);
+        Symmetric<W> H{};
+        V3<W> a0 = f.a;
+        if constexpr (gravity) {
+            const V3<W> P = R * k.vector(constant::carried_moment);
+            const W Pg = dot(P, g);
+            H = {Pg - P.x * g.x, T(-0.5) * (P.x * g.y + P.y * g.x), T(-0.5) * (P.x * g.z + P.z * g.x),
+                 Pg - P.y * g.y, T(-0.5) * (P.y * g.z + P.z * g.y), Pg - P.z * g.z};
+            a0 = a0 - g;
+        }
+        const V3<W> turning_N = J * alpha + cross(spin, J * spin);
+        const V3<W> turning_F = mass * (cross(alpha, c) + cross(spin, cross(spin, c)));
+        V3<W> at_com = mass * a0, slope{}; // [N] what is to be turned about the joint: all but the body's own turning
+        if constexpr (wind) {
+            const V3<W> ahead = f.ahead_v + cross(f.ahead_omega, c);
+            const V3<W> com = k.vector(constant::com);
+            const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
+            const auto air_on =
+                Parts::template air<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, fold);
+            out.set(loaded::D, air_on.D);
+            const V3<W> P = R * k.vector(constant::carried_drag); // streaming_stiffness of air.h
+            const W past = kind == Kind::branch ? root(dot(u, u)) : speed.speed;
+            const W along = past * Parts::unfolded(rows.fold, past) * larger(dot(P, u), W{});
+            const V3<W> p = W(along / larger(dot(P, P), all(T(1e-30)))) * P;
+            H = H + Symmetric<W>{along - p.x * P.x, -(p.x * P.y), -(p.x * P.z),
+                                 along - p.y * P.y, -(p.y * P.z), along - p.z * P.z};
+            const V3<W> slope_F = air_on.D * (wind_factor * wind_change_here(over));
+            at_com = at_com - air_on.force - rows.slope[0] * slope_F;
+            slope = -(rows.slope[1] * slope_F);
+        }
+        V3<C> F = complex(turning_F + at_com, slope), N = complex(turning_N + cross(c, at_com), cross(c, slope));
+        if constexpr (gravity || wind) {
+            const V3<W> bent_by = f.turn - rows.s1[0] * f.own, back = H * bent_by,
+                        ahead_back = rows.s1[1] * (H * f.own);
+            N = complex(V3<W>{N.x.re - back.x, N.y.re - back.y, N.z.re - back.z},
+                        V3<W>{N.x.im + ahead_back.x, N.y.im + ahead_back.y, N.z.im + ahead_back.z});
+        }
+        if constexpr (wind && kind != Kind::branch)
+            if (fold > 0) {
+                const T k_spin = T(kind == Kind::leaf ? blade_turning : clump_turning);
+                W rate = k_spin * k.real(constant::drag_area) / larger(mass, all(T(1e-30))) *
+                         (Parts::unfolded(fold, speed.speed) * speed.speed);
+                if (kind == Kind::leaf && rows.leaf.on) rate = rate + rows.leaf.across;
+                damp_spin(out, rate, mass, c, V3<W>(f.omega - f.ahead_omega), J, H, N);
+            }
+        if constexpr (gravity || wind) out.set(loaded::H, H);
+        if (rows.pulls && rows.pull_of_row[row] >= 0) {
+            const Pulls pulls = pulls_on(row, lane, R);
+            N = N + pulls.N;
+            F = F + pulls.F;
+        }
+        out.set(loaded::N, N);
+        out.set(loaded::F, F);
+        if constexpr (wind && kind == Kind::leaf)
+            if (rows.leaf.on)
+                add_leaf(
+                    k, out,
+                    {R, u, f.ahead_v + cross(f.ahead_omega, c), wind_factor * wind_change_here(over), f.turn, f.own});
+    }
+
+    template <bool wind, bool gravity, Kind kind>
+    void group_out(const Group& g, T* loaded_rows, SweepFlags& flags) const {
+        for (int lane = 0; lane < L; lane += width<T>) {
+            Records<T, outward::count> base;
+            base.gather(rows.outward_records, &rows.base[g.first_base + std::size_t(lane)]);
+            Frame f = read_frame(base);
+            W fastest{};
+            for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
+                step_out<wind, gravity, kind>(f, row, g.first_base, lane,
+                                              {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane},
+                                              fastest, flags, Parts::fold_of(g.kind));
+                if (rows.fork_of_row[row] < 0) continue;
+                write_frame(base, f);
+                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
+                             [&](std::uint32_t joint, int k, W w) {
+                                 write(rows.outward_records + joint * record(outward::count, L) + std::size_t(k), w);
+                             });
+            }
+            for (int l = 0; l < width<T>; ++l) flags.omega2 = std::max(flags.omega2, double(fastest[l]));
+        }
+    }
+};
+
+} // namespace BOUGH_TARGET
+} // namespace bough::fast

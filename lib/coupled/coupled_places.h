@@ -1,0 +1,45 @@
+// coupled_places.h: where the coupled step's motions and solutions stand in its one table (Lanes::table).
+#pragma once
+#include "../lanes/layout.h"
+#include "../lanes/row.h"
+#include "coupled_rows.h"
+#include <cstddef>
+
+namespace bough::fast {
+
+// One quantity's rows, or a record's of several: that of a block's row k begins at first + k * stride, in rows of 64 bytes.
+struct Run {
+    std::ptrdiff_t first, stride;
+    std::ptrdiff_t at(std::uint32_t k) const { return first + std::ptrdiff_t(k) * stride; }
+};
+// Where in the coupled step's table stand a block's motion at the step's start, at its end, and what is solved. Each is one stretch of
+// memory, as a core likes to read it. Outward, a row's solution is read for the last time where its motion's end is found, and takes
+// more room than that: the one runs along where the others before it have stood, with one solve a step 66 quantities a body, not
+// 78, and the lines that are written are in the core's cache already. From step to step the motions change places, from the front of the
+// block's stretch to its back, and so does the direction in which the rows stand.
+struct CoupledPlaces {
+    Run now, next, solved;
+};
+// Quantities a row in all. poles: solves a step; waits: as below.
+constexpr int coupled_columns(bool waits, int poles) {
+    if (!waits) return 2 * int(motion::count); // nothing is solved beyond a core's cache
+    return int(solved::count) + (poles > 1 ? 2 : 1) * int(motion::count);
+}
+inline CoupledPlaces coupled_places(const Block& block, bool waits, int poles, bool odd) {
+    constexpr std::ptrdiff_t m = motion::count, s = solved::count;
+    const std::ptrdiff_t count = coupled_columns(waits, poles), rows = block.end_row - block.first_row;
+    const std::ptrdiff_t front = count * block.first_row, back = front + count * rows;
+    if (waits && poles == 1)
+        return odd ? CoupledPlaces{{back - m, -m}, {front, m}, {front, s}}
+                   : CoupledPlaces{{front, m}, {back - m, -m}, {back - s, -s}};
+    const Run one{front, m}, other{front + m * rows, m}; // solved anew while the end is being summed up
+    return {odd ? other : one, odd ? one : other, {front + 2 * m * rows, s}};
+}
+
+// [rows] that the three records of a joint take.
+template <class T> constexpr int records_of_joint() {
+    constexpr int L = Row<T>::lanes;
+    return int((record(outward::count, L) + record(inward::count, L) + record(accelerated::count, L)) / L);
+}
+
+} // namespace bough::fast

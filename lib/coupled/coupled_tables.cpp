@@ -1,0 +1,68 @@
+#include "coupled_tables.h"
+
+namespace bough::fast {
+
+template <class T>
+void place_field_change(const Plan<T>& plan, CoupledLanesState<T>& work, double time, CoupledRows<T>& rows) {
+    const Wind& wind = *plan.scene.wind;
+    evaluate_field(wind, time, work.wind_start);
+    evaluate_field(wind, time + plan.dt, work.wind_end);
+    rows.field_start = tables_of(work.wind_start);
+    rows.field_end = tables_of(work.wind_end);
+}
+
+template <class T>
+void place_block(const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work, const Block& block, CoupledRows<T>& rows) {
+    const CoupledPlaces places = places_of(own, work, block);
+    T* const table = data(work.lanes.table);
+    constexpr std::ptrdiff_t lanes = Row<T>::lanes;
+    rows.first_row = block.first_row;
+    rows.now = table + places.now.first * lanes;
+    rows.next = table + places.next.first * lanes;
+    rows.solved_rows = table + places.solved.first * lanes;
+    rows.now_stride = places.now.stride;
+    rows.next_stride = places.next.stride;
+    rows.solved_stride = places.solved.stride;
+}
+
+template <class T> void scale_wood(PlannedLanes<T>& planned, T stiffness, T damping) {
+    RowVector<T>& constants = planned.constants;
+    for (std::size_t row = 0; row + constant::count <= constants.size(); row += constant::count)
+        for (std::size_t l = 0; l < Row<T>::lanes; ++l) {
+            for (int k = 0; k < 3; ++k) constants[row + constant::K + k].lane[l] *= stiffness;
+            constants[row + constant::beta].lane[l] *= damping;
+        }
+}
+
+template <class T>
+void motion_of_rows(const CoupledLanesPlan<T>& own, const CoupledLanesState<T>& work, std::vector<std::size_t>& at) {
+    const Layout& layout = own.lanes.layout;
+    at.resize(layout.rows);
+    for (const Block& block : layout.blocks) {
+        const Run now = places_of(own, work, block).now;
+        for (std::uint32_t row = block.first_row; row < block.end_row; ++row)
+            at[row] = std::size_t(now.at(row - block.first_row));
+    }
+}
+
+template <class T> void put_pad(const Slot<T>& row) {
+    row.put(constant::R_pj, T(1));
+    row.put(constant::K, Vector3<T>(Vector3<T>::Ones()));
+}
+
+bool streams(const Layout& layout) {
+    constexpr std::uint64_t line = 64; // [bytes] of a row of one quantity
+    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > shared_cache;
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void place_field_change(const Plan<T>&, CoupledLanesState<T>&, double, CoupledRows<T>&);                  \
+    template void place_block(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const Block&, CoupledRows<T>&);       \
+    template void put_pad(const Slot<T>&);                                                                             \
+    template void scale_wood(PlannedLanes<T>&, T, T);                                                                  \
+    template void motion_of_rows(const CoupledLanesPlan<T>&, const CoupledLanesState<T>&, std::vector<std::size_t>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough::fast

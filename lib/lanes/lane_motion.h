@@ -1,0 +1,38 @@
+// lane_motion.h: the angles and rates of bodies where rows hold them, as a stepper shows and hashes them.
+#pragma once
+#include "../base/fnv.h"
+#include "../plan/stepper.h"
+#include "lanes.h"
+
+namespace bough::fast {
+
+template <class... Arrays> void give_back(Arrays&... arrays) {
+    (Arrays().swap(arrays), ...);
+}
+
+// Rows of `count` quantities each: where each row's stand.
+inline std::vector<std::size_t> even_rows(const Layout& layout, std::size_t count) {
+    std::vector<std::size_t> at(layout.rows);
+    for (std::size_t row = 0; row < at.size(); ++row) at[row] = row * count;
+    return at;
+}
+
+// Of theta and theta_dot of all bodies, in document order, as state_hash has them.
+template <class T> std::uint64_t hash_of(const MotionView<T>& view, std::size_t bodies) {
+    Fnv hash;
+    for (const T* quantity : {view.theta, view.theta_dot})
+        for (std::size_t i = 0; i < bodies; ++i)
+            for (std::size_t k = 0; k < 3; ++k) hash.add(quantity[view.at(i) + k * view.stride]);
+    return hash.value();
+}
+
+// All of the view but where each row's quantities stand. theta is a row's quantity 0.
+template <class T>
+void view_rows(const PlannedLanes<T>& planned, const RowVector<T>& rows, int theta_dot, MotionView<T>& view) {
+    view.theta = rows.front().lane;
+    view.theta_dot = view.theta + theta_dot * Row<T>::lanes;
+    view.stride = view.lanes = Row<T>::lanes;
+    view.slot = planned.layout.slot.data();
+}
+
+} // namespace bough::fast

@@ -1,0 +1,20 @@
+// plan_lanes.h: the layout of a plan's bodies in rows of lanes, and what any step in lanes reads of the plan in rows. O(n log n).
+#pragma once
+#include "../plan/plan.h"
+#include "lanes.h"
+
+namespace bough::fast {
+
+// Fills in layout, whether constants are shared, pulls, and the wind's tables; the constants of bodies are the step's own. ranges: of the scene's
+// trees, as make_plan has them.
+template <class T> void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>& ranges, PlannedLanes<T>&);
+
+// Of a plan in lanes; null where it is on the plain path.
+template <class T> const PlannedLanes<T>* planned_lanes(const Plan<T>& plan) {
+    return plan.stepper->lanes();
+}
+template <class T> PlannedLanes<T>* planned_lanes(Plan<T>& plan) {
+    return const_cast<PlannedLanes<T>*>(plan.stepper->lanes());
+}
+
+} // namespace bough::fast

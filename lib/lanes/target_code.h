@@ -1,0 +1,56 @@
+// target_code.h: code that is compiled once for each SIMD target, in a namespace of the target's name, found when the program runs.
+//
+//   BOUGH_IN_TARGETS(template <class T> Sweeps<T> sweeps(bool wind);)          declares it in the namespace of each target that is compiled in
+//   return BOUGH_OF_TARGET(target, sweeps<T>(wind));                           calls that of `target`, which must be available
+// What the counted target does not have is declared and called by the same names ending in _MACHINE.
+#pragma once
+#include "operations.h"
+#include "target.h"
+
+#ifdef BOUGH_HAS_AVX2
+#define BOUGH_IN_AVX2(...)                                                                                             \
+    namespace avx2 {                                                                                                   \
+    __VA_ARGS__                                                                                                        \
+    }
+#define BOUGH_OR_AVX2(target, ...) (target) == ::bough::fast::Target::avx2 ? avx2::__VA_ARGS__:
+#else
+#define BOUGH_IN_AVX2(...)
+#define BOUGH_OR_AVX2(target, ...)
+#endif
+#ifdef BOUGH_HAS_AVX512
+#define BOUGH_IN_AVX512(...)                                                                                           \
+    namespace avx512 {                                                                                                 \
+    __VA_ARGS__                                                                                                        \
+    }
+#define BOUGH_OR_AVX512(target, ...) (target) == ::bough::fast::Target::avx512 ? avx512::__VA_ARGS__:
+#else
+#define BOUGH_IN_AVX512(...)
+#define BOUGH_OR_AVX512(target, ...)
+#endif
+#ifdef BOUGH_HAS_COUNTED
+#define BOUGH_IN_COUNTED(...)                                                                                          \
+    namespace counted {                                                                                                \
+    __VA_ARGS__                                                                                                        \
+    }
+#define BOUGH_OR_COUNTED(target, ...) (target) == ::bough::fast::counted_target ? counted::__VA_ARGS__:
+#else
+#define BOUGH_IN_COUNTED(...)
+#define BOUGH_OR_COUNTED(target, ...)
+#endif
+
+#define BOUGH_IN_TARGETS_MACHINE(...)                                                                                  \
+    namespace baseline {                                                                                               \
+    __VA_ARGS__                                                                                                        \
+    }                                                                                                                  \
+    BOUGH_IN_AVX2(__VA_ARGS__)                                                                                         \
+    BOUGH_IN_AVX512(__VA_ARGS__)
+#define BOUGH_OF_TARGET_MACHINE(target, ...)                                                                           \
+    (::bough::fast::require(target),                                                                                   \
+     BOUGH_OR_AVX512(target, __VA_ARGS__) BOUGH_OR_AVX2(target, __VA_ARGS__) baseline::__VA_ARGS__)
+
+#define BOUGH_IN_TARGETS(...)                                                                                          \
+    BOUGH_IN_TARGETS_MACHINE(__VA_ARGS__)                                                                              \
+    BOUGH_IN_COUNTED(__VA_ARGS__)
+#define BOUGH_OF_TARGET(target, ...)                                                                                   \
+    (::bough::fast::require(target), BOUGH_OR_COUNTED(target, __VA_ARGS__) BOUGH_OR_AVX512(target, __VA_ARGS__)        \
+                                         BOUGH_OR_AVX2(target, __VA_ARGS__) baseline::__VA_ARGS__)

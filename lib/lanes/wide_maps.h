@@ -1,0 +1,76 @@
+// wide_maps.h: rotation_maps.h for registers of lanes: exp(theta), J, J^-1 and J_dot eta, without branches.
+//
+// With q = |theta|^2 all is made of four entire functions, by their series:
+//   c1 = sum (-q)^k / (2k+2)!,   c2 = sum (-q)^k / (2k+3)!,   s = 1 - q c2
+//   c1' = (s - 2 c1) / q = -sum 2k (-q)^(k-1) / (2k+2)!  over k >= 1,   c2' = (c1 - 3 c2) / q = -sum 2k (-q)^(k-1) / (2k+3)!
+//   t2 = (1 - s / (2 c1)) / q = -c1' / (2 c1)
+// to rounding up to |theta| = 3.5: half a turn and half a step on.
+// Written a second time: without branches there is no quotient of sines for large angles, so the series are longer, and end at 3.5.
+#pragma once
+#include "wide_algebra.h"
+
+namespace bough::fast {
+inline namespace BOUGH_TARGET {
+
+template <class T> struct WideMaps {
+    using W = Wide<T>;
+    M3<W> R, J, J_inverse;
+    W c2, dc1, dc2;
+    V3<W> theta;
+
+    BOUGH_FORCE V3<W> rate_bias(const V3<W>& eta) const {
+        const V3<W> across = cross(theta, eta);
+        return dot(theta, eta) * (dc1 * across + dc2 * cross(theta, across)) + c2 * cross(eta, across);
+    }
+};
+
+// 1 + a theta* + b theta* theta*, with theta* theta* = theta theta^T - q.
+template <class W> BOUGH_FORCE M3<W> rotation_form(const V3<W>& t, W q, W a, W b) {
+    const W d = 1 - b * q;
+    const W xy = b * t.x * t.y, xz = b * t.x * t.z, yz = b * t.y * t.z;
+    const V3<W> s = a * t;
+    return {{d + b * t.x * t.x, xy + s.z, xz - s.y},
+            {xy - s.z, d + b * t.y * t.y, yz + s.x},
+            {xz + s.y, yz - s.x, d + b * t.z * t.z}};
+}
+
+template <class T> BOUGH_FORCE WideMaps<T> wide_maps(const V3<Wide<T>>& theta) {
+    using W = Wide<T>;
+    constexpr int terms = sizeof(T) == 4 ? 9 : 15;
+    struct Series {
+        T c1[terms], c2[terms], dc1[terms], dc2[terms];
+        constexpr Series() : c1(), c2(), dc1(), dc2() {
+            double factorial = 2, sign = 1; // (2k+2)!
+            for (int k = 0; k < terms; ++k) {
+                c1[k] = T(sign / factorial);
+                c2[k] = T(sign / (factorial * (2 * k + 3)));
+                factorial *= (2 * k + 3) * (2 * k + 4); // of k + 1
+                sign = -sign;
+                dc1[k] = T(sign * 2 * (k + 1) / factorial);
+                dc2[k] = T(sign * 2 * (k + 1) / (factorial * (2 * k + 5)));
+            }
+        }
+    };
+    static constexpr Series series;
+    const W q = dot(theta, theta);
+    W c1 = all<T>(series.c1[terms - 1]), c2 = all<T>(series.c2[terms - 1]);
+    W dc1 = all<T>(series.dc1[terms - 1]), dc2 = all<T>(series.dc2[terms - 1]);
+    for (int k = terms - 2; k >= 0; --k) {
+        c1 = c1 * q + series.c1[k];
+        c2 = c2 * q + series.c2[k];
+        dc1 = dc1 * q + series.dc1[k];
+        dc2 = dc2 * q + series.dc2[k];
+    }
+    WideMaps<T> m;
+    m.theta = theta;
+    m.c2 = c2;
+    m.dc1 = dc1;
+    m.dc2 = dc2;
+    m.R = rotation_form(theta, q, W(1 - q * c2), c1);
+    m.J = rotation_form(theta, q, c1, c2);
+    m.J_inverse = rotation_form(theta, q, all<T>(T(-0.5)), W(dc1 / (-2 * c1)));
+    return m;
+}
+
+} // namespace BOUGH_TARGET
+} // namespace bough::fast

@@ -1,0 +1,82 @@
+// leaf_air.h: what the air does to a leaf or petal beyond air.h, where the scene has /leaves: (23)'s second term and the torque (24).
+//
+// With u the wind's velocity less the body's at its centre of mass, n the normal (y), u_n = (u.n) n, u_t = u - u_n, I the inertia about the
+// centre of mass, s = kappa rho A (Plan::drag_area), m the mass, all in one frame, world or the body's:
+//   force    nu m (u_n + u_t / xi)
+//   torque   k (u.n) n x (u cos phi + n x u sin phi) - nu I w,   k = kappa rho A/2 sqrt(A/pi) = s^3/2 / (2 sqrt(pi kappa rho))
+// How they are kept stable at any step. The force is linear in the velocity, its damping exact; so is nu I w. The first torque changes by at most
+// 2 k |u| with the velocity. At the arm c of a leaf's centre of mass that is sqrt(A/pi) / c of what the pressure's own damping takes, s |u| c^2,
+// in its worst direction, a wind along the surface from the tip, and mostly far less: that damping covers it, and it is not taken itself. With
+// rotation it changes by at most k |u|^2 a radian, the force's moment by nu m |u| c: as in air.h, twice that is what leaf_turning allows for.
+#pragma once
+#include "../base/math.h"
+#include "../model/scene.h"
+#include "air.h"
+#include "leaf_terms.h"
+#include <algorithm>
+#include <numbers>
+
+namespace bough {
+
+// kappa of leaves and petals: the scene's own, or half a plate's drag coefficient.
+inline double plate_kappa(const Scene& scene) {
+    return scene.leaves ? scene.leaves->kappa : plate_drag / 2;
+}
+
+// Off where the scene has no /leaves.
+template <class T> LeafTerms<T> leaf_terms(const Scene& scene) {
+    LeafTerms<T> terms;
+    if (!scene.leaves) return terms;
+    const LeafAir& air = *scene.leaves;
+    const double pressed = air.kappa * scene.air_density, offset = air.offset * std::numbers::pi / 180;
+    terms.on = true;
+    terms.across = T(air.air_resistance);
+    terms.along = T(air.air_resistance / air.drag_ratio);
+    terms.most = std::max(terms.across, terms.along);
+    terms.torque = pressed > 0 ? T(0.5 / std::sqrt(std::numbers::pi * pressed)) : T(0);
+    terms.cos_offset = T(std::cos(offset));
+    terms.sin_offset = T(std::sin(offset));
+    return terms;
+}
+
+// k [kg] of a body with s = drag_area [kg/m].
+template <class T> T leaf_lever(const LeafTerms<T>& terms, T drag_area) {
+    return terms.torque * drag_area * std::sqrt(drag_area);
+}
+
+// [N]
+template <class T>
+Vector3<T> leaf_resistance(const LeafTerms<T>& terms, T mass, const Matrix3<T>& R, const Vector3<T>& u) {
+    const Vector3<T> n = R.col(1);
+    return mass * (terms.along * u + (terms.across - terms.along) * u.dot(n) * n);
+}
+
+// Minus its derivative with the body's velocity [N s/m].
+template <class T> Matrix3<T> leaf_damping(const LeafTerms<T>& terms, T mass, const Matrix3<T>& R) {
+    const Vector3<T> n = R.col(1);
+    return mass * (terms.along * Matrix3<T>::Identity() + (terms.across - terms.along) * n * n.transpose());
+}
+
+// [N m] The torque but for nu I w.
+template <class T>
+Vector3<T> leaf_torque(const LeafTerms<T>& terms, T drag_area, const Matrix3<T>& R, const Vector3<T>& u) {
+    const Vector3<T> n = R.col(1), turning = n.cross(u);
+    return leaf_lever(terms, drag_area) * u.dot(n) * (terms.cos_offset * turning + terms.sin_offset * n.cross(turning));
+}
+
+// I [kg m^2]; J: inertia about the joint, c: the centre of mass from there.
+template <class T> Matrix3<T> central_inertia(T mass, const Matrix3<T>& J, const Vector3<T>& c) {
+    return J + mass * (c * c.transpose() - c.squaredNorm() * Matrix3<T>::Identity());
+}
+
+// How fast both moments about the joint may change with rotation [N m/rad]: symmetric, positive semidefinite. arm: |c|.
+template <class T>
+Matrix3<T> leaf_turning(const LeafTerms<T>& terms, T drag_area, T mass, T arm, const Matrix3<T>& R,
+                        const Vector3<T>& u) {
+    const Vector3<T> n = R.col(1), axis = R.col(2);
+    const Matrix3<T> one = Matrix3<T>::Identity();
+    return 2 * leaf_lever(terms, drag_area) * u.squaredNorm() * (one - n * n.transpose()) +
+           2 * mass * terms.most * arm * u.norm() * (one - axis * axis.transpose());
+}
+
+} // namespace bough

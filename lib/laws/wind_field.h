@@ -1,0 +1,117 @@
+// wind_field.h: a wind that is not the same everywhere over the ground (§7): cells of a grid, and cylinders on which it turns to and fro.
+//
+// Grid. In cell c, at the reference height,
+//   v_c(t) = V_c (1 + sum_k p_c^k sin(2^k (2 pi f t + phase_c) + psi_k) / sum_k p_c^k) G(t) + Q(t),   k = 0 ... octaves_c - 1
+// V_c the cell's mean velocity (the wind's own where the grid names none), p the persistence; psi_0 = 0, the others from the seed. So it
+// swings between 0 and 2 V_c, is periodic with 1 / f, and a cell whose phase is ahead has the same gusts earlier: phases that fall along the
+// wind are gusts that travel. G, Q: the gusts' factor and the turbulence of the wind as a whole (wind.h), the same in all cells. Outside
+// the grid: the nearest cell. Without a grid there is one cell, whose octaves are 0.
+//
+// Swirl. The paper turns v by adding h s, s = v x j normalised, and rescaling to |v|. As v and s are at right angles, that is
+//   v' = v cos a + |v| s sin a,   h = |v| tan a,   a(r, t) = A(r) sin(2 pi (t / period - r / wavelength))
+// with any |a|, r the distance from the axis, A(r) the monotone cubic through the keys (base/monotone.h), constant beyond
+// them. A wind straight up or down stays.
+//
+// What steps look up (WindField): velocities of cells and, at even radii, the angle's cosine and sine, linear between and brought
+// back to length 1, so that the magnitude stays to rounding. Trees that are ahead in the wind (Placement::start) look theirs up in tables of
+// their own, one set a clock, which hold the wind of t + start; gusts and turbulence are ahead too. The radii are as near as a 64th of a wavelength, of the distance between two keys
+// and of the way to the farthest body; beyond that one they are constant.
+#pragma once
+#include "../model/scene.h"
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bough {
+
+// Whether bodies must know where over the ground they are.
+inline bool varies_over_ground(const Wind& wind) {
+    return wind.grid || wind.swirl || wind.shelter;
+}
+// Whether it blows the same at all times.
+bool steady(const Wind&);
+
+// The wind as a whole at one time.
+struct WindWeather {
+    double gust = 1;                // [1] G
+    Vec3 turbulence = Vec3::Zero(); // [m/s] Q
+};
+
+// A period as it is taken: where the wind repeats, the nearest of which a whole number goes into that time.
+inline double whole_period(const Wind& wind, double period) {
+    return wind.period ? *wind.period / std::max(1.0, std::round(*wind.period / period)) : period;
+}
+
+// v turned about the vertical by the angle of cosine c and sine s: of v straight up, v.
+template <class T> Vector3<T> swirled(const Vector3<T>& v, T c, T s) {
+    const T flat = v.x() * v.x() + v.z() * v.z();
+    if (!(flat > T(1e-30))) return v;
+    const T k = s * std::sqrt((flat + v.y() * v.y()) / flat);
+    return {c * v.x() - k * v.z(), c * v.y(), c * v.z() + k * v.x()};
+}
+
+// The clocks of a scene's trees: every start that one has, once, 0 first; one alone where none is ahead.
+std::vector<double> wind_clocks(const Scene&);
+
+// The cell of a grid that holds for the place (x, z) [m]: cells at the border hold for all beyond.
+inline std::size_t cell_at(const WindGrid& grid, double x, double z) {
+    const auto along = [&](double place, std::int32_t count) {
+        return std::size_t(std::clamp(std::floor(place * (1 / grid.cell)), 0.0, double(count - 1)));
+    };
+    return along(z - grid.z, grid.rows) * std::size_t(grid.columns) + along(x - grid.x, grid.columns);
+}
+
+// Of a list of one value, or of one a cell.
+template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell) {
+    return list.size() == 1 ? list.front() : list[cell];
+}
+
+// Directly: the velocity at (x, z) [m] where the profile is 1.
+Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double t);
+
+template <class T> struct WindField {
+    // Grid
+    T x = 0, z = 0, per_metre = 0; // [m] least corner; [1/m] cells a metre
+    std::int32_t columns = 1, rows = 1;
+    std::vector<T>
+        velocity; // [m/s] of each clock's cells where the profile is 1: all x, all y, all z; empty: no field at all
+    // Swirl
+    T center_x = 0, center_z = 0, rings_per_metre = 0; // [m]; [1/m] entries a metre
+    std::vector<T> turn;                               // of each clock's rings: cosines, then sines; empty: none
+    std::vector<double> ahead, behind;                 // [rad] A(r) times cosine and sine of 2 pi r / wavelength
+
+    std::vector<double> clock{0}; // [s] by how much each is ahead
+
+    bool on() const { return !velocity.empty(); }
+    std::size_t cells() const { return std::size_t(columns) * std::size_t(rows); } // of one clock
+    std::size_t rings() const { return ahead.size(); }
+
+    Vector3<T> at(T px, T pz, std::size_t which = 0) const {
+        // A place that is not a number, in a run that diverges, is the first cell: max keeps its first argument.
+        const auto along = [](T place, std::int32_t count) {
+            return std::size_t(std::min(std::max(T(0), place), T(count - 1)));
+        };
+        const std::size_t n = velocity.size() / 3, k = which * cells() +
+                                                       along((pz - z) * per_metre, rows) * std::size_t(columns) +
+                                                       along((px - x) * per_metre, columns);
+        const Vector3<T> v(velocity[k], velocity[n + k], velocity[2 * n + k]);
+        if (turn.empty()) return v;
+        const T dx = px - center_x, dz = pz - center_z;
+        const T place = std::min(std::max(T(0), std::sqrt(dx * dx + dz * dz) * rings_per_metre), T(rings() - 1));
+        const std::size_t ring = std::min(std::size_t(place), rings() - 2);
+        const T w = place - T(ring);
+        const T* c = turn.data() + which * rings() + ring;
+        const T* s = c + turn.size() / 2;
+        const T cosine = c[0] + w * (c[1] - c[0]), sine = s[0] + w * (s[1] - s[0]);
+        const T one = 1 / std::sqrt(cosine * cosine + sine * sine);
+        return swirled<T>(v, one * cosine, one * sine);
+    }
+};
+
+// reach: [m] how far from the swirl's axis bodies can be. Throws std::domain_error where that takes more entries than there may be, and where
+// cells times clocks do.
+template <class T> WindField<T> make_wind_field(const Wind&, double reach, const std::vector<double>& clocks = {0});
+// Fills in velocities and turns at time t. O(clocks (cells octaves + rings)). Allocates nothing.
+template <class T> void evaluate_field(const Wind&, double t, WindField<T>&);
+
+} // namespace bough

@@ -1,0 +1,45 @@
+#include "carried.h"
+#include "../laws/air.h"
+#include "../laws/leaf_air.h"
+#include "reduce.h"
+
+namespace bough {
+
+template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree) {
+    plan.drag_area.reserve(plan.bodies);
+    const Scene& scene = plan.scene;
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        plan.drag_area.push_back(
+            T(drag_area(kind_in_air(tree, i), tree.size[i], scene.air_density, plate_kappa(scene))));
+}
+
+template <class T> std::vector<Vec3> carried_moments(const Plan<T>& plan, const Tree& tree) {
+    std::vector<Vec3> P(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) P[i] = tree.mass[i] * tree.com[i];
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += double(plan.c_mass[i]) * tree.joint_position[i];
+    return P;
+}
+
+template <class T> std::vector<Vec3> carried_drag(const Plan<T>& plan, const Tree& tree) {
+    std::vector<double> drag(plan.bodies); // [kg/m] of all outboard, its own included
+    std::vector<Vec3> P(plan.bodies);
+    for (std::size_t i = plan.bodies; i-- > 0;) {
+        const bool flat = is_flat(kind_in_air(tree, i));
+        drag[i] += double(plan.drag_area[i]) * (flat ? blade_mean : 1);
+        P[i] = double(plan.drag_area[i]) * (flat ? streaming_drag : 1) * tree.com[i];
+        if (tree.parent[i] >= 0) drag[std::size_t(tree.parent[i])] += drag[i];
+    }
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        if (tree.parent[i] >= 0) P[std::size_t(tree.parent[i])] += drag[i] * tree.joint_position[i];
+    return P;
+}
+
+template void plan_surfaces(Plan<float>&, const Tree&);
+template void plan_surfaces(Plan<double>&, const Tree&);
+template std::vector<Vec3> carried_moments(const Plan<float>&, const Tree&);
+template std::vector<Vec3> carried_moments(const Plan<double>&, const Tree&);
+template std::vector<Vec3> carried_drag(const Plan<float>&, const Tree&);
+template std::vector<Vec3> carried_drag(const Plan<double>&, const Tree&);
+
+} // namespace bough

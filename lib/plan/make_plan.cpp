@@ -1,0 +1,260 @@
+#include "make_plan.h"
+#include "../base/shortest_text.h"
+#include "../laws/leaf_air.h"
+#include "carried.h"
+#include "plan_reach.h"
+#include "pose.h"
+#include "reduce.h"
+#include "shelter.h"
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+namespace bough {
+
+namespace {
+
+// Gives an array back. own: the tree that was handed over; null: it is somebody else's, and stays.
+template <class A> void give_back(A& array) {
+    A().swap(array);
+}
+template <class... Arrays> void give_back(Tree* own, Arrays Tree::*... arrays) {
+    if (own) (give_back(own->*arrays), ...);
+}
+
+// Where the springs start, and from where they turn.
+template <class T> void plan_pose(Plan<T>& plan, const Tree& tree, Tree* own) {
+    StartPose pose = start_pose(tree, plan.scene.gravity, plan.scene.pose);
+    give_back(own, &Tree::joint_rotation, &Tree::load);
+    plan.theta_start.reserve(plan.bodies);
+    for (const Vec3& theta : pose.theta) plan.theta_start.push_back(theta.template cast<T>());
+    give_back(pose.theta);
+    plan.R_pj.reserve(plan.bodies);
+    for (const Quat& q : pose.joint_rotation) plan.R_pj.push_back(q.toRotationMatrix().template cast<T>());
+}
+
+template <class T> void plan_composite_masses(Plan<T>& plan, const Tree& tree) {
+    std::vector<double> c_mass(tree.mass);
+    for (std::size_t i = plan.bodies; i-- > 0;)
+        if (tree.parent[i] >= 0) c_mass[std::size_t(tree.parent[i])] += c_mass[i];
+    plan.c_mass.reserve(plan.bodies);
+    for (const double mass : c_mass) plan.c_mass.push_back(T(mass));
+}
+
+// All that is left to take over.
+template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, Tree* own) {
+    const auto take = [&](auto& to, const auto& from) {
+        to.reserve(plan.bodies);
+        for (const auto& value : from) {
+            if constexpr (std::is_same_v<decltype(value), const double&>)
+                to.push_back(T(value));
+            else
+                to.push_back(value.template cast<T>());
+        }
+    };
+    plan.inertia_joint.reserve(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const Mat3 com = cross_matrix(tree.com[i]);
+        plan.inertia_joint.push_back(Mat3(tree.inertia[i] - tree.mass[i] * com * com).template cast<T>());
+    }
+    give_back(own, &Tree::inertia);
+    take(plan.joint_position, tree.joint_position);
+    give_back(own, &Tree::joint_position);
+    take(plan.com, tree.com);
+    give_back(own, &Tree::com);
+    take(plan.K, tree.stiffness);
+    give_back(own, &Tree::stiffness);
+    take(plan.mass, tree.mass);
+    take(plan.beta, tree.damping);
+    give_back(own, &Tree::mass, &Tree::damping);
+    if (plan.wind) plan.kind = tree.kind;
+    for (std::size_t i = 0; i < plan.kind.size(); ++i) plan.kind[i] = kind_in_air(tree, i);
+    plan.foliage = std::any_of(plan.kind.begin(), plan.kind.end(), is_foliage);
+    plan.parent = tree.parent;
+    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid, &Tree::leaf_count);
+}
+
+// With lanes that hold them all, and nobody who reads poses.
+template <class T> void give_back_bodies(Plan<T>& plan) {
+    const auto all = [](auto&... arrays) { (give_back(arrays), ...); };
+    all(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint, plan.K,
+        plan.beta, plan.drag_area, plan.kind, plan.shelter, plan.clock);
+}
+
+template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
+    constexpr double degree = 3.14159265358979323846 / 180;
+    const JointLimit& limit = *plan.scene.joint_limit;
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const Kind kind = tree.kind[i];
+        const Vec3& most = kind == Kind::branch ? limit.branch : kind == Kind::fruit ? limit.fruit : limit.leaf;
+        Vector3<T> angle;
+        for (int k = 0; k < 3; ++k) {
+            angle[k] = most[k] < 180 ? T(most[k] * degree) : std::numeric_limits<T>::infinity();
+            if (!(std::abs(plan.theta_start[i][k]) <= angle[k]))
+                throw std::domain_error(
+                    "joint_limit: body " + std::to_string(i) + " (branch " + std::to_string(tree.branch[i]) +
+                    ") starts " + four_digits(double(plan.theta_start[i][k]) / degree) +
+                    " degrees from its spring's rest about " + "xyz"[k] + ", its limit is " + four_digits(most[k]));
+        }
+        plan.theta_limit.push_back(angle);
+    }
+}
+
+template <class T> WindReach reach_of(const Plan<T>& plan, const Tree& tree) {
+    WindReach reach{highest_reach(tree, plan.splines, plan.moved), 0};
+    if (const std::optional<WindSwirl>& swirl = plan.scene.wind->swirl)
+        reach.reach = farthest_reach(tree, plan.splines, plan.moved, swirl->x, swirl->z);
+    return reach;
+}
+
+// Which of the wind's clocks each body goes by, where there are several.
+template <class T>
+void plan_clocks(Plan<T>& plan, const std::vector<TreeRange>& ranges, const std::vector<double>& whole) {
+    plan.clocks = whole.empty() ? wind_clocks(plan.scene) : whole;
+    if (plan.clocks.size() == 1) return;
+    plan.clock.resize(plan.bodies);
+    for (std::size_t k = 0; k < std::min(ranges.size(), plan.scene.trees.size()); ++k) {
+        const auto which = std::find(plan.clocks.begin(), plan.clocks.end(), plan.scene.trees[k].start);
+        std::fill_n(plan.clock.begin() + std::ptrdiff_t(ranges[k].first_body), ranges[k].bodies,
+                    std::uint32_t(which - plan.clocks.begin()));
+    }
+}
+
+template <class T> void plan_root_motion(Plan<T>& plan, const std::vector<TreeRange>& ranges) {
+    const Scene& scene = plan.scene;
+    plan.root_motion = !scene.root_motion.empty();
+    for (const RootMotion& motion : scene.root_motion) {
+        if (motion.tree < 0 || std::size_t(motion.tree) >= ranges.size())
+            throw std::out_of_range("root_motion: tree " + std::to_string(motion.tree) +
+                                    " is not there, the scene has " + std::to_string(ranges.size()));
+        const auto k = std::size_t(motion.tree);
+        if (ranges[k].bodies > 0) // else all of it stands still on its ground (reduce.h)
+            plan.moved.push_back({ranges[k].first_body, ranges[k].bodies, plan.splines.size()});
+        plan.splines.push_back(
+            make_root_spline(motion, k < scene.trees.size() ? scene.trees[k].position : Vec3::Zero()));
+    }
+    std::sort(plan.moved.begin(), plan.moved.end(),
+              [](const MovedTree& a, const MovedTree& b) { return a.first_body < b.first_body; });
+}
+
+void scale(Tree& tree, const Scene& scene) {
+    for (Vec3& K : tree.stiffness) K *= scene.stiffness_scale;
+    for (double& beta : tree.damping) beta *= scene.damping_scale;
+}
+
+// What is to be done before, and would else be ignored.
+void require_reduced(const Tree& tree, const Scene& scene) {
+    if (scene.simulate) throw std::domain_error("simulate: is still to be applied to the tree (hold_rigid)");
+    for (std::size_t i = 0; i < tree.rigid.size(); ++i)
+        if (tree.rigid[i] == 1)
+            throw std::domain_error("rigid: body " + std::to_string(i) +
+                                    " is still to be joined to what it hangs on (reduce)");
+}
+
+bool scales(const Scene& scene) {
+    return scene.stiffness_scale != 1 || scene.damping_scale != 1;
+}
+
+void refuse_unapplied(const Scene& scene) {
+    for (const auto& [field, there, function] :
+         {std::tuple{"wood", scene.wood.has_value(), "override_wood"}, {"load", scene.load.has_value(), "lay_load"}})
+        if (there)
+            throw std::domain_error(std::string(field) + ": is still in the scene, expected in the tree (" + function +
+                                    "), and no longer in the scene");
+}
+
+template <class T> void plan_pulls(Plan<T>& plan, const Tree& tree, const std::vector<TreeRange>& ranges) {
+    for (std::size_t k = 0; k < plan.scene.pulls.size(); ++k) {
+        try {
+            for (const Selected& target : select(tree, ranges, plan.scene.pulls[k].on))
+                plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
+        } catch (const std::out_of_range& error) {
+            throw std::out_of_range("/pulls/" + std::to_string(k) + "/on: " + error.what());
+        }
+    }
+}
+
+// tree: scaled. own: the same, where it may be given back array by array; else null. What reads much of the tree stands first.
+template <class T>
+Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ranges, const Scene& scene,
+                  const Wishes& wishes, double dt, std::unique_ptr<Stepper<T>> made) {
+    require_reduced(tree, scene);
+    Plan<T> plan;
+    plan.bodies = tree.size_bodies();
+    plan.dt = dt;
+    plan.stepper = std::move(made);
+    Stepper<T>& stepper = *plan.stepper;
+    plan.scene = scene;
+    plan.gravity = !scene.gravity.isZero();
+    plan.wind = scene.wind.has_value(); // a wind of no velocity is still air, which drags
+    if (plan.wind) plan.leaf = leaf_terms<T>(scene);
+    plan_pulls(plan, tree, ranges);
+    give_back(own, &Tree::level, &Tree::s);
+    stepper.refuse(scene);
+    refuse_unapplied(scene);
+    plan.contact = may_push(scene);
+    plan.loads = plan.contact || !scene.walkers.empty() || wishes.loads;
+    plan.forces = plan.wind || plan.pushes();
+    plan.velocity_wished = wishes.velocity;
+    plan.velocity = wishes.velocity || stepper.reads_velocities(plan);
+    plan.torque = wishes.torque;
+    plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || wishes.torque || scene.fracture ||
+                !scene.balls.empty();
+    plan_root_motion(plan, ranges);
+    if (plan.wind) {
+        const WindReach reach = reach_of(plan, tree);
+        plan.top = std::max(reach.top, wishes.top);
+        plan.reach = std::max(reach.reach, wishes.reach);
+        plan_clocks(plan, ranges, wishes.clocks);
+    }
+    plan.field = plan.wind && (varies_over_ground(*scene.wind) || !plan.clock.empty());
+    if (plan.wind) plan_surfaces(plan, tree);
+    plan_composite_masses(plan, tree);
+    stepper.take_constants(plan, tree);
+    give_back(own, &Tree::size);
+    plan_pose(plan, tree, own);
+    plan.joint_limit = scene.joint_limit.has_value();
+    if (plan.joint_limit) plan_joint_limit(plan, tree);
+    plan_bodies(plan, tree, own);
+    if (plan.wind && scene.wind->shelter) plan.shelter = shelter_factors(plan);
+    stepper.lay_out(plan, ranges);
+    if (!plan.pose) give_back_bodies(plan);
+    return plan;
+}
+
+} // namespace
+
+WindReach wind_reach(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene) {
+    Plan<double> plan;
+    plan.scene = scene;
+    plan_root_motion(plan, ranges);
+    return reach_of(plan, tree);
+}
+
+template <class T>
+Plan<T> make_plan(const Tree& drawn, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt, std::unique_ptr<Stepper<T>> stepper) {
+    if (!scales(scene)) return plan_tree<T>(drawn, nullptr, ranges, scene, wishes, dt, std::move(stepper));
+    Tree scaled = drawn;
+    scale(scaled, scene);
+    return plan_tree<T>(scaled, &scaled, ranges, scene, wishes, dt, std::move(stepper));
+}
+
+template <class T>
+Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt, std::unique_ptr<Stepper<T>> stepper) {
+    if (scales(scene)) scale(tree, scene);
+    return plan_tree<T>(tree, &tree, ranges, scene, wishes, dt, std::move(stepper));
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template Plan<T> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double,        \
+                               std::unique_ptr<Stepper<T>>);                                                           \
+    template Plan<T> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double,             \
+                               std::unique_ptr<Stepper<T>>);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough

@@ -1,0 +1,80 @@
+#include "state.h"
+#include "../base/fnv.h"
+#include <cassert>
+
+namespace bough {
+
+template <class T> State<T> make_state(const Plan<T>& plan) {
+    State<T> state;
+    const Vector3<T> none = Vector3<T>::Zero();
+    if (plan.pose) {
+        state.theta = plan.theta_start;
+        state.theta_dot.assign(plan.bodies, none);
+        state.R_wb.assign(plan.bodies, Matrix3<T>::Zero());
+        state.x_w.assign(plan.bodies, none);
+    }
+    if (plan.velocity) state.omega_w.assign(plan.bodies, none);
+    if (plan.velocity) state.v_w.assign(plan.bodies, none);
+    if (plan.torque) state.torque_j.assign(plan.bodies, none);
+    state.ground.resize(plan.splines.size());
+    plan.stepper->allocate(plan, state);
+    plan.stepper->begin(plan, state, plan.theta_start);
+    return state;
+}
+
+template <class T> void restart(const Plan<T>& plan, State<T>& state) {
+    assert(state.theta.size() == plan.bodies); // without Plan::pose: there since present()
+    plan.stepper->begin(plan, state, state.theta);
+}
+
+template <class T> void advance(const Plan<T>& plan, State<T>& state, StageClock* clock) {
+    plan.stepper->advance(plan, state, clock);
+}
+
+template <class T> void present(const Plan<T>& plan, State<T>& state) {
+    plan.stepper->present(plan, state);
+}
+
+template <class T> std::size_t State<T>::bytes() const {
+    std::size_t sum = own ? own->bytes() : 0;
+    for (const auto* array : {&theta, &theta_dot, &x_w, &omega_w, &v_w, &torque_j})
+        sum += array->capacity() * sizeof(Vector3<T>);
+    return sum + R_wb.capacity() * sizeof(Matrix3<T>);
+}
+
+template <class T> std::uint64_t state_hash(const State<T>& state) {
+    Fnv hash;
+    for (const auto* array : {&state.theta, &state.theta_dot})
+        for (const Vector3<T>& v : *array)
+            for (int k = 0; k < 3; ++k) hash.add(v[k]);
+    return hash.value();
+}
+
+template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>& state) {
+    return plan.stepper->hash(plan, state);
+}
+
+template <class T> std::optional<std::size_t> first_non_finite(const State<T>& state) {
+    for (std::size_t i = 0; i < state.theta.size(); ++i)
+        if (!state.theta[i].allFinite() || !state.theta_dot[i].allFinite()) return i;
+    return std::nullopt;
+}
+
+template struct State<float>;
+template struct State<double>;
+template State<float> make_state(const Plan<float>&);
+template State<double> make_state(const Plan<double>&);
+template void restart(const Plan<float>&, State<float>&);
+template void restart(const Plan<double>&, State<double>&);
+template void advance(const Plan<float>&, State<float>&, StageClock*);
+template void advance(const Plan<double>&, State<double>&, StageClock*);
+template void present(const Plan<float>&, State<float>&);
+template void present(const Plan<double>&, State<double>&);
+template std::uint64_t state_hash(const State<float>&);
+template std::uint64_t state_hash(const State<double>&);
+template std::uint64_t state_hash(const Plan<float>&, const State<float>&);
+template std::uint64_t state_hash(const Plan<double>&, const State<double>&);
+template std::optional<std::size_t> first_non_finite(const State<float>&);
+template std::optional<std::size_t> first_non_finite(const State<double>&);
+
+} // namespace bough

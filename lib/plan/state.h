@@ -1,0 +1,85 @@
+// state.h: what a step changes, whatever the solver. Arrays are empty where the plan leaves them out.
+#pragma once
+#include "../laws/wind.h"
+#include "plan.h"
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace bough {
+
+// What happened in the steps so far; none of it acts on the result but bounded_lambda, energy_guard and limited.
+struct StepFlags {
+    std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
+    std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
+    std::uint64_t half_turns = 0;     // joint-steps in which a joint turned past half a turn (spring.h)
+    std::uint64_t energy_guard = 0;   // joint-steps in which a large turn had gained energy, taken back (spring.h)
+    std::uint64_t limited = 0; // joint-steps that ended on a joint limit, which the scene asks for (joint_limit.h)
+    std::uint64_t fast_turns =
+        0; // bodies' turns of more than a radian a step, bounded in the implicit step (articulated.h)
+    std::uint64_t inner_steps = 0; // steps that articulated_reference cut the plan's into, which is no guard
+    std::uint64_t asleep = 0;      // body-steps left out, in blocks at rest (coupled/sleep.h)
+    std::uint64_t unresolved = 0;  // of those, how many missed the tolerance at the smallest length (extrapolation.h)
+};
+
+// A force on a body for one step, by a contact.
+template <class T> struct Load {
+    std::size_t body;
+    Vector3<T> point_b; // [m] body frame
+    Vector3<T> force;   // [N] world
+};
+
+template <class T> struct State {
+    std::int64_t step = 0; // steps taken; the time is step * dt
+
+    std::vector<Vector3<T>> theta, theta_dot; // [rad], [rad/s] joint frame: the state proper; hashed, saved
+
+    // state_update
+    std::vector<Matrix3<T>> R_wb;         // world from body
+    std::vector<Vector3<T>> x_w;          // [m] own joint, world
+    std::vector<Vector3<T>> omega_w, v_w; // [rad/s], [m/s] of the centre of mass; with wind or when asked for
+
+    // wind_field
+    WindTable<T> wind;
+
+    std::vector<Load<T>> loads; // of the step to come; with Plan::contact
+
+    // root motion, one each for the plan's splines
+    std::vector<Ground> ground; // present
+
+    // spring
+    std::vector<Vector3<T>> torque_j; // [N m] of spring and damper on the body, joint frame; when asked for
+
+    Copied<StepperState> own; // what the solver carries and works in
+
+    std::array<std::uint64_t, stage_count> calls{}; // how often each stage ran
+    StepFlags flags;
+
+    // Allocated by all arrays over bodies, the solver's too; but what the threads of a step in lanes work in, and its energy guard once something has turned fast.
+    std::size_t bytes() const;
+};
+
+// At the plan's start pose, at rest, kinematics up to date.
+template <class T> State<T> make_state(const Plan<T>&);
+
+// Brings the ground, kinematics and the rows of lanes to what theta and theta_dot, what the solver carries beside them and the
+// number of steps say: after they were set from outside (a saved state). O(n).
+template <class T> void restart(const Plan<T>&, State<T>&);
+
+// One step with the plan's stepper. Needs a state of this plan with kinematics up to date; leaves one, but where the plan is in lanes: there
+// present() does.
+template <class T> void advance(const Plan<T>&, State<T>&, StageClock* clock = nullptr);
+
+// Brings the arrays in document order up to date: theta, theta_dot and, with Plan::pose, all that stand on them. Where they are, nothing happens.
+template <class T> void present(const Plan<T>&, State<T>&);
+
+// 64 bits (FNV-1a over little-endian bytes) of theta and theta_dot in document order.
+template <class T> std::uint64_t state_hash(const State<T>&);
+// The same of what the solver holds: nothing need be presented.
+template <class T> std::uint64_t state_hash(const Plan<T>&, const State<T>&);
+
+// The first body with a non-finite theta or theta_dot.
+template <class T> std::optional<std::size_t> first_non_finite(const State<T>&);
+
+} // namespace bough

@@ -1,0 +1,126 @@
+// stepper.h: how steps are made, chosen once a run: a solver behind one interface, with its own constants (in the stepper, which a plan
+// holds) and what it works in from step to step (StepperState, which a state holds). Plan and state know of solvers no more than this, and a
+// solver's own functions take its own types: those of another cannot come to them.
+//
+// Calls are a few a step, none of them in a loop over bodies.
+#pragma once
+#include "../base/copied.h"
+#include "../base/math.h"
+#include "../model/motion.h"
+#include "../model/scene.h"
+#include "../model/tree.h"
+#include "stage.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bough {
+
+template <class T> struct Plan;
+template <class T> struct State;
+namespace fast {
+template <class T> struct PlannedLanes;
+}
+
+// A solver's part of a state.
+class StepperState {
+public:
+    virtual ~StepperState() = default;
+    virtual std::unique_ptr<StepperState> clone() const = 0;
+    virtual std::size_t bytes() const = 0; // as State::bytes() counts them
+};
+
+// An array that a solver carries from step to step, beside the angles and their rates. name: SavedState's.
+template <class T> struct CarriedArray {
+    const char* name;
+    std::vector<Vector3<T>>* array;
+};
+
+// Where the angles and rates of single bodies stand, wherever the solver keeps them: one number after the other by `stride`.
+template <class T> struct MotionView {
+    const T *theta = nullptr, *theta_dot = nullptr; // of what `first` counts from
+    std::size_t stride = 1;
+    const std::uint32_t* slot = nullptr; // of each body; null: arrays in document order
+    std::size_t lanes = 1;               // slots a row
+    std::vector<std::size_t> first;      // of each row
+
+    std::size_t at(std::size_t body) const {
+        return slot ? first[slot[body] / lanes] * lanes + slot[body] % lanes : 3 * body;
+    }
+    Vec3 theta_of(std::size_t body) const { return three(theta + at(body)); }
+    Vec3 theta_dot_of(std::size_t body) const { return three(theta_dot + at(body)); }
+
+private:
+    Vec3 three(const T* x) const { return {double(x[0]), double(x[stride]), double(x[2 * stride])}; }
+};
+
+// What first became non-finite: stage and array, and whose.
+struct NonFinite {
+    std::string what; // "spring (theta)"
+    std::size_t body;
+};
+
+template <class T> class Stepper {
+public:
+    // plainly: why the run is not in lanes; empty where it is.
+    explicit Stepper(std::string plainly) : plainly_(std::move(plainly)) {}
+    virtual ~Stepper() = default;
+    virtual std::unique_ptr<Stepper> clone() const = 0;
+    virtual const char* name() const = 0;             // as in --solver
+    virtual const char* scheme() const { return ""; } // as in --scheme
+    const std::string& plainly() const { return plainly_; }
+    bool in_lanes() const { return plainly_.empty(); }
+    virtual std::size_t pass_bytes() const { return 0; } // [B] a body that articulated passes keep beside those arrays
+    virtual const fast::PlannedLanes<T>* lanes() const { return nullptr; } // how bodies stand in them; null: plainly
+
+    // While a plan is made, in this order.
+    virtual void refuse(const Scene&) const {} // throws std::domain_error for what it cannot hold
+    virtual bool reads_velocities(const Plan<T>&) const { return false; } // of all bodies, in each step
+    virtual void take_constants(const Plan<T>&,
+                                const Tree&) = 0; // the tree is whole yet; the plan has the scene and c_mass
+    virtual void lay_out(const Plan<T>&, const std::vector<TreeRange>&) {} // the plan has all of its bodies
+
+    // Makes its part of a state whose other arrays are there.
+    virtual void allocate(const Plan<T>&, State<T>&) const = 0;
+    // From theta [rad], the state's other arrays and its number of steps: kinematics, and what is kept elsewhere than in these.
+    virtual void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const = 0;
+    virtual void advance(const Plan<T>&, State<T>&, StageClock*) const = 0;
+    // Brings the arrays in document order up to date.
+    virtual void present(const Plan<T>&, State<T>&) const {}
+    virtual std::uint64_t hash(const Plan<T>&, const State<T>&) const = 0; // state_hash; nothing need be presented
+    virtual bool known_finite(const State<T>&) const { return false; }     // the last step has seen to it
+    // Of a state that is presented, and has become non-finite.
+    virtual NonFinite non_finite(const State<T>&) const = 0;
+    virtual std::vector<CarriedArray<T>> carried(State<T>&) const = 0;
+    // What is saved beside the carried arrays. restore(): after begin(); throws std::invalid_argument.
+    virtual void save(const Plan<T>&, const State<T>&, SavedState&) const {}
+    virtual void restore(const Plan<T>&, State<T>&, const SavedState&) const {}
+
+    // For what is free and meets the trees.
+    virtual void view_motion(const Plan<T>&, const State<T>&, MotionView<T>&) const = 0;
+    // [1] Square roots of each joint's factor of inertia where joints move one by one; empty where a tree answers as a whole.
+    virtual const std::vector<Vector3<T>>& inertia_factor() const {
+        static const std::vector<Vector3<T>> none;
+        return none;
+    }
+    virtual bool has_carried_moments() const { return false; }
+    virtual void set_carried_moment(const Plan<T>&, std::size_t, const Vec3&) {
+    } // of a body [kg m], once it carries less
+    // Bodies have broken off: in plan and state they become bodies of no mass that nothing moves. O(bodies that left), plain O(n).
+    virtual void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) = 0;
+
+    // What is changed between two steps.
+    virtual void scale_wood(const Plan<T>&, T, T) {
+    } // all stiffness and damping times these; the plan's own are the caller's
+    virtual bool sleeps() const { return false; } // trees may
+    virtual void wake(const Plan<T>&, State<T>&) const {}
+
+protected:
+    Stepper(const Stepper&) = default;
+    Stepper& operator=(const Stepper&) = default;
+
+private:
+    std::string plainly_;
+};
+
+} // namespace bough

@@ -1,0 +1,117 @@
+#include "articulated_stepper.h"
+#include "../plan/carried.h"
+#include "../plan/ground.h"
+#include "../plan/spring_torque.h"
+#include "../plan/state_update.h"
+#include "articulated_step.h"
+#include "extrapolation.h"
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+// The solvers' own arrays hold a joint's rotation vector and rate while the pass runs.
+void euler(const Plan<double>& plan, const ArticulatedPlan& own, State<double>& state, ArticulatedState& work,
+           double time) {
+    ArticulatedPass& pass = work.pass[0];
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        pass.body[i].theta = state.theta[i];
+        pass.body[i].rate = work.rate[i];
+    }
+    if (own.method == ArticulatedMethod::explicit_euler)
+        explicit_euler(plan, pass, time, plan.dt);
+    else
+        implicit_euler(plan, pass, time, plan.dt);
+    state.flags.fast_turns += pass.fast;
+    pass.fast = 0;
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        state.theta[i] = pass.body[i].theta;
+        work.rate[i] = pass.body[i].rate;
+    }
+}
+
+void articulated(const Plan<double>& plan, const ArticulatedPlan& own, State<double>& state, ArticulatedState& work) {
+    const double time = double(state.step) * plan.dt;
+    if (own.method == ArticulatedMethod::extrapolation)
+        extrapolated_step(plan, own, state, work, time);
+    else
+        euler(plan, own, state, work, time);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        if (shorten_rotation(state.theta[i])) ++state.flags.half_turns; // as the analytic step does (spring.h)
+        state.theta_dot[i] = body_rate_jacobian_inverse(state.theta[i]) * work.rate[i];
+    }
+}
+
+} // namespace
+
+ArticulatedStepper::ArticulatedStepper(ArticulatedMethod method, const char* name, std::string plainly)
+    : Cloned<ArticulatedStepper, PlainStepper<double>, Stepper<double>>(std::move(plainly)), name_(name) {
+    own.method = method;
+}
+
+std::size_t ArticulatedStepper::pass_bytes() const {
+    return sizeof(ArticulatedBody) * (own.method == ArticulatedMethod::extrapolation ? extrapolation_rows : 1);
+}
+
+void ArticulatedStepper::refuse(const Scene& scene) const {
+    if (has_free_bodies(scene))
+        throw std::domain_error(std::string(free_part(scene) + 1) +
+                                ": only the coupled and the analytic solver meet free bodies and walkers, not " +
+                                name_);
+    if (scene.joint_limit)
+        throw std::domain_error("joint_limit: only the coupled and the analytic solver keep limits, not " +
+                                std::string(name_));
+    if (scene.fictitious)
+        throw std::domain_error("fictitious: only for solver analytic; solver " + std::string(name_) +
+                                " has these terms by nature, whole and in time");
+}
+
+void ArticulatedStepper::take_constants(const Plan<double>& plan, const Tree& tree) {
+    if (plan.wind && own.method == ArticulatedMethod::implicit_euler) own.carried_drag = carried_drag(plan, tree);
+}
+
+void ArticulatedStepper::allocate(const Plan<double>& plan, State<double>& state) const {
+    auto work = std::make_unique<ArticulatedState>();
+    work->rate.assign(plan.bodies, Vec3::Zero());
+    work->pass.resize(own.method == ArticulatedMethod::extrapolation ? std::size_t(extrapolation_rows) : 1);
+    for (ArticulatedPass& pass : work->pass) {
+        pass.body.resize(plan.bodies);
+        pass.ground.resize(plan.splines.size());
+        if (plan.wind) pass.wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
+    }
+    state.own = Copied<StepperState>(std::move(work));
+}
+
+void ArticulatedStepper::advance(const Plan<double>& plan, State<double>& state, StageClock* clock) const {
+    ArticulatedState& work = articulated_state(state);
+    work.pass[0].carried_drag = own.carried_drag;
+    run_stage(Stage::articulated, state, clock, [&] { articulated(plan, own, state, work); });
+    run_stage(Stage::state_update, state, clock, [&] {
+        move_ground(plan, state, double(state.step + 1) * plan.dt);
+        state_update(plan, state);
+    });
+    if (plan.torque) spring_torque(plan, state);
+    ++state.step;
+}
+
+NonFinite ArticulatedStepper::non_finite(const State<double>& state) const {
+    return {std::string(stage_name(Stage::articulated)) + " (theta)", *first_non_finite(state)};
+}
+
+std::vector<CarriedArray<double>> ArticulatedStepper::carried(State<double>& state) const {
+    return {{"scaled_rate", &articulated_state(state).rate}};
+}
+
+void ArticulatedStepper::save(const Plan<double>&, const State<double>& state, SavedState& saved) const {
+    saved.articulated_step = articulated_state(state).inner_step;
+}
+
+void ArticulatedStepper::restore(const Plan<double>&, State<double>& state, const SavedState& saved) const {
+    articulated_state(state).inner_step = saved.articulated_step;
+}
+
+void ArticulatedStepper::drop(Plan<double>&, State<double>&, const std::vector<std::size_t>&) {
+    throw std::logic_error(std::string("drop: nothing breaks with solver ") + name_);
+}
+
+} // namespace bough

@@ -1,0 +1,110 @@
+#include "inverse_dynamics.h"
+#include "../laws/air.h"
+#include "../laws/leaf_air.h"
+#include "../plan/pushes.h"
+#include "../plan/shelter.h"
+
+namespace bough {
+namespace {
+
+struct Moving {
+    Mat3 R;                        // world from body
+    Vec3 x, r, omega, v, alpha, a; // own joint and the body at it
+    Vec3 F, N;                     // what the joint must carry
+    double moment = 0;             // size of the terms in N
+};
+
+Moving move(const Plan<double>& plan, const Moving& p, std::size_t i, const Vec3& theta, const Vec3& rate,
+            const Vec3& acceleration) {
+    Moving b;
+    b.R = p.R * plan.R_pj[i] * rotation_from_vector(theta);
+    b.r = p.R * plan.joint_position[i];
+    b.x = p.x + b.r;
+    const Vec3 own = b.R * rate;
+    b.omega = p.omega + own;
+    b.alpha = p.alpha + b.R * acceleration + p.omega.cross(own);
+    b.v = p.v + p.omega.cross(b.r);
+    b.a = p.a + p.alpha.cross(b.r) + p.omega.cross(p.omega.cross(b.r));
+    return b;
+}
+
+Moving ground_under(const Plan<double>& plan, std::size_t i, double time) {
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
+    const Ground g = spline < 0 ? Ground() : ground_at(plan.splines[std::size_t(spline)], time);
+    Moving b;
+    b.R = g.R;
+    b.x = g.x;
+    b.omega = g.omega;
+    b.v = g.v;
+    b.alpha = g.alpha;
+    b.a = g.a;
+    return b;
+}
+
+} // namespace
+
+Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& theta, const std::vector<Vec3>& rate,
+                          const std::vector<Vec3>& acceleration, double time) {
+    const std::size_t n = plan.bodies;
+    const auto parent = [&](std::size_t i) { return std::size_t(plan.parent[i]); };
+    WindTable<double> wind;
+    if (plan.wind) {
+        wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
+        evaluate_wind(*plan.scene.wind, time, wind);
+    }
+    std::vector<Moving> body(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Moving ground = plan.parent[i] < 0 ? ground_under(plan, i, time) : Moving();
+        body[i] = move(plan, plan.parent[i] < 0 ? ground : body[parent(i)], i, theta[i], rate[i], acceleration[i]);
+        Moving& b = body[i];
+        const Mat3 J = b.R * plan.inertia_joint[i] * b.R.transpose();
+        const Vec3 c = b.R * plan.com[i];
+        const Vec3 a_com = b.a + b.alpha.cross(c) + b.omega.cross(b.omega.cross(c));
+        const Vec3 inertial = J * b.alpha + b.omega.cross(J * b.omega) + plan.mass[i] * c.cross(b.a);
+        const Vec3 weight = plan.mass[i] * plan.scene.gravity;
+        Vec3 f = Vec3::Zero(), torque = Vec3::Zero();
+        if (plan.wind) {
+            const Vec3 u = wind_on_body_at(plan, i, wind, Vec3(b.x + c)) - b.v - b.omega.cross(c);
+            double spin = spin_rate(plan.kind[i], plan.drag_area[i], plan.mass[i], u);
+            f = plan.drag_area[i] * air_force(plan.kind[i], b.R, u).force;
+            if (plan.leaf.on && is_flat(plan.kind[i])) {
+                f += leaf_resistance(plan.leaf, plan.mass[i], b.R, u);
+                torque = leaf_torque(plan.leaf, plan.drag_area[i], b.R, u);
+                spin += plan.leaf.across;
+            }
+            torque -= spin * (central_inertia(plan.mass[i], J, c) * b.omega);
+        }
+        b.F = plan.mass[i] * a_com - weight - f;
+        b.N = inertial - c.cross(weight + f) - torque;
+        b.moment = inertial.norm() + c.cross(weight).norm() + c.cross(f).norm() + torque.norm();
+    }
+    for (const PlannedPull<double>& pull : plan.pulls) {
+        Moving& b = body[pull.body];
+        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time), arm = b.R * pull.point_b;
+        b.F -= f;
+        b.N -= arm.cross(f);
+        b.moment += arm.cross(f).norm();
+    }
+    Residual residual;
+    double squares = 0, moments = 0;
+    for (std::size_t i = n; i-- > 0;) {
+        Moving& b = body[i];
+        const Mat3 rates = body_rate_jacobian_inverse(theta[i]);
+        const Vec3 theta_dot = rates * rate[i];
+        const Vec3 tau = -b.R * (rates.transpose() * plan.K[i].cwiseProduct(Vec3(theta[i] + plan.beta[i] * theta_dot)));
+        const double left = (b.N - tau).norm(), size = b.moment + tau.norm();
+        squares += left * left;
+        moments += size * size;
+        residual.worst = std::max(residual.worst, left);
+        if (plan.parent[i] < 0) continue;
+        Moving& p = body[parent(i)];
+        p.F += b.F;
+        p.N += b.N + b.r.cross(b.F);
+        p.moment += b.N.norm() + b.r.cross(b.F).norm();
+    }
+    residual.rms = std::sqrt(squares / double(n));
+    residual.moment_rms = std::sqrt(moments / double(n));
+    return residual;
+}
+
+} // namespace bough

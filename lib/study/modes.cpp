@@ -1,0 +1,219 @@
+#include "modes.h"
+#include "../laws/air.h"
+#include "../laws/leaf_air.h"
+#include "../laws/wind.h"
+#include "../plan/reduce.h"
+#include <Eigen/Eigenvalues>
+#include <Spectra/SymEigsSolver.h>
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace bough {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+// 1 / omega^2 of what is not found yet: R^-T M R^-1 without the columns of `found`.
+class Swings {
+public:
+    using Scalar = double;
+    Swings(const SmallMotion& motion, const MatrixXd& found, const std::function<void(std::int64_t)>& progress)
+        : motion_(motion), found_(found), progress_(progress) {}
+    Index rows() const { return motion_.rows(); }
+    Index cols() const { return motion_.rows(); }
+    void perform_op(const double* y, double* out) const {
+        if (progress_) progress_(++operations_);
+        motion_.operate(y, out);
+        if (found_.cols() == 0) return;
+        Eigen::Map<VectorXd> v(out, rows());
+        v -= found_ * (found_.transpose() * v).eval();
+    }
+
+private:
+    const SmallMotion& motion_;
+    const MatrixXd& found_;
+    const std::function<void(std::int64_t)>& progress_;
+    mutable std::int64_t operations_ = 0;
+};
+
+constexpr Index sway_steps = 24;
+
+struct Pairs {
+    VectorXd value; // falling
+    MatrixXd vector;
+};
+
+// The largest `count`.
+Pairs largest(Swings swings, Index count) {
+    const Index n = swings.rows();
+    count = std::min(count, n - 1);
+    const Index basis = std::min(n, std::max<Index>(2 * count + 10, 20));
+    Spectra::SymEigsSolver<Swings> solver(swings, count, basis);
+    solver.init();
+    constexpr double tolerance = 1e-9; // of vectors; of values its square
+    if (solver.compute(Spectra::SortRule::LargestAlge, 2000, tolerance, Spectra::SortRule::LargestAlge) < count)
+        throw std::domain_error(
+            "the lowest modes do not converge: there are too many of nearly the same frequency; ask "
+            "for fewer, or without leaves");
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+// A Krylov space has one direction of each eigenspace: of modes of the same frequency, as a round trunk has them, others turn up once those are taken
+// out. So what is left is looked at until nothing above the last of the `count` is in it.
+Pairs lowest_modes(const SmallMotion& motion, Index count, const std::function<void(std::int64_t)>& progress) {
+    const Index n = motion.rows();
+    MatrixXd found(n, 0);
+    VectorXd value(0);
+    for (Index more = count;; more = std::min<Index>(4, count)) {
+        if (found.cols() >= n - 1) break;
+        const Swings swings(motion, found, progress);
+        const Pairs next = largest(swings, std::min(more, n - 1 - found.cols()));
+        const double last = value.size() < count ? 0 : value[count - 1];
+        Index fresh = 0;
+        while (fresh < next.value.size() && next.value[fresh] > last * (1 + 1e-12)) ++fresh;
+        if (fresh == 0) break;
+        MatrixXd all(n, found.cols() + fresh);
+        all << found, next.vector.leftCols(fresh);
+        VectorXd values(all.cols());
+        values << value, next.value.head(fresh);
+        std::vector<Index> order(std::size_t(all.cols()));
+        std::iota(order.begin(), order.end(), Index(0));
+        std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return values[a] > values[b]; });
+        found.resize(n, Index(order.size()));
+        value.resize(Index(order.size()));
+        for (Index k = 0; k < value.size(); ++k) {
+            found.col(k) = all.col(order[std::size_t(k)]);
+            value[k] = values[order[std::size_t(k)]];
+        }
+        if (fresh < next.value.size()) break;
+    }
+    const Index kept = std::min(count, value.size());
+    return {value.head(kept), found.leftCols(kept)};
+}
+
+// D of the air on body i, of its centre of mass's velocity and its turning.
+struct AirDamping {
+    Mat3 drag = Mat3::Zero(), spin = Mat3::Zero();
+};
+
+std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const SmallMotion& motion) {
+    std::vector<AirDamping> damping(tree.size_bodies());
+    const LeafTerms<double> terms = leaf_terms<double>(scene);
+    for (std::size_t i = 0; i < damping.size(); ++i) {
+        const Kind kind = kind_in_air(tree, i);
+        const Mat3& R = motion.rotations()[i];
+        const Mat3 I = R * tree.inertia[i] * R.transpose();
+        if (scene.wind) {
+            const double y = (motion.joints()[i] + R * tree.com[i]).y();
+            const Vec3 u = wind_profile(*scene.wind, y) * scene.wind->velocity;
+            const double area = drag_area(kind, tree.size[i], scene.air_density, plate_kappa(scene));
+            damping[i].drag += area * air_damping(kind, R, u);
+            damping[i].spin += spin_rate(kind, area, tree.mass[i], u) * I;
+        }
+        if (terms.on && is_flat(kind)) {
+            damping[i].drag += leaf_damping(terms, tree.mass[i], R);
+            damping[i].spin += terms.across * I;
+        }
+    }
+    return damping;
+}
+
+Vec3 far_end(const Tree& tree, std::size_t i, const Mat3& R) {
+    return R.col(2) * tree.size[i][0];
+}
+
+Mode mode_of(const Tree& tree, const SmallMotion& small, const std::vector<AirDamping>& air, double value,
+             std::vector<Vec3> a) {
+    const double omega = 1 / std::sqrt(value);
+    const std::vector<SmallMotion::Motion> moved = small.motion(a);
+    const auto levels = std::size_t(*std::max_element(tree.level.begin(), tree.level.end())) + 1;
+    Mode mode;
+    mode.share.assign(levels + 1, 0);
+    double kinetic = 0, wood = 0, drag = 0, largest = 0;
+    Vec3 momentum = Vec3::Zero();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Mat3& R = small.rotations()[i];
+        const SmallMotion::Motion& m = moved[i];
+        const Vec3 turn_b = R.transpose() * m.turn;
+        const double energy = tree.mass[i] * m.com.squaredNorm() + turn_b.dot(tree.inertia[i] * turn_b);
+        kinetic += energy;
+        mode.share[tree.kind[i] == Kind::branch ? std::size_t(tree.level[i]) : levels] += energy;
+        momentum += tree.mass[i] * m.com;
+        const Vec3 angle = small.spring_rates()[i] * a[i];
+        wood += tree.damping[i] * angle.dot(tree.stiffness[i].cwiseProduct(angle));
+        if (!air.empty()) drag += m.com.dot(air[i].drag * m.com) + m.turn.dot(air[i].spin * m.turn);
+        const double way = (m.joint + m.turn.cross(far_end(tree, i, R))).norm();
+        if (way > largest) largest = way, mode.farthest = i;
+    }
+    mode.frequency = omega / (2 * std::numbers::pi);
+    mode.wood = wood / (2 * omega * kinetic);
+    mode.damping = mode.wood + drag / (2 * omega * kinetic);
+    mode.effective_mass = momentum.cwiseAbs2() / kinetic;
+    for (double& share : mode.share) share /= kinetic;
+    for (Vec3& turn : a) turn /= largest;
+    mode.turn = std::move(a);
+    return mode;
+}
+
+} // namespace
+
+std::vector<Mode> natural_modes(const SmallMotion& small, const Tree& tree, const Scene& scene,
+                                const ModeOptions& options, const std::function<void(std::int64_t)>& progress) {
+    const Pairs pairs = lowest_modes(small, std::min<Index>(options.count, small.rows() - 1), progress);
+    const std::vector<AirDamping> air = options.air ? air_on(tree, scene, small) : std::vector<AirDamping>();
+    std::vector<Mode> modes;
+    for (Index k = 0; k < pairs.value.size(); ++k)
+        modes.push_back(mode_of(tree, small, air, pairs.value[k], small.turns(pairs.vector.col(k).data())));
+    return modes;
+}
+
+ShapePose swung(const SmallMotion& small, const Tree& tree, const Mode& mode, double amplitude) {
+    const std::size_t n = tree.size_bodies();
+    ShapePose pose;
+    pose.position.resize(n);
+    pose.rotation.resize(n);
+    std::vector<Quat> turn(n); // of the body from where it stands, world
+    for (std::size_t i = 0; i < n; ++i) {
+        turn[i] = quaternion_from_vector<double>(amplitude * mode.turn[i]);
+        pose.position[i] = small.joints()[i];
+        if (tree.parent[i] >= 0) {
+            const auto p = std::size_t(tree.parent[i]);
+            turn[i] = turn[p] * turn[i];
+            pose.position[i] = pose.position[p] + turn[p] * (small.joints()[i] - small.joints()[p]);
+        }
+        pose.rotation[i] = (turn[i] * Quat(small.rotations()[i])).normalized();
+    }
+    return pose;
+}
+
+Sway sway_along(const SmallMotion& small, const Vec3& direction) {
+    const VectorXd start = small.excited(direction);
+    const Index steps = std::min<Index>(sway_steps, small.rows());
+    MatrixXd basis(small.rows(), steps);
+    VectorXd diagonal(steps), beside(steps), next(small.rows());
+    basis.col(0) = start.normalized();
+    Index made = 0;
+    while (made < steps) {
+        small.operate(basis.col(made).data(), next.data());
+        diagonal[made] = next.dot(basis.col(made));
+        for (int twice = 0; twice < 2; ++twice) // orthogonal to rounding
+            next -= basis.leftCols(made + 1) * (basis.leftCols(made + 1).transpose() * next).eval();
+        beside[made] = next.norm();
+        if (++made == steps || !(beside[made - 1] > 1e-12 * diagonal[0])) break;
+        basis.col(made) = next / beside[made - 1];
+    }
+    Eigen::SelfAdjointEigenSolver<MatrixXd> ritz;
+    ritz.computeFromTridiagonal(diagonal.head(made), beside.head(made - 1));
+    const auto hertz = [](double value) { return 1 / std::sqrt(value) / (2 * std::numbers::pi); };
+    Sway sway;
+    sway.lowest = hertz(ritz.eigenvalues()[made - 1]);
+    for (Index k = 0; k < made; ++k) {
+        const double first = ritz.eigenvectors()(0, k), share = first * first;
+        if (share > sway.share) sway.frequency = hertz(ritz.eigenvalues()[k]), sway.share = share;
+    }
+    return sway;
+}
+
+} // namespace bough

@@ -1,0 +1,60 @@
+#include "solvers.h"
+#include "../analytic/analytic_lanes_stepper.h"
+#include "../coupled/coupled_lanes_stepper.h"
+#include "articulated_stepper.h"
+#include <stdexcept>
+
+namespace bough {
+
+const char* solver_name(Solver solver) {
+    static constexpr const char* names[] = {"coupled", "analytic", "articulated-explicit", "articulated-implicit",
+                                            "articulated-reference"};
+    return names[std::size_t(solver)];
+}
+
+template <class T> std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice& choice, const Scene& scene) {
+    if (choice.solver == Solver::coupled)
+        return fast::coupled_stepper<T>(scene, choice.scheme, choice.simd, choice.sleep);
+    if (choice.solver == Solver::analytic) return fast::analytic_stepper<T>(scene, choice.simd, choice.sleep);
+    const char* const name = solver_name(choice.solver);
+    if constexpr (std::is_same_v<T, double>) {
+        const ArticulatedMethod method =
+            choice.solver == Solver::articulated_explicit   ? ArticulatedMethod::explicit_euler
+            : choice.solver == Solver::articulated_implicit ? ArticulatedMethod::implicit_euler
+                                                            : ArticulatedMethod::extrapolation;
+        auto stepper = std::make_unique<ArticulatedStepper>(
+            method, name, choice.simd ? std::string("solver ") + name : std::string("not asked for"));
+        stepper->own.tolerance = choice.tolerance;
+        return stepper;
+    } else {
+        throw std::logic_error(std::string("make_stepper: ") + name + " exists in double alone");
+    }
+}
+
+template <class T>
+Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
+                  double tolerance) {
+    return make_plan<T>(tree, ranges, scene, wishes, dt,
+                        make_stepper<T>({solver, scheme, simd, sleep, tolerance}, scene));
+}
+
+template <class T>
+Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
+                  double tolerance) {
+    return make_plan<T>(std::move(tree), ranges, scene, wishes, dt,
+                        make_stepper<T>({solver, scheme, simd, sleep, tolerance}, scene));
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice&, const Scene&);                              \
+    template Plan<T> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double,        \
+                               Solver, Scheme, std::optional<fast::Target>, double, double);                           \
+    template Plan<T> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,     \
+                               Scheme, std::optional<fast::Target>, double, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough

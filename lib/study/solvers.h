@@ -1,0 +1,59 @@
+// solvers.h: every solver by its name, those among them that others are held against.
+#pragma once
+#include "../coupled/scheme.h"
+#include "../lanes/target.h"
+#include "../plan/make_plan.h"
+#include "../plan/state.h"
+#include <optional>
+
+namespace bough {
+
+// coupled                coupled_step.h: the full dynamics, one linear solve a step
+// analytic               analytic_step.h: the paper's, one joint at a time
+// articulated_explicit   articulated_step.h, Euler forward
+// articulated_implicit   articulated_step.h, linearly implicit
+// articulated_reference  extrapolation.h, to a tolerance
+// The articulated ones exist in double alone.
+enum class Solver : std::uint8_t {
+    coupled,
+    analytic,
+    articulated_explicit,
+    articulated_implicit,
+    articulated_reference
+};
+constexpr std::array<Solver, 5> all_solvers{Solver::coupled, Solver::analytic, Solver::articulated_explicit,
+                                            Solver::articulated_implicit, Solver::articulated_reference};
+const char* solver_name(Solver); // as in --solver: coupled, analytic, articulated-explicit ...
+constexpr bool is_articulated(Solver solver) {
+    return solver != Solver::analytic && solver != Solver::coupled;
+}
+
+// A scene for any solver: those that have these terms by nature get it without, where make_plan would refuse it.
+inline Scene for_solver(Scene scene, Solver solver) {
+    if (solver != Solver::analytic) scene.fictitious.reset();
+    return scene;
+}
+
+struct SolverChoice {
+    Solver solver = Solver::analytic;
+    Scheme scheme = Scheme::p12; // of coupled
+    std::optional<fast::Target> simd =
+        std::nullopt;        // lanes, where they hold all that the scene has; none: the plain path
+    double sleep = 0;        // [rad/s] coupled/sleep.h; 0: never
+    double tolerance = 1e-8; // [rad] allowed in a step of articulated_reference (extrapolation.h)
+};
+
+// Throws std::logic_error for an articulated solver in float.
+template <class T> std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice&, const Scene&);
+
+// make_plan with any solver.
+template <class T>
+Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
+                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double tolerance = 1e-8);
+template <class T>
+Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
+                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double tolerance = 1e-8);
+
+} // namespace bough

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# treeprofile modes: figures, reports, pictures and what is refused.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+treegen --species maple --bodies 300 --leaves --seed 3 | treeconvert - -o tree.json
+wrong_use treeprofile modes tree.json --modes 3
+bad_input tree.json treeprofile modes
+refused 1 "--modes" treeprofile modes tree.json --modes 0
+refused 1 "--swing" treeprofile modes tree.json --modes 2 --swing 3
+refused 1 "r.html" treeprofile modes tree.json --report r.html
+refused 1 "/wind/swirl" treeprofile modes tree.json --wind gusty --set 'wind.swirl={"center":[0,0],"radius":[0],"angle":[20],"period":3}'
+
+# A uniform rod of 4 m whose first frequency is known: 0.1399 D / L^2 sqrt(E / rho), and weight off.
+cat >rod.json <<'END'
+{"format": "bough-splines", "version": 1, "parent": [-1], "parent_at": [0], "level": [0], "first_point": [0, 2], "point": [0, 0, 0, 0, 4, 0], "radius": [0.03, 0.03]}
+END
+treeconvert rod.json --segment-length 0.02 -o rod.tree.json
+expect 0 treeprofile modes rod.tree.json --modes 4 --set gravity=[0,0,0] --report rod.csv
+treeconvert --list-materials >materials
+python3 - <<'END' || fail "the rod's frequencies are not a cantilever's: $(cat rod.csv)"
+import csv, math
+wood = [line.split("\t") for line in open("materials")][1]
+first = 0.1399 * 0.06 / 16 * math.sqrt(float(wood[2]) / float(wood[1]))
+f = [float(row["frequency"]) for row in csv.DictReader(open("rod.csv"))]
+for k, ratio in enumerate([1, 1, 6.2669, 6.2669]):
+    assert math.isclose(f[k], first * ratio, rel_tol=5e-3), (f, first)
+END
+
+# The reports hold one another's figures; wind damps, and does not change a frequency.
+expect 0 treeprofile modes tree.json --modes 5 --report m.json
+expect 0 treeprofile modes tree.json --modes 5 --wind gusty --report w.json
+python3 - <<'END' || fail "the reports do not fit"
+import json
+m, w = json.load(open("m.json")), json.load(open("w.json"))
+assert m["format"] == "bough-modes-report" and len(m["modes"]) == 5 and w["wind"] == "gusty"
+for a, b in zip(m["modes"], w["modes"]):
+    assert abs(a["frequency"] - b["frequency"]) < 1e-9 * a["frequency"] and b["damping"] > 2 * a["damping"] > 0
+    assert abs(sum(v for k, v in a.items() if k.startswith("share_")) - 1) < 1e-9
+    assert 0 <= a["mass_x"] + a["mass_y"] + a["mass_z"] < m["mass"]
+assert [a["frequency"] for a in m["modes"]] == sorted(a["frequency"] for a in m["modes"])
+END
+
+# A swing of one period; who cannot stand is told.
+expect 0 treeprofile modes tree.json --modes 2 --swing 2 -o swing.glb
+python3 - <<'END' || fail "the swing does not last one period of its mode"
+import json, struct
+data = open("swing.glb", "rb").read()
+gltf = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+times = {a["input"] for a in gltf["animations"][0]["samplers"]}
+ends = [gltf["accessors"][k]["max"][0] for k in times]
+period = 1 / json.load(open("m.json"))["modes"][1]["frequency"]
+assert abs(max(ends) - period) < 1e-6 * period, (ends, period)
+END
+if command -v gnuplot >/dev/null; then
+    expect 0 treeprofile modes tree.json --modes 2 --report shapes.svg
+    grep -q "mode 2" shapes.svg || fail "the picture has no second shape"
+fi
+expect 0 treeprofile modes rod.tree.json --modes 1 --set stiffness_scale=0.01
+grep -q "branch 0 buckles" err || fail "nothing is said of a rod that cannot stand: $(cat err)"
+absent

@@ -1,0 +1,64 @@
+// Where an imported tree stands, and what is refused of it.
+#include "formats/imports/placed_import.h"
+#include "tests/support/import_support.h"
+
+using namespace bough;
+using namespace bough::test;
+
+namespace {
+
+// A trunk of n points 0.1 m apart, one of which is moved `aside` [m].
+std::string trunk(int n, int moved, double aside) {
+    std::ostringstream swc;
+    swc.precision(17);
+    for (int k = 0; k < n; ++k)
+        swc << k + 1 << " 2 " << (k == moved ? aside : 0) << " 0 " << 0.1 * k << " 0.05 " << (k == 0 ? -1 : k) << "\n";
+    return swc.str();
+}
+
+std::string error_with(const std::string& content) {
+    ImportOptions options;
+    options.name = "t.swc";
+    options.unit = 1;
+    options.up = 'z';
+    ImportNotes notes;
+    try {
+        import_splines(content, options, notes);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("one coordinate far off is a slip, which is named with its place") {
+    // Of 41 points 20 are within 1 m of the middle, 2 m up, and one is aside.
+    const std::string error = error_with(trunk(41, 17, 1e9));
+    CHECK(error.find("t.swc: a point of branch 0 is at 1e+09, 1.7, 0 m") == 0);
+    CHECK(error.find("1e+09 m from the middle of the tree, half of which is within 1.1 m") != std::string::npos);
+    CHECK(error.find('\n') == std::string::npos);
+    CHECK(error_with(trunk(41, 17, -20'000)) != "");
+    CHECK(error_with(trunk(41, 17, 5'000)) == ""); // far, as a root's survey point or an axon may be
+    CHECK(error_with(trunk(41, 17, 0)) == "");
+    CHECK(error_with(trunk(2, 1, 1e6)) == ""); // of so few none is the odd one
+}
+
+TEST_CASE("one coordinate of a SpeedTree file far off is refused, wherever it stands") {
+    const std::string maple = content_of(std::string(BOUGH_DATA_DIR) + "/young_maple.xml");
+    std::size_t spine = 0;
+    int tried = 0;
+    for (const char* list : {"<X", "<Y", "<Z"}) {
+        spine = maple.find("<Spine");
+        if (spine == std::string::npos) return;
+        const std::size_t begin = maple.find('>', maple.find(list, spine)) + 1, end = maple.find_first_of(" <", begin);
+        std::string broken = maple;
+        broken.replace(begin, end - begin, "1e12");
+        ImportOptions options;
+        options.name = "m.xml";
+        ImportNotes notes;
+        CHECK_THROWS_WITH(import_splines(broken, options, notes), Catch::Contains("m.xml: a point of branch "));
+        ++tried;
+    }
+    CHECK(tried == 3);
+}
