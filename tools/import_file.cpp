@@ -16,6 +16,11 @@ void add_import_options(OptionList& list, ImportChoice& choice) {
                                         : "is '" + text + "', expected m, cm, mm, ft, in or a number above 0";
         });
     list.add("--up", choice.up, "Up axis of the imported file: y or z").takes("AXIS").one_of_any_case({"y", "z"});
+    list.add("--trunk-diameter", choice.trunk_diameter,
+             "Thickness of the imported tree's trunk at its base [m]; all radii, the file's or guessed, are multiplied "
+             "alike")
+        .takes("M")
+        .check(positive_number());
     add_reader_options(list);
 }
 
@@ -40,9 +45,12 @@ Splines read_import(const std::string& name, const ImportChoice& choice, ImportN
     options.taken_in = [&file] { file.give_back(); };
     options.unit = unit_in_metres(choice.units);
     if (!choice.up.empty()) options.up = lower_case(choice.up[0]);
+    options.trunk_diameter = choice.trunk_diameter;
     if (own && (options.unit || options.up))
         throw UsageError(std::string(choice.units.empty() ? "--up" : "--units") + ": " + options.name +
                          " is a bough document, which is in metres and Y up");
+    if (own && options.trunk_diameter)
+        throw UsageError("--trunk-diameter: " + options.name + " is a bough document, whose radii are its own");
     if (before) before(own);
     try {
         Splines splines = import_splines(content, options, notes);

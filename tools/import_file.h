@@ -8,9 +8,10 @@
 
 namespace bough {
 
-// --units and --up of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
+// --units, --up and --trunk-diameter of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
 struct ImportChoice {
     std::string units, up;
+    std::optional<double> trunk_diameter; // [m]
 };
 void add_import_options(OptionList&, ImportChoice&);
 std::optional<double> unit_in_metres(const std::string& units);

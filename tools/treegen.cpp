@@ -55,6 +55,7 @@ void refuse_contradictions(const Options& o) {
     bough::refuse_contradictions(o.growth, !o.import.empty());
     if (o.strict && o.import.empty()) throw UsageError("--strict: only with --import");
     if (o.stats && o.import.empty()) throw UsageError("--stats: only with --import");
+    if (o.choice.trunk_diameter && o.import.empty()) throw UsageError("--trunk-diameter: only with --import");
     refuse_overwriting({{"--params", o.growth.params}, {"--envelope", o.growth.envelope.envelope}},
                        {{"-o", o.common.output}});
     if (!o.import.empty() || !o.growth.envelope.envelope.empty()) return;

@@ -11,10 +11,11 @@ namespace bough {
 
 struct ImportOptions {
     std::optional<double>
-        unit;           // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
-    char up = 0;        // 'y' or 'z' for the file's up axis; 0: as above
-    std::string name;   // how the file is called in messages
-    std::string folder; // where files stand that it names (a .gltf's buffers); "": nowhere
+        unit;    // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
+    char up = 0; // 'y' or 'z' for the file's up axis; 0: as above
+    std::optional<double> trunk_diameter; // [m] of the thickest trunk at its base: all radii are multiplied alike
+    std::string name;                     // how the file is called in messages
+    std::string folder;                   // where files stand that it names (a .gltf's buffers); "": nowhere
     // Called by a reader that has taken the content in, before it makes a tree of it: whoever holds the content may give
     // its memory back meanwhile. It must stay readable, as messages look for lines in it. May be empty.
     std::function<void()> taken_in;
@@ -34,6 +35,7 @@ struct ImportNotes {
     Vec3 moved = Vec3::Zero();        // [m] by which it was moved to the origin (placed_import.h), Y up
     std::string unit_from = "stated"; // "stated" by the file or its format, "given" as option, or "guessed"
     std::string up_from = "stated";
+    bool radii_guessed = false; // all of them, by the tree's size: the file has none
 };
 
 struct SplineFormat {

@@ -210,6 +210,36 @@ void make_twigs(const std::vector<ImportedLeaf>& leaves, double unit, Splines& s
         ": a clump, its leaf area that of the mesh (" + shown(area / double(twigs)) + " m2 in the mean)");
 }
 
+// Diameter at its base of the root branch that is thickest there, or of one drawn to a point there, where it is thickest; 0: none has any.
+double trunk_diameter(const Splines& s) {
+    double base = 0, most = 0;
+    for (std::size_t b = 0; b < s.branches(); ++b) {
+        if (s.parent[b] >= 0) continue;
+        base = std::max(base, s.radius[std::size_t(s.first_point[b])]);
+        most = std::max(
+            most, *std::max_element(s.radius.begin() + s.first_point[b], s.radius.begin() + s.first_point[b + 1]));
+    }
+    return 2 * (base > 0 ? base : most);
+}
+
+void take_trunk_diameter(Splines& s, const ImportOptions& options, ImportNotes& notes) {
+    const double found = trunk_diameter(s);
+    if (!options.trunk_diameter) {
+        if (notes.radii_guessed)
+            notes.lines.push_back("the file has no radii: its trunk is taken as " + shown(found) +
+                                  " m thick at the base by the tree's size, all others by the trunk's "
+                                  "(--trunk-diameter overrides)");
+        return;
+    }
+    if (!(found > 0))
+        throw InputError(options.name, "has a trunk without a radius, which --trunk-diameter cannot scale");
+    const double factor = *options.trunk_diameter / found;
+    for (double& r : s.radius) r *= factor;
+    if (!notes.radii_guessed)
+        notes.lines.push_back("radii multiplied by " + shown(factor) + ": the file's trunk is " + shown(found) +
+                              " m thick at the base (--trunk-diameter)");
+}
+
 void add_leaf(Splines& s, const ImportedLeaf& leaf, double at, const Frame& frame) {
     s.leaf_branch.push_back(leaf.branch);
     s.leaf_at.push_back(at);
@@ -254,6 +284,7 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
     for (const ImportedLeaf& leaf : tree.leaves)
         add_leaf(s, leaf, nearest_on(tree.branches[leaf.branch].point, leaf.position).fraction, frame);
     make_twigs(tree.leaves, frame.unit, s, notes);
+    take_trunk_diameter(s, options, notes);
     bring_to_origin(s, notes);
     name_absurd_scale(s, options.unit.has_value(), notes);
     if (const auto defect = check(s)) {

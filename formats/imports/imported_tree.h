@@ -37,6 +37,7 @@ struct ImportedTree {
 // A leaf whose mesh is of at least 4 pieces is a twig: a clump of as many leaves as it has pieces, whose width is such that its area is
 // the mesh's; mass, stiffness and drag of a clump follow from area and length. A note says how many. (A long leaf of fewer is a card that
 // shows a spray, leaf_count.h: much of its mesh is transparent.)
+// All radii are multiplied by what makes the thickest trunk's base that of the option; where all were guessed, a note tells its diameter.
 // O(points + leaves), with leaves without a branch O(points log points). Throws InputError (place options.name) for a tree
 // without branches and for one that breaks a rule of Splines.
 Splines finish_import(ImportedTree&&, const ImportOptions&, ImportNotes&);

@@ -160,8 +160,8 @@ void fill_radii(Branches& branches, ImportNotes& notes) {
     }
     notes.lines.push_back(std::to_string(unknown) + " of " + std::to_string(points) +
                           " radii are missing or 0; filled by the pipe rule (r^" + shown(pipe_exponent) +
-                          " is the sum over what grows on) with tips of " + shown(tip) +
-                          (unknown == points ? ", a trunk's longest way being 120 of its radii" : ""));
+                          " is the sum over what grows on) with tips of " + shown(tip));
+    notes.radii_guessed = unknown == points;
 }
 
 } // namespace bough

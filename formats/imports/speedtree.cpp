@@ -1,6 +1,7 @@
-// speedtree.cpp: SpeedTree raw XML, <SpeedTreeRaw>: branches from the spines where the file has any, else from the bones;
-// leaves from the leaf references. Mesh and materials are speedtree_mesh.h; Mass is not read.
+// speedtree.cpp: SpeedTree raw XML, <SpeedTreeRaw>: branches from the spines where the file has any, else from the bones,
+// as thick as the bark that it holds; leaves from the leaf references. Mesh and materials are speedtree_mesh.h; Mass is not read.
 #include "formats/plain_text.h"
+#include "speedtree_bark.h"
 #include "speedtree_bones.h"
 #include "speedtree_leaves.h"
 #include "speedtree_spines.h"
@@ -43,6 +44,8 @@ Splines read_speedtree(std::string_view content, const ImportOptions& options, I
     if (file.bones.empty() && !file.has_spines())
         throw InputError(options.name, "has no skeleton (neither Spine nor Bone); export it from SpeedTree as Raw XML "
                                        "with spines or bones switched on");
+    BarkSurface bark; // where bones are all that tells of radii
+    if (!file.has_spines()) bark = parse_bark(content, options.name, file.bones);
     options.let_go();
     ImportedTree tree;
     tree.name = tree_name(file);
@@ -59,6 +62,7 @@ Splines read_speedtree(std::string_view content, const ImportOptions& options, I
         tree.branches = std::move(spines.branches);
     } else {
         complete_ends(file.bones, notes);
+        take_bark_radii(std::move(bark), file.bones, notes);
         complete_radii(file.bones, notes);
         BoneBranches bones = branches_of_bones(file.bones);
         tree.leaves = leaves_of(file, hosts_by_bone(file, bones), notes);

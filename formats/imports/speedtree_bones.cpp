@@ -1,6 +1,7 @@
 #include "speedtree_bones.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
+#include "pipe_rule.h"
 #include <algorithm>
 
 namespace bough::speedtree {
@@ -138,13 +139,13 @@ void complete_radii(std::vector<Bone>& bones, ImportNotes& notes) {
         const bool root = b.parent < 0;
         const double anchor = root ? known : bones[b.parent].radius, anchor_wood = root ? known_wood : wood[b.parent];
         if (root && !(known > 0))
-            b.radius = way[i] / 120;
+            b.radius = way[i] / pipe_slenderness;
         else
             b.radius = anchor_wood > 0 ? anchor * std::sqrt(wood[i] / anchor_wood) : anchor;
     }
     notes.lines.push_back(counted(missing, "bone", "bones") + " without Radius: taken from the " +
-                          (known > 0 ? "nearest thicker bone" : "tree's size (height 60 times the diameter)") +
-                          " and the length of wood beyond each");
+                          (known > 0 ? "nearest thicker bone" : "tree's size") + " and the length of wood beyond each");
+    notes.radii_guessed = !(known > 0);
 }
 
 BoneBranches branches_of_bones(const std::vector<Bone>& bones) {
@@ -153,7 +154,7 @@ BoneBranches branches_of_bones(const std::vector<Bone>& bones) {
     const std::vector<std::int32_t> order = order_of(bones), next = continuations(bones);
     result.branch_of.assign(bones.size(), -1);
     std::vector<double> arc(bones.size(), 0), length; // at each bone's start within its branch; of each branch
-    std::vector<std::int32_t> first;
+    std::vector<std::int32_t> first, last;            // bones of each branch
     for (const std::int32_t i : order) {
         const Bone& b = bones[i];
         const bool goes_on = b.parent >= 0 && next[b.parent] == i;
@@ -170,7 +171,9 @@ BoneBranches branches_of_bones(const std::vector<Bone>& bones) {
             result.branches.push_back(std::move(branch));
             length.push_back(0);
             first.push_back(i);
+            last.push_back(i);
         }
+        last[result.branch_of[i]] = i;
         ImportedBranch& branch = result.branches[result.branch_of[i]];
         length[result.branch_of[i]] += (b.end - branch.point.back()).norm();
         branch.point.push_back(b.end);
@@ -178,7 +181,8 @@ BoneBranches branches_of_bones(const std::vector<Bone>& bones) {
     }
     for (std::size_t k = 0; k < result.branches.size(); ++k) {
         ImportedBranch& branch = result.branches[k];
-        branch.radius.back() = tip_radius(branch);
+        const double tip = bones[last[k]].tip;
+        branch.radius.back() = tip > 0 ? tip : tip_radius(branch);
         if (branch.parent < 0) continue;
         const Bone& parent = bones[bones[first[k]].parent];
         const double on_parent = projected(parent.start, parent.end, branch.point.front()) * length_of(parent);

@@ -13,7 +13,7 @@ void complete_ends(std::vector<Bone>&, ImportNotes&);
 
 // Gives every bone a radius. One without (or 0) takes that of its nearest ancestor that has one, times the square root
 // of the ratio of the lengths of wood beyond each (the pipe model); a root without, the same from the thickest bone of
-// the file; in a file without any, a root has 1/120 of its longest way to a tip (height 60 diameters). Notes say so.
+// the file; in a file without any, a root has the pipe rule's part of its longest way to a tip (pipe_rule.h). Notes say so.
 void complete_radii(std::vector<Bone>&, ImportNotes&);
 
 struct BoneBranches {

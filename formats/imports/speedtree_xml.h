@@ -25,6 +25,7 @@ struct Bone {
     std::int32_t parent = -1; // index, -1: root
     Vec3 start = Vec3::Zero(), end = Vec3::Zero();
     double radius = 0;    // at the start; 0: the file gives none
+    double tip = 0;       // radius where a branch ends with it; 0: as the taper goes on
     bool has_end = false; // from the file, later completed
     std::string generator;
     std::size_t line = 0;

@@ -27,6 +27,7 @@ struct Rods {
     Armature made;
     std::vector<std::vector<std::int32_t>> below; // of each bone: nodes of the bones and marks that hang on it
     const std::vector<Vec3>* vertex = nullptr;    // to measure by: standing_mesh
+    const Bark* bark = nullptr;                   // likewise; null: there is none
 };
 
 // The axis along which most bones carry another one; -1: less than half of those that carry any.
@@ -110,6 +111,19 @@ std::vector<Vec3> toward_vertices(const Rods& r) {
     return result;
 }
 
+// As far as the bark around a bone's start goes on, which twigs that the same bone moves do not; 0: there is none.
+double bark_reach(const Rods& r, std::size_t b, const Vec3& direction, double vertices_reach) {
+    if (!r.bark) return 0;
+    const Bone& bone = r.made.bones[b];
+    double length = vertices_reach;
+    if (bone.parent >= 0) length = std::min(length, (bone.start - r.made.bones[std::size_t(bone.parent)].start).norm());
+    for (const double place : {0.02, 0.05, 0.1, 0.2}) {
+        const BarkRing ring = r.bark->ring(std::int32_t(b), bone.start + place * length * direction, direction);
+        if (ring.radius > 0) return r.bark->reach(std::int32_t(b), ring.piece, bone.start, direction, 2 * ring.radius);
+    }
+    return 0;
+}
+
 // Ends of the bones that have none yet: tips, and bones whose axis no other follows.
 void make_ends(Rods& r, int axis, ImportNotes& notes) {
     const std::vector<Vec3> middle = toward_vertices(r);
@@ -127,7 +141,8 @@ void make_ends(Rods& r, int axis, ImportNotes& notes) {
     for (std::size_t b = 0; b < r.made.bones.size(); ++b) { // parents first
         Bone& bone = r.made.bones[b];
         if (bone.has_end || (axis < 0 && !r.below[b].empty())) continue;
-        double length = reaches[b];
+        const double by_bark = reaches[b] > 0 ? bark_reach(r, b, direction[b], reaches[b]) : 0;
+        double length = by_bark > 0 ? by_bark : reaches[b];
         ++(length > 0 ? by_mesh : by_parent);
         if (!(length > 0) && bone.parent >= 0) {
             const Bone& above = r.made.bones[std::size_t(bone.parent)];
@@ -138,8 +153,8 @@ void make_ends(Rods& r, int axis, ImportNotes& notes) {
         set_end(bone, bone.start + length * direction[b]);
     }
     if (by_mesh > 0)
-        notes.lines.push_back(counted(by_mesh, "bone without an end: it reaches as far as its vertices",
-                                      "bones without an end: they reach as far as their vertices"));
+        notes.lines.push_back(counted(by_mesh, "bone without an end: it reaches as far as its bark or vertices",
+                                      "bones without an end: they reach as far as their bark or vertices"));
     if (by_parent > 0)
         notes.lines.push_back(counted(by_parent, "bone without an end: as long as the bone it goes on from",
                                       "bones without an end: as long as the bone they go on from"));
@@ -165,10 +180,13 @@ Armature armature_of(const ModelScene& scene, const Vec3& up, ImportNotes& notes
     const int axis = usual_axis(r);
     take_ends(r, axis);
     r.vertex = &standing_mesh(scene, r.made, notes);
+    std::optional<Bark> bark;
+    if (!r.vertex->empty()) bark.emplace(surface_of(scene, *r.vertex, r.made), r.made.bones.size());
+    if (bark) r.bark = &*bark;
     make_ends(r, axis, notes);
     ImportNotes by_longest_way; // as the header says; no guess about an end that the file lacks
     speedtree::complete_ends(r.made.bones, by_longest_way);
-    measure_radii(scene, *r.vertex, r.made, notes);
+    if (bark) measure_radii(*bark, scene, r.made, notes);
     return std::move(r.made);
 }
 

@@ -14,12 +14,13 @@
 // Ends. At such a mark; else where the file states it (Blender's COLLADA); else at the bone below that starts on this
 // bone's own axis, the farthest: the local axis on which most bones of the file carry another within 1e-4 (Blender's
 // is +Y); else, for a file whose bones have no such axis, at the start of the bone below with the longest way to a tip;
-// else along the axis as far as the vertices it moves most reach; else as long as the bone above. A bone reaches at
-// least as far as the bones below it start.
-// Radii. Of the vertices that a bone moves most, the median distance from its axis, of those in its first half where
-// there are at least 3, else of all (at least 3); other bones by the pipe rule (speedtree_bones.h).
+// else along the axis as far as the bark around its start goes (bark.h), or where there is none the vertices it moves most; else as
+// long as the bone above. A bone reaches at least as far as the bones below it start.
+// Radii. Of the bark around a bone (bark.h), told from twigs that have no bones of their own and move with it; other bones by the
+// pipe rule (pipe_rule.h). The twigs are wood too (bark_twigs.h), branches beside those of the bones. Where one is more than twice as thick as where the bone before it starts, a note says so.
 // Reads a ModelScene, its coordinates. O(nodes + vertices log vertices of a bone).
 #pragma once
+#include "formats/imports/bark_twigs.h"
 #include "formats/imports/imported_tree.h"
 #include "formats/imports/speedtree_xml.h"
 #include "model_scene.h"
@@ -29,6 +30,7 @@ namespace bough {
 struct Armature {
     std::vector<speedtree::Bone> bones; // all ends given; radius 0: not known
     std::vector<std::int32_t> node;     // of each bone
+    std::vector<Twig> twigs;            // wood of the mesh that moves with bones but is none of theirs
     bool mesh_beside = false;           // standing_mesh() did not take the vertices as the skin places them
 };
 
@@ -48,10 +50,12 @@ ChosenJoints choose_joints(const ModelScene&, const Vec3& up, ImportNotes&);
 // both lie off by more than half of the armature's size. Needs the ends that the file states.
 const std::vector<Vec3>& standing_mesh(const ModelScene&, Armature&, ImportNotes&);
 
-// ---- armature_radii.cpp ---- radii from the vertices (standing_mesh) that each bone moves; needs ends.
-void measure_radii(const ModelScene&, const std::vector<Vec3>& vertex, Armature&, ImportNotes&);
+// ---- armature_radii.cpp ---- the faces between these vertices (standing_mesh) as bark; its radii, which need ends.
+BarkSurface surface_of(const ModelScene&, const std::vector<Vec3>& vertex, const Armature&);
+void measure_radii(const Bark&, const ModelScene&, Armature&, ImportNotes&);
 
-// ---- armature_format.cpp ---- the bones as branches; what has no radius gets it by the pipe rule (pipe_rule.h).
+// ---- armature_tree.cpp ---- the bones as branches; what has no radius gets it by the pipe rule (pipe_rule.h). Twigs begin on the wood
+// nearest to their bases (nearest_segment.h).
 ImportedTree tree_of(const Armature&, ImportNotes&);
 
 } // namespace bough

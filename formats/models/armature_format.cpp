@@ -1,8 +1,6 @@
 #include "armature.h"
 #include "formats/imports/imported_tree.h"
 #include "formats/imports/line_graph.h"
-#include "formats/imports/pipe_rule.h"
-#include "formats/imports/speedtree_bones.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
 
@@ -92,6 +90,8 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
         bone.start = axes * bone.start;
         bone.end = axes * bone.end;
     }
+    for (Twig& twig : armature.twigs)
+        for (Vec3& p : twig.point) p = axes * p;
     ImportedTree tree = bones ? tree_of(armature, notes) : tree_of_line_meshes(scene, axes, options.name, notes);
     tree.source = std::string(model_kind_name(kind)) + (bones ? " armature " : " lines ") + options.name;
     ImportOptions own_unit = options;
@@ -101,13 +101,6 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
 }
 
 } // namespace
-
-ImportedTree tree_of(const Armature& armature, ImportNotes& notes) {
-    ImportedTree tree;
-    tree.branches = speedtree::branches_of_bones(armature.bones).branches;
-    fill_radii(tree.branches, notes);
-    return tree;
-}
 
 const SplineFormat armature_format{"FBX, glTF or COLLADA armature or lines", recognizes, read};
 

@@ -1,53 +1,62 @@
 #include "armature.h"
-#include <algorithm>
+#include "formats/plain_text.h"
+#include "lib/base/counted.h"
 
 namespace bough {
-namespace {
 
-struct VertexByBone {
-    double along, off; // of the bone's length; [file unit] from its axis
-};
-
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+BarkSurface surface_of(const ModelScene& scene, const std::vector<Vec3>& vertex, const Armature& armature) {
+    std::vector<std::int32_t> bone_of(scene.parent.size(), -1);
+    for (std::size_t b = 0; b < armature.bones.size(); ++b) bone_of[armature.node[b]] = std::int32_t(b);
+    BarkSurface surface{vertex, scene.face, {}};
+    for (const std::int32_t node : scene.vertex_node) surface.bone.push_back(bone_of[node]);
+    return surface;
 }
 
-double radius_of(const std::vector<VertexByBone>& places) {
-    std::vector<double> first_half, all;
-    for (const VertexByBone& p : places) {
-        all.push_back(p.off);
-        if (p.along <= 0.5) first_half.push_back(p.off);
+namespace {
+
+// Blender's Skin modifier draws wood of radius r as a square of 2 r, from the trunk to the twigs; other programs have more corners on a
+// trunk, and their corners stand on its circle.
+double corner_factor(const std::vector<BarkTaper>& tapers) {
+    std::size_t rings = 0, square = 0, thickest = 0;
+    for (std::size_t b = 0; b < tapers.size(); ++b) {
+        rings += std::size_t(tapers[b].rings);
+        square += std::size_t(tapers[b].square);
+        if (tapers[b].start > tapers[thickest].start) thickest = b;
     }
-    return first_half.size() >= 3 ? median(first_half) : all.size() >= 3 ? median(all) : 0;
+    return 5 * square > 4 * rings && tapers[thickest].square > 0 ? std::sqrt(0.5) : 1;
 }
 
 } // namespace
 
-void measure_radii(const ModelScene& scene, const std::vector<Vec3>& vertex, Armature& armature, ImportNotes& notes) {
-    if (vertex.empty()) return;
-    std::vector<std::int32_t> bone_of(scene.parent.size(), -1);
-    for (std::size_t b = 0; b < armature.bones.size(); ++b) bone_of[armature.node[b]] = std::int32_t(b);
-    std::vector<std::vector<VertexByBone>> places(armature.bones.size());
-    for (std::size_t v = 0; v < vertex.size(); ++v) {
-        const std::int32_t b = bone_of[scene.vertex_node[v]];
-        if (b < 0) continue;
-        const Vec3 axis = armature.bones[b].end - armature.bones[b].start;
-        const double length = axis.norm();
-        if (!(length > 0)) continue;
-        const Vec3 from = vertex[v] - armature.bones[b].start;
-        const double along = from.dot(axis) / length;
-        places[b].push_back({along / length, (from - along / length * axis).norm()});
+void measure_radii(const Bark& bark, const ModelScene& scene, Armature& armature, ImportNotes& notes) {
+    std::vector<speedtree::Bone>& bones = armature.bones;
+    const std::vector<BarkTaper> tapers = bark_tapers(bark, bones);
+    const double factor = corner_factor(tapers);
+    std::size_t measured = 0, growing = 0;
+    std::string first;
+    for (std::size_t b = 0; b < bones.size(); ++b) { // parents first
+        bones[b].radius = factor * tapers[b].start;
+        bones[b].tip = factor * tapers[b].end;
+        measured += tapers[b].start > 0;
+        const double before = bones[b].parent >= 0 ? bones[bones[b].parent].radius : 0;
+        if (!(before > 0) || !(bones[b].radius > 2 * before)) continue;
+        if (++growing == 1)
+            first = quoted(scene.name[armature.node[b]]) + ", " + shown(bones[b].radius / before) + " times as thick";
     }
-    std::size_t measured = 0;
-    for (std::size_t b = 0; b < places.size(); ++b) {
-        armature.bones[b].radius = radius_of(places[b]);
-        measured += armature.bones[b].radius > 0;
-    }
-    if (measured > 0)
-        notes.lines.push_back("radii of " + std::to_string(measured) + " of " + std::to_string(places.size()) +
-                              " bones measured on the mesh: the median distance from the bone of what it moves");
+    if (measured == 0) return;
+    armature.twigs = twigs_without_bones(bark, bones, tapers);
+    for (Twig& twig : armature.twigs)
+        for (double& r : twig.radius) r *= factor;
+    notes.lines.push_back("radii of " + std::to_string(measured) + " of " + std::to_string(bones.size()) +
+                          " bones measured on the mesh: the circle of the bark around each" +
+                          (factor < 1 ? ", square as Blender's Skin modifier draws it: half its sides" : ""));
+    if (!armature.twigs.empty())
+        notes.lines.push_back(counted(armature.twigs.size(), "twig without a bone of its own is wood",
+                                      "twigs without bones of their own are wood") +
+                              " by the mesh; --skin moves them with the bones they have");
+    if (growing > 0)
+        notes.lines.push_back("the bark of " + counted(growing, "bone is", "bones is") +
+                              " more than twice as thick as that of the bone before (" + first + ")");
 }
 
 } // namespace bough

@@ -1,4 +1,5 @@
 #include "assimp_scene.h"
+#include "assimp_skin.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
 #include "model_collada.h"
@@ -161,10 +162,11 @@ std::string convert(std::string_view content, AssimpKind kind, const std::string
         for (unsigned c = 0; c < 3; ++c)
             to_metres[r][c] = static_cast<ai_real>((frame.unit > 0 ? frame.unit : 1) * frame.axes(r, c));
     root = to_metres * root;
+    const std::vector<TakenSkin> skins = take_skins(const_cast<aiScene&>(*scene));
     Assimp::Exporter exporter;
     const aiExportDataBlob* blob = exporter.ExportToBlob(scene, "glb2", 0u);
     if (!blob) throw std::runtime_error(exporter.GetErrorString());
-    return {static_cast<const char*>(blob->data), blob->size};
+    return with_skins({static_cast<const char*>(blob->data), blob->size}, skins, file);
 }
 
 } // namespace

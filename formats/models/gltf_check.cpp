@@ -56,7 +56,7 @@ void check_joints(const GltfDocument& document, const Json& attributes, std::siz
     }
 }
 
-HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh) {
+HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh, bool quantized) {
     HighestJoint highest;
     const Json& primitives = document.json["meshes"][mesh].at("primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -64,7 +64,8 @@ HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh) {
         const Json& attributes = primitives[p].at("attributes");
         if (!attributes.contains("POSITION")) continue;
         const std::size_t vertices =
-            count_of(document, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::floats});
+            count_of(document, attributes["POSITION"],
+                     {place + ": POSITION", "VEC3", quantized ? GltfNumbers::any : GltfNumbers::floats});
         check_indices(document, primitives[p], vertices, place);
         check_joints(document, attributes, vertices, place, highest);
     }
@@ -84,11 +85,11 @@ void check_skin(const GltfDocument& document, std::size_t number) {
 
 } // namespace
 
-void check_arrays(const GltfDocument& document) {
+void check_arrays(const GltfDocument& document, bool quantized) {
     const Json& json = document.json;
     const std::size_t meshes = entries_of(json, "meshes"), skins = entries_of(json, "skins");
     std::vector<HighestJoint> highest;
-    for (std::size_t m = 0; m < meshes; ++m) highest.push_back(check_mesh(document, m));
+    for (std::size_t m = 0; m < meshes; ++m) highest.push_back(check_mesh(document, m, quantized));
     for (std::size_t s = 0; s < skins; ++s) check_skin(document, s);
     for (std::size_t i = 0; i < entries_of(json, "nodes"); ++i) {
         const Json& node = json["nodes"][i];

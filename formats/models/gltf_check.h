@@ -15,6 +15,7 @@ namespace bough {
 // Primitives without POSITION are passed over, as nothing is drawn of them. O(numbers in these arrays).
 // Throws std::out_of_range for what does not hold, with its place ("mesh 0, primitive 1: JOINTS_0 ...") and what was
 // expected, and as count_of and values_of do (gltf_accessor.h).
-void check_arrays(const GltfDocument&);
+// `quantized`: POSITION may be of normalized or whole bytes and shorts too (KHR_mesh_quantization).
+void check_arrays(const GltfDocument&, bool quantized);
 
 } // namespace bough

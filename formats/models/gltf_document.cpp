@@ -230,6 +230,25 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
     return document;
 }
 
+std::size_t add_shorts(GltfDocument& document, const std::vector<std::uint16_t>& numbers, const char* type) {
+    const std::string_view kind = type;
+    const std::size_t width = kind == "SCALAR" ? 1 : kind == "VEC3" ? 3 : 4;
+    std::string bytes;
+    bytes.reserve(2 * numbers.size());
+    for (const std::uint16_t number : numbers) {
+        bytes += static_cast<char>(number & 255);
+        bytes += static_cast<char>(number >> 8);
+    }
+    Json accessor{{"bufferView", add_view(document, bytes)},
+                  {"componentType", 5123},
+                  {"count", numbers.size() / width},
+                  {"type", type}};
+    Json& accessors = document.json["accessors"];
+    if (!accessors.is_array()) accessors = Json::array();
+    accessors.push_back(std::move(accessor));
+    return accessors.size() - 1;
+}
+
 std::size_t add_floats(GltfDocument& document, const std::vector<float>& numbers, const char* type, bool with_bounds) {
     const std::string_view kind = type;
     const std::size_t width = kind == "SCALAR" ? 1 : kind == "VEC3" ? 3 : kind == "VEC4" ? 4 : 16;

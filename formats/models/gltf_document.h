@@ -46,6 +46,9 @@ const char* image_type(std::string_view bytes);
 // ("SCALAR", "VEC3", "VEC4", "MAT4"). Returns the accessor's index.
 std::size_t add_floats(GltfDocument&, const std::vector<float>&, const char* type, bool with_bounds);
 
+// The same of unsigned shorts.
+std::size_t add_shorts(GltfDocument&, const std::vector<std::uint16_t>&, const char* type);
+
 // As a .glb; the JSON then says the buffer's size. Throws OutputError beyond its 4 GiB.
 std::string glb_of(GltfDocument&, const std::string& output_name);
 

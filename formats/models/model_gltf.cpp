@@ -21,24 +21,24 @@ bool compressed(const Json& json, const Json& accessor, const std::string& place
     return view.contains("extensions") && view["extensions"].contains("EXT_meshopt_compression");
 }
 
-bool encoded(const Json& json, const Json& primitive, const std::string& place) {
+bool encoded(const Json& json, const Json& primitive, const std::string& place, bool quantized) {
     if (primitive.contains("extensions") && primitive["extensions"].contains("KHR_draco_mesh_compression")) return true;
     const auto accessor = [&](const Json& of, const char* key) -> const Json& {
         return json.at("accessors")[index_of(of, key, place, entries_of(json, "accessors"))];
     };
     const Json& attributes = primitive.at("attributes");
     if (!attributes.contains("POSITION")) return false;
-    if (accessor(attributes, "POSITION").value("componentType", 0) != 5126) return true;
+    if (!quantized && accessor(attributes, "POSITION").value("componentType", 0) != 5126) return true;
     for (const char* kept : arrays_kept)
         if (attributes.contains(kept) && compressed(json, accessor(attributes, kept), place + ": " + kept)) return true;
     return primitive.contains("indices") && compressed(json, accessor(primitive, "indices"), place + ": indices");
 }
 
-bool any_encoded(const Json& json) {
+bool any_encoded(const Json& json, bool quantized) {
     for (std::size_t m = 0; m < entries_of(json, "meshes"); ++m) {
         const Json& primitives = json["meshes"][m].at("primitives");
         for (std::size_t p = 0; p < primitives.size(); ++p)
-            if (encoded(json, primitives[p], primitive_place(m, p))) return true;
+            if (encoded(json, primitives[p], primitive_place(m, p), quantized)) return true;
     }
     for (std::size_t s = 0; s < entries_of(json, "skins"); ++s) {
         const Json& skin = json["skins"][s];
@@ -76,7 +76,7 @@ void add_line_radii(GltfDocument& document, std::size_t mesh, std::size_t number
         const double factor = radius_factor(name);
         if (factor == 0) continue;
         const std::size_t count =
-            count_of(document, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::floats});
+            count_of(document, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::any});
         const std::vector<double> values =
             values_of(document, accessor, {place + ": " + name, "SCALAR", GltfNumbers::any});
         if (values.size() != count)
@@ -105,7 +105,9 @@ GltfJoints cut_down(GltfDocument& document) {
     found.own = own_rods(json["nodes"]);
     add_missing_scene(json);
     found.other_scenes = json["scenes"].size() - 1;
-    found.mesh_encoded = any_encoded(json);
+    const Json used = json.value("extensionsUsed", Json::array());
+    const bool quantized = std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
+    found.mesh_encoded = any_encoded(json, quantized);
     for (const char* other : {"animations", "materials", "textures", "images", "samplers", "cameras", "extensions",
                               "extensionsUsed", "extensionsRequired", "extras"})
         json.erase(other);
@@ -121,7 +123,7 @@ GltfJoints cut_down(GltfDocument& document) {
         if (found.mesh_encoded) node.erase("mesh");
         if (!skins) node.erase("skin");
     }
-    check_arrays(document);
+    check_arrays(document, quantized);
     add_missing_matrices(document);
     weights_as_floats(document);
     for (std::size_t m = 0; m < entries_of(json, "meshes"); ++m) {

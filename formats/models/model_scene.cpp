@@ -2,7 +2,6 @@
 #include "assimp_scene.h"
 #include "formats/plain_text.h"
 #include "model_collada.h"
-#include "model_gltf.h"
 #include "reader_limits.h"
 #include "skin_joint.h"
 #include <algorithm>
@@ -35,7 +34,6 @@ struct Reading {
     std::vector<Matrix> world;
     NodesByName by_name;
     const std::unordered_map<std::string, ColladaJoint>& collada;
-    bool line_radii; // are texture coordinates (model_gltf.h)
     // By which a skin means it: assimp names all COLLADA joints of one sid by the id of the first.
     std::string_view skin_name(const char* name) const {
         const auto found = collada.find(name);
@@ -119,14 +117,23 @@ void read_skinned(Reading& r, const aiMesh& mesh, const Matrix& mesh_world, std:
             if (weight > most_weight[v]) most_weight[v] = weight, most[v] = node;
         }
     }
+    std::vector<std::int32_t> taken(n, -1);
     for (std::size_t v = 0; v < n; ++v) {
         if (!(sum[v] > 0)) continue;
         moved[v] /= sum[v];
         if (mesh.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON) && moved[v].allFinite()) {
+            taken[v] = static_cast<std::int32_t>(r.out.vertex.size());
             r.out.vertex.push_back(moved[v]);
             r.out.vertex_node.push_back(most[v]);
             r.out.vertex_by_node.push_back(placed(mesh_world, mesh.mVertices[v]));
         }
+    }
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices != 3) continue;
+        std::array<std::int32_t, 3> corner;
+        for (unsigned k = 0; k < 3; ++k) corner[k] = face.mIndices[k] < n ? taken[face.mIndices[k]] : -1;
+        if (std::min({corner[0], corner[1], corner[2]}) >= 0) r.out.face.push_back(corner);
     }
 }
 
@@ -151,11 +158,9 @@ void read_mesh(Reading& r, const aiMesh& mesh, const Matrix& world, bool first_t
         lines = true;
     }
     if (!lines) return;
-    const double scale = std::cbrt(std::abs(world.topLeftCorner<3, 3>().determinant()));
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
         r.out.line_point.push_back(moved.empty() ? placed(world, mesh.mVertices[v]) : moved[v]);
-        const bool stated = r.line_radii && mesh.HasTextureCoords(0);
-        r.out.line_radius.push_back(stated ? scale * static_cast<double>(mesh.mTextureCoords[0][v].x) : 0);
+        r.out.line_radius.push_back(0);
     }
 }
 
@@ -177,31 +182,6 @@ void read_meshes(Reading& r) {
     if (!apart) by_node = {};
 }
 
-// What our own file says of a joint.
-void take_own(Reading& r, std::size_t node, const std::vector<OwnRod>& rods) {
-    if (rods.empty()) r.out.role[node] = NodeRole::holder;
-    for (const OwnRod& rod : rods) {
-        r.out.own_rod.push_back(in_world(rod, Eigen::Affine3d(r.world[node])));
-        const OwnRod& at = r.out.own_rod.back();
-        if (rod[0] == rods.front()[0]) r.out.tip[node] = {at[6], at[7], at[8]};
-    }
-}
-
-void mark_joints(Reading& r, const GltfJoints& joints) {
-    r.out.index.assign(r.node.size(), -1);
-    for (std::size_t i = 0; i < r.node.size(); ++i) {
-        const std::optional<std::int64_t> index =
-            r.out.name[i].starts_with('#') ? parse_integer(std::string_view(r.out.name[i]).substr(1)) : std::nullopt;
-        if (!index || *index < 0 || static_cast<std::size_t>(*index) >= joints.joint.size()) continue;
-        r.out.index[i] = static_cast<std::int32_t>(*index);
-        r.out.name[i] = joints.name[static_cast<std::size_t>(*index)];
-        if (joints.joint[static_cast<std::size_t>(*index)]) r.out.role[i] = NodeRole::joint;
-        if (!joints.own.rods.empty() && joints.own.ours[static_cast<std::size_t>(*index)])
-            take_own(r, i, joints.own.rods[static_cast<std::size_t>(*index)]);
-    }
-    r.out.own_others = joints.own.others;
-}
-
 // Roles and tips that COLLADA states. A tip is a vector from the bone's start in the armature's axes.
 void mark_collada(Reading& r) {
     const auto& joints = r.collada;
@@ -221,38 +201,17 @@ void mark_collada(Reading& r) {
 
 ModelScene read_in_child(std::string_view content, AssimpKind kind, const ImportOptions& options) {
     ModelScene out;
-    GltfJoints joints;
-    std::string glb;
-    if (kind == AssimpKind::glb || kind == AssimpKind::gltf) {
-        ImportNotes none;
-        GltfDocument document = read_gltf(content, options.name, options.folder, GltfImages::leave, none);
-        try {
-            out.animations =
-                static_cast<std::int64_t>(document.json.value("animations", nlohmann::ordered_json()).size());
-            joints = cut_down(document);
-        } catch (const std::bad_alloc&) {
-            throw; // which run_forked tells as what it is
-        } catch (const std::exception& error) {
-            // A type that is wrong, an index beyond.
-            throw InputError(options.name, std::string("is no glTF 2.0: ") + error.what());
-        }
-        out.mesh_encoded = joints.mesh_encoded;
-        out.other_scenes = static_cast<std::int64_t>(joints.other_scenes);
-        glb = glb_of(document, options.name);
-        content = glb;
-        kind = AssimpKind::glb;
-    }
     Assimp::Importer importer;
     const aiScene& scene = *load_by_assimp(importer, content, "", kind, options.up != 0);
     const auto collada =
         kind == AssimpKind::dae ? collada_joints(content) : std::unordered_map<std::string, ColladaJoint>();
-    Reading reading{scene, out, {}, {}, {}, collada, kind == AssimpKind::glb};
+    Reading reading{scene, out, {}, {}, {}, collada};
     const ModelFrame frame = stated_frame(scene, kind);
     out.to_y_up = frame.axes;
     out.unit = frame.unit;
     read_nodes(reading, kind);
     read_meshes(reading);
-    mark_joints(reading, joints);
+    reading.out.index.assign(reading.node.size(), -1);
     mark_collada(reading);
     // In an FBX file what is no joint is a Null or holds something.
     const bool stated = std::count(out.role.begin(), out.role.end(), NodeRole::joint) > 0;
@@ -265,6 +224,7 @@ ModelScene read_in_child(std::string_view content, AssimpKind kind, const Import
 ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOptions& options) {
     ChildResult child;
     try {
+        if (kind == AssimpKind::glb || kind == AssimpKind::gltf) return scene_of_gltf(content, options);
         child =
             run_forked([&] { return bytes_of(read_in_child(content, kind, options)); }, reader_limits(content.size()));
         if (child.failure.empty()) return model_scene_of(child.bytes);

@@ -1,5 +1,5 @@
 // model_scene.h: what an armature reader needs of a model file (FBX, glTF, COLLADA): its nodes, which of them are
-// joints, the vertices that they move, and lines; read by assimp in a child process.
+// joints, the vertices that they move, and lines; FBX and COLLADA read by assimp in a child process, glTF here.
 #pragma once
 #include "formats/imports/import.h"
 #include "lib/base/math.h"
@@ -26,8 +26,9 @@ struct ModelScene {
     std::vector<Mat3> axes;          // columns: directions of the node's own axes there, unit length
     std::vector<Vec3> tip; // [file unit] of a bone's end where the file states it (Blender's COLLADA), else NaN
 
-    // Vertices of skinned meshes in that pose, and the node that moves each most.
+    // Vertices of skinned meshes in that pose, and the node that moves each most; triangles between them.
     std::vector<Vec3> vertex;
+    std::vector<std::array<std::int32_t, 3>> face;
     std::vector<std::int32_t> vertex_node;
     std::vector<Vec3> vertex_by_node; // the same as the mesh's own node places them; empty: all there already
 
@@ -51,6 +52,12 @@ struct ModelScene {
 // O(size of the file). Throws InputError: what assimp says, that it crashed or took too much, what read_gltf and cut_down
 // (model_gltf.h) throw, what is read needs more memory than there is.
 ModelScene read_model(std::string_view content, AssimpKind, const ImportOptions&);
+
+// ---- gltf_scene.cpp ---- a glTF file, read here from first to last.
+// The default scene's nodes, depth first, as its file names them; triangles and lines of any mode. Normalized and integer positions
+// (KHR_mesh_quantization) count as what they stand for; meshes in Draco's form or meshopt's are left out (mesh_encoded). O(JSON + numbers of the
+// arrays that are read). Throws InputError as read_gltf, cut_down (model_gltf.h) and nodes_of do; memory that runs out is std::bad_alloc.
+ModelScene scene_of_gltf(std::string_view content, const ImportOptions&);
 
 // ---- model_scene_bytes.cpp ---- as bytes, and back.
 std::string bytes_of(const ModelScene&);

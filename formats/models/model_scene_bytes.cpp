@@ -22,6 +22,7 @@ std::string bytes_of(const ModelScene& s) {
     pack_all<double, 3>(bytes, s.vertex);
     pack_all<std::int32_t, 1>(bytes, s.vertex_node);
     pack_all<double, 3>(bytes, s.vertex_by_node);
+    pack_all<std::int32_t, 3>(bytes, s.face);
     pack_all<double, 3>(bytes, s.line_point);
     pack_all<double, 1>(bytes, s.line_radius);
     pack_all<std::int32_t, 2>(bytes, s.line);
@@ -48,6 +49,7 @@ ModelScene model_scene_of(const std::string& bytes) {
     unpack_all<double, 3>(bytes, from, s.vertex);
     unpack_all<std::int32_t, 1>(bytes, from, s.vertex_node);
     unpack_all<double, 3>(bytes, from, s.vertex_by_node);
+    unpack_all<std::int32_t, 3>(bytes, from, s.face);
     unpack_all<double, 3>(bytes, from, s.line_point);
     unpack_all<double, 1>(bytes, from, s.line_radius);
     unpack_all<std::int32_t, 2>(bytes, from, s.line);

@@ -32,6 +32,18 @@ grep -q '^read  *MTG: 4 branches on 3 levels, 10 points' err || fail "--stats of
 grep -q '^units  *cm (given)' err && grep -q '^up axis  *Z (given)' err && grep -q '^roots  *2' err || fail "$(cat err)"
 grep -q '^height  *3 m, from 0 to 3; 4 by 0.3 m wide' err || fail "$(cat err)"
 
+# A trunk without radii is guessed, said, and may be said otherwise; so may one that a file states.
+expect 0 treegen --import "$fixtures/bare_bones.xml" -o tree.json
+grep -q 'is taken as 0.08824 m thick at the base.*--trunk-diameter' err || fail "the guess is not told: $(cat err)"
+expect 0 treegen --import "$fixtures/bare_bones.xml" --trunk-diameter 0.3 --stats -o tree.json
+grep -q '^wood .* to 0.15 m' err && ! grep -q 'thick at the base' err || fail "$(cat err)"
+expect 0 treeconvert "$fixtures/shuffled.swc" --trunk-diameter 0.5 -o tree.json
+grep -q 'radii multiplied by' err || fail "$(cat err)"
+refused 1 "--trunk-diameter: only with --import" treegen --trunk-diameter 0.3 --seed 3
+refused 1 "--trunk-diameter" treegen --import "$fixtures/bare_bones.xml" --trunk-diameter 0 -o none.json
+expect 0 treegen --bodies 20 -o own.json
+refused 1 "--trunk-diameter: own.json is a bough document, whose radii are its own" treeconvert own.json --trunk-diameter 0.3 -o none.json
+
 # What nobody can read is called by its name, whatever its content or its name says.
 refuse_as() {
     local file=$1 text=$2

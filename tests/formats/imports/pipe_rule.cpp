@@ -21,26 +21,28 @@ double powered(double r) {
 
 } // namespace
 
-TEST_CASE("without any radius the rule holds at every fork and the base is 1/120 of the longest way") {
+TEST_CASE("without any radius the rule holds at every fork and the base is 1/68 of the longest way") {
     // A trunk of 6 that carries two branches at its middle, one of them a twig of its own at its end.
     std::vector<ImportedBranch> tree{straight(-1, 0, 6, {0, 0, 0}), straight(0, 0.5, 4, {0, 0}),
                                      straight(0, 0.5, 2, {0, 0}), straight(1, 1, 1, {0, 0})};
     ImportNotes notes;
     fill_radii(tree, notes);
     const double tip = tree[0].radius[2];
-    CHECK(tree[0].radius[0] == Approx(8.0 / 120)); // 3 up the trunk, 4 along the branch, 1 along the twig
+    CHECK(tree[0].radius[0] == Approx(8.0 / 68)); // 3 up the trunk, 4 along the branch, 1 along the twig
     CHECK(powered(tree[1].radius[0]) == Approx(2 * powered(tip)));
     CHECK(tree[2].radius == std::vector<double>{tip, tip});
     CHECK(powered(tree[0].radius[0]) == Approx(4 * powered(tip)));
     CHECK(tree[0].radius[1] == tree[0].radius[0]);
     REQUIRE(notes.lines.size() == 1);
     CHECK(notes.lines[0].find("9 of 9 radii") == 0);
+    CHECK(notes.radii_guessed);
 }
 
 TEST_CASE("what is known stays, gaps between are straight, ends follow the rule from there") {
     std::vector<ImportedBranch> tree{straight(-1, 0, 4, {0.4, 0, 0.2, 0.1, 0}), straight(0, 0.875, 1, {0, 0})};
     ImportNotes notes;
     fill_radii(tree, notes);
+    CHECK_FALSE(notes.radii_guessed);
     CHECK(tree[0].radius[1] == Approx(0.3));
     tree[0].radius[1] = 0.3;
     CHECK(tree[0].radius == std::vector<double>{0.4, 0.3, 0.2, 0.1, 0}); // drawn to a point

@@ -100,8 +100,8 @@ TEST_CASE("a PLY without radii gets them by the pipe rule") {
     const Imported in = imported(replaced(ascii(), "radius", "quality"), "x.ply");
     CHECK(in.notes_hold("filled by the pipe rule"));
     // The longest way is 2 + sqrt 2, two tips.
-    CHECK(in.splines.radius[0] == Approx((2 + std::sqrt(2.0)) / 120));
-    CHECK(in.splines.radius[2] == Approx((2 + std::sqrt(2.0)) / 120 / std::pow(2, 1 / 2.25)));
+    CHECK(in.splines.radius[0] == Approx((2 + std::sqrt(2.0)) / 68));
+    CHECK(in.splines.radius[2] == Approx((2 + std::sqrt(2.0)) / 68 / std::pow(2, 1 / 2.25)));
 }
 
 TEST_CASE("PLY files without a skeleton are refused with advice, wrong ones with their place") {

@@ -1,4 +1,10 @@
+#include "formats/imports/imported_tree.h"
+#include "formats/imports/speedtree_bark.h"
+#include "lib/growth/segment.h"
+#include "lib/model/wood.h"
+#include "lib/study/modes.h"
 #include "tests/support/import_support.h"
+#include "tests/support/tubes.h"
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -111,12 +117,28 @@ TEST_CASE("bones with neither end nor radius get both") {
     CHECK(near(s.point[s.first_point[1]], {0.05, 1.5, 0}));
     CHECK(near(s.point.back(), {0.1, 2, 0}));
     CHECK(s.parent_at[1] == Approx(0.5));
-    // 300 cm high: 2.5 cm at the ground; wood beyond: 300 + side, 200 + side, 100, side.
+    // 300 cm high: a 34th thick at the ground; wood beyond: 300 + side, 200 + side, 100, side.
     const double side = std::sqrt(25.0 + 2500.0);
-    CHECK(s.radius[0] == Approx(0.025));
-    CHECK(s.radius[1] == Approx(0.025 * std::sqrt((200 + side) / (300 + side))));
-    CHECK(s.radius[2] == Approx(0.025 * std::sqrt(100 / (300 + side))));
-    CHECK(s.radius[s.first_point[1]] == Approx(0.025 * std::sqrt(side / (300 + side))));
+    const double base = 3 / 68.0;
+    CHECK(s.radius[0] == Approx(base));
+    CHECK(s.radius[1] == Approx(base * std::sqrt((200 + side) / (300 + side))));
+    CHECK(s.radius[2] == Approx(base * std::sqrt(100 / (300 + side))));
+    CHECK(s.radius[s.first_point[1]] == Approx(base * std::sqrt(side / (300 + side))));
+    CHECK(in.notes_hold("0.08824 m thick at the base"));
+    // As thick as the user says, all of it alike; so are radii that a file states.
+    ImportOptions thick;
+    thick.trunk_diameter = 0.2;
+    const Imported said = imported(fixture("bare_bones.xml"), "bare_bones.xml", thick);
+    for (std::size_t k = 0; k < s.points(); ++k) CHECK(said.splines.radius[k] == Approx(s.radius[k] * 0.1 / base));
+    CHECK_FALSE(said.notes_hold("thick at the base"));
+    const Imported stated = imported(fixture("forked_bones.xml"), "f.xml"),
+                   scaled = imported(fixture("forked_bones.xml"), "f.xml", thick);
+    CHECK(scaled.notes_hold("radii multiplied by"));
+    double most = 0;
+    for (std::size_t b = 0; b < stated.splines.branches(); ++b)
+        if (stated.splines.parent[b] < 0) most = std::max(most, stated.splines.radius[stated.splines.first_point[b]]);
+    for (std::size_t k = 0; k < scaled.splines.points(); ++k)
+        CHECK(scaled.splines.radius[k] == Approx(stated.splines.radius[k] * 0.1 / most));
     CHECK(in.notes_hold("4 bones without End"));
     CHECK(in.notes_hold("4 bones without Radius"));
 }
@@ -368,7 +390,8 @@ TEST_CASE("one tree in centimetres with spines, in metres with bones, merged: th
         CHECK(std::count(s->level.begin(), s->level.end(), 1) == 6);
         CHECK(std::count(s->level.begin(), s->level.end(), 2) == 16);
         CHECK(top_of(*s) == Approx(11.6444).margin(1e-3));
-        CHECK(s->radius[0] == Approx(0.2).epsilon(0.17)); // bones of the trunk have 0.84 of its radius
+        CHECK(s->radius[0] ==
+              Approx(0.2).epsilon(0.05)); // bones of the trunk have 0.84 of its radius, the bark has all
         CHECK(total_length(*s) == Approx(total_length(spines)).epsilon(0.03));
     }
     // Branches: same joint, same place on the parent, same tip, same radius at the joint; spines only have more points.
@@ -391,6 +414,26 @@ TEST_CASE("one tree in centimetres with spines, in metres with bones, merged: th
                   Approx(bones.radius[bones.first_point[b + 1] - 1]).epsilon(0.35));
         if (bones.parent[b] >= 0) CHECK(spines.parent[same] == spine_of_bone_branch[bones.parent[b]]);
     }
+    // All along the wood, and so in how it sways.
+    for (std::size_t b = 0; b < bones.branches(); ++b) {
+        const auto same = std::size_t(spine_of_bone_branch[b]);
+        const std::vector<Vec3> line(spines.point.begin() + spines.first_point[same],
+                                     spines.point.begin() + spines.first_point[same + 1]);
+        for (std::int32_t k = bones.first_point[b]; k + 1 < bones.first_point[b + 1]; ++k) {
+            const OnPolyline at = nearest_on(line, bones.point[k]);
+            const double* radius = &spines.radius[std::size_t(spines.first_point[same]) + at.segment];
+            CHECK(bones.radius[k] == Approx((1 - at.t) * radius[0] + at.t * radius[1]).epsilon(0.05));
+        }
+    }
+    const Tree of_spines = segment(spines, wood_presets().front(), {}),
+               of_bones = segment(bones, wood_presets().front(), {}),
+               of_merged = segment(merged, wood_presets().front(), {});
+    const auto sway = [](const Tree& tree, const Vec3& way) {
+        return sway_along(SmallMotion(tree, Vec3(0, -9.81, 0), Pose::drawn), way).frequency;
+    };
+    for (const Vec3& way : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())})
+        for (const Tree* other : {&of_bones, &of_merged})
+            CHECK(sway(*other, way) == Approx(sway(of_spines, way)).epsilon(0.05));
     for (std::size_t l = 0; l < bones.leaves(); ++l) {
         for (const Splines* other : {&spines, &merged}) {
             const std::int32_t same = leaf_nearest(*other, bones.leaf_position[l]);
@@ -433,4 +476,42 @@ TEST_CASE("every foreign file is read or refused in one line") {
               .find("x:24: <LeafReferences> BoneID 99") == 0);
     CHECK(error_of(*foreign_case("invalid/speedtree_missing_skeleton.xml"), "x").find("no skeleton") !=
           std::string::npos);
+}
+
+TEST_CASE("bones are as thick as their bark, where that says more than its roughness") {
+    // A trunk of four bones with 0.84 of its radius and a flare at its foot, a branch with its own, a branch without any.
+    std::vector<speedtree::Bone> bones;
+    const auto add = [&](std::int32_t parent, const Vec3& start, const Vec3& end, double radius) {
+        speedtree::Bone bone;
+        bone.id = 10 + std::int64_t(bones.size()), bone.parent = parent, bone.start = start, bone.end = end;
+        bone.has_end = true, bone.radius = radius;
+        bone.generator = parent < 0 || start.x() == 0 ? "Trunk" : "Branch";
+        bones.push_back(bone);
+        return std::int32_t(bones.size()) - 1;
+    };
+    const std::vector<Vec3> trunk{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}, {0, 0, 4}};
+    const std::vector<double> radius{0.2, 0.18, 0.16, 0.14, 0.12};
+    for (std::int32_t k = 0; k < 4; ++k)
+        add(k - 1, trunk[std::size_t(k)], trunk[std::size_t(k) + 1], 0.84 * radius[std::size_t(k)]);
+    const std::vector<Vec3> side{{0.1, 0, 2}, {1.1, 0, 2}}, other{{-0.1, 0, 3}, {-1.1, 0, 3}};
+    add(1, side[0], side[1], 0.05);
+    add(2, other[0], other[1], 0);
+    BarkSurface bark;
+    std::vector<double> flared = radius;
+    flared[0] *= 1.5;
+    add_tube(bark, trunk, flared, {0, 1, 2, 3}, 6);
+    add_tube(bark, side, {0.051, 0.031}, {4}, 5);
+    add_tube(bark, other, {0.04, 0.02}, {5}, 5);
+    ImportNotes notes;
+    speedtree::take_bark_radii(bark, bones, notes);
+    for (std::size_t k = 0; k < 4; ++k) CHECK(bones[k].radius == Approx(radius[k]).epsilon(0.02));
+    CHECK(bones[4].radius == 0.05);
+    CHECK(bones[5].radius == Approx(0.04).epsilon(1e-3));
+    CHECK(bones[5].tip == Approx(0.02).epsilon(1e-3));
+    REQUIRE(notes.lines.size() == 2);
+    CHECK(notes.lines[0].find("1 branch of 3 multiplied by 1.19") != std::string::npos);
+    CHECK(notes.lines[1] == "1 bone without Radius given that of the bark around");
+
+    CHECK_THROWS_WITH(speedtree::parse_bark(fixture("meshed_tree.xml"), "m.xml", {}),
+                      Catch::Matchers::Contains("does not exist, expected the ID of a Bone or -1"));
 }

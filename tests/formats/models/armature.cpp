@@ -1,6 +1,7 @@
 #include "formats/models/armature.h"
 #include "formats/models/user_model.h"
 #include "tests/support/import_support.h"
+#include "tests/support/tubes.h"
 #include <atomic>
 #include <csignal>
 #include <functional>
@@ -61,11 +62,12 @@ TEST_CASE("an armature with its mesh: a mark, a bone that begins midway, a contr
     CHECK(s.first_point == std::vector<std::int32_t>{0, 3, 6});
     const std::vector<Vec3> point{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 0.5, 0}, {0.4, 0.5, 0}, {0.7, 0.5, 0}};
     for (std::size_t k = 0; k < point.size(); ++k) CHECK(near(s.point[k], point[k], 1e-6));
-    // The four corners of the ring at each bone's start stand this far off; at tips the taper goes on.
-    const std::vector<double> radius{0.1, 0.08, 0.06, 0.04, 0.03, 0.0225};
-    for (std::size_t k = 0; k < radius.size(); ++k) CHECK(s.radius[k] == Approx(radius[k]).epsilon(1e-6));
+    // Each bone has a tube of its own, whose four corners stand this far off: a square of wood that is half its side thick.
+    const std::vector<double> corner{0.1, 0.08, 0.08, 0.04, 0.03, 0.03};
+    for (std::size_t k = 0; k < corner.size(); ++k)
+        CHECK(s.radius[k] == Approx(std::sqrt(0.5) * corner[k]).epsilon(1e-6));
     CHECK(in.notes_hold("1 bone that moves no vertex"));
-    CHECK(in.notes_hold("1 bone without an end: it reaches as far as its vertices"));
+    CHECK(in.notes_hold("1 bone without an end: it reaches as far as its bark"));
     CHECK(in.notes_hold("radii of 4 of 4 bones measured"));
     CHECK(in.notes.lines.size() == 3); // unit and up axis are the format's
 }
@@ -132,12 +134,12 @@ TEST_CASE("of two armatures with bones of the same names each skin has its own")
     std::sort(x.begin(), x.end());
     CHECK(near({x[0], x[1], 0}, {0, 3, 0}, 1e-6));
     CHECK(total_length(s) == Approx(4 + 2));
-    for (const double r : s.radius) CHECK(r == Approx(0.1));
+    for (const double r : s.radius) CHECK(r == Approx(0.1 * std::sqrt(0.5)));
     // assimp cannot tell them apart when it writes glTF.
     CHECK_THROWS_AS(glb_by_assimp(fixture("two_armatures.dae"), AssimpKind::dae, {}), InputError);
 }
 
-// The fixture's armature stands at x = 3; both matrices say so. A ring of 0.1 around bones from y = 0 to 2.
+// The fixture's armature stands at x = 3; both matrices say so. A square tube with corners 0.1 off bones from y = 0 to 2.
 TEST_CASE("a skin whose bind matrices are not its nodes' is measured where its mesh stands, or not at all") {
     const std::string good = fixture("moved_armature.dae");
     const std::string scaled =
@@ -167,7 +169,7 @@ TEST_CASE("a skin whose bind matrices are not its nodes' is measured where its m
     for (const Case& c : cases) {
         INFO(&c - cases);
         const Imported in = imported(c.file, "m.dae");
-        for (const double r : in.splines.radius) CHECK(r == Approx(c.radius));
+        for (const double r : in.splines.radius) CHECK(r == Approx(c.radius * std::sqrt(0.5)));
         CHECK(in.notes_hold("measured where the mesh's own node stands") == c.elsewhere);
         CHECK(in.notes_hold("radii of 2 of 2 bones measured"));
     }
@@ -501,10 +503,98 @@ TEST_CASE("skinned armatures: one tree as FBX, glb, gltf, COLLADA, with and with
         CHECK(in.splines.branches() == 30);
         CHECK(total_length(in.splines) == Approx(116.7656).epsilon(1e-4));
         CHECK(top_of(in.splines) == Approx(17.311).epsilon(1e-4));
-        CHECK(in.notes_hold("radii of 158 of 158 bones measured") == meshed);
+        CHECK(in.notes_hold(" of 158 bones measured") == meshed);
         CHECK(in.notes_hold("without an end: they reach") == meshed);
         CHECK_FALSE(in.notes_hold("as long as the bone"));
     }
+}
+
+// A stem of four bones of 1.5 m, the last without a stated end, whose twigs of 2 m have no bones and so move with the stem's.
+TEST_CASE("twigs without bones of their own make no stem thicker and no tip longer") {
+    const std::vector<Vec3> axis{{0, 0, 0}, {0, 1.5, 0}, {0, 3, 0}, {0, 4.5, 0}, {0, 5.2, 0}};
+    const std::vector<double> radius{0.06, 0.05, 0.04, 0.03, 0.02};
+    const auto scene_of = [&](bool twigs, bool thick) {
+        ModelScene scene;
+        for (std::int32_t k = 0; k < 4; ++k) {
+            scene.parent.push_back(k - 1);
+            scene.role.push_back(NodeRole::joint);
+            scene.name.push_back("bone." + std::to_string(k));
+            scene.place.push_back(axis[std::size_t(k)]);
+            scene.axes.push_back(Mat3::Identity());
+            scene.tip.push_back(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+        }
+        BarkSurface mesh;
+        add_tube(mesh, axis, radius, {0, 1, 2, 3}, 8);
+        for (std::int32_t b = 0; twigs && b < 4; ++b)
+            for (int k = 0; k < 20; ++k) {
+                const Vec3 base = axis[std::size_t(b)] + 0.05 * k * (axis[std::size_t(b) + 1] - axis[std::size_t(b)]);
+                const Vec3 out(std::cos(2.4 * k), 1, std::sin(2.4 * k));
+                add_tube(mesh, {base, base + 0.7 * out, base + 1.4 * out}, {0.015, 0.01, 0.005}, {b}, 6);
+            }
+        if (thick) add_tube(mesh, {{3, 3.1, 0}, {3, 4.4, 0}}, {0.2, 0.2}, {2}, 8); // far from the bone, no twig
+        scene.vertex = mesh.point;
+        scene.face = mesh.triangle;
+        scene.vertex_node = mesh.bone;
+        return scene;
+    };
+    for (const bool twigs : {false, true})
+        for (const bool thick : {false, true}) {
+            ImportNotes notes;
+            const Armature armature = armature_of(scene_of(twigs, thick), Vec3::UnitY(), notes);
+            REQUIRE(armature.bones.size() == 4);
+            for (std::size_t b = 0; b < 4; ++b) CHECK(armature.bones[b].radius == Approx(radius[b]).epsilon(0.01));
+            CHECK(armature.bones[3].tip == Approx(radius[4]).epsilon(0.01));
+            CHECK(near(armature.bones[3].end, axis[4], 1e-6));
+            CHECK(armature.twigs.size() == std::size_t(twigs ? 80 : 0));
+            // Their wood is in the tree: of the twigs as much as their frusta hold.
+            ImportNotes none;
+            double wood = 0, twigs_wood = 0;
+            const ImportedTree tree = tree_of(armature, none);
+            for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+                const ImportedBranch& branch = tree.branches[b];
+                CHECK((branch.parent >= 0) == (b > 0));
+                for (std::size_t k = 1; k < branch.point.size(); ++k) {
+                    const double r = branch.radius[k - 1], q = branch.radius[k];
+                    (b == 0 ? wood : twigs_wood) +=
+                        (r * r + r * q + q * q) * (branch.point[k] - branch.point[k - 1]).norm();
+                }
+            }
+            const auto frusta = [](double r, double q, double length) { return (r * r + r * q + q * q) * length; };
+            if (twigs && !thick)
+                CHECK(twigs_wood == Approx(80 * (frusta(0.015, 0.01, 0.7 * std::sqrt(2.0)) +
+                                                 frusta(0.01, 0.005, 0.7 * std::sqrt(2.0))))
+                                        .epsilon(0.2));
+            for (const std::string& line : notes.lines) CHECK(line.find("twice as thick") == std::string::npos);
+        }
+    ModelScene swollen = scene_of(true, false);
+    for (Vec3& p : swollen.vertex)
+        if (p.y() > 2.99) p.x() *= 3, p.z() *= 3;
+    ImportNotes notes;
+    armature_of(swollen, Vec3::UnitY(), notes);
+    CHECK(std::any_of(notes.lines.begin(), notes.lines.end(), [](const std::string& line) {
+        return line.find("the bark of 1 bone is more than twice as thick as that of the bone before (\"bone.2\"") == 0;
+    }));
+}
+
+// The add-on's curve is 0.23766 m thick at the ground; its Skin modifier draws squares of twice that.
+TEST_CASE("Sapling's skinned trunk is as thick as its curve") {
+    for (const char* file : {"sapling_quaking_aspen_s0_skin.fbx", "sapling_quaking_aspen_s0_skin.glb"})
+        if (const auto content = foreign_case(std::string("sapling/") + file)) {
+            const Imported in = imported(*content, file, beside_cases());
+            CHECK(in.splines.radius[0] == Approx(0.23766).epsilon(0.01));
+            CHECK(in.notes_hold("Skin modifier"));
+        }
+}
+
+// The armature of the pine without a mesh; its curves say 0.0986 m.
+TEST_CASE("a trunk of unknown thickness is guessed as trees are") {
+    for (const char* file : {"sapling_small_pine_s0_arm.armonly.glb", "sapling_small_pine_s0_arm.armonly.fbx"})
+        if (const auto content = foreign_case(std::string("sapling/") + file)) {
+            const Imported in = imported(*content, file);
+            const double slenderness = top_of(in.splines) / (2 * in.splines.radius[0]);
+            CHECK((slenderness > 20 && slenderness < 45));
+            CHECK(in.notes_hold("m thick at the base by the tree's size"));
+        }
 }
 
 TEST_CASE("models that are no trees are read as their bones are") {

@@ -389,9 +389,9 @@ TEST_CASE("memory that runs out while what was read is taken over is told of in 
     if (sanitized) return; // keeps no limits
     // Some 130 bytes for each of these nodes, more than what lies free here.
     std::string nodes = R"({"asset": {"version": "2.0"}, "nodes": [{})";
-    for (int k = 1; k < 50000; ++k) nodes += ",{}";
+    for (int k = 1; k < 400000; ++k) nodes += ",{}";
     nodes += "]}";
-    CHECK(scene_of(nodes).parent.size() == 50000);
+    CHECK(scene_of(nodes).parent.size() == 400000);
     ChildLimits little;
     little.bytes = std::size_t(1) << 20;
     const auto read = [&]() -> std::string {
@@ -400,20 +400,4 @@ TEST_CASE("memory that runs out while what was read is taken over is told of in 
     };
     CHECK_THAT(run_forked(read, little).failure,
                Catch::StartsWith("s.gltf: ") && Catch::Contains("needs more memory than"));
-}
-
-TEST_CASE("memory that runs out while a file is read is not told of as a fault in its form") {
-    if (sanitized) return;
-    // Six million joints without matrices, of 64 bytes each in several places.
-    std::string joints_text = "0";
-    for (int k = 1; k < 6000000; ++k) joints_text += ",0";
-    const std::string content =
-        R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": []}], "skins": [{"joints": [)" +
-        joints_text + "]}]}";
-    reader_choice().megabytes = 700;
-    CHECK_THROWS_WITH(scene_of(content),
-                      Catch::Contains("s.gltf: ") &&
-                          Catch::Contains("needs more memory than the 700 MB it may take (--reader-memory)") &&
-                          !Catch::Contains("glTF 2.0:") && !Catch::Contains("\n"));
-    reader_choice() = {};
 }

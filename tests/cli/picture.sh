@@ -1,0 +1,43 @@
+# tools/picture and tools/glb_pose, from outside: a .glb's moment, its animation, textures, and what is wrong.
+source "$(dirname "$0")/common.sh"
+pose=$top/tools/glb_pose picture=$top/tools/picture
+
+# A moment of a .glb holds the joints where another program's reading of the same run has them: the ends of bodies in our OBJ frames.
+expect 0 treesim "$top/data/young_maple.xml" --wind gusty --frames 7 -q -o maple.glb
+expect 0 "$pose" seconds maple.glb
+grep -q '^0\.2000000' out || fail "7 frames last 0.2 s, not $(cat out)"
+expect 0 "$pose" at 0.1 maple.glb half.glb
+expect 0 "$pose" seconds half.glb
+grep -qx '0' out || fail "a moment has an animation: $(cat out)"
+expect 0 "$pose" box maple.glb
+[[ $(grep -c '^v ' out) -eq 8 ]] || fail "no box: $(cat out)"
+expect 1 "$pose"
+expect 1 "$pose" box
+echo 'no model' >broken.glb
+refused 2 "broken.glb: is no .glb of glTF 2.0" "$pose" box broken.glb
+refused 2 "gone.glb" "$pose" box gone.glb
+
+for program in f3d xvfb-run convert; do
+    command -v $program >/dev/null || { echo "picture: no $program, nothing drawn"; exit 0; }
+done
+colours() { # how many an image has
+    convert "$1" -format '%k' info:
+}
+expect 0 "$picture" --size 120x160 still.png maple.glb
+[[ $(colours still.png) -gt 50 ]] || fail "the picture of a .glb shows nothing"
+expect 0 "$picture" --size 120x160 --time 0.2 later.png maple.glb
+! cmp -s still.png later.png || fail "the picture does not move"
+for kind in gif webp; do
+    expect 0 "$picture" --size 60x80 --every 3 moving.$kind maple.glb
+    [[ $(identify moving.$kind | wc -l) -eq 3 ]] || fail "a .$kind of 3 frames has $(identify moving.$kind | wc -l)"
+done
+# A texture of its own, red above and blue below, is drawn.
+expect 0 treesim "$top/data/fixtures/meshed_tree.xml" --frames 1 -q -o meshed.glb
+expect 0 "$picture" --size 120x160 meshed.png meshed.glb
+[[ $(colours meshed.png) -gt 50 ]] || fail "the textured tree shows nothing"
+refused 2 "has no animation" "$picture" none.gif half.glb
+refused 2 "no vertices" "$picture" none.png broken.glb
+head -c 40 maple.glb >cut.glb
+refused 2 "is no glTF 2.0" "$picture" none.png cut.glb
+refused 1 "does not end in" "$picture" none.tif maple.glb
+absent none.gif none.png
