@@ -196,6 +196,7 @@ public:
         };
         if (fresh_ && !run_.world.on()) {
             stay(run_);
+            run_.state.loads.clear(); // pulls of a step that is not taken
             try {
                 restore_run(saved, step, run_);
             } catch (const SceneError&) {

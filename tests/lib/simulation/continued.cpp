@@ -63,3 +63,20 @@ TEST_CASE("another run takes a motion over where trees agree, whatever their woo
     CHECK((mixed.positions()[first + 2] - before.positions()[there + 2]).norm() < 1e-9);
     CHECK((mixed.positions()[2] - Simulation(changed).positions()[2]).norm() < 1e-12);
 }
+
+TEST_CASE("a pull of a step that is not taken is forgotten where another state is restored") {
+    SimulationOptions o;
+    o.pulls = true;
+    const Tree tree = make_tree::branched();
+    Simulation whole(one(tree, "gusty"), o);
+    run(whole, 5);
+    const SavedState saved = whole.save();
+    const std::uint64_t hash = run(whole, 5);
+    for (const int before : {0, 3}) {
+        Simulation again(one(tree, "gusty"), o);
+        run(again, before);
+        again.pull(3, Vec3::Zero(), Vec3(5, 0, 0));
+        again.restore(saved);
+        CHECK(run(again, 5) == hash);
+    }
+}
