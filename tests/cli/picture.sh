@@ -1,6 +1,7 @@
 # tools/picture and tools/glb_pose, from outside: a .glb's moment, its animation, textures, and what is wrong.
 source "$(dirname "$0")/common.sh"
-pose=$top/tools/glb_pose picture=$top/tools/picture
+export PATH=$top/tools:$PATH
+pose=glb_pose picture=picture
 
 # A moment of a .glb holds the joints where another program's reading of the same run has them: the ends of bodies in our OBJ frames.
 expect 0 treesim "$top/data/young_maple.xml" --wind gusty --frames 7 -q -o maple.glb
