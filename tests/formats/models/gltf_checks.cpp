@@ -401,3 +401,26 @@ TEST_CASE("memory that runs out while what was read is taken over is told of in 
     CHECK_THAT(run_forked(read, little).failure,
                Catch::StartsWith("s.gltf: ") && Catch::Contains("needs more memory than"));
 }
+
+// Json's destructor takes memory of its own: without it a program would end there, by abort().
+TEST_CASE("however little memory there is for a glTF file, its reader does not crash") {
+    if (sanitized) return;
+    std::string joints_text = "0";
+    for (int k = 1; k < 1000000; ++k) joints_text += ",0";
+    const std::string content =
+        R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": []}], "skins": [{"joints": [)" +
+        joints_text + "]}]}";
+    for (std::size_t megabytes = 2; megabytes < 300; megabytes += megabytes / 2) {
+        ChildLimits limits;
+        limits.bytes = megabytes << 20;
+        const ChildResult result = run_forked(
+            [&]() -> std::string {
+                scene_of(content);
+                return "read";
+            },
+            limits);
+        CAPTURE(megabytes, result.failure);
+        CHECK_THAT(result.failure, !Catch::Contains("crashed"));
+        if (megabytes < 100) CHECK_THAT(result.failure, Catch::Contains("needs more memory than"));
+    }
+}
