@@ -13,9 +13,10 @@ using namespace bough;
 
 namespace {
 
+// What only a build without sanitizers uses is marked.
 constexpr std::size_t megabyte = std::size_t(1) << 20;
 
-std::size_t address_space() {
+[[maybe_unused]] std::size_t address_space() {
     std::ifstream file("/proc/self/statm");
     std::size_t pages = 0;
     file >> pages;
@@ -23,7 +24,7 @@ std::size_t address_space() {
 }
 
 // Work that takes so much memory.
-std::function<std::string()> taking(std::size_t megabytes) {
+[[maybe_unused]] std::function<std::string()> taking(std::size_t megabytes) {
     return [megabytes] {
         const std::unique_ptr<char[]> block(new char[megabytes * megabyte]);
         for (std::size_t at = 0; at < megabytes; ++at) block[at * megabyte] = 1;
@@ -31,13 +32,13 @@ std::function<std::string()> taking(std::size_t megabytes) {
     };
 }
 
-std::string soft_limit() {
+[[maybe_unused]] std::string soft_limit() {
     rlimit limit{};
     ::getrlimit(RLIMIT_AS, &limit);
     return std::to_string(limit.rlim_cur);
 }
 
-ChildLimits of_memory(std::size_t megabytes) {
+[[maybe_unused]] ChildLimits of_memory(std::size_t megabytes) {
     ChildLimits limits;
     limits.bytes = megabytes * megabyte;
     limits.stack = 16 * megabyte;
