@@ -16,6 +16,7 @@ compilers=(gcc clang)
 [[ -z $sanitizers ]] || compilers=("${own/++/}") # sanitized libraries go with their own compiler alone
 [[ -z $sanitizers || ${own##*/} != c++ ]] || compilers=(cc)
 libraries=(-L"$build/formats" -L"$build/lib" -lbough_files -lbough -Wl,-rpath,"$build/formats:$build/lib" -pthread ${sanitizers:+"-fsanitize=$sanitizers"})
+[[ -z $sanitizers ]] || libraries+=(-fsanitize-link-c++-runtime -lstdc++) # clang's, which the libraries ask for
 treegen --species apple --bodies 10000 --seed 7 | treeconvert - -o apple.tree.json
 wanted=$(hash apple.tree.json --wind gusty --seconds 3 --precision float)
 treegen --species birch --bodies 400 --leaves | treeconvert - -o birch.safetensors
