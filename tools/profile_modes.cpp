@@ -17,7 +17,7 @@
 namespace bough {
 namespace {
 
-constexpr int frames_of_a_swing = 24, shapes_of_a_picture = 6;
+constexpr int modes_default = 20, frames_of_a_swing = 24, shapes_of_a_picture = 6;
 constexpr double drawn_amplitude = 1.0 / 12; // [1] of the height
 constexpr double seen_to_move = 0.1;         // [1] of that: what a picture of a shape shows apart
 
@@ -25,7 +25,8 @@ struct ModesCommand {
     CommonOptions& common;
     RunOptions run;
     std::string report;
-    int modes = 20, swing = 1;
+    int modes = modes_default;
+    std::optional<int> swing;
 };
 
 void declare(OptionList& list, ModesCommand& o) {
@@ -110,7 +111,7 @@ void write_report(const ModesCommand& o, const Setting& setting, const SmallMoti
 
 // One whole swing, first and last frame alike.
 void write_swing(ModesCommand& o, const Setting& setting, const SmallMotion& small, const ModesReport& report) {
-    const NaturalMode& mode = report.modes[std::size_t(o.swing - 1)];
+    const NaturalMode& mode = report.modes[std::size_t(o.swing.value_or(1) - 1)];
     const std::string source = with_command_line(setting.source, o.common);
     const RustleMaker still = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     const double fps = frames_of_a_swing * mode.frequency;
@@ -138,16 +139,19 @@ void work(ModesCommand& o) {
     if (const std::string end = ending(o.report); !o.report.empty() && end != ".json" && end != ".csv" && end != ".svg")
         throw UsageError("--report is '" + o.report + "', expected a name that ends in .json, .csv or .svg");
     if (ending(o.report) == ".svg") require_gnuplot(o.report);
-    if (o.swing > o.modes)
-        throw UsageError("--swing " + std::to_string(o.swing) + ": of the " + std::to_string(o.modes) +
+    if (o.swing && !swings) throw UsageError("--swing: only with -o FILE.glb, in which the mode swings");
+    const int swing = o.swing.value_or(1);
+    if (swing > o.modes)
+        throw UsageError("--swing " + std::to_string(swing) + ": of the " + std::to_string(o.modes) +
                          " that --modes asks for");
     Setting setting = read_setting(o.run);
     for (Vec3& K : setting.tree.stiffness) K *= setting.scene.stiffness_scale;
     for (double& beta : setting.tree.damping) beta *= setting.scene.damping_scale;
     o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
     refuse_overwriting_trees(setting, written);
-    if (setting.scene.wind && (setting.scene.wind->grid || setting.scene.wind->swirl))
-        throw UsageError("modes: a wind with /wind/grid or /wind/swirl has no one mean that could damp a tree");
+    if (setting.scene.wind && (setting.scene.wind->grid || setting.scene.wind->swirl || setting.scene.wind->shelter))
+        throw UsageError(
+            "modes: a wind with /wind/grid, /wind/swirl or /wind/shelter has no one mean that could damp a tree");
     interrupt_at_boundary();
     ModeOptions options;
     options.count = o.modes;
@@ -169,8 +173,8 @@ void work(ModesCommand& o) {
         o.common.notes.push_back("the tree does not stand as drawn: branch " + std::to_string(*buckled.begin()) +
                                  (buckled.size() > 1 ? " and others buckle" : " buckles") +
                                  " under what it carries; modes are of the pose in which it comes to stand");
-    if (std::size_t(o.swing) > modes.size())
-        throw UsageError("--swing " + std::to_string(o.swing) + ": the tree has " + std::to_string(modes.size()) +
+    if (std::size_t(swing) > modes.size())
+        throw UsageError("--swing " + std::to_string(swing) + ": the tree has " + std::to_string(modes.size()) +
                          " modes");
     const ModesReport report = report_of(o, setting, small, std::move(modes));
     if (!o.report.empty()) write_report(o, setting, small, report);
@@ -186,7 +190,7 @@ void work(ModesCommand& o) {
 } // namespace
 
 Subcommand profile_modes(CommonOptions& common) {
-    const auto o = std::make_shared<ModesCommand>(ModesCommand{common, {}, {}});
+    const auto o = std::make_shared<ModesCommand>(ModesCommand{common, {}, {}, modes_default, {}});
     return {"modes", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
 }
 

@@ -1,4 +1,5 @@
 #include "bark.h"
+#include "disjoint_sets.h"
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -55,22 +56,6 @@ Circle circle_through(const std::vector<Vec3>& points, const Vec3& along) {
     return {radius, mean + middle.x() * u + middle.y() * v, at.size() == 4 && gap < 100 / degrees_per_radian};
 }
 
-class Sets {
-public:
-    explicit Sets(std::size_t n) : of_(n) { std::iota(of_.begin(), of_.end(), 0); }
-    std::int32_t find(std::int32_t i) {
-        while (of_[i] != i) i = of_[i] = of_[of_[i]];
-        return i;
-    }
-    void join(std::int32_t a, std::int32_t b) {
-        a = find(a), b = find(b);
-        of_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::int32_t> of_;
-};
-
 // Triangles name the first of all points in one place.
 void weld(BarkSurface& surface) {
     std::vector<std::int32_t> order(surface.point.size()), one(surface.point.size());
@@ -92,7 +77,7 @@ void weld(BarkSurface& surface) {
 
 Bark::Bark(BarkSurface surface, std::size_t bones) : surface_(std::move(surface)) {
     weld(surface_);
-    Sets pieces(surface_.point.size());
+    DisjointSets pieces(surface_.point.size());
     const auto each = [&](auto&& use) { // (triangle, bone), each pair once
         for (std::size_t t = 0; t < surface_.triangle.size(); ++t) {
             const auto& corner = surface_.triangle[t];
@@ -132,7 +117,7 @@ BarkRing Bark::ring(std::int32_t bone, const Vec3& place, const Vec3& across) co
         cut.push_back(of_bone_[k]);
     }
     std::sort(edge.begin(), edge.end());
-    Sets sets(cut.size());
+    DisjointSets sets(cut.size());
     for (std::size_t k = 1; k < edge.size(); ++k)
         if (edge[k].first == edge[k - 1].first) sets.join(edge[k].second, edge[k - 1].second);
     std::vector<std::pair<std::int32_t, std::int32_t>> corners; // (cut, point)

@@ -1,4 +1,5 @@
 #include "speedtree_corners.h"
+#include "disjoint_sets.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
 #include <algorithm>
@@ -34,22 +35,6 @@ void read_uv(const pugi::xml_node& vertices, const Fields& f, Records& records) 
         records.uv.push_back({list_of(vertices, name, records.count, f), list_of(vertices, other, records.count, f)});
     }
 }
-
-class Pieces {
-public:
-    explicit Pieces(std::size_t points) : of_(points) { std::iota(of_.begin(), of_.end(), 0); }
-    std::int32_t find(std::int32_t i) {
-        while (of_[i] != i) i = of_[i] = of_[of_[i]];
-        return i;
-    }
-    void join(std::int32_t a, std::int32_t b) {
-        a = find(a), b = find(b);
-        of_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::int32_t> of_;
-};
 
 std::int32_t record_at(const Corners& corners, std::size_t k) {
     return corners.record.empty() ? corners.point[k] : corners.record[k];
@@ -90,7 +75,7 @@ void fill_bones(std::size_t points, const std::vector<Corners>& all, Records& re
     if (std::none_of(records.bone.begin(), records.bone.end(), none) ||
         std::all_of(records.bone.begin(), records.bone.end(), none))
         return;
-    Pieces pieces(points);
+    DisjointSets pieces(points);
     for (const Corners& corners : all)
         for (std::size_t k = 0; k + 2 < corners.point.size(); k += 3) {
             pieces.join(corners.point[k], corners.point[k + 1]);

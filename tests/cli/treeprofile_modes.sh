@@ -6,7 +6,9 @@ treegen --species maple --bodies 300 --leaves --seed 3 | treeconvert - -o tree.j
 wrong_use treeprofile modes tree.json --modes 3
 bad_input tree.json treeprofile modes
 refused 1 "--modes" treeprofile modes tree.json --modes 0
-refused 1 "--swing" treeprofile modes tree.json --modes 2 --swing 3
+refused 1 "--swing 3" treeprofile modes tree.json --modes 2 --swing 3 -o swing.glb
+refused 1 "only with -o FILE.glb" treeprofile modes tree.json --swing 2
+refused 1 "/wind/shelter" treeprofile modes tree.json --wind gusty --set 'wind.shelter={"cell":1}'
 refused 1 "r.html" treeprofile modes tree.json --report r.html
 refused 1 "/wind/swirl" treeprofile modes tree.json --wind gusty --set 'wind.swirl={"center":[0,0],"radius":[0],"angle":[20],"period":3}'
 
