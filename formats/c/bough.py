@@ -160,7 +160,10 @@ for _name, _result, _arguments in (
         ("wind_preset", int, [_string, _pointer]), ("scene_set_wind", int, [_pointer] * 2), ("simulate", int, [_pointer] * 4),
         ("step", int, [_pointer] * 2), ("read", int, [_pointer, ctypes.c_int, _pointer]), ("read_events", int, [_pointer] * 2),
         ("simulation_bodies", int, [_pointer] * 2), ("pick", int, [_pointer, _pointer, _pointer, ctypes.c_double, _pointer, _pointer]),
-        ("pull", int, [_pointer, _size, _pointer, _pointer]), ("set_wind", int, [_pointer] * 2), ("set_gravity", int, [_pointer] * 2),
+        ("pull", int, [_pointer, _size, _pointer, _pointer]),
+        ("attach", int, [_pointer, _size, _pointer, ctypes.c_double, ctypes.c_double, _pointer]),
+        ("move_attachment", int, [_pointer, ctypes.c_uint64, _pointer, ctypes.c_int32]),
+        ("attachment_force", int, [_pointer, ctypes.c_uint64, _pointer]), ("release", int, [_pointer, ctypes.c_uint64]), ("set_wind", int, [_pointer] * 2), ("set_gravity", int, [_pointer] * 2),
         ("set_wood", int, [_pointer, ctypes.c_double, ctypes.c_double]), ("save", int, [_pointer, _pointer, _size, _pointer]),
         ("restore", int, [_pointer, _string, _size, _string]), ("hash", int, [_pointer] * 2)):
     _function = getattr(_c, "bough_" + _name)
@@ -395,6 +398,29 @@ class Scene(_Handle):
         super().__init__(_made(_c.bough_read_scene, data, 0 if data is None else len(data), _text(name)))
         if wind is not None:
             self.set_wind(wind)
+
+    def attach(self, body, point, stiffness, damping=0):
+        """A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point (3) [m] of a body, body frame, and a target in the world, which is
+        where the point is now. Any stiffness holds. Returns the attachment's number; until release(), or till the body breaks off."""
+        number = ctypes.c_uint64()
+        _check(_c.bough_attach(self._handle, _whole(body, "body", 0, 2**63), _vector(point, "point"), _number(stiffness, "stiffness"),
+                               _number(damping, "damping"), ctypes.byref(number)))
+        return number.value
+
+    def move_attachment(self, attachment, target, steps=1):
+        """Its target goes evenly to a place (3) [m], world, in the next `steps` steps, and stays there; 0: is there at once."""
+        _check(_c.bough_move_attachment(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1), _vector(target, "target"),
+                                        _whole(steps, "steps", 0, 2**31 - 1)))
+
+    def attachment_force(self, attachment):
+        """(3) [N] on the body, world, at the last step's end."""
+        force = _double3()
+        _check(_c.bough_attachment_force(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1), force))
+        return np.array(force)
+
+    def release(self, attachment):
+        """Lets go."""
+        _check(_c.bough_release(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1)))
 
     def set_wind(self, wind):
         """A preset's name, a Wind, or None: none, not even the air's drag."""

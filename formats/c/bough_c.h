@@ -225,6 +225,18 @@ bough_result bough_pick(bough_simulation* simulation, const double from[3], cons
 
 /* A force [N] of the world on a point [m] of a body of the trees, in the next step alone. Any number of them; needs settings.pulls. */
 bough_result bough_pull(bough_simulation* simulation, size_t body, const double point[3], const double force[3]);
+/* A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in the world, which is
+ * where the point is now; from the next step on, until it is released or the body breaks off. Any stiffness holds, nothing has to be asked for beforehand.
+ * *attachment: its number, above 0 and never given twice. O(bodies), which allocates; steps do not. Part of no saved state. Coupled method. */
+bough_result bough_attach(bough_simulation* simulation, size_t body, const double point[3], double stiffness,
+                          double damping, uint64_t* attachment);
+/* Its target goes evenly from where it is to `target` [m, world] in the next `steps` steps (1: the next one ends with it there), and stays; 0: is there
+ * at once. To be called before each step for a hand that moves. */
+bough_result bough_move_attachment(bough_simulation* simulation, uint64_t attachment, const double target[3],
+                                   int32_t steps);
+/* [N] on the body, world, at the last step's end. */
+bough_result bough_attachment_force(bough_simulation* simulation, uint64_t attachment, double force[3]);
+bough_result bough_release(bough_simulation* simulation, uint64_t attachment);
 /* From the next step on. The scene began with a wind (of air that stood still, at least); reference height and profile stay as they were. */
 bough_result bough_set_wind(bough_simulation* simulation, const bough_wind* wind);
 /* [m/s^2] Of a scene that began with some; coupled method. */

@@ -177,6 +177,39 @@ bough_result bough_pull(bough_simulation* simulation, size_t body, const double 
     });
 }
 
+bough_result bough_attach(bough_simulation* simulation, size_t body, const double point[3], double stiffness,
+                          double damping, uint64_t* attachment) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        const Vec3 there(required_vector(point, "point"));
+        required(attachment, "attachment");
+        *attachment = use->simulation.attach(body, there, stiffness, damping);
+    });
+}
+
+bough_result bough_move_attachment(bough_simulation* simulation, uint64_t attachment, const double target[3],
+                                   int32_t steps) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        use->simulation.move_attachment(attachment, Vec3(required_vector(target, "target")), steps);
+    });
+}
+
+bough_result bough_attachment_force(bough_simulation* simulation, uint64_t attachment, double force[3]) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        required(force, "force");
+        Eigen::Map<Vec3>(force, 3) = use->simulation.attachment_force(attachment);
+    });
+}
+
+bough_result bough_release(bough_simulation* simulation, uint64_t attachment) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        use->simulation.release(attachment);
+    });
+}
+
 bough_result bough_set_wind(bough_simulation* simulation, const bough_wind* wind) {
     return call_of_running([&] {
         const Use<SimulationObject> use(simulation);

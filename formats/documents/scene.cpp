@@ -112,6 +112,7 @@ ordered_json value_of(const Scene& scene, const MaterialChange& material) {
         for (const Vec3& f : pull.force) force.push_back(numbers(f));
         fields["pulls"].push_back({{"on", value_of(pull.on)}, {"time", pull.time}, {"force", force}});
     }
+    for (const Attachment& held : scene.attachments) fields["attachments"].push_back(value_of(held));
     fields["root_motion"] = ordered_json::array();
     for (const RootMotion& motion : scene.root_motion) fields["root_motion"].push_back(value_of(motion));
     fields["pose"] = poses[std::size_t(scene.pose)];
@@ -152,6 +153,9 @@ SceneDocument read_fields(const json& fields, const std::string& name) {
     object.read("air_density", scene.air_density);
     for (const json& value : object.list("pulls"))
         scene.pulls.push_back(read_pull(value, name, "/pulls/" + std::to_string(scene.pulls.size())));
+    for (const json& value : object.list("attachments"))
+        scene.attachments.push_back(
+            read_attachment(value, name, "/attachments/" + std::to_string(scene.attachments.size())));
     for (const json& value : object.list("root_motion"))
         scene.root_motion.push_back(
             read_root_motion(value, name, "/root_motion/" + std::to_string(scene.root_motion.size())));
@@ -255,7 +259,7 @@ void write_scene(Output& output, const Scene& scene, Form form, const MaterialCh
     std::string text = "{";
     for (const auto& [key, value] : fields.items()) {
         text += (text.size() > 1 ? ",\n" : "\n") + text_of(key) + ": ";
-        if (key == "trees" || key == "pulls" || key == "root_motion" || key == "balls" ||
+        if (key == "trees" || key == "pulls" || key == "attachments" || key == "root_motion" || key == "balls" ||
             key == "walkers") { // one a line
             text += "[";
             for (const ordered_json& entry : value)

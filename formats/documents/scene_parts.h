@@ -19,6 +19,10 @@ Walker read_walker(const nlohmann::json&, const std::string& name, const std::st
 nlohmann::ordered_json value_of(const Placement&);
 nlohmann::ordered_json value_of(const Walker&);
 
+// ---- scene_attachments.cpp ----
+Attachment read_attachment(const nlohmann::json&, const std::string& name, const std::string& at);
+nlohmann::ordered_json value_of(const Attachment&);
+
 // ---- scene_wind.cpp ----
 void read_wind_fields(ObjectReader&, Wind&, const std::string& name, const std::string& at);
 Wind read_wind_value(const nlohmann::json&, const std::string& name);

@@ -40,7 +40,8 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             carried("spin_dot", state.spin_dot, body),
             optional({"articulated_step", &state.articulated_step}),
             without_filling(optional(array("free_bodies", state.free_bodies, {}))),
-            without_filling(optional(array("sleep", state.sleep, {})))};
+            without_filling(optional(array("sleep", state.sleep, {}))),
+            without_filling(optional(array("attachments", state.attachments, {})))};
 }
 
 std::string hexadecimal(std::uint64_t value) {
@@ -107,6 +108,8 @@ void write_state(Output& output, const SavedState& state, Form form) {
     std::vector<Field> fields = fields_of(const_cast<SavedState&>(state), fingerprint); // a writer only looks
     if (state.parts == 1) // as it was before there were any
         std::erase_if(fields, [](const Field& field) { return field.name == "part" || field.name == "parts"; });
+    if (state.attachments.empty())
+        std::erase_if(fields, [](const Field& field) { return field.name == "attachments"; });
     write_document(output, form, type, fields);
 }
 

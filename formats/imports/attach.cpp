@@ -45,8 +45,8 @@ public:
 
     const SegmentSearch& search() const { return *search_; }
 
-    std::vector<Attachment> result() const {
-        std::vector<Attachment> joined(pieces_.size());
+    std::vector<JoinedPiece> result() const {
+        std::vector<JoinedPiece> joined(pieces_.size());
         for (std::size_t p = 0; p < pieces_.size(); ++p) {
             const SegmentPlace& place = choice_[p].place;
             if (root_[p])
@@ -251,12 +251,12 @@ const SegmentSearch& PieceJoiner::search() const {
     return work_->search();
 }
 
-std::vector<Attachment> PieceJoiner::join() {
+std::vector<JoinedPiece> PieceJoiner::join() {
     work_->join();
     return work_->result();
 }
 
-std::vector<Attachment> attach_pieces(Pieces& pieces, char up) {
+std::vector<JoinedPiece> attach_pieces(Pieces& pieces, char up) {
     return PieceJoiner(pieces, up).join();
 }
 

@@ -17,7 +17,7 @@ struct Pieces {
     std::size_t size() const { return base.size(); }
 };
 
-struct Attachment {
+struct JoinedPiece {
     std::int32_t end = -1;       // the point that the piece begins with
     std::int32_t parent = -1;    // piece, -1: it stands on the ground
     std::int32_t a = -1, b = -1; // segment of the parent where it is joined
@@ -32,7 +32,7 @@ struct Attachment {
 // adds least (Edmonds' rule). `up` is 'y' or 'z'. O((segments + ends) log segments), times log pieces for circles.
 // Takes the segments out of `pieces`, which a large file has no memory to hold twice. Searches run on OpenMP's threads;
 // how many changes nothing.
-std::vector<Attachment> attach_pieces(Pieces& pieces, char up);
+std::vector<JoinedPiece> attach_pieces(Pieces& pieces, char up);
 
 // The same in two steps, for who wants to search before it is known which end each piece begins with. `pieces` must
 // outlive it; `base` may be changed until join(), which is called once.
@@ -41,7 +41,7 @@ public:
     PieceJoiner(Pieces& pieces, char up);
     ~PieceJoiner();
     const SegmentSearch& search() const; // every piece a group of its own; there are pieces
-    std::vector<Attachment> join();
+    std::vector<JoinedPiece> join();
 
 private:
     class Work;

@@ -161,10 +161,10 @@ Pieces pieces_of(LineGraph& g, const Neighbours& near) {
 }
 
 // Parents within each part, outward from where it begins.
-std::vector<std::int32_t> parents_from(const std::vector<Attachment>& joined, const Neighbours& near,
+std::vector<std::int32_t> parents_from(const std::vector<JoinedPiece>& joined, const Neighbours& near,
                                        std::size_t points) {
     std::vector<std::int32_t> parent(points, -1), open;
-    for (const Attachment& piece : joined) {
+    for (const JoinedPiece& piece : joined) {
         open.push_back(piece.end);
         while (!open.empty()) {
             const std::int32_t i = open.back();
@@ -212,12 +212,12 @@ void insert_joints(Skeleton& s, std::vector<Inserted>& joints) {
     }
 }
 
-void join_parts(Skeleton& s, const std::vector<Attachment>& joined, ImportNotes& notes) {
+void join_parts(Skeleton& s, const std::vector<JoinedPiece>& joined, ImportNotes& notes) {
     std::vector<Inserted> inserted;
     std::size_t loose = 0;
     double gap = 0;
     s.loose.assign(s.parent.size(), false);
-    for (const Attachment& piece : joined) {
+    for (const JoinedPiece& piece : joined) {
         if (piece.parent < 0) continue;
         ++loose;
         gap = std::max(gap, piece.gap);
@@ -254,7 +254,7 @@ RootedLines root_lines(LineGraph&& g, char up, const std::string& name, ImportNo
         result.up = likely_up(pieces.point, pieces.radius, pieces.segment);
         note_guessed_up(result.up, notes);
     }
-    const std::vector<Attachment> joined = attach_pieces(pieces, result.up);
+    const std::vector<JoinedPiece> joined = attach_pieces(pieces, result.up);
     Skeleton s;
     s.parent = parents_from(joined, near, pieces.point.size());
     near = {};

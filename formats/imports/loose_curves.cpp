@@ -100,7 +100,7 @@ std::string direction_note(CurveBase base, const std::string& why) {
            ", because " + why;
 }
 
-std::vector<Attachment> joined_pieces(Pieces& pieces, char up, CurveBase base, ImportNotes& notes) {
+std::vector<JoinedPiece> joined_pieces(Pieces& pieces, char up, CurveBase base, ImportNotes& notes) {
     if (base == CurveBase::unknown && pieces.size() > 1) {
         const Votes votes = votes_by_radius(pieces);
         base = votes.majority();
@@ -151,7 +151,7 @@ JoinedCurves join_curves(LooseCurves&& curves, char up, CurveBase base, const st
         up = likely_up(pieces.point, pieces.radius, pieces.segment);
         note_guessed_up(up, notes);
     }
-    const std::vector<Attachment> joined = joined_pieces(pieces, up, base, notes);
+    const std::vector<JoinedPiece> joined = joined_pieces(pieces, up, base, notes);
     const std::vector<double> arc = arcs_of(pieces);
     const auto turned = [&](std::size_t i) { return joined[i].end != pieces.end[2 * i]; };
     JoinedCurves result;
@@ -161,7 +161,7 @@ JoinedCurves join_curves(LooseCurves&& curves, char up, CurveBase base, const st
     double gap = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         ImportedBranch& branch = result.branches.emplace_back(branch_of(pieces, i, turned(i)));
-        const Attachment& to = joined[i];
+        const JoinedPiece& to = joined[i];
         branch.parent = to.parent;
         if (to.parent < 0) continue;
         ++attached;

@@ -92,14 +92,14 @@ void join_loose_trunks(Branches& branches, char up, ImportNotes& notes) {
     std::vector<std::int32_t> first; // point of each branch in the pieces
     Pieces pieces = pieces_of(branches, trunks, first);
     const Measured size = measured(pieces, up); // before its segments are taken out
-    const std::vector<Attachment> joined = attach_pieces(pieces, up);
+    const std::vector<JoinedPiece> joined = attach_pieces(pieces, up);
     std::vector<double> bridge(branches.size(), 0); // [file unit] of each branch, to its parent's axis
     std::vector<double> length(branches.size(), 0); // of those before
     std::vector<Vec3> from(joined.size());
     std::size_t count = 0;
     double widest = 0;
     for (std::size_t k = 0; k < joined.size(); ++k) {
-        const Attachment& on = joined[k];
+        const JoinedPiece& on = joined[k];
         if (on.parent < 0 || size.on_ground[k] || on.gap > 0.5 * size.wood[k]) continue;
         const auto host = std::upper_bound(first.begin(), first.end(), on.a) - first.begin() - 1;
         ImportedBranch& b = branches[trunks.branch[k]];

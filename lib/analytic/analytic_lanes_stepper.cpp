@@ -28,6 +28,10 @@ AnalyticLanesStepper<T>::AnalyticLanesStepper(Target target, double sleep)
     if (sleep > 0) own.lanes.sleep.reason = "solver analytic";
 }
 
+template <class T> void AnalyticLanesStepper<T>::refuse(const Scene& scene) const {
+    refuse_with_analytic(scene);
+}
+
 template <class T> void AnalyticLanesStepper<T>::take_constants(const Plan<T>& plan, const Tree& tree) {
     take_analytic_constants(plan, tree, own);
 }

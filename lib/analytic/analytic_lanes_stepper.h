@@ -9,6 +9,7 @@ template <class T> class AnalyticLanesStepper final : public Cloned<AnalyticLane
 public:
     AnalyticLanesStepper(Target, double sleep); // sleep: is not for it, which the plan says where it was asked for
     const char* name() const override { return "analytic"; }
+    void refuse(const Scene&) const override;
     void take_constants(const Plan<T>&, const Tree&) override;
     void lay_out(const Plan<T>&, const std::vector<TreeRange>&) override;
     void allocate(const Plan<T>&, State<T>&) const override;

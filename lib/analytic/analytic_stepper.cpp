@@ -4,6 +4,7 @@
 #include "analytic_step.h"
 #include "fictitious.h"
 #include <cmath>
+#include <stdexcept>
 
 namespace bough {
 namespace {
@@ -40,6 +41,13 @@ template <class T> std::size_t AnalyticWork<T>::bytes() const {
     visit_arrays(*this,
                  [&](const char*, const auto& array, AnalyticNeed) { sum += array.capacity() * sizeof(array[0]); });
     return sum;
+}
+
+void refuse_with_analytic(const Scene& scene) {
+    if (!scene.attachments.empty())
+        throw std::domain_error(
+            "attachments: only for solver coupled; solver analytic moves each joint by itself, which no stiff "
+            "spring at a point allows");
 }
 
 NonFinite non_finite_in_analytic(std::size_t body) {

@@ -5,11 +5,17 @@
 
 namespace bough {
 
+// Throws std::domain_error for what the analytic solver cannot hold: attachments. Its joints are each moved by themselves, and a stiff spring at a point
+// couples all joints between it and the ground: lagged it is unstable from about the joints' own stiffness on, and bounded by its row sum, as drag
+// is (drag.h), which holds any stiffness still, each of n joints would go a part in n of its way a step: a hand that is followed ever later the longer the branch.
+void refuse_with_analytic(const Scene&);
+
 template <class T> class AnalyticStepper final : public Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>> {
 public:
     // plainly: why it is not the one in lanes.
     using Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>>::Cloned;
     const char* name() const override { return "analytic"; }
+    void refuse(const Scene& scene) const override { refuse_with_analytic(scene); }
     bool reads_velocities(const Plan<T>&) const override;
     void take_constants(const Plan<T>& plan, const Tree& tree) override { take_analytic_constants(plan, tree, own); }
     void allocate(const Plan<T>&, State<T>&) const override;

@@ -1,7 +1,7 @@
 // coupled_in.h: the coupled step's sweep inward over lanes (coupled_sweeps.h): joint by joint the elimination of resolvent.h, and what is
 // handed on to the body that carries it.
 //
-// Reads   loaded, mass, beta, records inward of forks
+// Reads   loaded, mass, beta, records inward of forks, attached
 // Writes  of solved Eu, EA, EB; adds to the records inward where chains land
 // Cost    about 930 arithmetic instructions a row (AVX-512) among 1930. Errors none.
 // What was tried on the three sweeps, time against the one before (float, gusty, one thread, AVX-512; good to about 3 %):
@@ -140,6 +140,11 @@ template <class T> struct CoupledIn : CoupledParts<T> {
                     forks.gather(rows.inward_records,
                                  &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)]);
                     const Carried more = read_carried(forks.rows());
+                    q = {q.A + more.A, q.M + more.M, q.B + more.B, q.N + more.N, q.F + more.F};
+                }
+                if (rows.attached && rows.attached_of_row[row] >= 0) {
+                    const Carried more = read_carried(
+                        {rows.attached + std::size_t(rows.attached_of_row[row]) * inward::count * L + lane});
                     q = {q.A + more.A, q.M + more.M, q.B + more.B, q.N + more.N, q.F + more.F};
                 }
                 step_in<wind, gravity>(q, row, lane,

@@ -7,8 +7,16 @@ namespace bough::fast {
 
 // The constants of CoupledPlan stand in rows once the layout does; its arrays are then empty.
 template <class T> struct CoupledLanesPlan : CoupledPlan<T> { PlannedLanes<T> lanes; };
+// What attachments add to the sweep inward (attachment_lanes.h).
+template <class T> struct AttachedRows {
+    std::vector<std::int32_t>
+        of_row;         // of each row, the place of its record in `terms`, -1: none; empty without attachments
+    RowVector<T> terms; // as records inward, but in rows
+};
+
 template <class T> struct CoupledLanesState : Cloned<CoupledLanesState<T>, CoupledState<T>, StepperState> {
     Lanes<T> lanes;
+    AttachedRows<T> attached;
     std::size_t bytes() const override {
         return (this->theta_change.capacity() + this->theta_dot_change.capacity()) * sizeof(Vector3<T>) + lanes.bytes();
     }

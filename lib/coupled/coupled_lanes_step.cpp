@@ -3,6 +3,8 @@
 #include "../lanes/shared_constants.h"
 #include "../laws/air_constants.h"
 #include "../plan/pushes.h"
+#include "attachment.h"
+#include "attachment_lanes.h"
 #include "coupled_tables.h"
 #include "coupled_targets.h"
 #include "energy_lanes.h"
@@ -101,6 +103,7 @@ CoupledRows<T> rows_of(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Stat
     rows.fold = plan.foliage ? T(1 / fold_speed) : T(0);
     rows.shorten = shorten<T>;
     place_grounds(plan, own, work, time, slope);
+    put_attachments(plan, work, pole.p, rows);
     return rows;
 }
 
@@ -266,6 +269,12 @@ void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Sta
         return;
     }
     SweepFlags flags;
+    if (work.attachments.any())
+        run_stage(Stage::attachments, state, clock, [&] {
+            if (plan.root_motion) ground_over_step(plan, own, work, time);
+            read_attached(own, work, false);
+            place_attachments(plan, own, work, time);
+        });
     run_stage(Stage::lanes, state, clock, [&] {
         CoupledRows<T> rows = rows_of(plan, own, state, work, time, 0);
         flags = sweep(plan, own, work, rows);
@@ -276,6 +285,10 @@ void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Sta
             flags.half_turns = solved.half_turns;
             flags.fast = solved.fast;
             flags.finite = solved.finite;
+        }
+        if (work.attachments.any()) {
+            read_attached(own, work, true);
+            settle_attachments(work.attachments);
         }
         for (const GroundStep<T>& ground : work.ground)
             if (ground.jumps) {

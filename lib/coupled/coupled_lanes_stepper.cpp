@@ -3,6 +3,8 @@
 #include "../lanes/lane_motion.h"
 #include "../lanes/plan_lanes.h"
 #include "../plan/state_update.h"
+#include "attachment.h"
+#include "attachment_lanes.h"
 #include "coupled_lanes_step.h"
 #include "coupled_stepper.h"
 #include "coupled_tables.h"
@@ -38,6 +40,7 @@ template <class T> void CoupledLanesStepper<T>::lay_out(const Plan<T>& plan, con
 template <class T> void CoupledLanesStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
     auto work = std::make_unique<CoupledLanesState<T>>();
     allocate_coupled(plan, state, *work, own.lanes.layout.ground.size());
+    if (work->attachments.any()) place_attached_rows(own, *work);
     state.own = Copied<StepperState>(std::move(work));
 }
 
@@ -83,10 +86,12 @@ template <class T> std::vector<CarriedArray<T>> CoupledLanesStepper<T>::carried(
 
 template <class T> void CoupledLanesStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
     saved.sleep = saved_sleep(own, coupled_work(state));
+    saved.attachments = saved_attachments(coupled_work(state).attachments);
 }
 
 template <class T>
 void CoupledLanesStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
+    restore_attachments(coupled_work(state).attachments, saved.attachments);
     if (own.lanes.sleep.on) restore_sleep(own, coupled_work(state), saved.sleep); // else what slept goes on awake
 }
 
@@ -109,6 +114,8 @@ template <class T>
 void CoupledLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
     CoupledLanesState<T>& work = coupled_work(state);
     for (const std::size_t i : bodies) drop_from_coupled(plan, state, i);
+    release_from(plan, work, bodies);
+    if (work.attachments.any() || !work.attached.of_row.empty()) place_attached_rows(own, work);
     std::vector<std::size_t> motion_at;
     motion_of_rows(own, work, motion_at);
     clear_lanes<T>(own.lanes, work.lanes.table, motion_at, constant::count, motion::count, put_pad<T>, bodies);
@@ -120,6 +127,10 @@ template <class T> void CoupledLanesStepper<T>::scale_wood(const Plan<T>&, T sti
 
 template <class T> void CoupledLanesStepper<T>::wake(const Plan<T>&, State<T>& state) const {
     wake_all(own, coupled_work(state));
+}
+
+template <class T> void CoupledLanesStepper<T>::attachments_changed(State<T>& state) const {
+    place_attached_rows(own, coupled_work(state));
 }
 
 template <class T>

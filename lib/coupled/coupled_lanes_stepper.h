@@ -31,6 +31,7 @@ public:
     void scale_wood(const Plan<T>&, T stiffness, T damping) override;
     bool sleeps() const override { return own.lanes.sleep.on; }
     void wake(const Plan<T>&, State<T>&) const override;
+    void attachments_changed(State<T>&) const override;
     const PlannedLanes<T>* lanes() const override { return &own.lanes; }
 
     CoupledLanesPlan<T> own;

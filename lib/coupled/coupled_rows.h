@@ -78,6 +78,10 @@ template <class T> struct CoupledRows : SweepRows<T> {
     // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard; 1 of wood, 2 of what hangs at its ends.
     std::uint8_t* watched;
 
+    const std::int32_t*
+        attached_of_row; // of each row, which of `attached` is added to it, -1: none; null: no attachments
+    T* attached;         // records inward, a row each quantity
+
     T fold; // 1 / fold_speed (air.h) where there is foliage, else 0: how the drag of what bodies carry is taken
     bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
     bool stream;              // solved_rows are more than the caches hold, and go past them

@@ -2,6 +2,7 @@
 #pragma once
 #include "../plan/plan.h"
 #include "../plan/state.h"
+#include "attachment_state.h"
 #include "coupled_body.h"
 #include "scheme.h"
 #include <complex>
@@ -21,6 +22,7 @@ template <class T> struct CoupledState : StepperState {
     WindTable<T> wind_change;                               // [m/s] of the wind over the step
     WindField<T> wind_start, wind_end; // where it varies over the ground: at the step's start and end
     std::vector<GroundStep<T>> ground; // of each of the plan's splines
+    Attachments attachments;
 };
 
 // Of the plain step: records of bodies.

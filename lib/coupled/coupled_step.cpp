@@ -2,6 +2,7 @@
 #include "../plan/ground.h"
 #include "../plan/spring_torque.h"
 #include "../plan/state_update.h"
+#include "attachment.h"
 #include "body_load.h"
 #include "energy_guard.h"
 #include "half_turn.h"
@@ -45,8 +46,18 @@ void coupled_step(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& stat
         midpoint(plan, state, work, scheme_of(own.scheme).extrapolates);
     });
     run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, own, state, work, time); });
+    const bool holds = work.attachments.any();
+    if (holds)
+        run_stage(Stage::attachments, state, clock, [&] {
+            read_attached(state, work);
+            place_attachments(plan, own, work, time);
+        });
     run_stage(Stage::resolvent, state, clock, [&] { solve(plan, own, state, work); });
     run_stage(Stage::state_update, state, clock, [&] {
+        if (holds) {
+            read_attached(state, work);
+            settle_attachments(work.attachments);
+        }
         const bool watched = weigh_start(plan, state, work, time);
         take(plan, state, work);
         move_ground(plan, state, end);

@@ -1,5 +1,6 @@
 #include "coupled_stepper.h"
 #include "../plan/state_update.h"
+#include "attachment.h"
 #include "coupled_step.h"
 #include <algorithm>
 
@@ -60,7 +61,16 @@ void CoupledStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<s
         if (!own.carried_moment.empty()) own.carried_moment[i].setZero();
         if (!own.carried_drag.empty()) own.carried_drag[i].setZero(); // what bore it keeps its own: any will do (air.h)
     }
+    release_from(plan, coupled_state(state), bodies);
     state_update(plan, state);
+}
+
+template <class T> void CoupledStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
+    saved.attachments = saved_attachments(coupled_state(state).attachments);
+}
+
+template <class T> void CoupledStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
+    restore_attachments(coupled_state(state).attachments, saved.attachments);
 }
 
 template class CoupledStepper<float>;

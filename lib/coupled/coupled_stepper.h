@@ -17,6 +17,8 @@ public:
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
     NonFinite non_finite(const State<T>&) const override;
     std::vector<CarriedArray<T>> carried(State<T>&) const override;
+    void save(const Plan<T>&, const State<T>&, SavedState&) const override;
+    void restore(const Plan<T>&, State<T>&, const SavedState&) const override;
     bool has_carried_moments() const override { return !own.carried_moment.empty(); }
     void set_carried_moment(const Plan<T>&, std::size_t body, const Vec3& moment) override {
         own.carried_moment[body] = moment.template cast<T>();

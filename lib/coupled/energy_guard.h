@@ -7,9 +7,9 @@
 // carries it, whose motion is given:
 //   excess = (kinetic + elastic)_1 - (...)_0 - (f + m (g - a)) . (c_1 - b_1) - (I (Omega_1 - Omega_0)) . w_1
 // kinetic of the joint's own rate w, c the centre of mass from the joint, b where it would be with the joint fixed, a that point's mean
-// acceleration, Omega the carrier's angular velocity. A positive excess is taken from the joint's rate. Ends that are pulled are left out.
+// acceleration, Omega the carrier's angular velocity. A positive excess is taken from the joint's rate. Ends that are pulled or attached are left out.
 // Wood: where a piece of a tree's wood turns by more than 0.3 rad in a step, and there alone, the tree's balance over the step is drawn up,
-//   excess = (kinetic + elastic + potential)_1 - (...)_0 - work of the air and the pulls
+//   excess = (kinetic + elastic + potential)_1 - (...)_0 - work of the air, the pulls and, where that is positive, the attachments
 // with what its ends have kept, the bodies' true kinetic energy, gravity's potential and the air's force of the step, at the mean velocity that the
 // bodies had: (f(y*) - D (v_mean - v*)) . (x_1 - x_0). A positive excess is taken from the rates of the wood that turns that fast, by one
 // factor in [0, 1]; where that is not enough, from all of the tree; in a wind on leaves only where that wood has a hundredth of its kinetic energy. So

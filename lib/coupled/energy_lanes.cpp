@@ -1,5 +1,6 @@
 #include "energy_lanes.h"
 #include "../base/parallel.h"
+#include "attachment_lanes.h"
 #include "coupled_tables.h"
 #include "coupled_targets.h"
 #include "energy_guard.h"
@@ -150,6 +151,7 @@ void guard_lanes(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& 
                 account.fast += double(sum[energy::fast * L]);
             }
     }
+    book_attachments(plan, own, work);
     for (EnergyAccount& account : work.account)
         if (account.watched) settle(account, plan.foliage);
     for (std::size_t b = 0; b < layout.blocks.size(); ++b)

@@ -2,6 +2,7 @@
 #include "../base/parallel.h"
 #include "../laws/leaf_air.h"
 #include "articulated_algebra.h"
+#include "attachment.h"
 #include "midpoint.h"
 
 namespace bough {
@@ -13,13 +14,14 @@ template <class T, class S> struct Solve {
     CoupledWork<T>& work;
     std::vector<ResolventBody<S>>& body;
     S p, c, s1, s2, slope; // s1 = 1/s, s2 = 1/s^2
+    std::complex<double> pole;
     T h;
 
     Solve(const Plan<T>& pl, const State<T>& st, CoupledWork<T>& wk, std::vector<ResolventBody<S>>& bodies,
-          const Pole& pole)
-        : plan(pl), state(st), work(wk), body(bodies), p(field<S>(pole.p, T())), c(field<S>(pole.c, T())),
-          s1(field<S>(pl.dt / pole.p, T())), s2(field<S>(pl.dt / pole.p * pl.dt / pole.p, T())),
-          slope(field<S>(1.0 / pole.p - 0.5, T())), h(T(pl.dt)) {}
+          const Pole& of)
+        : plan(pl), state(st), work(wk), body(bodies), p(field<S>(of.p, T())), c(field<S>(of.c, T())),
+          s1(field<S>(pl.dt / of.p, T())), s2(field<S>(pl.dt / of.p * pl.dt / of.p, T())),
+          slope(field<S>(1.0 / of.p - 0.5, T())), pole(of.p), h(T(pl.dt)) {}
 
     void start(std::size_t i) {
         const CoupledBody<T>& b = work.coupled[i];
@@ -49,6 +51,16 @@ template <class T, class S> struct Solve {
 
     [[gnu::noinline]] void damp_spin(ResolventBody<S>& q, const CoupledBody<T>& b, T m) {
         q.A += (s1 * b.spin) * central_inertia(m, b.J, b.c).template cast<S>();
+    }
+
+    void attach(const AttachedBody& b) {
+        const AttachmentTerms<S> more = attachment_terms<S>(b.sums, pole, plan.dt);
+        ResolventBody<S>& q = body[b.body];
+        q.A += more.A;
+        q.B += more.B;
+        q.M += more.M;
+        q.N += more.N;
+        q.F += more.F;
     }
 
     void eliminate(std::size_t i) {
@@ -93,6 +105,7 @@ template <class T, class S> struct Solve {
 
     void run() {
         parallel_for(plan.bodies, 50, [this](std::size_t i) { start(i); });
+        for (const AttachedBody& b : work.attachments.bodies) attach(b);
         for (std::size_t i = plan.bodies; i-- > 0;) eliminate(i);
         for (std::size_t i = 0; i < plan.bodies; ++i)
             if (plan.parent[i] < 0)

@@ -1,6 +1,7 @@
 #include "sleep.h"
 #include "../laws/wind.h"
 #include "../plan/pushes.h"
+#include "attachment.h"
 #include "coupled_tables.h"
 #include <algorithm>
 #include <cmath>
@@ -117,6 +118,8 @@ void wake_blocks(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& 
     std::vector<BlockRest>& rest = work.lanes.rest;
     for (std::size_t k = 0; k < sleep.block_of_pull.size(); ++k)
         if (changes(plan.scene.pulls[plan.pulls[k].source], time, plan.dt)) wake(own, work, sleep.block_of_pull[k]);
+    for (const Attached& held : work.attachments.all)
+        if (changes(plan, held, time)) wake(own, work, work.attachments.bodies[held.at].block);
     BlockRest& top = rest[0];
     for (std::size_t b = 1; b < blocks.size(); ++b)
         if (carried(blocks[b]) && rest[b].rest == Rest::awake) top.rest = Rest::awake;

@@ -4,7 +4,7 @@
 // the plan's rate [rad/s], and so have the bodies above that it stands on, under forces that stay as they are. Its rates and
 // their changes are set to zero, it is swept once more, and what it hands inward (articulated inertia and force, at that
 // pose) stands from then on for the block: what carries it feels it as before. Asleep it costs nothing: no sweep, no memory.
-//   wakes     when what acts on it is changed from outside (wake_all), when a pull on one of its bodies changes, when what it stands on turns faster than the rate, or has turned by
+//   wakes     when what acts on it is changed from outside (wake_all), when a pull on one of its bodies changes, or an attachment of one, when what it stands on turns faster than the rate, or has turned by
 //             more than ten seconds of the rate since blocks sleep on it. The top sleeps when all that stands on it does, and
 //             wakes with the first of it
 //   drift     a mode of angular frequency w that is put to rest had an amplitude of at most r / w, or where a second is short

@@ -68,6 +68,31 @@ std::optional<Defect> check_keys(const std::vector<double>& time, const std::str
     return std::nullopt;
 }
 
+std::optional<Defect> check(const Attachment& held, const std::string& at, std::size_t trees) {
+    if (auto defect = check(held.on, at + "/on", trees)) return defect;
+    if (held.target && !held.time.empty())
+        return Defect{at + "/target", -1, "stands beside time and position, expected one of the two"};
+    if (held.target)
+        if (auto defect = finite(at + "/target", *held.target)) return defect;
+    if (!held.time.empty())
+        if (auto defect = check_keys(held.time, at + "/time")) return defect;
+    if (held.position.size() != held.time.size())
+        return Defect{at + "/position", -1,
+                      "has " + counted(held.position.size(), "key", "keys") + ", expected " +
+                          std::to_string(held.time.size()) + " (one for each time)"};
+    for (std::size_t i = 0; i < held.position.size(); ++i)
+        if (!held.position[i].allFinite())
+            return Defect{at + "/position", std::int64_t(i), "is not finite, expected metres"};
+    if (auto defect = at_least(at + "/stiffness", held.stiffness, 0)) return defect;
+    if (auto defect = at_least(at + "/damping", held.damping, 0)) return defect;
+    if (held.stiffness == 0 && held.damping == 0)
+        return Defect{at, -1, "holds nothing, expected stiffness or damping above 0"};
+    if (std::isnan(held.from)) return Defect{at + "/from", -1, "is not finite, expected seconds"};
+    if (held.to > held.from) return std::nullopt;
+    return Defect{at + "/to", -1,
+                  "is " + shortest_text(held.to) + ", expected more than from, " + shortest_text(held.from)};
+}
+
 // `which`: the entry's place in the list; an earlier one may have its tree already.
 std::optional<Defect> check(const std::vector<RootMotion>& motions, std::size_t which, std::size_t trees) {
     const RootMotion& motion = motions[which];
@@ -164,6 +189,9 @@ std::optional<Defect> check(const Scene& scene) {
     if (auto defect = at_least("air_density", scene.air_density, 0)) return defect;
     for (std::size_t i = 0; i < scene.pulls.size(); ++i)
         if (auto defect = check(scene.pulls[i], "pulls/" + std::to_string(i), scene.trees.size())) return defect;
+    for (std::size_t i = 0; i < scene.attachments.size(); ++i)
+        if (auto defect = check(scene.attachments[i], "attachments/" + std::to_string(i), scene.trees.size()))
+            return defect;
     for (std::size_t i = 0; i < scene.root_motion.size(); ++i)
         if (auto defect = check(scene.root_motion, i, scene.trees.size())) return defect;
     if (scene.joint_limit)

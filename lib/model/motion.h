@@ -85,6 +85,7 @@ struct SavedState {
     double articulated_step = 0;     // [s] State::articulated_step
     std::vector<double> free_bodies; // saved_world of free/world.h; empty where nothing is free
     std::vector<double> sleep;       // saved_sleep of coupled/sleep.h; empty where nothing has settled
+    std::vector<double> attachments; // saved_attachments of coupled/attachment.h; empty without
     std::string source;
 };
 

@@ -103,6 +103,20 @@ struct Pull {
     std::vector<Vec3> force;  // [N] world, one per time
 };
 
+// A spring and a damper between a point of a body and a point in space, which may move: a hand, a rope, a prop, a wire. Force on the body
+//   f = -stiffness (x - target) - damping (x' - target')
+// as long as from <= t < to, taken for each step by its middle. For the coupled solver (coupled/attachment.h).
+struct Attachment {
+    Selector on;                // by level: one for each of its bodies
+    std::optional<Vec3> target; // [m] world, at rest; absent, and without keys: where the point is at the run's start
+    std::vector<double>
+        time; // [s] rising: keys of a target that moves through them as RootMotion does; none, or at least two
+    std::vector<Vec3> position; // [m] world, one per time
+    double stiffness = 0;       // [N/m] 0 or more
+    double damping = 0;         // [N s/m] 0 or more
+    double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity(); // [s]
+};
+
 // Moves a tree as a whole, the ground under it and all, by a smooth curve through keys (root_motion.h). At least two keys;
 // position or rotation may be left empty, not both.
 struct RootMotion {
@@ -252,6 +266,7 @@ struct Scene {
     std::optional<Wind> wind;
     double air_density = 1.2; // [kg/m^3]
     std::vector<Pull> pulls;
+    std::vector<Attachment> attachments;
     std::vector<RootMotion> root_motion; // at most one for a tree
     Pose pose = Pose::drawn;
     JointInertia joint_inertia = JointInertia::branch;

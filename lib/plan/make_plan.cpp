@@ -175,6 +175,20 @@ template <class T> void plan_pulls(Plan<T>& plan, const Tree& tree, const std::v
     }
 }
 
+template <class T> void plan_attachments(Plan<T>& plan, const Tree& tree, const std::vector<TreeRange>& ranges) {
+    for (std::size_t k = 0; k < plan.scene.attachments.size(); ++k) {
+        const Attachment& held = plan.scene.attachments[k];
+        std::optional<QuinticSpline> course;
+        if (!held.time.empty()) course = make_quintic(held.time, held.position);
+        try {
+            for (const Selected& target : select(tree, ranges, held.on))
+                plan.attachments.push_back({target.body, target.point_b, k, course});
+        } catch (const std::out_of_range& error) {
+            throw std::out_of_range("/attachments/" + std::to_string(k) + "/on: " + error.what());
+        }
+    }
+}
+
 // tree: scaled. own: the same, where it may be given back array by array; else null. What reads much of the tree stands first.
 template <class T>
 Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ranges, const Scene& scene,
@@ -190,6 +204,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.wind = scene.wind.has_value(); // a wind of no velocity is still air, which drags
     if (plan.wind) plan.leaf = leaf_terms<T>(scene);
     plan_pulls(plan, tree, ranges);
+    plan_attachments(plan, tree, ranges);
     give_back(own, &Tree::level, &Tree::s);
     stepper.refuse(scene);
     refuse_unapplied(scene);
@@ -200,7 +215,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.velocity = wishes.velocity || stepper.reads_velocities(plan);
     plan.torque = wishes.torque;
     plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || wishes.torque || scene.fracture ||
-                !scene.balls.empty();
+                !scene.balls.empty() || !scene.attachments.empty();
     plan_root_motion(plan, ranges);
     if (plan.wind) {
         const WindReach reach = reach_of(plan, tree);

@@ -33,6 +33,14 @@ template <class T> struct PlannedPull {
     std::size_t source; // index into Scene::pulls
 };
 
+// An attachment likewise.
+struct PlannedAttachment {
+    std::size_t body;
+    Vec3 point_b;                        // [m] body frame
+    std::size_t source;                  // index into Scene::attachments
+    std::optional<QuinticSpline> course; // [m] of a target that moves
+};
+
 template <class T> struct Plan {
     std::size_t bodies = 0;
     double dt = 0; // [s] one step
@@ -77,6 +85,7 @@ template <class T> struct Plan {
     std::vector<std::uint32_t> clock; // which of them each body's tree goes by; empty: all by the first
 
     std::vector<PlannedPull<T>> pulls;
+    std::vector<PlannedAttachment> attachments;
 };
 
 // Of what goes by itself (lib/free): what the scene names of it, as a JSON pointer, or null; whether there is any; whether free bodies may

@@ -145,6 +145,14 @@ Scene scene_on(const Reduced& r, const Tree& whole, Scene scene) {
             if (const std::optional<Selector> on = selector_on(r, target))
                 pulls.push_back({*on, pull.time, pull.force});
     scene.pulls = std::move(pulls);
+    std::vector<Attachment> attachments;
+    for (const Attachment& held : scene.attachments)
+        for (const Selected& target : select(whole, r.whole, held.on))
+            if (const std::optional<Selector> on = selector_on(r, target)) {
+                attachments.push_back(held);
+                attachments.back().on = *on;
+            }
+    scene.attachments = std::move(attachments);
     return scene;
 }
 

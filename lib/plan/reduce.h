@@ -66,7 +66,7 @@ Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, const Sc
 std::optional<Selector> selector_on(const Reduced&, const Selected& in_whole);
 
 // The scene for the reduced tree: what its pulls select becomes points of bodies there; a pull on a level becomes one for each of its bodies, what
-// pulls at a part that stands still is left out. Nothing else of a scene that goes with rigid parts selects.
+// pulls at a part that stands still is left out; attachments likewise. Nothing else of a scene that goes with rigid parts selects.
 // Throws std::out_of_range as select() does.
 Scene scene_on(const Reduced&, const Tree& whole, Scene);
 

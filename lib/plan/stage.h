@@ -18,6 +18,7 @@ enum class Stage : std::uint8_t {
     articulated,
     midpoint,
     body_loads,
+    attachments,
     resolvent,
     lanes,
     state_update,
@@ -26,7 +27,7 @@ enum class Stage : std::uint8_t {
     fracture,
     walkers
 };
-constexpr std::size_t stage_count = 17;
+constexpr std::size_t stage_count = 18;
 const char* stage_name(Stage);
 
 // Seconds per stage, filled by a step when one is given; without it no clock is read.

@@ -92,7 +92,8 @@ public:
     // Of a state that is presented, and has become non-finite.
     virtual NonFinite non_finite(const State<T>&) const = 0;
     virtual std::vector<CarriedArray<T>> carried(State<T>&) const = 0;
-    // What is saved beside the carried arrays. restore(): after begin(); throws std::invalid_argument.
+    // What is saved beside the carried arrays. restore(): after begin(); throws std::invalid_argument for
+    // what sleeps, std::length_error for attachments.
     virtual void save(const Plan<T>&, const State<T>&, SavedState&) const {}
     virtual void restore(const Plan<T>&, State<T>&, const SavedState&) const {}
 
@@ -114,6 +115,7 @@ public:
     } // all stiffness and damping times these; the plan's own are the caller's
     virtual bool sleeps() const { return false; } // trees may
     virtual void wake(const Plan<T>&, State<T>&) const {}
+    virtual void attachments_changed(State<T>&) const {} // one came or went
 
 protected:
     Stepper(const Stepper&) = default;

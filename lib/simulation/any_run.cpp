@@ -1,6 +1,7 @@
 #include "any_run.h"
 #include "../base/parallel.h"
 #include "../base/rotation_maps.h"
+#include "../coupled/attachment.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
 #include "../lanes/plan_lanes.h"
@@ -165,6 +166,41 @@ public:
         run_.state.loads.push_back({body, point.template cast<T>(), force.template cast<T>()});
     }
 
+    std::uint64_t attach(std::size_t body, const Vec3& point, double k, double c) override {
+        present(run_.plan, run_.state);
+        std::size_t on = body;
+        Vec3 there = point;
+        if (assembly_->whole) {
+            const Reduced& places = assembly_->whole->places;
+            if (places.body[body] < 0)
+                throw SceneError("attach: body " + std::to_string(body) + " stands still (/simulate, /rigid)");
+            on = std::size_t(places.body[body]);
+            there = places.offset[body] + places.rotation[body] * point;
+        }
+        if (gone(on)) throw SceneError("attach: body " + std::to_string(body) + " has broken off");
+        if (!run_.plan.pose) throw SceneError("attach: this run keeps no poses");
+        const Vec3 target =
+            run_.state.x_w[on].template cast<double>() + run_.state.R_wb[on].template cast<double>() * there;
+        const std::uint64_t number = bough::attach(run_.plan, coupled_state(run_.state), on, there, k, c, target);
+        run_.plan.stepper->attachments_changed(run_.state);
+        return number;
+    }
+    Attached* attachment(std::uint64_t number) override {
+        return coupled() ? attached(coupled_state(run_.state).attachments, number) : nullptr;
+    }
+    void release(std::uint64_t number) override {
+        bough::release(run_.plan, coupled_state(run_.state), number);
+        run_.plan.stepper->attachments_changed(run_.state);
+    }
+    std::vector<Attached> hands() const override {
+        std::vector<Attached> hands;
+        if (fast::coupled_plan(run_.plan))
+            for (const Attached& held : coupled_state(run_.state).attachments.all)
+                if (held.planned < 0) hands.push_back(held);
+        return hands;
+    }
+    void adopt(const Attached& hand, std::size_t body) override { adopt(run_, hand, body); }
+
     std::uint64_t hash() override { return state_hash(run_.plan, run_.state, run_.world); }
 
     void save(SavedState& saved) override {
@@ -210,6 +246,9 @@ public:
             scale(run.plan, stiffness, damping);
             stay(run);
             restore_run(saved, step, run);
+            for (const Attached& hand : hands())
+                if (run.world.remaining.gone.empty() || !run.world.remaining.gone[hand.body])
+                    adopt(run, hand, hand.body);
             run_ = std::move(run);
         }
         broken_ = {};
@@ -292,6 +331,11 @@ private:
             return &run_;
         else
             return nullptr;
+    }
+
+    static void adopt(Run<T>& run, const Attached& hand, std::size_t body) {
+        bough::adopt(run.plan, coupled_state(run.state), hand, body);
+        run.plan.stepper->attachments_changed(run.state);
     }
 
     std::unique_ptr<Stepper<T>> stepper() const {

@@ -1,6 +1,7 @@
 // any_run.h: what stands behind the door (simulation.h): a run in either precision, by any solver. For tools and studies too, where what they report
 // is no engine's business; not installed.
 #pragma once
+#include "../coupled/attachment_state.h"
 #include "run.h"
 #include "simulation.h"
 #include <functional>
@@ -78,7 +79,12 @@ public:
     virtual void wake() = 0;
     virtual bool gone(std::size_t body) const = 0; // has broken off
     virtual void pull(std::size_t body, const Vec3& point, const Vec3& force) = 0;
-    virtual bool drives(std::size_t tree) const = 0; // set_ground() may be called for it
+    virtual std::uint64_t attach(std::size_t body, const Vec3& point, double stiffness, double damping) = 0;
+    virtual Attached* attachment(std::uint64_t number) = 0;    // null: there is none
+    virtual void release(std::uint64_t number) = 0;            // of one that is there
+    virtual std::vector<Attached> hands() const = 0;           // what attach() made and is still there
+    virtual void adopt(const Attached&, std::size_t body) = 0; // of another run's
+    virtual bool drives(std::size_t tree) const = 0;           // set_ground() may be called for it
     virtual void set_ground(std::size_t tree, const GroundMotion&, int steps) = 0;
     virtual GroundMotion ground(std::size_t tree) const = 0; // of one that it drives
     virtual std::vector<JointMotion> joints() = 0;

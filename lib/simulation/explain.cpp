@@ -102,6 +102,8 @@ template <class T> void explain_stages(const Plan<T>& plan, const Way<T>& way, s
         plain     ? "every scene" + (plan.forces ? "; " + forces : "")
         : coupled ? fused
                   : solver);
+    const bool held = coupled && !plan.attachments.empty();
+    add(Stage::attachments, held, held ? "/attachments" : "no attachments");
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, lanes,
         lanes

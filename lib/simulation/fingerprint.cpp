@@ -76,6 +76,13 @@ struct Fingerprint {
         for (const double t : pull.time) add(t);
         for (const Vec3& f : pull.force) add(f);
     }
+    void add(const Attachment& held) {
+        add(held.on);
+        add_named(8, {held.stiffness, held.damping, held.from, held.to, double(held.target.has_value())});
+        if (held.target) add(*held.target);
+        add_named(0, held.time);
+        for (const Vec3& p : held.position) add(p);
+    }
     void add(const RootMotion& motion) {
         for (const std::int64_t value : {std::int64_t(motion.tree), std::int64_t(motion.time.size()),
                                          std::int64_t(motion.position.size()), std::int64_t(motion.rotation.size())})
@@ -105,6 +112,7 @@ struct Fingerprint {
         for (const Ball& ball : s.balls) add(ball);
         if (s.contact) add(*s.contact);
         for (const Walker& walker : s.walkers) add(walker);
+        for (const Attachment& held : s.attachments) add(held);
         if (s.leaves)
             for (const double value :
                  {s.leaves->kappa, s.leaves->air_resistance, s.leaves->drag_ratio, s.leaves->offset})

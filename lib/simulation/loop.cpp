@@ -43,6 +43,7 @@ std::vector<Quat> in_parents(const Tree& tree, std::span<const Quat> world) {
 
 void make_periodic(double seconds, Scene& scene) {
     const std::pair<bool, const char*> passing[] = {{!scene.pulls.empty(), "/pulls"},
+                                                    {!scene.attachments.empty(), "/attachments"},
                                                     {!scene.root_motion.empty(), "/root_motion"},
                                                     {!scene.balls.empty(), "/balls"},
                                                     {scene.fracture.has_value(), "/fracture"},

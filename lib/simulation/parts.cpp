@@ -132,6 +132,16 @@ Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
         pull.on.tree -= std::int32_t(first);
         part.pulls.push_back(std::move(pull));
     }
+    part.attachments.clear();
+    for (std::size_t k = 0; k < scene.attachments.size(); ++k) {
+        Attachment held = scene.attachments[k];
+        if (held.on.by == Selector::By::nearest || held.on.by == Selector::By::level)
+            throw SceneError("not with the scene's /attachments/" + std::to_string(k) +
+                             "/on, which looks for its body in all trees; name it by body or branch");
+        if (!within(held.on.tree)) continue;
+        held.on.tree -= std::int32_t(first);
+        part.attachments.push_back(std::move(held));
+    }
     if (part.wood) {
         std::size_t k = 0;
         std::erase_if(part.wood->curves, [&](WoodCurve& curve) {

@@ -60,6 +60,8 @@ template <class T> void restore_run(const SavedState& saved, std::int64_t step, 
         plan.stepper->restore(plan, state, saved);
     } catch (const std::invalid_argument& error) {
         throw SceneError(std::string("/sleep: ") + error.what());
+    } catch (const std::length_error& error) {
+        throw SceneError(std::string("/attachments: ") + error.what());
     }
 }
 

@@ -59,6 +59,10 @@ Simulation::Simulation(Scene scene, const SimulationOptions& o, const Simulation
             here[to.first_body + i] = there[from.first_body + i];
             known[to.first_body + i] = !before.run_->gone(from.first_body + i);
         }
+        if (alike)
+            for (const Attached& hand : before.run_->hands())
+                if (hand.body >= from.first_body && hand.body - from.first_body < from.bodies)
+                    run_->adopt(hand, to.first_body + (hand.body - from.first_body));
         if (alike && run_->drives(k) && before.run_->drives(k)) grounds.emplace_back(k, before.run_->ground(k));
     }
     run_->go_on(here, known, before.time());
@@ -196,6 +200,52 @@ void Simulation::pull(std::size_t body, const Vec3& point, const Vec3& force) {
     require_finite(point, "pull: point");
     require_finite(force, "pull: force");
     run_->pull(body, point, force);
+}
+
+std::uint64_t Simulation::attach(std::size_t body, const Vec3& point, double stiffness, double damping) {
+    if (!run_->coupled()) throw SceneError("attach: with the coupled method alone");
+    const std::size_t bodies = run_->whole_tree().size_bodies();
+    if (body >= bodies)
+        throw SceneError("attach: body " + std::to_string(body) + " is not there, the trees have " +
+                         std::to_string(bodies));
+    require_finite(point, "attach: point");
+    for (const auto& [value, name] : {std::pair{stiffness, "stiffness"}, {damping, "damping"}})
+        if (!(value >= 0) || !std::isfinite(value))
+            throw SceneError(std::string("attach: ") + name + " is " + std::to_string(value) + ", expected 0 or more");
+    if (stiffness == 0 && damping == 0)
+        throw SceneError("attach: holds nothing, expected stiffness or damping above 0");
+    const std::uint64_t number = run_->attach(body, point, stiffness, damping);
+    run_->wake();
+    return number;
+}
+
+namespace {
+
+Attached& hand_of(AnyRun& run, std::uint64_t attachment, const char* call) {
+    if (Attached* const hand = run.attachment(attachment)) return *hand;
+    throw SceneError(std::string(call) + ": attachment " + std::to_string(attachment) +
+                     " is not there: it was released, its body broke off, or it never was");
+}
+
+} // namespace
+
+void Simulation::move_attachment(std::uint64_t attachment, const Vec3& target, int steps) {
+    Attached& hand = hand_of(*run_, attachment, "move_attachment");
+    require_finite(target, "move_attachment: target");
+    if (steps < 0) throw SceneError("move_attachment: steps is " + std::to_string(steps) + ", expected 0 or more");
+    hand.steps = steps;
+    (steps > 0 ? hand.goal : hand.target) = target;
+    run_->wake();
+}
+
+void Simulation::release(std::uint64_t attachment) {
+    hand_of(*run_, attachment, "release");
+    run_->release(attachment);
+    run_->wake();
+}
+
+Vec3 Simulation::attachment_force(std::uint64_t attachment) const {
+    return hand_of(*run_, attachment, "attachment_force").force;
 }
 
 void Simulation::set_ground(std::size_t tree, const GroundMotion& to, int steps) {

@@ -119,6 +119,18 @@ public:
     // A force [N], world, on a point [m, body frame] of a body of the trees, in the next step alone. Any number of them. Throws SceneError
     // without Options::pulls (with which nothing sleeps), where joints are held, for bodies that are not there or have broken off.
     void pull(std::size_t body, const Vec3& point, const Vec3& force);
+    // A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in the world,
+    // which is where the point is now. Any stiffness holds. Returns the attachment's number, above 0 and never given twice; any number of them, from the
+    // next step on, until release() or till the body breaks off. Nothing has to be asked for beforehand: O(bodies) a call, which
+    // allocates; a step with it some microseconds more, and nothing allocated. Part of no saved state. The coupled method. Throws SceneError; also for bodies that
+    // are not there, stand still or have broken off.
+    std::uint64_t attach(std::size_t body, const Vec3& point, double stiffness, double damping);
+    // The target goes evenly from where it is to `target` [m, world] in the next `steps` steps, and stays there; 0: it is there at once.
+    // Allocates nothing. Throws SceneError for an attachment that is not there.
+    void move_attachment(std::uint64_t attachment, const Vec3& target, int steps = 1);
+    void release(std::uint64_t attachment);
+    Vec3
+    attachment_force(std::uint64_t attachment) const; // [N] on the body, at the last step's end; zero before the first
 
     // The ground under a tree, its roots with it: in `steps` steps from now it is there with that velocity, on a smooth way from where it is and how it
     // moves; then it goes on as it moves by then. 0: it is there at once, and the tree as it stands on it, unmoved. A ground that is told of each step

@@ -152,6 +152,28 @@ void add_pulls(const Plan<double>& plan, ArticulatedPass& pass, double time) {
     }
 }
 
+// As forces, and in an implicit step with their change over it: h (h k + c) is a mass at the point.
+void add_attachments(const Plan<double>& plan, ArticulatedPass& pass, double time, double h) {
+    for (std::size_t j = 0; j < plan.attachments.size(); ++j) {
+        const PlannedAttachment& planned = plan.attachments[j];
+        const Attachment& held = plan.scene.attachments[planned.source];
+        if (!(held.from <= time && time < held.to)) continue;
+        ArticulatedBody& b = pass.body[planned.body];
+        const Vec3 &p = planned.point_b, x = b.x_w + b.R_wb * p;
+        const Vec3 v = b.R_wb * (b.v + b.omega.cross(p));
+        CurvePoint target{held.target.value_or(pass.attached_at.empty() ? x : pass.attached_at[j])};
+        if (planned.course) target = curve_at(*planned.course, time + h);
+        const Vec3 f = b.R_wb.transpose() * (held.stiffness * (target.x - x - h * v) + held.damping * (target.v - v));
+        const double mass = h * (h * held.stiffness + held.damping);
+        const Vec3 spun = b.omega.cross(b.omega.cross(p));
+        b.M += mass * Mat3::Identity();
+        b.B += mass * cross_matrix(p);
+        b.A += mass * (p.squaredNorm() * Mat3::Identity() - p * p.transpose());
+        b.F -= f - mass * spun;
+        b.N -= p.cross(Vec3(f - mass * spun));
+    }
+}
+
 // L^-1 of S = L L^T, L lower triangular.
 Mat3 inverse_factor(const Mat3& S) {
     const double i00 = 1 / std::sqrt(S(0, 0));
@@ -219,6 +241,7 @@ void articulated_pass(const Plan<double>& plan, ArticulatedPass& pass, double ti
         load(plan, pass, body[i], i, h, pass.fast);
     });
     add_pulls(plan, pass, time + h);
+    add_attachments(plan, pass, time, h);
     for (std::size_t i = plan.bodies; i-- > 0;) eliminate(body[i], parent(i), plan.joint_position[i]);
     outward([&](std::size_t i, const ArticulatedBody& p) { accelerate(body[i], p, plan.joint_position[i]); });
 }

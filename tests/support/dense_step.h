@@ -5,6 +5,7 @@
 // eta - eta_0):  d' = L d + f~ + (t - h/2)/h slope.  From dense_dynamics.h: accelerations and mass matrix. From here:
 //   rates of turning Phi_b and of moving V_b of body b with eta, in y*'s pose; D = sum V^T D_b V, H = sum Phi^T H_b Phi
 //   H_b    gravity's, by second differences of the potential of what body b turns; the air's bound on plates (air.h)
+//   attachments: k P^T P in K, c P^T P in C, P the rates of the point, and what turning resists by their force
 //   slope  M^-1 of what wind and pulls change by, and of what D makes of the ground's going on
 // The step is R(h W) of the matrix W that makes the system autonomous, R by its polynomials: no poles, no residues.
 // For grounds of steady acceleration and angular velocity, turning about the world's origin.
@@ -24,6 +25,14 @@ inline Matrix polynomial(const std::vector<Real>& c, const Matrix& W) {
     return sum;
 }
 
+// A spring and a damper at a point (coupled/attachment.h), its target over the step; quicker: what the target's velocity gains.
+struct Held {
+    std::size_t body;
+    V3 point_b;
+    Real k, c;
+    V3 from, to, quicker, force; // force: of the last step's end
+};
+
 struct Step {
     Problem middle;               // at y*, t*: theta, and rate = J eta*, body axes; h = 0
     std::vector<bough::Vec3> eta; // eta*
@@ -31,6 +40,7 @@ struct Step {
     V3 wind_change = V3::Zero();   // over the step
     std::vector<V3> pull_change{}; // of middle.pulls
     Real h = 0;
+    std::vector<Held> held{};
 };
 
 // theta(t + h) - theta_0, then eta(t + h) - eta_0.
@@ -118,6 +128,62 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             slope += (move - cross(arm) * turn).transpose() * taken.pull_change[k];
         }
     }
+    // Attachments: the force at y0 is that of the point's own place there.
+    Matrix K_turning = K;
+    const Matrix C_moving = C;
+    Problem start = p;
+    start.theta = taken.theta_0;
+    start.time = p.time - taken.h / 2;
+    const Pose before = pose_at(start, 0);
+    for (const Held& held : taken.held) {
+        const V3 x = pose.x[held.body] + pose.R[held.body] * held.point_b;
+        const V3 x_0 = before.x[held.body] + before.R[held.body] * held.point_b;
+        const M3 R_0 = p.ground.R(start.time), R_1 = p.ground.R(start.time + taken.h);
+        const V3 on_ground = R_0.transpose() * (x_0 - p.ground.x(start.time));
+        const V3 to = held.to - (p.ground.x(start.time + taken.h) + R_1 * on_ground - x_0);
+        const V3 spun = p.ground.omega.cross(V3((R_1 - R_0) * on_ground));
+        const V3 pivot = p.ground.omega.cross(V3((R_1 - R_0) * p.ground.pivot));
+        const V3 quicker = held.quicker - (p.ground.a * taken.h - pivot + spun);
+        Matrix P = Matrix::Zero(3, N);
+        std::vector<std::size_t> path;
+        for (std::int32_t k = std::int32_t(held.body); k >= 0; k = tree.parent[std::size_t(k)]) {
+            path.push_back(std::size_t(k));
+            P.block<3, 3>(0, 3 * k) =
+                -cross(x - pose.x[std::size_t(k)]) * pose.R[std::size_t(k)] * J.block<3, 3>(3 * k, 3 * k);
+        }
+        const V3 f = -held.k * (x_0 - (held.from + to) / 2) - held.c * (P * eta_0 - (to - held.from) / taken.h);
+        K += held.k * P.transpose() * P;
+        C += held.c * P.transpose() * P;
+        force += P.transpose() * f;
+        slope += P.transpose() * (held.k * (to - held.from) + held.c * quicker);
+        // By how much the path's springs and inertias alone would turn for what is more than the last step's force.
+        const Real per_metre = held.k + held.c / taken.h;
+        const auto own = [&](std::size_t b) {
+            const M3 I = p.plan.inertia_joint[b].cast<Real>();
+            return std::min(stiffness[3 * Eigen::Index(b)], stiffness[3 * Eigen::Index(b) + 1]) *
+                       (1 + Real(tree.damping[b]) * Real(p.plan.scene.damping_scale) / taken.h) +
+                   std::min(I(0, 0), I(1, 1)) / (taken.h * taken.h);
+        };
+        M3 give = M3::Identity() / per_metre;
+        for (const std::size_t b : path) give -= cross(x - pose.x[b]) * cross(x - pose.x[b]) / own(b);
+        const V3 answer = give.ldlt().solve((f - held.force) / per_metre);
+        Real turns = 0;
+        for (const std::size_t b : path) turns = std::max(turns, (x - pose.x[b]).cross(answer).norm() / own(b));
+        const Real strain = std::min(Real(1), turns / Real(0.1L));
+        for (std::size_t j = 0; j < path.size(); ++j) {
+            const std::size_t b = path[j];
+            const V3 arm = (j == 0 ? x : pose.x[path[j - 1]]) - pose.x[b];
+            const Real tension = arm.norm() * std::max(held.force.norm(), strain * strain * f.norm());
+            const M3 H = tension * (M3::Identity() - arm * arm.transpose() / arm.squaredNorm());
+            Matrix turn = Matrix::Zero(3, N);
+            for (std::size_t i = j; i < path.size(); ++i) {
+                const auto at = 3 * Eigen::Index(path[i]);
+                turn.block<3, 3>(0, at) = pose.R[path[i]] * J.block<3, 3>(at, at);
+            }
+            K += turn.transpose() * H * turn;
+            K_turning += turn.transpose() * H * turn;
+        }
+    }
     const Matrix M = J.transpose() * solved.M * J;
     const auto inverse = M.ldlt();
     const Vector eta_dot = J.partialPivLu().solve(solved.rate_dot - bias);
@@ -129,7 +195,8 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
     const Vector rise = inverse.solve(slope);
     W.block(N, 2 * N, N, 1) = rise;
     W.block(0, 2 * N + 1, N, 1) = eta_0;
-    W.block(N, 2 * N + 1, N, 1) = eta_dot + inverse.solve(K * theta_ahead + C * eta_ahead) - rise / 2;
+    W.block(N, 2 * N + 1, N, 1) =
+        eta_dot + inverse.solve(K_turning * theta_ahead + C_moving * eta_ahead + force) - rise / 2;
     W(2 * N, 2 * N + 1) = 1 / taken.h;
     W *= taken.h;
     const rational::Function R = rational::of(scheme);

@@ -207,7 +207,7 @@ TEST_CASE("pieces are joined alike by any number of threads, and whatever places
         }
         pieces.first.push_back(pieces.end.size());
         std::vector<double>& result = results.emplace_back();
-        for (const Attachment& a : attach_pieces(pieces, 'y'))
+        for (const JoinedPiece& a : attach_pieces(pieces, 'y'))
             result.insert(result.end(), {double(a.end), double(a.parent), double(a.a), double(a.b), a.t, a.gap});
     }
 #ifdef _OPENMP

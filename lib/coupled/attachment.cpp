@@ -1,0 +1,467 @@
+#include "attachment.h"
+#include "../base/rotation_maps.h"
+#include "turn_bounds.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace bough {
+namespace {
+
+constexpr double lost = 0.01;    // of the path's own masses, by the rounding of zeta
+constexpr double far_turn = 0.1; // [rad] that a joint may be asked to turn by in a step
+
+// Bodies of all paths; those that stay keep nothing, as a step fills them anew.
+template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
+    std::vector<std::size_t> touched;
+    for (const Attached& held : a.all)
+        for (auto i = std::int64_t(held.body); i >= 0; i = plan.parent[std::size_t(i)])
+            touched.push_back(std::size_t(i));
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    const auto place = [&](std::size_t body) {
+        return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
+    };
+    a.bodies.assign(touched.size(), {});
+    for (std::size_t k = 0; k < touched.size(); ++k) {
+        AttachedBody& b = a.bodies[k];
+        b.body = touched[k];
+        const std::int32_t parent = plan.parent[b.body];
+        b.parent = parent < 0 ? -1 : place(std::size_t(parent));
+        b.joint_position = plan.joint_position[b.body].template cast<double>();
+        b.R_pj = plan.R_pj[b.body].template cast<double>();
+    }
+    for (Attached& held : a.all) held.at = std::size_t(place(held.body));
+}
+
+// The grounds of a step's start and end under a body, where it is moved.
+struct Grounds {
+    Ground start, end;
+    bool moved = false;
+};
+template <class T> Grounds grounds_of(const Plan<T>& plan, std::size_t body, double time) {
+    Grounds g;
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, body) : -1;
+    if (spline < 0) return g;
+    g.moved = true;
+    g.start = ground_at(plan.splines[std::size_t(spline)], time);
+    g.end = ground_at(plan.splines[std::size_t(spline)], time + plan.dt);
+    return g;
+}
+
+// As midpoint.cpp, and where the joint is at y0.
+void place_body(AttachedBody& b, const AttachedBody& p, bool halfway) {
+    Vec3 half = b.now.theta_change / 2;
+    b.x_start = p.x_start + p.R_start * b.joint_position;
+    b.R_start = p.R_start * b.R_pj * rotation_from_vector<double>(b.now.theta);
+    const Mat3 G = p.R * b.R_pj;
+    if (!halfway || half.norm() > extrapolated_turn / 2 || Vec3(p.turn + G * half).norm() > extrapolated_turn)
+        half.setZero();
+    const RotationMaps<double> maps = rotation_maps<double>(b.now.theta + half);
+    const Vec3 r = p.R * b.joint_position;
+    b.R = G * maps.R;
+    b.GJ = G * maps.J;
+    b.x = p.x + r;
+    b.turn = p.turn + b.GJ * half;
+    b.own = p.own + b.GJ * b.now.eta;
+    b.v = p.v + p.own.cross(r);
+}
+
+template <class T>
+AttachedBody resting_ground(const Plan<T>& plan, const CoupledState<T>& work, std::size_t root, double time) {
+    AttachedBody g;
+    g.R_start.setIdentity();
+    g.R.setIdentity();
+    for (Vec3* v : {&g.x_start, &g.x, &g.turn, &g.own, &g.v}) v->setZero();
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, root) : -1;
+    if (spline < 0) return g;
+    const Ground start = ground_at(plan.splines[std::size_t(spline)], time);
+    const GroundStep<T>& y = work.ground[std::size_t(spline)];
+    g.R_start = start.R;
+    g.x_start = start.x;
+    g.R = y.R.template cast<double>();
+    g.x = y.x.template cast<double>();
+    return g;
+}
+
+// The least of the masses that the path's joints answer with at the point, |s| of the scheme's slowest pole.
+template <class T>
+double answering_mass(const Plan<T>& plan, const Attachments& a, const Attached& held, const Vec3& point,
+                      std::complex<double> s1) {
+    double least = std::numeric_limits<double>::infinity();
+    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
+        const AttachedBody& b = a.bodies[std::size_t(k)];
+        const double arm2 = (point - b.x).squaredNorm();
+        if (!(arm2 > 0)) continue;
+        const Vector3<T>& K = plan.K[b.body];
+        const Matrix3<T>& J = plan.inertia_joint[b.body];
+        const double z = std::abs(double(plan.beta[b.body]) * s1 + s1 * s1);
+        for (int axis = 0; axis < 3; ++axis) least = std::min(least, double(J(axis, axis) + T(z) * K[axis]) / arm2);
+    }
+    return least;
+}
+
+// Where the target is at t; its velocity.
+template <class T> CurvePoint target_at(const Plan<T>& plan, const Attached& held, double t) {
+    if (held.planned >= 0)
+        if (const std::optional<QuinticSpline>& course = plan.attachments[std::size_t(held.planned)].course)
+            return curve_at(*course, t);
+    return {held.target, Vec3::Zero(), Vec3::Zero()};
+}
+
+// The way of the target over the step.
+template <class T> void lead(const Plan<T>& plan, Attached& held, double time) {
+    const CurvePoint start = target_at(plan, held, time), end = target_at(plan, held, time + plan.dt);
+    held.from_target = start.x;
+    held.to_target = end.x;
+    held.quicker = end.v - start.v;
+    if (held.steps > 0) held.to_target += (held.goal - held.target) / held.steps;
+    const Grounds grounds = grounds_of(plan, held.body, time);
+    if (grounds.moved) { // less what the ground does with the point
+        const Vec3 X = grounds.start.R.transpose() * (held.start - grounds.start.x);
+        held.to_target -= grounds.end.x + grounds.end.R * X - held.start;
+        held.quicker -= grounds.end.v + grounds.end.omega.cross(Vec3(grounds.end.R * X)) - grounds.start.v -
+                        grounds.start.omega.cross(Vec3(grounds.start.R * X));
+    }
+    held.target_velocity = (held.to_target - held.from_target) / plan.dt;
+}
+
+template <class T>
+void add_ground(const Plan<T>& plan, const CoupledState<T>& work, AttachmentSums& sums, const Attached& held,
+                const Vec3& point) {
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, held.body) : -1;
+    if (spline < 0) return;
+    const GroundStep<T>& g = work.ground[std::size_t(spline)];
+    const Vec3 arm = point - g.x.template cast<double>();
+    const Vec3 a = g.a.template cast<double>() + g.alpha.template cast<double>().cross(arm);
+    const Vec3 slope = g.slope_a.template cast<double>() + g.slope_alpha.template cast<double>().cross(arm);
+    const Vec3 F[4] = {held.k * a, held.c * a, held.k * slope, held.c * slope};
+    for (int k = 0; k < 4; ++k) {
+        sums.F_ground[k] -= F[k];
+        sums.N_ground[k] -= held.rho.cross(F[k]);
+    }
+}
+
+void add_point(AttachmentSums& sums, const Attached& held) {
+    const Vec3& rho = held.rho;
+    const Mat3 Q = rho.squaredNorm() * Mat3::Identity() - rho * rho.transpose();
+    sums.A_stiffness += held.k * Q;
+    sums.A_damping += held.c * Q;
+    sums.B_stiffness += held.k * rho;
+    sums.B_damping += held.c * rho;
+    sums.stiffness += held.k;
+    sums.damping += held.c;
+    const Vec3 F = held.k * (held.start - (held.from_target + held.to_target) / 2) +
+                   held.c * (held.velocity - held.target_velocity);
+    const Vec3 slope = -held.k * (held.to_target - held.from_target) - held.c * held.quicker;
+    const Vec3 rate = held.k * held.velocity;
+    sums.F += F;
+    sums.F_slope += slope;
+    sums.F_rate += rate;
+    sums.N += rho.cross(F);
+    sums.N_slope += rho.cross(slope);
+    sums.N_rate += rho.cross(rate);
+}
+
+// What the joints of the path would turn by at most for the force beyond the last step's, each answering by its own spring and inertia alone, over
+// far_turn; at most 1.
+template <class T> double straining(const Plan<T>& plan, const Attachments& a, const Attached& held, const Vec3& more) {
+    const double h = plan.dt, per_metre = held.k + held.c / h;
+    const Vec3 point = a.bodies[held.at].x + held.rho;
+    const auto stiffness = [&](const AttachedBody& b) {
+        const Vector3<T>& K = plan.K[b.body];
+        const Matrix3<T>& J = plan.inertia_joint[b.body];
+        return double(std::min(K[0], K[1])) * (1 + double(plan.beta[b.body]) / h) +
+               double(std::min(J(0, 0), J(1, 1))) / (h * h);
+    };
+    Mat3 give = Mat3::Identity() / per_metre; // [m/N] of the point and of the attachment
+    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
+        const AttachedBody& b = a.bodies[std::size_t(k)];
+        const Vec3 arm = point - b.x;
+        give += (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose()) / stiffness(b);
+    }
+    const Vec3 force = give.inverse() * (more / per_metre);
+    double most = 0;
+    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
+        const AttachedBody& b = a.bodies[std::size_t(k)];
+        most = std::max(most, (point - b.x).cross(force).norm() / stiffness(b));
+    }
+    return std::min(1.0, most / far_turn);
+}
+
+// H of every body of the path.
+template <class T> void add_direction(const Plan<T>& plan, Attachments& a, const Attached& held) {
+    const Vec3 now = held.k * ((held.from_target + held.to_target) / 2 - held.start) +
+                     held.c * (held.target_velocity - held.velocity);
+    const double strain = straining(plan, a, held, Vec3(now - held.force)),
+                 most = std::max(held.force.norm(), strain * strain * now.norm());
+    Vec3 outward = a.bodies[held.at].x + held.rho;
+    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
+        AttachedBody& b = a.bodies[std::size_t(k)];
+        const Vec3 P = outward - b.x;
+        outward = b.x;
+        const double arm = P.norm();
+        if (!(arm > 0) || !(most > 0)) continue;
+        const Vec3 p = P / arm;
+        const Mat3 H = arm * most * (Mat3::Identity() - p * p.transpose());
+        b.sums.A_stiffness += H;
+        b.sums.N -= H * b.turn;
+        b.sums.N_rate += H * b.own;
+    }
+}
+
+void clear(AttachmentSums& s) {
+    s.A_stiffness.setZero();
+    s.A_damping.setZero();
+    s.stiffness = s.damping = 0;
+    for (Vec3* v : {&s.B_stiffness, &s.B_damping, &s.N, &s.N_slope, &s.N_rate, &s.F, &s.F_slope, &s.F_rate})
+        v->setZero();
+    for (int k = 0; k < 4; ++k) {
+        s.N_ground[k].setZero();
+        s.F_ground[k].setZero();
+    }
+}
+
+bool holds(const Attached& held, double middle) {
+    return held.from <= middle && middle < held.to;
+}
+
+} // namespace
+
+template <class T> void begin_attachments(const Plan<T>& plan, CoupledState<T>& work) {
+    Attachments& a = work.attachments;
+    a = {};
+    for (const PlannedAttachment& planned : plan.attachments) {
+        const Attachment& of = plan.scene.attachments[planned.source];
+        Attached held{};
+        held.planned = &planned - plan.attachments.data();
+        held.body = planned.body;
+        held.point_b = planned.point_b;
+        held.stiffness = of.stiffness;
+        held.damping = of.damping;
+        held.from = of.from;
+        held.to = of.to;
+        a.all.push_back(held);
+    }
+    find_bodies(plan, a);
+    for (AttachedBody& b : a.bodies) {
+        b.now = {plan.theta_start[b.body].template cast<double>(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+        AttachedBody ground;
+        if (b.parent < 0) ground = resting_ground(plan, work, b.body, 0);
+        place_body(b, b.parent < 0 ? ground : a.bodies[std::size_t(b.parent)], false);
+    }
+    for (Attached& held : a.all) {
+        const AttachedBody& b = a.bodies[held.at];
+        const Attachment& of = plan.scene.attachments[plan.attachments[std::size_t(held.planned)].source];
+        held.target = of.target.value_or(b.x_start + b.R_start * held.point_b);
+    }
+}
+
+template <class T>
+std::uint64_t attach(const Plan<T>& plan, CoupledState<T>& work, std::size_t body, const Vec3& point_b,
+                     double stiffness, double damping, const Vec3& target) {
+    Attachments& a = work.attachments;
+    constexpr double ever = std::numeric_limits<double>::infinity();
+    Attached held{};
+    held.number = ++a.numbers;
+    held.planned = -1;
+    held.body = body;
+    held.point_b = point_b;
+    held.stiffness = stiffness;
+    held.damping = damping;
+    held.from = -ever;
+    held.to = ever;
+    held.target = target;
+    a.all.push_back(held);
+    find_bodies(plan, a);
+    return held.number;
+}
+
+Attached* attached(Attachments& a, std::uint64_t number) {
+    if (number == 0) return nullptr;
+    const auto found =
+        std::find_if(a.all.begin(), a.all.end(), [number](const Attached& held) { return held.number == number; });
+    return found == a.all.end() ? nullptr : &*found;
+}
+
+template <class T> void adopt(const Plan<T>& plan, CoupledState<T>& work, const Attached& hand, std::size_t body) {
+    Attachments& a = work.attachments;
+    a.all.push_back(hand);
+    Attached& held = a.all.back();
+    held.body = body;
+    held.force = held.spring = Vec3::Zero();
+    a.numbers = std::max(a.numbers, hand.number);
+    find_bodies(plan, a);
+}
+
+template <class T> void release(const Plan<T>& plan, CoupledState<T>& work, std::uint64_t number) {
+    std::erase_if(work.attachments.all, [number](const Attached& held) { return held.number == number; });
+    find_bodies(plan, work.attachments);
+}
+
+template <class T>
+void release_from(const Plan<T>& plan, CoupledState<T>& work, const std::vector<std::size_t>& bodies) {
+    Attachments& a = work.attachments;
+    if (!a.any()) return;
+    std::erase_if(a.all, [&](const Attached& held) {
+        return std::find(bodies.begin(), bodies.end(), held.body) != bodies.end();
+    });
+    find_bodies(plan, a);
+}
+
+template <class T> void read_attached(const State<T>& state, CoupledState<T>& work) {
+    for (AttachedBody& b : work.attachments.bodies)
+        b.now = {state.theta[b.body].template cast<double>(), state.theta_dot[b.body].template cast<double>(),
+                 work.theta_change[b.body].template cast<double>(),
+                 work.theta_dot_change[b.body].template cast<double>()};
+}
+
+template <class T>
+void place_attachments(const Plan<T>& plan, const CoupledPlan<T>& own, CoupledState<T>& work, double time) {
+    Attachments& a = work.attachments;
+    const RationalScheme& scheme = scheme_of(own.scheme);
+    for (AttachedBody& b : a.bodies) {
+        if (b.parent < 0)
+            place_body(b, resting_ground(plan, work, b.body, time), scheme.extrapolates);
+        else
+            place_body(b, a.bodies[std::size_t(b.parent)], scheme.extrapolates);
+        clear(b.sums);
+    }
+    std::complex<double> s1 = plan.dt / scheme.pole[0].p;
+    for (int k = 1; k < scheme.poles; ++k)
+        if (const auto other = plan.dt / scheme.pole[std::size_t(k)].p; std::abs(other) > std::abs(s1)) s1 = other;
+    for (Attached& held : a.all) {
+        held.on = holds(held, time + plan.dt / 2);
+        if (!held.on) {
+            held.force = held.spring = Vec3::Zero();
+            continue;
+        }
+        AttachedBody& b = a.bodies[held.at];
+        held.rho = b.R * held.point_b;
+        held.start = b.x_start + b.R_start * held.point_b;
+        held.velocity = b.v + b.own.cross(held.rho);
+        lead(plan, held, time);
+        const double most = std::sqrt(lost / double(std::numeric_limits<T>::epsilon())) *
+                            answering_mass(plan, a, held, Vec3(b.x + held.rho), s1);
+        held.k = std::min(held.stiffness, most / std::norm(s1));
+        held.c = std::min(held.damping, most / std::abs(s1));
+        if (held.k < held.stiffness) {
+            const Vec3 longer = (1 / held.k - 1 / held.stiffness) * held.spring;
+            held.from_target += longer;
+            held.to_target += longer;
+        }
+        add_point(b.sums, held);
+        add_ground(plan, work, b.sums, held, Vec3(b.x + held.rho));
+        add_direction(plan, a, held);
+    }
+}
+
+void settle_attachments(Attachments& a) {
+    for (AttachedBody& b : a.bodies) {
+        b.turned = b.GJ * b.now.theta_change;
+        b.spun = b.GJ * b.now.eta_change;
+        b.moved.setZero();
+        b.sped.setZero();
+        if (b.parent < 0) continue;
+        const AttachedBody& p = a.bodies[std::size_t(b.parent)];
+        const Vec3 r = b.x - p.x;
+        b.moved = p.moved + p.turned.cross(r);
+        b.sped = p.sped + p.spun.cross(r);
+        b.turned += p.turned;
+        b.spun += p.spun;
+    }
+    for (Attached& held : a.all) {
+        if (held.steps > 0) {
+            held.target += (held.goal - held.target) / held.steps;
+            --held.steps;
+        }
+        held.work = 0;
+        if (!held.on) continue;
+        const AttachedBody& b = a.bodies[held.at];
+        const Vec3 way = b.moved + b.turned.cross(held.rho), gained = b.sped + b.spun.cross(held.rho);
+        const Vec3 before = held.force;
+        held.spring = -held.k * (held.start + way - held.to_target);
+        held.force = held.spring - held.c * (held.velocity + gained - held.target_velocity - held.quicker / 2);
+        held.work = (before + held.force).dot(way) / 2;
+    }
+}
+
+template <class T> bool changes(const Plan<T>& plan, const Attached& held, double time) {
+    if (held.steps > 0) return true;
+    const double h = plan.dt;
+    if (holds(held, time + h / 2) != holds(held, time - h / 2)) return true;
+    const Vec3 now = target_at(plan, held, time).x;
+    return target_at(plan, held, time - h).x != now || target_at(plan, held, time + h).x != now;
+}
+
+template <class S> AttachmentTerms<S> attachment_terms(const AttachmentSums& sums, std::complex<double> p, double h) {
+    using Real = typename Eigen::NumTraits<S>::Real;
+    const auto in_field = [](std::complex<double> z) {
+        if constexpr (Eigen::NumTraits<S>::IsComplex)
+            return S(Real(z.real()), Real(z.imag()));
+        else
+            return S(z.real());
+    };
+    const std::complex<double> z1 = h / p, z2 = z1 * z1, z_slope = 1.0 / p - 0.5;
+    const auto all = [&](std::complex<double> a, const auto& x, std::complex<double> b, const auto& y) {
+        return (x.template cast<std::complex<double>>() * a + y.template cast<std::complex<double>>() * b)
+            .unaryExpr(in_field)
+            .eval();
+    };
+    using Complex3 = Eigen::Matrix<std::complex<double>, 3, 1>;
+    const auto wrench = [&](const Vec3& f, const Vec3& slope, const Vec3& rate, const Vec3(&ground)[4]) {
+        Complex3 sum = f.cast<std::complex<double>>();
+        sum += z_slope * slope.cast<std::complex<double>>() + z1 * rate.cast<std::complex<double>>();
+        const std::complex<double> weights[4] = {z2, z1, z2 * z_slope, z1 * z_slope};
+        for (int k = 0; k < 4; ++k) sum += weights[k] * ground[k].cast<std::complex<double>>();
+        return sum.unaryExpr(in_field).eval();
+    };
+    AttachmentTerms<S> t;
+    t.A = all(z2, sums.A_stiffness, z1, sums.A_damping);
+    t.B = all(z2, cross_matrix(sums.B_stiffness), z1, cross_matrix(sums.B_damping));
+    t.M = in_field(z2 * sums.stiffness + z1 * sums.damping) * Eigen::Matrix<S, 3, 3>::Identity();
+    t.N = wrench(sums.N, sums.N_slope, sums.N_rate, sums.N_ground);
+    t.F = wrench(sums.F, sums.F_slope, sums.F_rate, sums.F_ground);
+    return t;
+}
+
+std::vector<double> saved_attachments(const Attachments& a) {
+    std::vector<double> saved;
+    for (const Attached& held : a.all)
+        if (held.planned >= 0)
+            for (const Vec3* v : {&held.force, &held.spring})
+                for (int k = 0; k < 3; ++k) saved.push_back((*v)[k]);
+    return saved;
+}
+
+void restore_attachments(Attachments& a, const std::vector<double>& saved) {
+    std::size_t next = 0, needed = 0;
+    for (const Attached& held : a.all) needed += held.planned >= 0 ? 6 : 0;
+    if (saved.size() != needed)
+        throw std::length_error("has " + std::to_string(saved.size()) + " numbers, this run needs " +
+                                std::to_string(needed));
+    for (Attached& held : a.all)
+        if (held.planned >= 0)
+            for (Vec3* v : {&held.force, &held.spring})
+                for (int k = 0; k < 3; ++k) (*v)[k] = saved[next++];
+}
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void begin_attachments(const Plan<T>&, CoupledState<T>&);                                                 \
+    template std::uint64_t attach(const Plan<T>&, CoupledState<T>&, std::size_t, const Vec3&, double, double,          \
+                                  const Vec3&);                                                                        \
+    template void adopt(const Plan<T>&, CoupledState<T>&, const Attached&, std::size_t);                               \
+    template void release(const Plan<T>&, CoupledState<T>&, std::uint64_t);                                            \
+    template void release_from(const Plan<T>&, CoupledState<T>&, const std::vector<std::size_t>&);                     \
+    template void read_attached(const State<T>&, CoupledState<T>&);                                                    \
+    template void place_attachments(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double);                  \
+    template bool changes(const Plan<T>&, const Attached&, double);                                                    \
+    template AttachmentTerms<T> attachment_terms(const AttachmentSums&, std::complex<double>, double);                 \
+    template AttachmentTerms<std::complex<T>> attachment_terms(const AttachmentSums&, std::complex<double>, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
+
+} // namespace bough
