@@ -60,7 +60,7 @@ struct GroundMotion {
 
 struct StepReport {
     std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
-    // Bodies of which the steps could not follow the motion, in this call (README.md, "Conventions and limits"): none of it is an error.
+    // Bodies of which the steps could not follow the motion, in this call (lib/study/README.md, "What is not promised"): none of it is an error.
     std::uint64_t fast_turns = 0;                // turned by more than a radian
     std::uint64_t guarded = 0;                   // were kept from gaining energy
     std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for

@@ -60,6 +60,11 @@ absent() {
 # hash ARGUMENT...: the line that tells the hash where treesim ends.
 hash() { treesim "$@" --hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
 
+# code LANGUAGE PAGE: the block of that language in one of the project's pages.
+code() {
+    awk -v fence="\`\`\`$1" '$0 == fence { on = 1; next } /^```/ { on = 0 } on' "$top/$2" | grep . || fail "no $1 in $2"
+}
+
 same() {
     cmp -s "$1" "$2" || fail "$1 and $2 differ"
 }
