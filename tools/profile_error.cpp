@@ -89,7 +89,9 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
 
 // A drawn tree that nothing moves stands still: what is measured then is its fall from the unloaded pose.
 void let_move(ErrorCommand& o, Scene& scene) {
-    if (scene.wind || !scene.pulls.empty() || !scene.root_motion.empty() || scene.pose != Pose::drawn) return;
+    if (scene.wind || !scene.pulls.empty() || !scene.attachments.empty() || !scene.root_motion.empty() ||
+        scene.pose != Pose::drawn)
+        return;
     if (!o.run.pose.empty())
         throw UsageError("--pose drawn: nothing moves then; name a wind, or leave --pose out to switch gravity on");
     scene.pose = Pose::rest;

@@ -57,7 +57,7 @@ Vec3 turbulence(std::uint64_t seed, double speed, double t, const std::optional<
 }
 
 double gust_factor(const Wind& wind, double t) {
-    return 1 + (wind.gust_factor - 1) * gust(t / whole_period(wind, wind.gust_period));
+    return 1 + (wind.gust_factor - 1) * gust((t + wind.gust_ahead) / whole_period(wind, wind.gust_period));
 }
 
 // The turbulence of a wind that has a mean velocity.
@@ -66,7 +66,7 @@ Vec3 turbulent(const Wind& wind, double speed, double t) {
     const Vec3 side = Vec3::UnitY().cross(along);
     // A wind straight up or down has no side of its own: take x.
     const Vec3 across = side.norm() > 1e-9 ? Vec3(side.normalized()) : Vec3(Vec3::UnitX());
-    const Vec3 q = turbulence(wind.seed, speed, t, wind.period);
+    const Vec3 q = turbulence(wind.seed, speed, t + wind.turbulence_ahead, wind.period);
     return speed * wind.turbulence * (q[0] * along + 0.75 * q[1] * across + 0.5 * q[2] * along.cross(across));
 }
 
@@ -87,6 +87,14 @@ WindWeather wind_weather(const Wind& wind, double t) {
     if (wind.gust_factor != 1) weather.gust = gust_factor(wind, t);
     if (wind.turbulence != 0 && speed > 0) weather.turbulence = turbulent(wind, speed, t);
     return weather;
+}
+
+void go_on(const Wind& before, double t, Wind& wind) {
+    wind.turbulence_ahead = wind.gust_ahead = 0;
+    if (wind.period) return;
+    const double speed = wind.velocity.norm();
+    if (speed > 0) wind.turbulence_ahead = (t + before.turbulence_ahead) * (before.velocity.norm() / speed) - t;
+    wind.gust_ahead = (t + before.gust_ahead) * (wind.gust_period / before.gust_period) - t;
 }
 
 double octave_phase(std::uint64_t seed, int octave) {

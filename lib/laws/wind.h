@@ -15,6 +15,11 @@ Vec3 wind_velocity(const Wind&, double t);
 
 // What that wind's gusts and turbulence make of its velocity. O(1).
 WindWeather wind_weather(const Wind&, double t);
+// A wind that takes another's place at time t [s] goes on with its phases: those of turbulence are frequency times time, and every frequency goes with the
+// speed, so that at another speed another time belongs to the same phases; likewise those of gusts with their period. Without, 1 % more speed
+// after 20 s makes the velocity of a gusty wind jump by metres a second. One that repeats (Wind::period) has whole frequencies, and jumps; so do trees' that are ahead in the wind (/trees' start)
+// by their own share. Finite where the speeds are.
+void go_on(const Wind& before, double t, Wind&);
 // psi_k of wind_field.h [rad].
 double octave_phase(std::uint64_t seed, int octave);
 

@@ -1,4 +1,5 @@
 #include "../base/parallel.h"
+#include "../laws/wind.h"
 #include "../model/check_parts.h"
 #include "any_run.h"
 #include <algorithm>
@@ -174,7 +175,9 @@ void Simulation::set_wind(const Wind& wind) {
         throw SceneError(
             "/wind: has gusts or turbulence, in which nothing sleeps; expected a steady one, or a run without "
             "SimulationOptions::sleep");
-    own = wind;
+    Wind next = wind;
+    go_on(*own, time(), next);
+    own = next;
     run_->wake();
 }
 

@@ -161,7 +161,7 @@ void add_attachments(const Plan<double>& plan, ArticulatedPass& pass, double tim
         ArticulatedBody& b = pass.body[planned.body];
         const Vec3 &p = planned.point_b, x = b.x_w + b.R_wb * p;
         const Vec3 v = b.R_wb * (b.v + b.omega.cross(p));
-        CurvePoint target{held.target.value_or(pass.attached_at.empty() ? x : pass.attached_at[j])};
+        CurvePoint target{held.target.value_or(pass.attached_at[j])};
         if (planned.course) target = curve_at(*planned.course, time + h);
         const Vec3 f = b.R_wb.transpose() * (held.stiffness * (target.x - x - h * v) + held.damping * (target.v - v));
         const double mass = h * (h * held.stiffness + held.damping);

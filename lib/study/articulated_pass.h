@@ -50,6 +50,7 @@ struct ArticulatedPlan {
 struct ArticulatedState : Cloned<ArticulatedState, StepperState> {
     std::vector<Vec3> rate;            // [rad/s] of joints, J theta_dot; carried, saved
     std::vector<ArticulatedPass> pass; // one, or as many as rows of the extrapolation
+    std::vector<Vec3> attached_at;     // [m] ArticulatedPass's
     double inner_step = 0; // [s] what the extrapolation proposes for its next inner step; 0: none yet; saved
 
     std::size_t bytes() const override {

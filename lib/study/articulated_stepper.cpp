@@ -42,6 +42,25 @@ void articulated(const Plan<double>& plan, const ArticulatedPlan& own, State<dou
     }
 }
 
+// Where the points of the plan's attachments are at the run's start.
+std::vector<Vec3> attached_at(const Plan<double>& plan) {
+    std::vector<Vec3> at;
+    if (plan.attachments.empty()) return at;
+    std::vector<Vec3> x(plan.bodies);
+    std::vector<Mat3> R(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
+        const Ground ground = spline < 0 ? Ground() : ground_at(plan.splines[std::size_t(spline)], 0);
+        const bool root = plan.parent[i] < 0;
+        const auto p = std::size_t(plan.parent[i]);
+        const Mat3& carrier = root ? ground.R : R[p];
+        x[i] = (root ? ground.x : x[p]) + carrier * plan.joint_position[i];
+        R[i] = carrier * plan.R_pj[i] * rotation_from_vector(plan.theta_start[i]);
+    }
+    for (const PlannedAttachment& held : plan.attachments) at.push_back(x[held.body] + R[held.body] * held.point_b);
+    return at;
+}
+
 } // namespace
 
 ArticulatedStepper::ArticulatedStepper(ArticulatedMethod method, const char* name, std::string plainly)
@@ -73,6 +92,7 @@ void ArticulatedStepper::take_constants(const Plan<double>& plan, const Tree& tr
 void ArticulatedStepper::allocate(const Plan<double>& plan, State<double>& state) const {
     auto work = std::make_unique<ArticulatedState>();
     work->rate.assign(plan.bodies, Vec3::Zero());
+    work->attached_at = attached_at(plan);
     work->pass.resize(own.method == ArticulatedMethod::extrapolation ? std::size_t(extrapolation_rows) : 1);
     for (ArticulatedPass& pass : work->pass) {
         pass.body.resize(plan.bodies);
@@ -85,6 +105,7 @@ void ArticulatedStepper::allocate(const Plan<double>& plan, State<double>& state
 void ArticulatedStepper::advance(const Plan<double>& plan, State<double>& state, StageClock* clock) const {
     ArticulatedState& work = articulated_state(state);
     work.pass[0].carried_drag = own.carried_drag;
+    for (ArticulatedPass& pass : work.pass) pass.attached_at = work.attached_at;
     run_stage(Stage::articulated, state, clock, [&] { articulated(plan, own, state, work); });
     run_stage(Stage::state_update, state, clock, [&] {
         move_ground(plan, state, double(state.step + 1) * plan.dt);

@@ -124,6 +124,7 @@ RingDown ring_down(const Problem& problem, const Variant& how, double dt, const 
     Scene scene = for_solver(problem.scene, how.solver);
     scene.wind.reset();
     scene.pulls.clear();
+    scene.attachments.clear();
     scene.root_motion.clear();
     scene.gravity.setZero();
     scene.pose = Pose::rest;

@@ -224,6 +224,7 @@ StabilityReport measure_stability(const StabilitySetup& given, const StabilityOp
         setup.scene.pose = Pose::rest;
         setup.scene.wind.reset();
         setup.scene.pulls.clear();
+        setup.scene.attachments.clear();
         setup.scene.walkers.clear();
         setup.scene.root_motion.clear();
         setup.scene.fracture.reset();

@@ -141,6 +141,21 @@ for _ in range(600):
     run.step()
 assert abs((spot() - hit.world)[2]) < moved / 4
 
+# A hand takes hold without anything asked for, is followed, says how hard it pulls, and lets go.
+run = of(tree, wind=None)
+run.step()
+here = run.positions[hit.body] + rotated(run.rotations[hit.body], hit.point)
+hand = run.attach(hit.body, hit.point, 1e6, 1)
+run.move_attachment(hand, here + [0, 0, 0.02], 10)
+for _ in range(60):
+    run.step()
+assert np.allclose(run.positions[hit.body] + rotated(run.rotations[hit.body], hit.point), here + [0, 0, 0.02], atol=2e-3)
+assert run.attachment_force(hand)[2] > 0
+run.release(hand)
+raises(bough.UsageError, "was released", lambda: run.attachment_force(hand))
+raises(bough.UsageError, "holds nothing", lambda: run.attach(0, [0, 0, 0], 0))
+raises(bough.UsageError, "steps: is -1", lambda: run.move_attachment(hand, here, -1))
+
 # What may change in a run.
 run = of(tree, wind=bough.wind_preset())
 for _ in range(5):

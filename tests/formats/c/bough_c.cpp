@@ -232,6 +232,26 @@ TEST_CASE("what changes in a run changes it as the C++ door does") {
         own.step();
     }
     CHECK(hash(simulation) == own.hash());
+    std::uint64_t hand = 0;
+    OK(bough_attach(simulation, hit.body, hit.point, 300, 2, &hand));
+    CHECK(hand == own.attach(hit.body, own_hit->point, 300, 2));
+    for (int k = 1; k < 5; ++k) {
+        const double target[3] = {hit.world[0] + 0.1 * k, hit.world[1], hit.world[2]};
+        OK(bough_move_attachment(simulation, hand, target, 1));
+        own.move_attachment(hand, Vec3(target), 1);
+        steps(simulation, 1);
+        own.step();
+    }
+    double held[3];
+    OK(bough_attachment_force(simulation, hand, held));
+    CHECK(Vec3(held) == own.attachment_force(hand));
+    CHECK(Vec3(held).norm() > 0);
+    CHECK(hash(simulation) == own.hash());
+    OK(bough_release(simulation, hand));
+    own.release(hand);
+    steps(simulation, 2);
+    own.step(2);
+    CHECK(hash(simulation) == own.hash());
     OK(bough_free(simulation));
 }
 

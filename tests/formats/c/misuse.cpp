@@ -129,6 +129,16 @@ TEST_CASE("handles that are none, of another kind or freed are refused by every 
             return bough_pick(s, v, v, 0, &hit, &found);
         },
         [&](auto* s) { return bough_pull(s, 0, v, v); },
+        [&](auto* s) {
+            std::uint64_t hand;
+            return bough_attach(s, 0, v, 1, 1, &hand);
+        },
+        [&](auto* s) { return bough_move_attachment(s, 1, v, 1); },
+        [](auto* s) {
+            double force[3];
+            return bough_attachment_force(s, 1, force);
+        },
+        [](auto* s) { return bough_release(s, 1); },
         [](auto* s) {
             bough_wind wind;
             bough_wind_preset("gusty", &wind);
@@ -188,6 +198,11 @@ TEST_CASE("NULL for what must be there is refused by every function, and outputs
     refused(bough_pick(h.simulation, v, v, 0, nullptr, &found), BOUGH_USAGE, "hit: is NULL");
     refused(bough_pick(h.simulation, v, v, 0, &hit, nullptr), BOUGH_USAGE, "found: is NULL");
     CHECK(found == 5);
+    std::uint64_t hand = 77;
+    refused(bough_attach(h.simulation, 0, nullptr, 1, 1, &hand), BOUGH_USAGE, "point: is NULL");
+    refused(bough_attach(h.simulation, 0, v, 1, 1, nullptr), BOUGH_USAGE, "attachment: is NULL");
+    refused(bough_move_attachment(h.simulation, 1, nullptr, 1), BOUGH_USAGE, "target: is NULL");
+    refused(bough_attachment_force(h.simulation, 1, nullptr), BOUGH_USAGE, "force: is NULL");
     refused(bough_pull(h.simulation, 0, nullptr, v), BOUGH_USAGE, "point: is NULL");
     refused(bough_pull(h.simulation, 0, v, nullptr), BOUGH_USAGE, "force: is NULL");
     refused(bough_set_wind(h.simulation, nullptr), BOUGH_USAGE, "wind: is NULL");
@@ -295,6 +310,23 @@ TEST_CASE("numbers out of range are refused with the number") {
     refused(bough_pick(h.simulation, v, zero, 0, &hit, &found), BOUGH_USAGE, "direction is 0");
     refused(bough_pick(h.simulation, v, v, not_a_number, &hit, &found), BOUGH_USAGE, "aperture is nan");
     refused(bough_pick(h.simulation, v, v, -1, &hit, &found), BOUGH_USAGE, "aperture is -1");
+    std::uint64_t hand = 77;
+    refused(bough_attach(h.simulation, 100000, v, 1, 1, &hand), BOUGH_USAGE, "body 100000 is not there");
+    refused(bough_attach(h.simulation, 0, bad, 1, 1, &hand), BOUGH_USAGE, "point: is not finite");
+    refused(bough_attach(h.simulation, 0, v, -1, 1, &hand), BOUGH_USAGE, "stiffness is -1");
+    refused(bough_attach(h.simulation, 0, v, NAN, 1, &hand), BOUGH_USAGE, "stiffness is");
+    refused(bough_attach(h.simulation, 0, v, 1, INFINITY, &hand), BOUGH_USAGE, "damping is");
+    refused(bough_attach(h.simulation, 0, v, 0, 0, &hand), BOUGH_USAGE, "holds nothing");
+    CHECK(hand == 77); // as it was
+    for (const std::uint64_t none : {std::uint64_t(0), std::uint64_t(1), ~std::uint64_t(0)}) {
+        refused(bough_move_attachment(h.simulation, none, v, 1), BOUGH_USAGE, "is not there");
+        refused(bough_release(h.simulation, none), BOUGH_USAGE, "is not there");
+    }
+    REQUIRE(bough_attach(h.simulation, 0, v, 1, 1, &hand) == BOUGH_OK);
+    refused(bough_move_attachment(h.simulation, hand, bad, 1), BOUGH_USAGE, "target: is not finite");
+    refused(bough_move_attachment(h.simulation, hand, v, -1), BOUGH_USAGE, "steps is -1");
+    REQUIRE(bough_release(h.simulation, hand) == BOUGH_OK);
+    refused(bough_release(h.simulation, hand), BOUGH_USAGE, "was released");
     refused(bough_pull(h.simulation, 100000, v, v), BOUGH_USAGE, "body 100000 is not there");
     refused(bough_pull(h.simulation, std::size_t(-1), v, v), BOUGH_USAGE, "is not there");
     refused(bough_pull(h.simulation, 0, bad, v), BOUGH_USAGE, "point: is not finite");

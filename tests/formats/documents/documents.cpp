@@ -335,6 +335,16 @@ TEST_CASE("scenes come back from both forms") {
     pull.on = {};
     pull.on.body = 57;
     scene.pulls.push_back(pull);
+    scene.attachments.resize(2);
+    scene.attachments[0].on = pull.on;
+    scene.attachments[0].target = random.vector();
+    scene.attachments[0].stiffness = 1e12 / 3;
+    scene.attachments[0].from = 0.1 / 3;
+    scene.attachments[0].to = 2.5;
+    scene.attachments[1].on = pull.on;
+    scene.attachments[1].time = {0, 0.7, 1 / 0.7};
+    scene.attachments[1].position = {random.vector(), random.vector(), random.vector()};
+    scene.attachments[1].damping = 0.7;
     scene.root_motion.resize(2);
     scene.root_motion[0] = random_root_motion(1, 5, true, true, random);
     scene.root_motion[1] = random_root_motion(0, 2, false, true, random);
@@ -425,6 +435,17 @@ TEST_CASE("scenes come back from both forms") {
         CHECK(read.pulls[2].on.level == 2);
         CHECK(read.pulls[3].on.by == Selector::By::body);
         CHECK(read.pulls[3].on.body == 57);
+        REQUIRE(read.attachments.size() == 2);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Attachment &found = read.attachments[k], &written = scene.attachments[k];
+            CHECK(found.on.body == 57);
+            CHECK(found.target.has_value() == written.target.has_value());
+            if (written.target) CHECK(same(*found.target, *written.target));
+            CHECK(same(found.time, written.time));
+            CHECK(same(found.position, written.position));
+            CHECK((found.stiffness == written.stiffness && found.damping == written.damping));
+            CHECK((found.from == written.from && found.to == written.to));
+        }
         REQUIRE(read.root_motion.size() == 2);
         for (std::size_t k = 0; k < 2; ++k) CHECK(same(read.root_motion[k], scene.root_motion[k]));
     }
@@ -435,6 +456,7 @@ TEST_CASE("a scene of two lines has the defaults") {
     CHECK(read.trees.empty());
     CHECK_FALSE(read.wind);
     CHECK(read.pulls.empty());
+    CHECK(read.attachments.empty());
     CHECK(read.root_motion.empty());
     CHECK_FALSE(read.joint_limit);
     CHECK_FALSE(read.fracture);

@@ -2,7 +2,9 @@
 #include "lib/simulation/simulation.h"
 #include "formats/documents/motion.h"
 #include "lib/lanes/target.h"
+#include "lib/laws/wind.h"
 #include "lib/plan/state.h"
+#include "lib/simulation/any_run.h"
 #include "lib/study/solvers.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/make_tree.h"
@@ -158,6 +160,36 @@ TEST_CASE("a wind that is changed blows as one that the run began with, and allo
     CHECK(windy.step().finite());
 }
 
+TEST_CASE("a wind that changes at any time does not jump, and its turbulence's phase is the speed's integral") {
+    const Tree tree = make_tree::branched();
+    Simulation simulation(one(tree, "gusty"));
+    const auto wind = [&] { return *run_of(simulation).scene().wind; };
+    Wind asked = *wind_preset("gusty");
+    double way = 0; // [m] what the phases go by
+    for (int k = 0; k < 1200; ++k) {
+        REQUIRE(simulation.step().finite());
+        way += asked.velocity.norm() / 30;
+        const Wind before = wind();
+        const double t = simulation.time();
+        asked.velocity = (8 + 3 * std::sin(0.01 * k)) * Vec3(std::cos(1e-3 * k), 0, std::sin(1e-3 * k));
+        asked.gust_period = 6 + std::sin(0.003 * k);
+        simulation.set_wind(asked);
+        CHECK((wind_velocity(wind(), t) - wind_velocity(before, t)).norm() <
+              0.15); // 0.03 m/s more, and a thousandth of a turn
+    }
+    const double speed = asked.velocity.norm();
+    Wind same = asked; // at the speed of now all along, but for the gusts
+    same.gust_factor = asked.gust_factor = 1;
+    asked.turbulence_ahead = wind().turbulence_ahead;
+    CHECK((wind_velocity(asked, simulation.time()) - wind_velocity(same, way / speed)).norm() < 1e-6);
+    CHECK(wind_velocity(same, 1).norm() > 1);
+    Wind none = asked;
+    none.velocity.setZero();
+    simulation.set_wind(none);
+    simulation.set_wind(asked);
+    REQUIRE(simulation.step(30).finite());
+}
+
 TEST_CASE("gravity that is changed pulls as one that the run began with") {
     const Tree tree = make_tree::branched();
     for (const bool portable : {false, true}) {
@@ -255,6 +287,108 @@ TEST_CASE("a pull in each step is the scene's pull of that force, and ends with 
         CHECK_THROWS_AS(by_hand.pull(body, point, Vec3(NAN, 0, 0)), SceneError);
         CHECK_THROWS_AS(begun.pull(body, point, force), SceneError);
     }
+}
+
+TEST_CASE("a hand that takes hold at any time is the scene's attachment, and let go leaves nothing behind") {
+    const Tree tree = make_tree::branched();
+    const std::size_t body = tree.size_bodies() - 1;
+    const Vec3 point(0, 0, tree.size[body][0]);
+    for (const bool portable : {false, true}) {
+        SimulationOptions o;
+        o.portable = portable;
+        Scene held = one(tree, "breeze");
+        Attachment attachment;
+        attachment.on.body = std::int64_t(body);
+        attachment.on.point = point;
+        attachment.stiffness = 40;
+        attachment.damping = 0.5;
+        held.attachments = {attachment};
+        Simulation begun(held, o), by_hand(one(tree, "breeze"), o), still(one(tree, "breeze"), o);
+        const std::uint64_t hand = by_hand.attach(body, point, 40, 0.5);
+        CHECK(hand > 0);
+        CHECK(run(by_hand, 30) == run(begun, 30));
+        CHECK(by_hand.attachment_force(hand).norm() > 0);
+        run(still, 30);
+        CHECK(by_hand.hash() != still.hash());
+
+        // The target goes evenly: in ten steps, or in ten times one.
+        Simulation stepwise = by_hand.copy();
+        const Vec3 from = by_hand.positions()[body], to = from + Vec3(0.3, 0.1, -0.2);
+        const Vec3 start = from + Vec3(0.1, 0, 0);
+        by_hand.move_attachment(hand, start, 0);
+        stepwise.move_attachment(hand, start, 0);
+        by_hand.move_attachment(hand, to, 10);
+        for (int k = 1; k <= 10; ++k) {
+            stepwise.move_attachment(hand, start + k / 10.0 * (to - start), 1);
+            by_hand.step();
+            stepwise.step();
+        }
+        CHECK(apart(by_hand.positions(), stepwise.positions()) < 1e-9);
+        const std::size_t before = allocations;
+        by_hand.move_attachment(hand, from, 3);
+        const StepReport report = by_hand.step();
+        const std::size_t after = allocations;
+        CHECK(report.finite());
+#ifndef BOUGH_SANITIZED
+        CHECK(after == before);
+#endif
+        // A run begun again keeps the hand, and lets it go by the same number.
+        Simulation again(one(tree, "breeze"), o, by_hand);
+        again.move_attachment(hand, to, 1);
+        again.step();
+        again.release(hand);
+        CHECK_THROWS_AS(again.release(hand), SceneError);
+        by_hand.release(hand);
+        CHECK_THROWS_AS(by_hand.attachment_force(hand), SceneError);
+        CHECK(by_hand.attach(body, point, 1, 0) != hand);
+        by_hand.release(hand + 1);
+        CHECK_THROWS_AS(by_hand.attach(tree.size_bodies(), point, 1, 0), SceneError);
+        CHECK_THROWS_AS(by_hand.attach(body, Vec3(NAN, 0, 0), 1, 0), SceneError);
+        CHECK_THROWS_AS(by_hand.attach(body, point, 0, 0), SceneError);
+        CHECK_THROWS_AS(by_hand.attach(body, point, -1, 1), SceneError);
+        run(by_hand, 900);
+        run(still, 914);
+        CHECK(apart(by_hand.positions(), still.positions()) < 0.2 * Vec3(0.3, 0.1, -0.2).norm());
+    }
+    SimulationOptions paper;
+    paper.method = Method::analytic;
+    Simulation analytic(one(tree), paper);
+    CHECK_THROWS_AS(analytic.attach(body, point, 1, 0), SceneError);
+    Scene held = one(tree);
+    held.attachments.resize(1);
+    held.attachments[0].stiffness = 1;
+    CHECK_THAT(refusal(held, paper), Catch::Contains("attachments: only for solver coupled"));
+    held.attachments[0].on.body = 10000;
+    CHECK_THAT(refusal(held), Catch::Contains("/attachments/0/on"));
+}
+
+TEST_CASE("a run with attachments that is cut ends as the whole one, bit by bit") {
+    const Tree tree = make_tree::branched();
+    Scene held = one(tree, "gusty");
+    held.attachments.resize(2);
+    held.attachments[0].on.body = 9;
+    held.attachments[0].stiffness = 500;
+    held.attachments[0].target = Vec3(0.2, 1.2, 0.1);
+    held.attachments[1].on.body = 12;
+    held.attachments[1].damping = 2;
+    held.attachments[1].time = {0, 0.4, 1};
+    held.attachments[1].position = {Vec3(0, 1, 0), Vec3(0.3, 1, 0), Vec3(0, 1, 0.2)};
+    held.attachments[1].to = 0.9;
+    for (const Precision precision : {Precision::single, Precision::double_})
+        for (const bool portable : {false, true}) {
+            SimulationOptions o = with(precision);
+            o.portable = portable;
+            Simulation whole(held, o), second(held, o);
+            run(whole, 17);
+            const SavedState saved = whole.save();
+            CHECK(saved.attachments.size() == 12);
+            run(whole, 20);
+            second.restore(saved);
+            CHECK(run(second, 20) == whole.hash());
+            SavedState broken = saved;
+            broken.attachments.pop_back();
+            CHECK_THROWS_AS(second.restore(broken), SceneError);
+        }
 }
 
 TEST_CASE("steps allocate nothing once they have run") {
