@@ -99,7 +99,8 @@ template <class T> void check_grid(bool lanes) {
                 }
                 CHECK(run.largest_angle() < 3.2);
                 CHECK(last <= 1.05 * third + 5e-5); // [J] it falls by its length for 5e-4
-                if (hand < 2 && k >= 1e3) CHECK((run.point() - *scene.attachments[0].target).norm() < 0.03);
+                if (hand < 2 && k >= 1e3)
+                    CHECK((run.point() - *scene.attachments[0].target).norm() < 0.05); // as it comes to rest
             }
         }
 }
