@@ -58,6 +58,7 @@ void declare(OptionList& list, TreesimOptions& o) {
     add_max_joints(list, o.gltf);
     add_leaves_as(list, o.gltf);
     add_key_tolerance(list, o.gltf);
+    add_dress_options(list, o.dress);
     list.add_flag("--rustle", o.rustle, "In a mesh, clumps' drawn leaves rustle with the wind");
     list.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
     list.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
@@ -128,6 +129,10 @@ std::string chosen_format(const CommonOptions& common) {
     return "jsonl";
 }
 
+const char* plain_leaves(const TreesimOptions& o) {
+    return !o.skin.empty() ? "--skin" : o.rustle ? "--rustle" : o.gltf.instances() ? "--leaves-as instances" : nullptr;
+}
+
 void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.no_output) {
         if (o.common.output != "-") throw UsageError("--no-output: not with -o");
@@ -154,6 +159,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (o.skin == "-" && o.run.input == "-") throw UsageError("--skin -: the input is read from stdin already");
         if (o.skin == "-" && o.watch) throw UsageError("--watch: not with --skin -, which cannot be read again");
     }
+    refuse_contradictions(o.dress, format, mesh, plain_leaves(o));
     if (const char* given = o.gltf.given(); given && format != "glb")
         throw UsageError(std::string(given) + ": only with .glb");
     if (format == "obj") {
