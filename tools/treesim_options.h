@@ -26,7 +26,7 @@ struct TreesimOptions {
     std::optional<int> sides;
     bool rustle = false;
     LoopChoice loop;
-    std::optional<double> settle; // [s] --settle; none: as settle.h says
+    std::optional<double> settle;     // [s] --settle; none: as settle.h says
     std::vector<std::string> reports; // --report, as given
     Reports report;                   // what these name
     bool no_output = false, watch = false;
