@@ -1,5 +1,6 @@
 // treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
 #include "converted.h"
+#include "dressing.h"
 #include "file_names.h"
 #include "formats/documents/material.h"
 #include "formats/documents/splines.h"
@@ -33,6 +34,7 @@ struct Options {
     ImportChoice choice;
     std::string input, mesh, wind_groups, material;
     GltfChoice gltf;
+    DressChoice dress;
     MergeChoice merge;
     std::optional<double> segment_length, max_bend;
     std::optional<std::int64_t> max_bodies;
@@ -40,18 +42,21 @@ struct Options {
     bool strict = false, stats = false, split = false, list_materials = false;
 };
 
-const ToolInfo info = {"treeconvert",
-                       "Turns splines, or any file that treegen --import takes, into a tree of jointed rigid bodies.\n"
-                       "Usage: treeconvert INPUT [-o FILE] [--mesh FILE.obj|FILE.glb] [--material NAME|FILE] ...",
-                       "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json "
-                       "gives trunk_0.json,\n"
-                       "trunk_1.json ... in the order of the roots.\n"
-                       "  treegen --bodies 2000 | treeconvert - --mesh rest.obj -o tree.json\n"
-                       "Exit: 0 done, 1 usage, 2 bad input (or --strict), 4 output not written, 130 interrupted.",
-                       {"json", "safetensors"}};
+const ToolInfo info = {
+    .name = "treeconvert",
+    .about = "Turns splines, or any file that treegen imports, into a tree of jointed rigid bodies.",
+    .usage = "treeconvert INPUT [-o FILE] [--mesh FILE] [--material NAME|FILE] ...",
+    .details = "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json gives "
+               "trunk_0.json, trunk_1.json ... in the order of the roots.",
+    .examples = "treegen --bodies 2000 | treeconvert - --mesh rest.obj -o tree.json\n"
+                "treeconvert oak.xml --stats -o oak.tree.json",
+    .formats = {"json", "safetensors"},
+    .first = {"INPUT", "--units", "--up", "--trunk-diameter", "--stats", "--strict", "--material", "--list-materials",
+              "--segment-length", "--max-bodies", "--mesh", "--sides", "--max-joints", "--leaves-as", "--split"}};
 
 void declare(OptionList& list, Options& o) {
     list.add("INPUT", o.input, "Splines or an importable file; - for stdin");
+    list.group("Wood");
     list.add("--segment-length", o.segment_length, "Longest body of a branch [m]; from the branch unless given")
         .takes("M")
         .check(positive_number());
@@ -61,6 +66,7 @@ void declare(OptionList& list, Options& o) {
     list.add("--max-bodies", o.max_bodies, "Lengthen bodies until there are at most N")
         .takes("N")
         .check(whole_number(1));
+    list.group("Mesh");
     list.add(
             "--mesh", o.mesh,
             "Also write the skin mesh in the drawn pose: FILE.obj with FILE.mtl beside it, or FILE.glb with its joints")
@@ -71,19 +77,25 @@ void declare(OptionList& list, Options& o) {
         .check(whole_number(3, 256));
     add_max_joints(list, o.gltf);
     add_leaves_as(list, o.gltf);
+    add_dress_options(list, o.dress);
     list.add("--wind-groups", o.wind_groups,
              "With --mesh FILE.glb: also write its joints' groups for Unreal's Dynamic Wind (JSON), by how many "
              "branches they are from the trunk; the joints' x axes then lie along the branches, as it wants them")
         .takes("FILE")
         .check(file_name());
+    list.group("Wood");
     list.add("--material", o.material,
              "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
         .takes("NAME|FILE");
     list.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
+    list.group("Input");
     list.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
     list.add_flag("--stats", o.stats, "Print what was understood of the input and what was made of it on stderr");
+    list.group("Output");
     list.add_flag("--split", o.split, "One file for each root");
+    list.group("Wood");
     add_merge_options(list, o.merge);
+    list.group("Input");
     add_import_options(list, o.choice);
 }
 
@@ -106,6 +118,11 @@ std::string mtl_of(const std::string& mesh) {
     return std::filesystem::path(mesh).replace_extension(".mtl").string();
 }
 
+// The option that asks for leaves as they are without species.
+const char* plain_leaves(const Options& o) {
+    return o.gltf.instances() ? "--leaves-as instances" : !o.wind_groups.empty() ? "--wind-groups" : nullptr;
+}
+
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
     refuse_merge_contradictions(o.merge);
@@ -116,6 +133,7 @@ void refuse_contradictions(const Options& o) {
     const char* const glb = o.gltf.given() ? o.gltf.given() : !o.wind_groups.empty() ? "--wind-groups" : nullptr;
     if (glb && ending(o.mesh) != ".glb") throw UsageError(std::string(glb) + ": only with --mesh FILE.glb");
     if (o.wind_groups == "-") throw UsageError("--wind-groups is '-', expected a file name");
+    refuse_contradictions(o.dress, ending(o.mesh) == ".glb" ? "glb" : "obj", !o.mesh.empty(), plain_leaves(o));
     refuse_own_inputs(o, o.common.output, o.mesh, o.wind_groups);
     if (o.split) refuse_no_patterns(o);
     require_outputs({{"-o", o.common.output},
@@ -197,13 +215,19 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
 using Outputs = std::vector<std::unique_ptr<Output>>;
 
 void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::string& mesh, const std::string& wind) {
-    const Skin skin = chosen_skin(tree, o.sides.value_or(SkinOptions().sides), o.gltf);
+    const int sides = o.sides.value_or(SkinOptions().sides);
+    const std::optional<OwnMesh> own =
+        dressed(tree, o.sides, o.dress, ending(mesh) == ".glb" ? "glb" : "obj", plain_leaves(o));
+    const Skin skin = !own ? chosen_skin(tree, sides, o.gltf) : ending(mesh) == ".glb" ? Skin() : skin_of(*own);
     if (ending(mesh) == ".glb") {
         const JointGroups groups = chosen_joints(tree, o.gltf);
         GltfOptions options = gltf_options(o.gltf, tree.source);
         options.x_along = !wind.empty();
         outputs.push_back(std::make_unique<Output>(mesh));
-        GltfWriter(*outputs.back(), skin, tree, groups, options).finish();
+        if (own)
+            GltfWriter(*outputs.back(), *own, tree, groups, options).finish();
+        else
+            GltfWriter(*outputs.back(), skin, tree, groups, options).finish();
         if (!wind.empty()) {
             outputs.push_back(std::make_unique<Output>(wind));
             write_dynamic_wind(*outputs.back(), tree, groups);
@@ -258,6 +282,7 @@ void work(Options& o) {
     Splines splines = read_import(o.input, o.choice, found);
     if (o.stats) std::cerr << import_statistics(splines, found);
     std::vector<std::string> notes = std::move(found.lines);
+    const std::size_t guesses = notes.size();
     const Material material = chosen_material(o, splines);
     splines.source = with_command_line(splines.source, o.common);
     SegmentReport report;
@@ -277,7 +302,8 @@ void work(Options& o) {
     else
         write_one(tree, o, o.common.output, o.mesh, o.wind_groups);
     if (o.stats) std::cerr << statistics(splines, tree, report) << merged;
-    for (const std::string& note : notes) o.common.notes.push_back(name + ": " + note);
+    for (std::size_t k = o.stats ? guesses : 0; k < notes.size(); ++k) // --stats has told of the guesses
+        o.common.notes.push_back(name + ": " + notes[k]);
 }
 
 } // namespace
