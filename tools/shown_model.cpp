@@ -38,11 +38,11 @@ void refuse_unused(const TreesimOptions& o) {
 // Whether the tree, where the scene has put it, stands where the model's file has it rather than where an import sets it (`moved`): it was
 // made with --keep-place.
 bool kept_its_place(const Setting& setting, const Vec3& moved) {
-    const auto& place = setting.scene.trees.front();
+    const Placement place = setting.scene.trees.empty() ? Placement() : setting.scene.trees.front();
     const DrawnPose pose = drawn_pose(setting.tree);
     Vec3 foot = Vec3::Zero();
     double lowest = INFINITY, roots = 0;
-    for (std::size_t i = 0; i < setting.tree.bodies(); ++i)
+    for (std::size_t i = 0; i < setting.tree.size_bodies(); ++i)
         if (setting.tree.parent[i] < 0) {
             foot += pose.x_w[i];
             lowest = std::min(lowest, pose.x_w[i].y());
