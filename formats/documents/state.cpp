@@ -5,7 +5,7 @@
 namespace bough {
 namespace {
 
-constexpr DocumentType type{"bough-state", 1};
+constexpr DocumentType state_document{"bough-state", 1};
 
 // Absent, the array is empty.
 Field without_filling(Field field) {
@@ -90,13 +90,13 @@ void check_state(const SavedState& state, const std::string& name) {
 } // namespace
 
 bool is_state(std::string_view content) {
-    return document_format(content) == type.format;
+    return document_format(content) == state_document.format;
 }
 
 SavedState read_state(std::string_view content, const std::string& name) {
     SavedState state;
     std::string fingerprint;
-    read_document(content, name, type, fields_of(state, fingerprint));
+    read_document(content, name, state_document, fields_of(state, fingerprint));
     if (!read_hexadecimal(fingerprint, state.fingerprint))
         throw InputError(name + ": /fingerprint", "is not 16 hexadecimal digits");
     check_state(state, name);
@@ -110,7 +110,7 @@ void write_state(Output& output, const SavedState& state, Form form) {
         std::erase_if(fields, [](const Field& field) { return field.name == "part" || field.name == "parts"; });
     if (state.attachments.empty())
         std::erase_if(fields, [](const Field& field) { return field.name == "attachments"; });
-    write_document(output, form, type, fields);
+    write_document(output, form, state_document, fields);
 }
 
 } // namespace bough
