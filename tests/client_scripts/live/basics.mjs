@@ -2,7 +2,7 @@
 import { at, branchOnScreen, closePage, expect, less, messages, norm, openPage, restarted, steps, still } from './browser.mjs';
 
 export async function opens_and_moves({ browser, url }) {
-    const page = await openPage(browser, url);
+    const page = await openPage(browser, url, { draws: true });
     const bodies = await page.evaluate(() => bough.bodies);
     expect(bodies > 1000, `${bodies} bodies, expected a tree`);
     await restarted(page);

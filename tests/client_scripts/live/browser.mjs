@@ -17,8 +17,8 @@ export function expect(holds, what) {
 export const norm = (a) => Math.hypot(...a);
 export const less = (a, b) => a.map((value, k) => value - b[k]);
 
-// A page that has begun. What it says on the console as an error fails the test, unless `quiet`.
-export async function openPage(browser, url, { size = [1280, 800], touch = false, before = null, waits = true } = {}) {
+// A page that has begun; behind its first pictures it draws none, unless `draws`: without a graphics card they take a second each.
+export async function openPage(browser, url, { size = [1280, 800], touch = false, before = null, waits = true, draws = false } = {}) {
     const context = await browser.newContext({
         viewport: { width: size[0], height: size[1] }, hasTouch: touch, acceptDownloads: true, permissions: ['clipboard-read', 'clipboard-write'],
     });
@@ -28,10 +28,13 @@ export async function openPage(browser, url, { size = [1280, 800], touch = false
     page.on('console', (message) => message.type() === 'error' && page.errors.push(message.text()));
     if (before) await page.addInitScript(before);
     await page.goto(url);
-    if (waits) await page.waitForFunction(() => globalThis.bough?.times.moved, null, { timeout: 60000 });
+    if (!waits) return page;
+    await page.waitForFunction(() => globalThis.bough?.times.moved, null, { timeout: 60000 });
+    if (!draws) await page.evaluate(() => { bough.view.draw = function () { this.orbit.place(this.camera); }; });
     return page;
 }
 
+// What a page said on the console as an error fails its test.
 export async function closePage(page) {
     await page.context().close();
     expect(page.errors.length === 0, `the console says: ${page.errors.slice(0, 3).join(' | ')}`);

@@ -46,7 +46,7 @@ function embedded(text, top) { // its buffer inside, as a page reads no file bes
     const gltf = JSON.parse(text);
     for (const buffer of gltf.buffers ?? [])
         if (buffer.uri && !buffer.uri.startsWith('data:'))
-            buffer.uri = 'data:application/octet-stream;base64,' + fs.readFileSync(path.join(top, 'data/fixtures', buffer.uri)).toString('base64');
+            buffer.uri = 'data:application/octet-stream;base64,' + fs.readFileSync(path.join(top, 'data/fixtures', decodeURIComponent(buffer.uri))).toString('base64');
     return Buffer.from(JSON.stringify(gltf));
 }
 
@@ -56,7 +56,7 @@ export async function broken_files_say_what_and_where({ browser, url, top }) {
     const maple = fs.readFileSync(path.join(top, 'data/young_maple.xml'), 'utf8');
     const cases = [
         ['half.xml', maple.slice(0, maple.length / 2), ['half.xml:', 'line', 'half.xml']],
-        ['broken.json', '{"format": "bough-tree", "version": 1, "parent": [0]}', ['broken.json', 'parent']],
+        ['broken.json', '{"format": "bough-tree", "version": 1, "parent": [0]}', ['broken.json', '/mass']],
         ['picture.png', Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0, 0]), ['picture.png', 'expected']],
         ['old.fbx', Buffer.concat([Buffer.from('Kaydara FBX Binary  \0'), Buffer.alloc(200)]), ['old.fbx', 'FBX', 'treeconvert']],
         ['scene.json', '{"format": "bough-scene", "version": 1, "trees": [{"file": "gone.json"}]}', ['scene.json', 'gone.json', 'dropped']],

@@ -88,6 +88,7 @@ export async function curves_over_radius({ browser, url }) {
     await page.evaluate(() => bough.open('apple'));
     await page.evaluate(() => { [...document.querySelectorAll('details')].find((one) => one.textContent.startsWith('Wood')).open = true; });
     await page.click('#curve-stiffness button:has-text("Edit")');
+    await page.waitForFunction(() => !bough.applying && document.querySelectorAll('#curve-stiffness .key').length === 3);
     const key = page.locator('#curve-stiffness .key').first();
     await key.scrollIntoViewIfNeeded();
     const box = await key.boundingBox();

@@ -191,7 +191,7 @@ export class App {
         this.script = performance.now() - start; // ms of JavaScript, drawing calls among it
         ++this.frames;
         this.frameTime = 1000 * passed;
-        if (this.frames > 2 && this.frames < 200) this.#spare(this.frameTime);
+        if (this.frames > 2 && this.frames < 200 && this.view.sun.castShadow) this.#spare(this.frameTime);
     }
     // Where pictures are drawn without a graphics card shadows are more than half of the work.
     #spare(ms) {

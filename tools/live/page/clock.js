@@ -18,7 +18,7 @@ export class Clock {
         this.cost = 0;
     }
     single() {
-        this.owed = this.step; // what is shown is the new step itself
+        this.owed = this.step * (1 - 1e-6); // all but a next step: what is shown is the new one itself
         this.computed = 0;
         return 1;
     }

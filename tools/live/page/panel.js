@@ -144,7 +144,7 @@ export class Panel {
             change: (value) => app.change((state) => { state.precision = value; }, true),
         });
         const own = element('input', { type: 'checkbox', onchange: () => app.change((state) => { state.ownMesh = own.checked; }, true) });
-        const shadow = element('input', { type: 'checkbox', checked: true, onchange: () => { app.view.shadows(shadow.checked); } });
+        const shadow = element('input', { type: 'checkbox', checked: !app.view.slow, onchange: () => { app.view.shadows(shadow.checked); } });
         app.view.shadowsChanged = (on) => { shadow.checked = on; };
         this.controls.push((state) => {
             rate.set(state.rate);

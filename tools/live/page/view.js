@@ -9,6 +9,8 @@ export class View {
     constructor(canvas) {
         this.canvas = canvas;
         this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+        const gl = this.renderer.getContext(), told = gl.getExtension('WEBGL_debug_renderer_info');
+        this.slow = /swiftshader|llvmpipe|software|basic render/i.test(told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : ''); // no graphics card
         this.renderer.shadowMap.enabled = true;
         this.renderer.shadowMap.type = THREE.PCFShadowMap;
         this.scene = new THREE.Scene();
@@ -18,7 +20,7 @@ export class View {
         this.orbit = new Orbit(this.camera);
         this.scene.add(new THREE.HemisphereLight(0xf4f9ff, 0x8d8368, 1.7));
         this.sun = new THREE.DirectionalLight(0xfff3df, 2.2);
-        this.sun.castShadow = true;
+        this.sun.castShadow = !this.slow;
         this.sun.shadow.mapSize.set(2048, 2048);
         this.sun.shadow.bias = -0.0005;
         this.sun.shadow.normalBias = 0.02;
@@ -37,7 +39,7 @@ export class View {
     resize() {
         const { clientWidth: w, clientHeight: h } = this.canvas;
         if (w === 0 || h === 0) return;
-        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+        this.renderer.setPixelRatio(this.slow ? 1 : Math.min(window.devicePixelRatio, 2));
         this.renderer.setSize(w, h, false);
         this.camera.aspect = w / h;
         this.camera.updateProjectionMatrix();
