@@ -12,6 +12,7 @@ public:
     RigidReport(const Setting&, const RunOptions&, int threads);
     // After each frame of the run: takes the whole tree there, and compares.
     void follow(Simulation&, std::int64_t frame);
+    Simulation& whole() { return run_; }
     std::string line(double run_ms, std::int64_t frames) const; // run_ms: of all the run's frames
 
 private:

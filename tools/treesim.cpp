@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "rigid_parts.h"
 #include "saved_run.h"
+#include "settle.h"
 #include "shown_frames.h"
 #include "signals.h"
 #include "watch.h"
@@ -125,18 +126,23 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
     const std::int64_t frames = loops ? loop_frames(o.loop, o.run) : frames_of(o.run, seconds_default);
     refuse_contradictions(o, *setting);
     if (loops) make_periodic(o.loop, setting->scene);
+    const std::int64_t before = frames_before(o, *setting); // while the tree is all there
     Simulation run = started(setting, o.run, o.common.threads, wishes_of(o, format));
     interrupt_at_boundary();
     if (o.explain) std::cerr << run.explain();
     if (const std::string awake = run_of(run).account().awake; o.run.asks_for_sleep() && !awake.empty())
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " + awake);
     FrameRange range = frames_to_make(o, run, frames);
+    settle(run, before, o);
     const std::int64_t started = run.steps();
     std::vector<std::uint32_t> broken;
     if (is_mesh(format) && setting->scene.fracture) broken = what_breaks(o, run.copy(), range);
     Companions beside;
     if (o.report_error) beside.error.emplace(run);
-    if (o.report_rigid) beside.rigid.emplace(*setting, o.run, o.common.threads);
+    if (o.report_rigid) {
+        beside.rigid.emplace(*setting, o.run, o.common.threads);
+        settle(beside.rigid->whole(), before, o);
+    }
     ShownFrames shown = shown_frames(o, *setting, run, format, broken, range.first, range.last, std::move(model));
     LoopStart loop;
     if (loops) {
@@ -151,6 +157,7 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
     if (beside.rigid) std::cerr << beside.rigid->line(range.cost.count(), range.steps()) << "\n";
     if (beside.error) std::cerr << error_line(beside.error->result()) << "\n";
     note_run(run_of(run).account(), started, o.common.notes);
+    if (const std::string note = settled_note(before, o); !note.empty()) o.common.notes.push_back(note);
     return range.done - range.first + 1;
 }
 

@@ -30,6 +30,13 @@ void declare(OptionList& list, TreesimOptions& o) {
     o.list = &list;
     add_run_options(list, o.run, seconds_default);
     add_sleep_option(list, o.run);
+    list.add("--settle", o.settle,
+             "Seconds of the wind that are run before frame 0, which then shows the sway and not the first blow. By "
+             "default as long as the slowest sway takes to forget the start, 2 to 20 s; 0, a start at rest, without "
+             "wind and where the start is what is looked at: pose rest, /fracture. Balls, walkers and what may break "
+             "wait for frame 0")
+        .takes("S")
+        .check(not_negative_number());
     add_loop_options(list, o.loop);
     list.add("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
         .takes("LIST");
@@ -166,6 +173,10 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     refuse_overwriting({{"--resume", o.resume}}, {{"-o", o.common.output}, {"--save-tree", o.save_tree}});
     refuse_overwriting({{"--wind", wind}, {"--skin", o.skin}}, {{"--save-tree", o.save_tree}});
     refuse_contradictions(o.loop, o.run);
+    if (o.settle.value_or(0) > 0 && o.loop.seconds)
+        throw UsageError("--settle: not with --loop, whose first periods are run before anything is written");
+    if (o.settle.value_or(0) > 0 && !o.resume.empty())
+        throw UsageError("--settle: not with --resume, which goes on from where the saved run stood");
     if (o.loop.seconds) {
         const std::pair<bool, const char*> others[] = {
             {!o.save_state.empty(), "--save-state"},

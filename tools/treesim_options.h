@@ -22,6 +22,7 @@ struct TreesimOptions {
     std::optional<int> sides;
     bool rustle = false;
     LoopChoice loop;
+    std::optional<double> settle; // [s] --settle; none: as settle.h says
     bool explain = false, hash = false, report_error = false, report_cost = false, report_rigid = false,
          no_output = false, watch = false;
 };

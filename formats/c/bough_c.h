@@ -22,7 +22,7 @@
  * are gone with the next step. What a call writes goes where the caller says. Where memory ends: BOUGH_INPUT, "out of memory".
  * A step allocates nothing once some have run, but where something breaks. There are no hooks: a program's own malloc serves bough too.
  * Units and axes. SI; world axes, y up; quaternions x, y, z, w, world from body. A body's origin is its own joint, z runs along it. Bodies stand in
- * document order, the trees' one after another, then balls, then walkers. (bough's README, "Conventions and limits".) */
+ * document order, the trees' one after another, then balls, then walkers. (lib/README.md, "Conventions".) */
 #ifndef BOUGH_C_H
 #define BOUGH_C_H
 
@@ -50,7 +50,7 @@ typedef enum bough_result {
 /* Of this thread's last call that was not BOUGH_OK; "" before the first. Valid until the next such call of this thread. */
 const char* bough_error(void);
 
-typedef struct bough_splines bough_splines;       /* a tree's branches as curves (formats/README.md, bough-splines) */
+typedef struct bough_splines bough_splines;       /* a tree's branches as curves (formats/documents/README.md) */
 typedef struct bough_tree bough_tree;             /* rigid bodies on joints (bough-tree) */
 typedef struct bough_scene bough_scene;           /* which trees stand where, and what acts on them (bough-scene) */
 typedef struct bough_simulation bough_simulation; /* one run of a scene */

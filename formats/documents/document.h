@@ -1,5 +1,5 @@
 // document.h: what all bough documents share. A document is a table of fields, each bound to a member of the struct it
-// is read into or written from; the table drives both forms (formats/README.md), so that a document's own file says
+// is read into or written from; the table drives both forms (formats/documents/README.md), so that a document's own file says
 // what it holds and nothing about JSON or safetensors.
 //
 // Errors are InputErrors of one line: "FILE:LINE:COLUMN: ..." where the text is no JSON, "FILE: /json/pointer: ..."

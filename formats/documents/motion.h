@@ -1,4 +1,4 @@
-// motion.h: the motion document, "bough-motion" (formats/README.md), as JSON lines, JSON or safetensors.
+// motion.h: the motion document, "bough-motion" (formats/documents/README.md), as JSON lines, JSON or safetensors.
 #pragma once
 #include "formats/open.h"
 #include "lib/model/motion.h"

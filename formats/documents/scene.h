@@ -1,4 +1,4 @@
-// scene.h: the scene document, "bough-scene" (formats/README.md), and the wind alone as `--wind FILE`.
+// scene.h: the scene document, "bough-scene" (formats/documents/README.md), and the wind alone as `--wind FILE`.
 #pragma once
 #include "formats/open.h"
 #include "lib/model/material_change.h"

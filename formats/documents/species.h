@@ -1,4 +1,4 @@
-// species.h: the species document, "bough-species" (formats/README.md), and those that come with bough.
+// species.h: the species document, "bough-species" (formats/parameters/README.md), and those that come with bough.
 #pragma once
 #include "formats/open.h"
 #include "lib/growth/species.h"

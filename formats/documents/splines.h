@@ -1,4 +1,4 @@
-// splines.h: the splines document, "bough-splines" (formats/README.md), JSON or safetensors by content.
+// splines.h: the splines document, "bough-splines" (formats/documents/README.md), JSON or safetensors by content.
 #pragma once
 #include "formats/open.h"
 #include "lib/model/splines.h"

@@ -1,4 +1,4 @@
-// tree.h: the tree document, "bough-tree" (formats/README.md), JSON or safetensors by content.
+// tree.h: the tree document, "bough-tree" (formats/documents/README.md), JSON or safetensors by content.
 #pragma once
 #include "formats/open.h"
 #include "lib/model/tree.h"

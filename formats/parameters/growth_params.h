@@ -2,7 +2,7 @@
 // dicts as JSON or as the Python text itself. Which one a file is, its content decides, then its name.
 //
 // Lengths are metres, angles degrees in all of them. What a file leaves out takes that program's own default. What
-// cannot be honoured, or only nearly, is named in one note each; the table is in formats/README.md.
+// cannot be honoured, or only nearly, is named in one note each; the table is in formats/parameters/README.md.
 #pragma once
 #include "lib/growth/grow.h"
 #include "parameter_table.h"

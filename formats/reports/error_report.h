@@ -1,4 +1,4 @@
-// error_report.h: what `treeprofile error` writes: the document "bough-error-report" (formats/README.md), CSV, and a table.
+// error_report.h: what `treeprofile error` writes: the document "bough-error-report" (formats/reports/README.md), CSV, and a table.
 #pragma once
 #include "lib/study/work_precision.h"
 #include "report_rows.h"

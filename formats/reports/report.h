@@ -1,5 +1,5 @@
 // report.h: what a run cost, stage by stage: the document that `treeprofile --report` writes and `treeprofile compare`
-// reads (formats/README.md). JSON or, for spreadsheets, CSV with one row a stage.
+// reads (formats/reports/README.md). JSON or, for spreadsheets, CSV with one row a stage.
 #pragma once
 #include "formats/open.h"
 #include <cstdint>

@@ -1,4 +1,4 @@
-// scaling_report.h: what `treeprofile scaling` writes: the document "bough-scaling-report" (formats/README.md), CSV, and a table.
+// scaling_report.h: what `treeprofile scaling` writes: the document "bough-scaling-report" (formats/reports/README.md), CSV, and a table.
 // Figures a body are means over all bodies; one that was not measured, or that nothing is known to count, is NAN.
 #pragma once
 #include "lib/study/step_cost.h"

@@ -1,4 +1,4 @@
-// stability_report.h: what `treeprofile stability` writes: the document "bough-stability-report" (formats/README.md), CSV,
+// stability_report.h: what `treeprofile stability` writes: the document "bough-stability-report" (formats/reports/README.md), CSV,
 // and a table; and how a cell is judged, for these and for the tool's exit code.
 #pragma once
 #include "lib/study/stability.h"

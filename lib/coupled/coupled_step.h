@@ -21,7 +21,7 @@
 //
 // Order. y* = y0 + (last change)/2 is y(t + h/2) to second order: order 2 for any L and any of the schemes but LIE, which takes y* = y0.
 // Where a joint's motion was broken off (start, joint limit, half turn, a jump of the ground) the last change is h eta, 0.
-// Thin twigs in wind turn by 0.3 to 0.6 rad a step; there the error falls with h^0.9 from one to four steps a frame (README.md). Tried on bare apple,
+// Thin twigs in wind turn by 0.3 to 0.6 rad a step; there the error falls with h^0.9 from one to four steps a frame (lib/study/README.md). Tried on bare apple,
 // willow and oak of 400 bodies, one step of 1/30 s, RMS error of the tips in gusty wind / storm (with y* up to turns of 0.3 rad 6.6, 5.9, 7.1 / 22, 14, 8.4 %):
 //   the step again with y* from its own result               5.3, 4.0, 7.0 / 11, 12, 6.7     twice the cost
 //   the same, twice                                          5.0, 3.4, 6.7 / 11, 8.7, 5.7    three times: the limit of one evaluation a step

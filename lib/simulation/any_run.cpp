@@ -86,8 +86,16 @@ public:
     void advance(StageClock* clock) override {
         shown_ = fresh_ = false;
         for (const Driven& driven : driven_) keep_going(spline_of(run_, driven), now(), options().step);
+        if (run_.state.step < 0) return settle_on(clock);
         bough::advance(run_.plan, run_.state, run_.world, clock);
         if (!run_.world.on()) run_.state.loads.clear();
+    }
+    bool fresh() const override { return fresh_; }
+    void set_back(std::int64_t steps) override {
+        present(run_.plan, run_.state);
+        run_.state.step = -steps;
+        restart(run_.plan, run_.state);
+        shown_ = fresh_ = false;
     }
     std::string non_finite() override { return bough::non_finite(run_, assembly_->tree); }
     void begin_again() override {
@@ -301,6 +309,15 @@ private:
             if (choice_.steppers.double_) return choice_.steppers.double_(*assembly_);
         }
         return stepper_of<T>(*assembly_, choice_of(options()));
+    }
+
+    // A step before time 0: of the trees alone.
+    void settle_on(StageClock* clock) {
+        bough::advance(run_.plan, run_.state, clock);
+        run_.state.loads.clear();
+        if (run_.state.step < 0) return;
+        run_.state.calls = {};
+        run_.state.flags = {};
     }
 
     struct Driven {

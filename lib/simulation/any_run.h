@@ -57,6 +57,10 @@ public:
     virtual void advance(StageClock*) = 0;
     virtual std::string non_finite() = 0;
     virtual void begin_again() = 0; // as at the start, with nothing changed. Where nothing is free: the plan stays
+    virtual bool fresh() const = 0; // at its start: no step taken, nothing restored
+    // A run at its start stands as it does so many steps before time 0. In these nothing but trees, wind and ground moves (Simulation::settle); at time 0
+    // what the steps have counted is forgotten.
+    virtual void set_back(std::int64_t steps) = 0;
 
     virtual std::size_t bodies() const = 0;
     virtual std::int64_t steps() const = 0;

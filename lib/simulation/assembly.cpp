@@ -4,6 +4,7 @@
 #include "../model/wood_overrides.h"
 #include "../plan/hold.h"
 #include "../plan/plan.h"
+#include "../plan/settling.h"
 #include <algorithm>
 #include <numbers>
 #include <sstream>
@@ -84,6 +85,11 @@ void join_rigid(Assembly& assembly) {
     } catch (const std::domain_error& error) {
         throw SceneError(error.what());
     }
+}
+
+double settling_time(const Assembly& assembly) {
+    return assembly.part.parts > 1 ? assembly.part.settling
+                                   : settling_time(assembly.tree, assembly.ranges, assembly.scene);
 }
 
 Assembly assemble(Scene scene) {

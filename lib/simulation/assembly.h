@@ -17,6 +17,7 @@ struct Part {
     std::int64_t first_body = 0;  // in the whole scene's order
     double top = 0, reach = 0;    // Wishes
     std::vector<double> clocks{}; // likewise
+    double settling = 0;          // [s] of the whole (settling_time)
     std::uint64_t whole = 0;      // of all trees and the whole scene, as fingerprint()
     bool moved =
         false; // the ground of some tree moves, of this part or another: what a still ground allows is left out
@@ -48,6 +49,9 @@ void change_wood(Assembly&);
 // Nothing changes where nothing is held. Throws SceneError: a selector that names no body, nothing left that moves, free bodies beside rigid
 // ones. O(bodies).
 void join_rigid(Assembly&);
+
+// [s] Simulation::settling_time; of a part of a scene the whole scene's. O(bodies).
+double settling_time(const Assembly&);
 
 // All of it for a scene that holds its trees (Placement::tree). Throws SceneError, also for what check() finds.
 Assembly assemble(Scene);

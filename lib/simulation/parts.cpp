@@ -40,6 +40,9 @@ std::vector<TreeSize> measure(const Scene& scene, const TreeSource& tree_of, Par
         const WindReach reach = wind_reach(alone.tree, alone.ranges, scene_of_tree(scene, k));
         part.top = std::max(part.top, reach.top);
         part.reach = std::max(part.reach, reach.reach);
+        alone.scene = scene_of_part(scene, k, k + 1);
+        change_wood(alone);
+        part.settling = std::max(part.settling, settling_time(alone));
     }
     part.whole = part.whole * prime ^ fingerprint(Tree(), scene); // what acts on them
     part.clocks = wind_clocks(scene);

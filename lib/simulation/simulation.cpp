@@ -88,6 +88,20 @@ const AnyRun& run_of(const Simulation& simulation) {
 StepReport Simulation::step(int times) {
     return run_->step(times);
 }
+StepReport Simulation::settle(double seconds) {
+    if (!(seconds >= 0) || !std::isfinite(seconds))
+        throw SceneError("settle: is " + std::to_string(seconds) + " s, expected 0 or more");
+    if (!run_->fresh()) throw SceneError("settle: the run has begun, expected one at its start");
+    const double steps = std::round(seconds / run_->options().step);
+    if (!(steps < 1e9))
+        throw SceneError("settle: is " + std::to_string(seconds) + " s, more steps than can be counted");
+    if (steps == 0) return {};
+    run_->set_back(std::int64_t(steps));
+    return run_->step(int(steps));
+}
+double Simulation::settling_time() const {
+    return bough::settling_time(run_->assembly());
+}
 std::size_t Simulation::bodies() const {
     return run_->bodies();
 }

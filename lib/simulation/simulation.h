@@ -60,7 +60,7 @@ struct GroundMotion {
 
 struct StepReport {
     std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
-    // Bodies of which the steps could not follow the motion, in this call (README.md, "Conventions and limits"): none of it is an error.
+    // Bodies of which the steps could not follow the motion, in this call (lib/study/README.md, "What is not promised"): none of it is an error.
     std::uint64_t fast_turns = 0;                // turned by more than a radian
     std::uint64_t guarded = 0;                   // were kept from gaining energy
     std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for
@@ -82,6 +82,13 @@ public:
     // A run of its own from here on, which ends as this one. The trees are shared. O(bodies).
     Simulation copy() const;
 
+    // Before the first step: the wind has blown already. Steps of so many seconds (rounded to whole steps), up to time 0, with the wind, the ground
+    // and the scene's pulls of the times before it: what shows then is the wind's own sway, not how a tree in still air takes the first blow. Balls, walkers and
+    // what may break wait for time 0: what the wind would have broken by then breaks in the first step. Nothing is done by itself: a simulation that is
+    // not told to starts at rest. The report's counts are 0. Throws SceneError after a step, a restored state or a motion that goes on.
+    StepReport settle(double seconds);
+    // [s] How long that takes until the start is forgotten (plan/settling.h): 0 for a scene in which no wind blows. O(bodies).
+    double settling_time() const;
     // From now to now + step, so many times, up to a step that becomes non-finite; the report and events() are of all of them. O(bodies) a step; allocates
     // nothing once it has run a few times, but where something breaks.
     StepReport step(int times = 1);

@@ -1,5 +1,5 @@
 // stability.h: what `treeprofile stability` finds: a grid of extreme cases, each cell a bounded run of one case with one
-// solver and precision. "Bounded" is the definition of formats/README.md; positions being finite proves nothing.
+// solver and precision. "Bounded" is the definition of lib/study/README.md; positions being finite proves nothing.
 //
 // Each cell starts at rest (stability_cases.h) and is judged by
 // energy    E = kinetic (of the oscillators for the analytic step, of the bodies for all others) + elastic + potential. Never

@@ -4,7 +4,7 @@
 // Compared: the cases of a wind on the user's tree (StabilityCase::compared), coupled; not the forest, whose trees are
 // poles of ten bodies, nor K x 1e-3 and steps of 1/10 s, where one step a frame is not true, only bounded. The truth is the coupled solver at 64
 // steps a frame, in double, which takes as long for any tree and any wind, and is within some percent of articulated_reference
-// where that can be had (README.md). It moves rightly where
+// where that can be had (lib/study/README.md). It moves rightly where
 //   lean, spread   of the trunk's top (motion_statistics.h) are within 25 % of the truth's, or within 1e-4 of the tree's height;
 //   still          in a wind that changes, and of which the truth has no still frame, no frame is still.
 #pragma once

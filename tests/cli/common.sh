@@ -13,6 +13,14 @@ cd "$work"
 maple=$top/data/young_maple.xml
 : "$build" "$maple"
 
+# Runs start at rest here, as they are held against closed forms and each other, unless they say how they start. settle.sh has the default.
+treesim() {
+    case " $* " in
+    "  " | *" --settle "* | *" --join "* | *" --help "* | *" --version "*) command treesim "$@" ;;
+    *) command treesim --settle 0 "$@" ;;
+    esac
+}
+
 fail() {
     echo "FAILED: $*" >&2
     exit 1
@@ -51,6 +59,11 @@ absent() {
 
 # hash ARGUMENT...: the line that tells the hash where treesim ends.
 hash() { treesim "$@" --hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
+
+# code LANGUAGE PAGE: the block of that language in one of the project's pages.
+code() {
+    awk -v fence="\`\`\`$1" '$0 == fence { on = 1; next } /^```/ { on = 0 } on' "$top/$2" | grep . || fail "no $1 in $2"
+}
 
 same() {
     cmp -s "$1" "$2" || fail "$1 and $2 differ"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is installed is enough: the README's program finds the library by find_package and runs; so do the tools.
+# What is installed is enough: the program of lib/README.md finds the library by find_package and runs; so do the tools.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 cmake --install "$build" --prefix "$work/prefix" >log 2>&1 || fail "cmake --install: $(tail -n 5 log)"
@@ -17,8 +17,7 @@ find_package(bough 0.1 REQUIRED)
 add_executable(program program.cpp)
 target_link_libraries(program PRIVATE bough::files)
 END
-sed -n '/^## The library/,$ { /^    #include <bough/,/^    }$/ s/^    //p; /^$/p }' "$top/README.md" >program/program.cpp
-grep -q 'simulation.step()' program/program.cpp || fail "no program in the README: $(cat program/program.cpp)"
+code cpp lib/README.md >program/program.cpp
 sanitizers=$(sed -n 's/BOUGH_SANITIZE:STRING=//p' "$build/CMakeCache.txt")
 own=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 compilers=("$own") # sanitized libraries go with their own compiler alone
@@ -48,7 +47,7 @@ if command -v pkg-config >/dev/null && [[ -z $sanitizers ]]; then
 fi
 # In C, by its own pkg-config file (without Eigen), the program of lib/README.md.
 if command -v pkg-config >/dev/null && [[ -z $sanitizers ]]; then
-    sed -n '/^    #include <bough\/bough_c.h>/,$ { s/^    //p; /^$/p }' "$top/lib/README.md" >apple.c
+    code c lib/README.md >apple.c
     for compiler in gcc clang; do
         command -v "$compiler" >/dev/null || { echo "SKIPPED: no $compiler"; continue; }
         # shellcheck disable=SC2046
@@ -57,12 +56,12 @@ if command -v pkg-config >/dev/null && [[ -z $sanitizers ]]; then
         grep -q " bodies, $hash\$" said || fail "in C by $compiler it is '$(cat said)'"
     done
 fi
-# bough.py where the prefix's Python looks, with the library found beside it: the README's program.
+# bough.py where the prefix's Python looks, with the library found beside it: the program of lib/README.md.
 module=$(find "$work/prefix" -name bough.py)
 [[ $module == */lib/python3*/site-packages/bough.py ]] || fail "bough.py is installed as '$module'"
 numpy=$(python_with_numpy)
 if [[ -n $numpy && -z $sanitizers ]]; then
-    sed -n '/^    import bough$/,$ { s/^    //p; /^$/p }' "$top/README.md" >run.py
+    code python lib/README.md >run.py
     env -u BOUGH_LIBRARY PYTHONPATH="$(dirname "$module")" PYTHONDONTWRITEBYTECODE=1 "$numpy" run.py >said 2>err || fail "bough.py, installed: $(cat err)"
     grep -q " bodies, $hash\$" said || fail "in Python it is '$(cat said)'"
 else

@@ -515,8 +515,9 @@ TEST_CASE("what cannot be read again is not written") {
     }
 }
 
-TEST_CASE("the examples of formats/README.md are documents") {
-    const std::string page = read_input(BOUGH_DATA_DIR "/../formats/README.md");
+TEST_CASE("the examples of the pages on documents and parameters are documents") {
+    const std::string page = read_input(BOUGH_DATA_DIR "/../formats/documents/README.md") +
+                             read_input(BOUGH_DATA_DIR "/../formats/parameters/README.md");
     std::size_t examples = 0;
     for (std::size_t at = page.find("\n    {\"format\""); at != std::string::npos;
          at = page.find("\n    {\"format\"", at)) {

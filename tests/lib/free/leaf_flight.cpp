@@ -22,7 +22,7 @@ LeafAir with(double kappa, double air_resistance, double drag_ratio, double offs
     return {kappa, air_resistance, drag_ratio, offset};
 }
 
-// The parameters by which this leaf shows each regime; formats/README.md gives them to people.
+// The parameters by which this leaf shows each regime; formats/documents/README.md gives them to people.
 const LeafAir steady_fall = with(0.6, 24, 5), flutter = with(0.1, 7, 10), tumble = with(0.6, 4, 5),
               spiral = with(0.3, 24, 10, 30);
 
