@@ -65,7 +65,7 @@ export class CurveEditor {
                 svg('line', { x1: box.left, x2: box.left + box.width, y1: this.#y(factor), y2: this.#y(factor), class: factor === 1 ? 'one' : '' }),
                 Object.assign(svg('text', { x: box.left - 4, y: this.#y(factor) + 3, 'text-anchor': 'end' }), { textContent: factor < 1 ? `1/${1 / factor}` : factor }),
             ]),
-            ...[0, 0.5, 1].map((share) => Object.assign(svg('text', { x: this.#x(share * this.thickest), y: box.top + box.height + 14, 'text-anchor': 'middle' }),
+            ...[0, 0.5, 1].map((share) => Object.assign(svg('text', { x: this.#x(share * this.thickest), y: box.top + box.height + 14, 'text-anchor': share === 1 ? 'end' : 'middle' }),
                 { textContent: `${Number((100 * share * this.thickest).toPrecision(2))} cm` })));
         this.points.replaceChildren(...this.keys.map(([radius, factor], k) => {
             const point = svg('circle', { class: 'key', cx: this.#x(radius), cy: this.#y(factor), r: 6, tabindex: 0, 'aria-label': `key ${k + 1}` });

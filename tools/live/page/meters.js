@@ -18,7 +18,7 @@ export class Meters {
             row('dropped', 'Time dropped', 'motion that there was no time to compute, in the last ten seconds: it then moves slower than real'),
             row('error', 'Error of the step', 'of the ends of branches over half a second, from a companion with steps a quarter as long: RMS, and its share of their deflection'),
             this.plot,
-            element('p', { class: 'legend' }, element('i', { class: 'of-frame' }), 'ms from frame to frame ', element('i', { class: 'of-step' }), 'ms of steps in one'));
+            element('p', { class: 'legend' }, element('i', { class: 'of-frame' }), 'ms a frame ', element('i', { class: 'of-step' }), 'ms of steps in it'));
         this.frames = []; // { at [s], frame [ms], steps [ms], dropped [s] }
         this.shown = 0;
     }
@@ -32,7 +32,7 @@ export class Meters {
         const mean = frames.reduce((sum, one) => sum + one.frame, 0) / frames.length;
         lines.bodies.textContent = bodies.toLocaleString('en');
         lines.step.textContent = ms > 0 ? `${ms.toFixed(2)} ms` : '–';
-        lines.frames.textContent = `${(1000 / mean).toFixed(0)} /s, ${late} late`;
+        lines.frames.textContent = `${(1000 / mean).toFixed(mean > 100 ? 1 : 0)} /s, ${late} late`;
         lines.dropped.textContent = `${lost.toFixed(2)} s`;
         lines.dropped.classList.toggle('bad', lost > 0.5);
         lines.error.textContent = !estimate ? (ms > 3 ? 'too large to measure beside' : 'measuring')

@@ -12,9 +12,14 @@ export class Orbit {
     fit(box, camera, [wide, high]) {
         const size = box.getSize(new THREE.Vector3());
         box.getCenter(this.target);
-        const half = Math.tan(camera.fov * Math.PI / 360);
-        const across = Math.hypot(size.x, size.z);
-        this.distance = 1.12 * Math.max(size.y / 2 / (half * high), across / 2 / (half * camera.aspect * wide)) + across / 4;
+        const half = Math.tan(camera.fov * Math.PI / 360), across = half * camera.aspect * wide, up = half * high;
+        const forward = this.#way().negate(), right = new THREE.Vector3().crossVectors(forward, new THREE.Vector3(0, 1, 0)).normalize();
+        const above = new THREE.Vector3().crossVectors(right, forward);
+        this.distance = 0;
+        for (let k = 0; k < 8; ++k) { // each corner within the picture
+            const c = new THREE.Vector3(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5).multiply(size), ahead = c.dot(forward);
+            this.distance = Math.max(this.distance, 1.06 * Math.abs(c.dot(right)) / across - ahead, 1.06 * Math.abs(c.dot(above)) / up - ahead);
+        }
         this.nearest = 0.02 * size.length();
         this.farthest = 6 * size.length();
     }
@@ -34,10 +39,11 @@ export class Orbit {
         this.target.addScaledVector(x, -dx * metre).addScaledVector(y, dy * metre);
     }
     place(camera) {
-        const flat = Math.cos(this.height);
-        camera.position.set(Math.sin(this.azimuth) * flat, Math.sin(this.height), Math.cos(this.azimuth) * flat)
-            .multiplyScalar(this.distance).add(this.target);
+        camera.position.copy(this.#way().multiplyScalar(this.distance).add(this.target));
         if (camera.position.y < 0.02 * this.distance) camera.position.y = 0.02 * this.distance; // stays above the ground
         camera.lookAt(this.target);
+    }    #way() { // from the target to the camera
+        const flat = Math.cos(this.height);
+        return new THREE.Vector3(Math.sin(this.azimuth) * flat, Math.sin(this.height), Math.cos(this.azimuth) * flat);
     }
 }
