@@ -10,8 +10,8 @@ namespace bough {
 inline constexpr const char* unnamed_failure = "failed";
 
 struct ChildResult {
-    std::string bytes;   // what `work` returned
-    std::string failure; // empty, or why there is nothing: what `work` threw, or "crashed (signal 11)"
+    std::string bytes;    // what `work` returned
+    std::string failure;  // empty, or why there is nothing: what `work` threw, or "crashed (signal 11)"
     bool limited = false; // ... which is a limit
 };
 

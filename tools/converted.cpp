@@ -1,6 +1,8 @@
 #include "converted.h"
 #include "file_names.h"
+#include "formats/documents/scene.h"
 #include "formats/documents/tree.h"
+#include "formats/imports/refused.h"
 #include "formats/mapped.h"
 #include "formats/plain_text.h"
 #include "import_file.h"
@@ -10,8 +12,8 @@ namespace bough {
 namespace {
 
 bool must_be_converted(std::string_view content, const std::string& name) {
-    if (is_tree(content)) return false;
-    if (is_importable(content, name)) return true;
+    if (is_tree(content) || is_scene(content)) return false;
+    if (is_importable(content, name) || is_known_unread(content, name)) return true;
     // What might have been a document of ours, its reader says best what is wrong with; of all else, what could be read.
     const std::size_t first = text_start(content.substr(0, 4096));
     return first < content.size() && content[first] != '{' && content[first] != '[' &&

@@ -146,6 +146,7 @@ std::vector<std::pair<std::string, bool>> EnvelopeOptions::given() const {
 }
 
 void add_envelope_options(OptionList& list, EnvelopeOptions& o) {
+    list.group("Volume");
     list.add("--envelope", o.envelope,
              "Grow a tree that fills this volume (space colonization): sphere, cone, box, or a closed mesh from an "
              "OBJ, FBX, glTF or COLLADA file (- for stdin)")

@@ -1,4 +1,4 @@
-// error_line.h: what treesim --report-error prints: one line that begins with `error` and says what the tips are off
+// error_line.h: what treesim --report error prints: one line that begins with `error` and says what the tips are off
 // by, or why that is not known. No line feed.
 #pragma once
 #include "lib/study/error_estimate.h"

@@ -106,6 +106,7 @@ void refuse_what_is_foreign(const GrowthOptions& o, const ImportChoice& choice, 
 } // namespace
 
 void add_growth_options(OptionList& list, GrowthOptions& o) {
+    list.group("Growth");
     list.add("--species", o.species, "Which tree to grow (see --list-species)").takes("NAME").one_of(species_names());
     list.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
     list.add("--params", o.params,

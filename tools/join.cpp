@@ -34,7 +34,7 @@ std::string join_states(std::vector<StatePart> parts) {
 
 } // namespace
 
-std::string join_parts(const JoinOptions& o, const CommonOptions& common, const std::string& format, bool output) try {
+std::string join_parts(const JoinOptions& o, const CommonOptions& common, const std::string& format) try {
     std::deque<MappedInput> files;
     std::vector<MotionPart> motions;
     std::vector<StatePart> states;
@@ -50,16 +50,16 @@ std::string join_parts(const JoinOptions& o, const CommonOptions& common, const 
                                        ", but what comes before it is not; expected motions or states alone");
     }
     if (states.empty()) {
-        if (o.hash) throw UsageError("--hash: a motion has none; join the parts' saved states (--save-state)");
-        if (!output) throw UsageError("--no-output: motions are joined into one; give -o");
+        if (o.hash) throw UsageError("--report hash: a motion has none; join the parts' saved states (--save-state)");
         join_motions(std::move(motions), common, format);
         return {};
     }
-    if (output && common.output != "-")
-        throw UsageError("-o: not with saved states, which are resumed part by part; their join is a hash (--hash)");
+    if (common.output != "-")
+        throw UsageError(
+            "-o: not with saved states, which are resumed part by part; their join is a hash (--report hash)");
     return "hash " + join_states(std::move(states));
 } catch (const SceneError& error) {
-    throw UsageError(std::string("--join: ") + error.what());
+    throw UsageError(std::string("join: ") + error.what());
 }
 
 } // namespace bough

@@ -20,7 +20,7 @@ std::string apart(const LoopGap& gap, const LoopStart& start) {
 std::string not_closed(const std::string& what, double tolerance) {
     return what + ", more than " + formatted("%.2g", tolerance) +
            " (--loop-tolerance); --loop-blend makes the ends meet all the same, more "
-           "periods (--loop-periods) or damping (--damping-scale) may close it";
+           "periods (--loop-periods) or damping (--set damping_scale=2) may close it";
 }
 
 class LoopSink : public FrameSink {
@@ -61,6 +61,7 @@ private:
 } // namespace
 
 void add_loop_options(OptionList& list, LoopChoice& o) {
+    list.group("Length");
     list.add("--loop", o.seconds,
              "Write a loop of this length [s], in place of --seconds: the wind repeats after it, whole periods "
              "are run until the motion does too, and one is written, frames 0 to S fps - 1; the next would be "

@@ -8,37 +8,36 @@
 namespace bough {
 namespace {
 
+std::string percent(double share) {
+    std::ostringstream text;
+    share = std::min(100.0, 100 * share);
+    text << std::setprecision(share < 10 ? 2 : 3) << share << " %";
+    return text.str();
+}
+
 // What turned too fast for the step to follow. Where that is a body in a thousand there is nothing to do about it.
 void note_fast_turns(const RunAccount& run, std::int64_t steps, std::vector<std::string>& notes) {
     const StepFlags& flags = run.flags;
     const double all = double(steps) * double(run.bodies);
     const std::uint64_t most = std::max({flags.half_turns, flags.energy_guard, flags.fast_turns});
     if (!(double(most) > 1e-3 * all)) return;
-    std::ostringstream text;
-    const double share =
-        std::min(100.0, 100 * double(most) / all); // a body's turn counts where it is its own and where it carries
-    text << std::setprecision(share < 10 ? 2 : 3) << share << " % of the bodies' steps turned too fast for the step ("
-         << flags.fast_turns << " by more than a radian, " << flags.half_turns << " past half a turn, "
-         << flags.energy_guard << " held from gaining energy): smaller steps (--substeps) show whether it matters";
-    notes.push_back(text.str());
+    // a body's turn counts where it is its own and where it carries
+    notes.push_back(
+        "leaves or twigs turn faster than the steps can follow (" + percent(double(most) / all) +
+        " of them by more than 60 degrees a step): the picture may flicker there; more frames (--fps), more "
+        "steps (--substeps), less wind, or stiffer leaves (--set wood.leaf.stiffness=4) calm it");
 }
 
 void note_flags(const RunAccount& run, std::int64_t steps, std::vector<std::string>& notes) {
     const StepFlags& flags = run.flags;
     if (flags.buckling > 0)
-        notes.push_back(counted(flags.buckling, "time", "times") +
-                        " a joint was softer than gravity's pull on it (buckling)");
-    if (flags.bounded_lambda > 0)
-        notes.push_back(counted(flags.bounded_lambda, "time", "times") + " a joint's growth in a step was bounded");
+        notes.push_back("some wood is too soft for what it carries and buckles: stiffer wood (--set material.E=...) or "
+                        "thicker radii hold it; treeconvert --stats names a branch");
     note_fast_turns(run, steps, notes);
-    if (flags.limited > 0)
-        notes.push_back(counted(flags.limited, "time", "times") + " a joint was stopped at its limit, as asked");
-    if (flags.asleep > 0)
-        notes.push_back(std::to_string(flags.asleep) + " of " + std::to_string(std::uint64_t(steps) * run.bodies) +
-                        " steps of a body were left out: at rest below " + rate_text(run.sleep) + " rad/s (--sleep)");
     if (flags.unresolved > 0)
-        notes.push_back(std::to_string(flags.unresolved) + " of " + std::to_string(flags.inner_steps) +
-                        " inner steps missed the tolerance: this is no reference solution");
+        notes.push_back(percent(double(flags.unresolved) / double(flags.inner_steps)) +
+                        " of the inner steps missed the tolerance: this is no reference solution; --tolerance, or "
+                        "more --substeps");
 }
 
 void note_world(const RunAccount& run, std::vector<std::string>& notes) {
@@ -73,6 +72,24 @@ void note_world(const RunAccount& run, std::vector<std::string>& notes) {
 void note_run(const RunAccount& run, std::int64_t started, std::vector<std::string>& notes) {
     note_flags(run, run.steps - started, notes);
     note_world(run, notes);
+}
+
+std::string guards_lines(const RunAccount& run, std::int64_t started) {
+    const StepFlags& flags = run.flags;
+    std::ostringstream text;
+    const auto line = [&](const char* name, std::uint64_t count, const char* meaning) {
+        text << "guards " << name << " " << count << " " << meaning << "\n";
+    };
+    text << "guards of " << std::uint64_t(run.steps - started) * run.bodies << " steps of a body\n";
+    line("fast_turns", flags.fast_turns, "turns by more than a radian");
+    line("half_turns", flags.half_turns, "joints turned past half a turn");
+    line("energy", flags.energy_guard, "kept from gaining energy");
+    line("buckling", flags.buckling, "joints softer than gravity's pull on them");
+    line("growth", flags.bounded_lambda, "joints whose growth was bounded");
+    line("limits", flags.limited, "joints stopped at their limit");
+    line("asleep", flags.asleep, ("left out at rest below " + rate_text(run.sleep) + " rad/s").c_str());
+    line("unresolved", flags.unresolved, "inner steps that missed the tolerance");
+    return text.str();
 }
 
 std::string cost_line(const RunAccount& run, const RunOptions& o, double ms, std::int64_t frames) {

@@ -4,10 +4,13 @@
 
 namespace bough {
 
-// Guards that acted in the steps since `started`, and what was left out or kept; what broke, landed and hit.
+// What the picture may suffer from in the steps since `started`, and what to change; what broke, landed and hit.
 void note_run(const RunAccount&, std::int64_t started, std::vector<std::string>& notes);
 
-// --report-cost. ms: of all frames.
+// --report guards: how often each acted since `started`.
+std::string guards_lines(const RunAccount&, std::int64_t started);
+
+// --report cost. ms: of all frames.
 std::string cost_line(const RunAccount&, const RunOptions&, double ms, std::int64_t frames);
 
 } // namespace bough

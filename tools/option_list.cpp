@@ -1,10 +1,28 @@
 #include "option_list.h"
+#include "formats/nearest_name.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <sstream>
 
 namespace bough {
+namespace {
+
+constexpr std::array groups{"Input",  "Growth", "Volume",   "Wood",      "Wind",        "Length",
+                            "Output", "Mesh",   "Numerics", "Measuring", "Distributed", "General"};
+
+std::size_t rank(const std::string& group) {
+    return std::size_t(std::find(groups.begin(), groups.end(), group) - groups.begin());
+}
+
+struct HelpAs {
+    std::string form;
+};
+
+} // namespace
 
 OptionEntry& OptionEntry::takes(const std::string& what) {
-    option_.option_text(what);
+    help_.takes = what;
     return *this;
 }
 
@@ -15,11 +33,16 @@ OptionEntry& OptionEntry::check(const ValueCheck& wrong) {
 
 OptionEntry& OptionEntry::one_of(const std::vector<std::string>& names) {
     option_.check(CLI::IsMember(names));
-    return *this;
+    return suggests(names);
 }
 
 OptionEntry& OptionEntry::one_of_any_case(const std::vector<std::string>& names) {
     option_.transform(CLI::IsMember(names, CLI::ignore_case));
+    return suggests(names);
+}
+
+OptionEntry& OptionEntry::suggests(const std::vector<std::string>& names) {
+    help_.values = names;
     return *this;
 }
 
@@ -38,17 +61,24 @@ OptionEntry& OptionEntry::in_a_row() {
     return *this;
 }
 
-OptionList::OptionList(const std::string& name, const std::string& about, const std::string& epilog)
-    : app_(std::make_unique<CLI::App>(about, name)) {
+OptionList::OptionList(HelpPage head)
+    : app_(std::make_unique<CLI::App>(head.about, head.command)), head_(std::move(head)) {
     app_->option_defaults()->always_capture_default(false);
-    app_->get_formatter()->column_width(30);
-    app_->footer(epilog);
+    app_->set_help_flag();
 }
 
 OptionList::~OptionList() = default;
 
+OptionEntry OptionList::entry(CLI::Option& option, const std::string& name, const std::string& help) {
+    OptionHelp entry{group_, {}, "", help, {}, true};
+    std::istringstream names(name);
+    for (std::string one; std::getline(names, one, ',');) entry.names.push_back(one);
+    help_.push_back(std::move(entry));
+    return OptionEntry(option, help_.back());
+}
+
 template <class Value> OptionEntry OptionList::add(const std::string& name, Value& value, const std::string& help) {
-    return OptionEntry(*app_->add_option(name, value, help));
+    return entry(*app_->add_option(name, value), name, help);
 }
 
 template OptionEntry OptionList::add(const std::string&, std::string&, const std::string&);
@@ -62,44 +92,78 @@ template OptionEntry OptionList::add(const std::string&, std::optional<std::int6
 template OptionEntry OptionList::add(const std::string&, std::optional<std::uint64_t>&, const std::string&);
 template OptionEntry OptionList::add(const std::string&, std::vector<std::string>&, const std::string&);
 
-void OptionList::add_flag(const std::string& name, bool& value, const std::string& help) {
-    app_->add_flag(name, value, help);
+OptionEntry OptionList::add_flag(const std::string& name, bool& value, const std::string& help) {
+    return entry(*app_->add_flag(name, value), name, help);
 }
 
-void OptionList::add_flag(const std::string& name, std::function<void()> when_given, const std::string& help) {
-    app_->add_flag_callback(name, std::move(when_given), help);
+OptionEntry OptionList::add_flag(const std::string& name, std::function<void()> when_given, const std::string& help) {
+    return entry(*app_->add_flag_callback(name, std::move(when_given)), name, help);
 }
 
 void OptionList::add_help(const std::string& version_help) {
-    app_->set_help_flag("-h,--help", "Print this help and exit");
-    app_->add_flag_callback(
+    entry(*app_->set_help_flag("-h,--help"), "-h,--help", "Print this help and exit");
+    entry(*app_->set_help_all_flag("--help-all"), "--help-all", "Print all options and exit");
+    add_flag(
         "--version", [] { throw CLI::CallForVersion("", 0); }, version_help);
+    // For the build, which makes manuals and completions of it: in no help.
+    app_->add_option_function<std::string>("--help-as", [](const std::string& form) { throw HelpAs{form}; })
+        ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
+}
+
+void OptionList::group(const std::string& name) {
+    group_ = name;
+}
+
+void OptionList::first(const std::vector<std::string>& names) {
+    for (OptionHelp& option : help_)
+        option.first = std::any_of(option.names.begin(), option.names.end(), [&](const std::string& name) {
+            return std::find(names.begin(), names.end(), name) != names.end();
+        });
+}
+
+void OptionList::renamed(const std::string& old, const std::string& now) {
+    renamed_.emplace_back(old, now);
+}
+
+HelpPage OptionList::page() const {
+    HelpPage page = head_;
+    page.options.assign(help_.begin(), help_.end());
+    std::stable_sort(page.options.begin(), page.options.end(),
+                     [](const OptionHelp& a, const OptionHelp& b) { return rank(a.group) < rank(b.group); });
+    return page;
 }
 
 bool OptionList::given(const std::string& name) const {
     return app_->get_option(name)->count() > 0;
 }
 
-std::string OptionList::given_beside(const std::vector<std::string>& names) const {
-    for (const CLI::Option* option : static_cast<const CLI::App&>(*app_).get_options())
-        if (option->count() > 0 &&
-            std::none_of(names.begin(), names.end(), [&](const std::string& name) { return option->check_name(name); }))
-            return option->get_name();
-    return {};
+std::string OptionList::wrong_name(const std::string& given) const {
+    std::vector<std::string> names;
+    for (const OptionHelp& option : help_) names.insert(names.end(), option.names.begin(), option.names.end());
+    const std::string name = nearest_name(given.substr(0, given.find('=')), names, 2);
+    return given + ": unknown option" + (name.empty() ? "" : ", did you mean " + name + "?");
 }
 
 OptionsRead OptionList::read(int argc, char** argv) {
+    for (int k = 1; k < argc; ++k)
+        for (const auto& [old, now] : renamed_)
+            if (const std::string word = argv[k]; word.substr(0, word.find('=')) == old)
+                return {OptionsRead::End::wrong, old + ": is now " + now};
     try {
         app_->parse(argc, argv);
         return {OptionsRead::End::work, {}};
     } catch (const CLI::CallForHelp&) {
-        return {OptionsRead::End::help, app_->help()};
+        return {OptionsRead::End::help, help_text(page(), false)};
+    } catch (const CLI::CallForAllHelp&) {
+        return {OptionsRead::End::help, help_text(page(), true)};
+    } catch (const HelpAs& as) {
+        return {OptionsRead::End::help_as, as.form};
     } catch (const CLI::CallForVersion&) {
         return {OptionsRead::End::version, {}};
     } catch (const CLI::ExtrasError& error) { // in our words, as users meet these daily
         const std::vector<std::string> extras = app_->remaining(true);
         for (const std::string& extra : extras)
-            if (extra.size() > 1 && extra[0] == '-') return {OptionsRead::End::wrong, extra + ": unknown option"};
+            if (extra.size() > 1 && extra[0] == '-') return {OptionsRead::End::wrong, wrong_name(extra)};
         if (extras.empty()) return {OptionsRead::End::wrong, error.what()};
         return {OptionsRead::End::wrong, "'" + extras.front() + "': one argument too many"};
     } catch (const CLI::ParseError& error) {

@@ -1,18 +1,8 @@
-// profile.h: the subcommands of treeprofile. Each declares its own options and works; treeprofile.cpp only chooses one
-// by the first word. A subcommand keeps its options itself, so that this header need not know them.
+// profile.h: the sub-commands of treeprofile. Each keeps its options itself, so that this header need not know them.
 #pragma once
 #include "tool.h"
 
 namespace bough {
-
-struct Subcommand {
-    const char* name; // first word of the command line
-    std::function<void(OptionList&)> declare;
-    std::function<void()> work;
-    bool has_source = true;  // --no-source
-    bool has_threads = true; // --threads N; else its own
-    bool has_input = true;   // it does nothing without an argument
-};
 
 constexpr const char* profile_name = "treeprofile";
 

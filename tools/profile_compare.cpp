@@ -86,7 +86,17 @@ void work_compare(CompareOptions& o) {
 
 Subcommand profile_compare(CommonOptions& common) {
     const auto o = std::make_shared<CompareOptions>(CompareOptions{common, {}, {}});
-    return {"compare", [o](OptionList& list) { declare_compare(list, *o); }, [o] { work_compare(*o); }, false};
+    ToolInfo info{
+        .name = profile_name,
+        .about = "Finds what became slower between two reports of treeprofile.",
+        .usage = "treeprofile compare OLD.json NEW.json [--fail-above 1.1]",
+        .details =
+            "It exits with 3 when the total, or a stage that had at least 5 % of it, costs more than --fail-above "
+            "times what it did. Reports of different bodies, precision, solver, scheme or substeps are refused.",
+        .examples = "treeprofile compare before.json after.json",
+        .formats = {}};
+    info.has_source = false;
+    return {"compare", info, [o](OptionList& list) { declare_compare(list, *o); }, [o] { work_compare(*o); }};
 }
 
 } // namespace bough

@@ -3,6 +3,7 @@
 #include "profile.h"
 #include "progress.h"
 #include "report_file.h"
+#include "set_option.h"
 #include "signals.h"
 #include "simulation.h"
 #include <algorithm>
@@ -17,13 +18,17 @@ constexpr double seconds_default = 2;
 struct ErrorCommand {
     CommonOptions& common;
     RunOptions run;
-    std::string steps, report, truth = "reference";
+    std::string steps, report, truth = "reference", joint_inertia = "";
     const OptionList* list = nullptr; // for what was given
 };
 
 void declare(OptionList& list, ErrorCommand& o) {
     o.list = &list;
     add_run_options(list, o.run, seconds_default);
+    list.group("Measuring");
+    list.add("--joint-inertia", o.joint_inertia, "Of the series with the analytic solver, those with this (both)")
+        .takes("NAME")
+        .one_of({"branch", "paper"});
     list.add("--steps", o.steps,
              "Steps a frame to run with, with commas: powers of two from 1/64 to 4096, the three finest also for the "
              "limit of small steps (1/4,1/2,1,2,4,8,16,32,64)")
@@ -78,7 +83,7 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
         if (given("--solver") && o.run.solver != solver_name(v.solver)) continue;
         if (given("--precision") && (o.run.precision == "float") != v.single) continue;
         const bool paper = v.inertia == JointInertia::paper;
-        if (!o.run.joint_inertia.empty() && (v.solver != Solver::analytic || paper != (o.run.joint_inertia == "paper")))
+        if (!o.joint_inertia.empty() && (v.solver != Solver::analytic || paper != (o.joint_inertia == "paper")))
             continue;
         chosen.push_back(v);
     }
@@ -90,17 +95,20 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
 // A drawn tree that nothing moves stands still: what is measured then is its fall from the unloaded pose.
 void let_move(ErrorCommand& o, Scene& scene) {
     if (scene.wind || !scene.pulls.empty() || !scene.root_motion.empty() || scene.pose != Pose::drawn) return;
-    if (!o.run.pose.empty())
-        throw UsageError("--pose drawn: nothing moves then; name a wind, or leave --pose out to switch gravity on");
+    if (sets_field(o.run.set, "pose"))
+        throw UsageError("--set pose=drawn: nothing moves then; name a wind, or leave it out to switch gravity on");
     scene.pose = Pose::rest;
-    o.common.notes.push_back("no wind, pulls or root motion: gravity is switched on at the start (--pose rest)");
+    o.common.notes.push_back("no wind, pulls or root motion: gravity is switched on at the start (pose rest)");
 }
 
 void work(ErrorCommand& o) {
     if (o.list->given("--substeps")) throw UsageError("--substeps: --steps says it here");
     if (o.truth == "fine" && o.run.tolerance)
         throw UsageError("--tolerance: is the reference's, which --truth fine does without");
-    if (o.run.joint_limit) throw UsageError("--joint-limit: the reference solution keeps no limits");
+    if (sets_field(o.run.set, "joint_limit"))
+        throw UsageError("--set joint_limit: the reference solution keeps no limits");
+    if (sets_field(o.run.set, "joint_inertia"))
+        throw UsageError("--set joint_inertia: --joint-inertia chooses among the series here");
     if (o.run.solver == solver_name(Solver::articulated_reference))
         throw UsageError("--solver articulated-reference is what the others are held against");
     require_outputs({{"-o", o.common.output}, {"--report", o.report}});
@@ -121,7 +129,6 @@ void work(ErrorCommand& o) {
     if (o.run.tolerance) options.tolerance = *o.run.tolerance;
     RunOptions reading = o.run; // what is a series' own is not the scene's
     reading.tolerance.reset();
-    reading.joint_inertia.clear();
     reading.scheme.clear();
     Setting setting = read_setting(reading);
     refuse_overwriting_trees(setting, written);
@@ -161,7 +168,18 @@ void work(ErrorCommand& o) {
 
 Subcommand profile_error(CommonOptions& common) {
     const auto o = std::make_shared<ErrorCommand>(ErrorCommand{common, {}, {}, {}});
-    return {"error", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
+    ToolInfo info{.name = profile_name,
+                  .about = "Measures error against run time, of each solver at each number of steps a frame.",
+                  .usage = "treeprofile error TREE|SCENE [--steps LIST] [--report FILE] ...",
+                  .details = "All is held against a reference solution of the full articulated dynamics, or with "
+                             "--truth fine against the coupled solver at 64 steps a frame, for trees of more than some "
+                             "hundred bodies.\n--solver, --scheme, --precision and --joint-inertia choose among the "
+                             "series. A tree without wind is let go from its unloaded pose.",
+                  .examples = "treeprofile error bare.json --wind gusty --report error.svg",
+                  .formats = {},
+                  .first = {"INPUT", "--set", "--wind", "--seed", "--seconds", "--frames", "--steps", "--truth",
+                            "--solver", "--scheme", "--precision", "--report", "--threads"}};
+    return {"error", info, [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
 }
 
 } // namespace bough

@@ -31,11 +31,15 @@ struct ModesCommand {
 
 void declare(OptionList& list, ModesCommand& o) {
     list.add("INPUT", o.run.input, "A tree, or a scene whose trees, gravity and wood are taken; - for stdin");
+    list.group("Measuring");
     list.add("--modes", o.modes, "How many, from the lowest on (20)").takes("N").check(whole_number(1, 1000));
+    list.group("Wind");
     list.add("--wind", o.run.wind,
              "The air's drag at this wind's mean damps as well: a preset or a file, as of treesim (still air)")
         .takes("NAME|FILE");
+    list.group("Input");
     list.add("--set", o.run.set, "Changes a value of the scene, as of treesim").takes("PATH=VALUE");
+    list.group("Measuring");
     list.add("--swing", o.swing, "With -o FILE.glb: which mode swings there, by a twelfth of the height (1)")
         .takes("K")
         .check(whole_number(1, 1000));
@@ -191,7 +195,17 @@ void work(ModesCommand& o) {
 
 Subcommand profile_modes(CommonOptions& common) {
     const auto o = std::make_shared<ModesCommand>(ModesCommand{common, {}, {}, modes_default, {}});
-    return {"modes", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
+    ToolInfo info{.name = profile_name,
+                  .about = "Finds the lowest natural frequencies, their damping, and which branches move in them.",
+                  .usage = "treeprofile modes TREE|SCENE [--modes N] [--wind NAME] [--report FILE]\ntreeprofile modes "
+                           "TREE|SCENE --swing K -o FILE.glb",
+                  .details = "Frequencies are exact for the rigid bodies, about the pose in which the tree stands, "
+                             "gravity in them. With --wind the drag of the air at its mean damps them too. A branch "
+                             "that buckles under what it carries is named.",
+                  .examples = "treeprofile modes oak.tree.json --wind breeze --report modes.svg\ntreeprofile modes "
+                              "oak.tree.json --modes 3 --swing 3 -o swing.glb",
+                  .formats = {}};
+    return {"modes", info, [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
 }
 
 } // namespace bough

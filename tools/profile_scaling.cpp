@@ -33,6 +33,7 @@ const std::vector<std::string> shapes = {"bushy", "willow", "chain"};
 
 void declare(OptionList& list, ScalingCommand& o) {
     o.list = &list;
+    list.group("Measuring");
     list.add("--bodies", o.bodies, "Sizes, with commas (1000,10000,100000,1000000); trees come within 10 %")
         .takes("LIST");
     list.add("--shape", o.shape,
@@ -184,10 +185,17 @@ void work(ScalingCommand& o) {
 
 Subcommand profile_scaling(CommonOptions& common) {
     const auto o = std::make_shared<ScalingCommand>(common);
-    Subcommand scaling{"scaling", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
-    scaling.has_threads = false;
-    scaling.has_input = false;
-    return scaling;
+    ToolInfo info{
+        .name = profile_name,
+        .about = "Measures ns a body and frame over the number of bodies, beside what the machine can do at most.",
+        .usage = "treeprofile scaling [--bodies LIST] [--shape LIST] [--report FILE] ...",
+        .details = "It goes through all combinations --repeat times, so that what else the machine does meets all "
+                   "alike, and gives the median. It needs a build with -DBOUGH_COUNTING=ON.",
+        .examples = "treeprofile scaling --wind gusty --report scaling.html",
+        .formats = {}};
+    info.has_threads = false;
+    info.has_input = false;
+    return {"scaling", info, [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
 }
 
 } // namespace bough

@@ -19,8 +19,10 @@ struct StabilityCommand {
 
 void declare(OptionList& list, StabilityCommand& o) {
     list.add("INPUT", o.run.input, "A tree, or a scene whose trees, gravity and air are taken; - for stdin");
+    list.group("Measuring");
     list.add("--frames", o.frames, "Steps a cell (100)").takes("N").check(whole_number(4));
     add_simd_option(list, o.run);
+    list.group("Measuring");
     list.add("--only", o.only, "Only the cases whose group or name contains this").takes("TEXT");
     list.add("--report", o.report, "Also write the figures as .json or .csv, the grid as .svg, both as .html")
         .takes("FILE")
@@ -65,7 +67,14 @@ void work(StabilityCommand& o) {
 
 Subcommand profile_stability(CommonOptions& common) {
     const auto o = std::make_shared<StabilityCommand>(StabilityCommand{common, {}, {}, {}});
-    return {"stability", [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
+    ToolInfo info{.name = profile_name,
+                  .about =
+                      "Runs a grid of extreme cases, and says of each whether it stayed bounded and moved rightly.",
+                  .usage = "treeprofile stability TREE|SCENE [--only TEXT] [--report FILE]",
+                  .details = "It exits with 3 where a cell that bough promises does not hold.",
+                  .examples = "treeprofile stability oak.tree.json --only wind --report stability.html",
+                  .formats = {}};
+    return {"stability", info, [o](OptionList& list) { declare(list, *o); }, [o] { work(*o); }};
 }
 
 } // namespace bough

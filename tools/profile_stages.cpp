@@ -25,6 +25,8 @@ struct StagesOptions {
 void declare_stages(OptionList& list, StagesOptions& o) {
     add_run_options(list, o.run, seconds_default);
     add_sleep_option(list, o.run);
+    list.group("Measuring");
+    list.renamed("--joint-inertia", "--set joint_inertia=NAME");
     list.add("--report", o.report, "Also write the figures, as JSON or (by its ending) CSV")
         .takes("FILE")
         .check(file_name());
@@ -132,7 +134,24 @@ void work_stages(StagesOptions& o) {
 
 Subcommand profile_stages(CommonOptions& common) {
     const auto o = std::make_shared<StagesOptions>(StagesOptions{common, {}, {}});
-    return {"stages", [o](OptionList& list) { declare_stages(list, *o); }, [o] { work_stages(*o); }};
+    ToolInfo info{
+        .name = profile_name,
+        .about =
+            "Measures what each stage of a simulation costs; its sub-commands, how wrong it is and what that costs.",
+        .usage =
+            "treeprofile [stages] TREE|SCENE [--report FILE] [options of treesim]\ntreeprofile error "
+            "TREE|SCENE ...      error against run time\ntreeprofile stability TREE|SCENE ...  a grid of extreme "
+            "cases\ntreeprofile modes TREE|SCENE ...      natural frequencies and shapes\ntreeprofile scaling ...      "
+            "         cost over the number of bodies\ntreeprofile compare OLD.json NEW.json what became slower",
+        .details = "stages is what runs unless another of these is the first word; each has its own --help. Nothing is "
+                   "written while it measures. The first frame after the start is left out as a warm-up; of --repeat "
+                   "runs the fastest counts.",
+        .examples =
+            "treeprofile oak.tree.json --wind gusty\ntreeprofile oak.tree.json --wind gusty --report before.json",
+        .formats = {},
+        .first = {"INPUT", "--set", "--wind", "--seed", "--seconds", "--frames", "--fps", "--substeps", "--solver",
+                  "--precision", "--report", "--repeat", "--threads"}};
+    return {"stages", info, [o](OptionList& list) { declare_stages(list, *o); }, [o] { work_stages(*o); }};
 }
 
 } // namespace bough

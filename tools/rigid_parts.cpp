@@ -8,7 +8,7 @@ namespace bough {
 namespace {
 
 std::shared_ptr<Setting> whole_setting(const Setting& setting) {
-    if (!setting.whole) throw UsageError("--report-rigid: all joints move, there is nothing to compare with");
+    if (!setting.whole) throw UsageError("--report rigid: all joints move, there is nothing to compare with");
     auto whole = std::make_shared<Setting>();
     whole->tree = setting.whole->tree;
     whole->ranges = setting.whole->places.whole;

@@ -1,11 +1,11 @@
-// rigid_parts.h: what holding joints costs in accuracy and saves in time (treesim --report-rigid).
+// rigid_parts.h: what holding joints costs in accuracy and saves in time (treesim --report rigid).
 #pragma once
 #include "lib/study/rigid_error.h"
 #include "simulation.h"
 
 namespace bough {
 
-// --report-rigid: the whole tree beside the run, with all its joints.
+// --report rigid: the whole tree beside the run, with all its joints.
 class RigidReport {
 public:
     // At the start of a run. Throws UsageError where nothing is held.

@@ -44,15 +44,16 @@ std::string rate_text(double rate) {
 }
 
 void add_simd_option(OptionList& list, RunOptions& o) {
+    list.group("Numerics");
     list.add("--simd", o.simd,
              "Which SIMD code coupled and analytic step with: auto (default): the widest of avx512, avx2 and "
-             "baseline that "
-             "this machine has; off: the plain step, body by body")
+             "baseline that this machine has; off: the plain step, body by body")
         .takes("NAME")
         .one_of({"auto", "off", "baseline", "avx2", "avx512"});
 }
 
 void add_sleep_option(OptionList& list, RunOptions& o) {
+    list.group("Numerics");
     list.add("--sleep", o.sleep,
              "Leave out subtrees at rest: whose bodies, and what carries them, have turned by less than RATE "
              "[rad/s] for a second, until they are moved again; or off (" +
@@ -60,10 +61,24 @@ void add_sleep_option(OptionList& list, RunOptions& o) {
         .takes("RATE|off");
 }
 
+void add_wind_option(OptionList& list, RunOptions& o) {
+    list.group("Wind");
+    list.add("--wind", o.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file")
+        .takes("NAME|FILE")
+        .suggests({"calm", "breeze", "gusty", "storm"});
+}
+
 void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
     const std::string seconds_text = std::to_string(int(seconds_default));
+    list.group("Input");
     list.add("INPUT", o.input,
              "A tree, any file that treeconvert takes (converted with its defaults), or a scene; - for stdin");
+    add_set_option(list, o.set);
+    list.add("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)").takes("X,Y,Z");
+    add_reader_options(list);
+    add_wind_option(list, o);
+    list.add("--seed", o.seed, "Seed of the wind's turbulence").takes("N").check(whole_number(0));
+    list.group("Length");
     OptionEntry seconds = list.add("--seconds", o.seconds, "Length of the run [s] (" + seconds_text + ")")
                               .takes("S")
                               .check(not_negative_number());
@@ -72,11 +87,8 @@ void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
         .check(whole_number(1))
         .excludes(seconds);
     list.add("--fps", o.fps, "Frames a second (30)").takes("F").check(positive_number());
+    list.group("Numerics");
     list.add("--substeps", o.substeps, "Steps a frame (1)").takes("N").check(whole_number(1, 1000000));
-    list.add("--wind", o.wind, "Wind: calm, breeze, gusty, storm, or a bough-wind file").takes("NAME|FILE");
-    list.add("--seed", o.seed, "Seed of the wind's turbulence").takes("N").check(whole_number(0));
-    list.add("--gravity", o.gravity, "Gravity [m/s2] (0,-9.81,0)").takes("X,Y,Z");
-    add_set_option(list, o.set);
     std::vector<std::string> solvers;
     for (const Solver solver : all_solvers) solvers.push_back(solver_name(solver));
     list.add("--solver", o.solver, solver_help()).takes("NAME").one_of(solvers);
@@ -93,26 +105,11 @@ void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
         .takes("RAD")
         .check(positive_number());
     list.add("--precision", o.precision, "float or double (double)").takes("NAME").one_of({"float", "double"});
-    list.add("--pose", o.pose,
-             "What the drawn tree is: drawn (in equilibrium under gravity), settled (unloaded; starts at its sag), "
-             "rest (unloaded; starts from it)")
-        .takes("NAME")
-        .one_of({"drawn", "settled", "rest"});
-    list.add("--joint-inertia", o.joint_inertia,
-             "branch (a branch keeps its frequency under any segmentation) or paper")
-        .takes("NAME")
-        .one_of({"branch", "paper"});
-    list.add("--stiffness-scale", o.stiffness_scale, "Multiplies every joint's stiffness (1)")
-        .takes("X")
-        .check(not_negative_number());
-    list.add("--damping-scale", o.damping_scale, "Multiplies every joint's damping (1)")
-        .takes("X")
-        .check(not_negative_number());
-    list.add("--joint-limit", o.joint_limit,
-             "Largest angle of every joint about each of its axes, from its spring's rest [deg] (none)")
-        .takes("DEG")
-        .check(positive_number());
-    add_reader_options(list);
+    // What only repeats a field of the scene.
+    list.renamed("--pose", "--set pose=NAME");
+    list.renamed("--stiffness-scale", "--set stiffness_scale=X");
+    list.renamed("--damping-scale", "--set damping_scale=X");
+    list.renamed("--joint-limit", "--set joint_limit=DEG");
 }
 
 std::int64_t frames_of(const RunOptions& o, double seconds_default) {

@@ -15,12 +15,12 @@ struct RunOptions {
     std::optional<std::int64_t> frames;
     double fps = 30;
     int substeps = 1;
-    std::string wind, gravity, solver = solver_name(default_solver), precision = "double", pose, joint_inertia;
+    std::string wind, gravity, solver = solver_name(default_solver), precision = "double";
     std::string scheme; // of the coupled solver; empty: its default
     std::string simd = "auto";
     std::string sleep;        // as given: a rate or off; empty: sleep_default
     double sleep_default = 0; // [rad/s] the tool's own
-    std::optional<double> stiffness_scale, damping_scale, joint_limit, tolerance;
+    std::optional<double> tolerance;
     std::optional<std::uint64_t> seed;
     std::vector<std::string> set; // as given: PATH=VALUE, set_option.h
     std::string shard;            // "i/n", of treesim; empty: all
@@ -31,6 +31,7 @@ struct RunOptions {
 void add_run_options(OptionList&, RunOptions&, double seconds_default);
 
 void add_simd_option(OptionList&, RunOptions&);
+void add_wind_option(OptionList&, RunOptions&);
 void add_sleep_option(OptionList&, RunOptions&); // with sleep_default as it stands
 
 // Frames that the options ask for: --frames as given, --seconds S as round(S fps) + 1, because frame 0 is the start.

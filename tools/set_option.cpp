@@ -25,4 +25,10 @@ std::vector<SceneOverride> overrides_of(const std::vector<std::string>& set) {
     return overrides;
 }
 
+bool sets_field(const std::vector<std::string>& set, const std::string& field) {
+    for (const SceneOverride& change : overrides_of(set))
+        if (change.path.front() == field) return true;
+    return false;
+}
+
 } // namespace bough

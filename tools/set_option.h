@@ -10,4 +10,7 @@ void add_set_option(OptionList&, std::vector<std::string>& set);
 // In the order given. Throws UsageError for what is no PATH=VALUE.
 std::vector<SceneOverride> overrides_of(const std::vector<std::string>& set);
 
+// Whether one of them replaces this field of the scene, or a part of it. Throws UsageError.
+bool sets_field(const std::vector<std::string>& set, const std::string& field);
+
 } // namespace bough

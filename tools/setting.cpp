@@ -30,17 +30,6 @@ void apply(const RunOptions& o, const std::optional<Wind>& wind, Scene& scene) {
         const std::vector<double> g = number_list("--gravity", o.gravity, 3);
         scene.gravity = Vec3(g[0], g[1], g[2]);
     }
-    if (!o.pose.empty())
-        scene.pose = o.pose == "drawn" ? Pose::drawn : o.pose == "settled" ? Pose::settled : Pose::rest;
-    if (!o.joint_inertia.empty())
-        scene.joint_inertia = o.joint_inertia == "paper" ? JointInertia::paper : JointInertia::branch;
-    if (o.stiffness_scale) scene.stiffness_scale = *o.stiffness_scale;
-    if (o.damping_scale) scene.damping_scale = *o.damping_scale;
-    if (o.joint_limit) {
-        if (*o.joint_limit > 180) throw UsageError("--joint-limit is above 180 degrees, which is no limit");
-        const Vec3 all = Vec3::Constant(*o.joint_limit);
-        scene.joint_limit = JointLimit{all, all, all};
-    }
 }
 
 constexpr const char* empty_scene = R"({"format": "bough-scene", "version": 1})";
@@ -51,8 +40,7 @@ SceneDocument chosen_document(const RunOptions& o, std::string_view content, con
     const std::optional<Wind> wind = chosen_wind(o.wind);
     std::vector<SceneOverride> first = overrides_of(o.set), last;
     for (const SceneOverride& change : first)
-        for (const char* field :
-             {"wind", "gravity", "pose", "joint_inertia", "stiffness_scale", "damping_scale", "joint_limit"})
+        for (const char* field : {"wind", "gravity"})
             if (change.path.front() == field) last.push_back(change);
     if (wind && !first.empty()) first.insert(first.begin(), {"--wind " + o.wind, {"wind"}, wind_text(*wind)});
     SceneDocument document = read_scene_document(content, name, first);
@@ -85,10 +73,10 @@ Setting read_setting(const RunOptions& o) {
     const Solver solver = chosen_solver(o);
     if (is_articulated(solver) && o.precision == "float")
         throw UsageError("--precision float: not with --solver " + o.solver + ", which runs in double");
-    if (solver != Solver::analytic && !o.joint_inertia.empty())
-        throw UsageError("--joint-inertia: only with --solver analytic");
-    if (is_articulated(solver) && o.joint_limit)
-        throw UsageError("--joint-limit: only with --solver coupled or analytic, which keep limits");
+    if (solver != Solver::analytic && sets_field(o.set, "joint_inertia"))
+        throw UsageError("--set joint_inertia: only with --solver analytic");
+    if (is_articulated(solver) && sets_field(o.set, "joint_limit"))
+        throw UsageError("--set joint_limit: only with --solver coupled or analytic, which keep limits");
     if (solver != Solver::coupled && !o.scheme.empty()) throw UsageError("--scheme: only with --solver coupled");
     if (o.tolerance && solver != Solver::articulated_reference)
         throw UsageError("--tolerance: only with --solver articulated-reference");

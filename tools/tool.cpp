@@ -1,5 +1,6 @@
 #include "tool.h"
 #include "file_names.h"
+#include "formats/nearest_name.h"
 #include "formats/plain_text.h"
 #include "made_with.h"
 #include "progress.h"
@@ -9,6 +10,7 @@
 #include <clocale>
 #include <cstdio>
 #include <fcntl.h>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <unistd.h>
@@ -53,12 +55,7 @@ std::string version_text(const char* tool) {
 }
 
 void declare_common(OptionList& list, const ToolInfo& info, CommonOptions& common) {
-    list.add_help("Print version, compiler, flags and SIMD target, and exit");
-    list.add_flag("-q,--quiet", common.quiet, "No notes and no progress on stderr");
-    if (info.has_threads)
-        list.add("--threads", common.threads, "Threads to work with; all of the machine unless given")
-            .takes("N")
-            .check(whole_number(1, most_threads));
+    list.group("Output");
     list.add("-o,--output", common.output, "Output, - for stdout").takes("FILE").check(file_name());
     if (!info.formats.empty()) {
         std::string names;
@@ -70,6 +67,14 @@ void declare_common(OptionList& list, const ToolInfo& info, CommonOptions& commo
     if (info.has_source)
         list.add_flag(
             "--no-source", [&common] { common.source = false; }, "Do not record this command line in the output");
+    list.group("General");
+    list.add_help("Print version, compiler, flags and SIMD target, and exit");
+    list.add_flag("-q,--quiet", common.quiet, "No notes and no progress on stderr");
+    if (info.has_threads)
+        list.add("--threads", common.threads, "Threads to work with; all of the machine unless given")
+            .takes("N")
+            .check(whole_number(1, most_threads));
+    list.group("Input");
 }
 
 int work_and_report(const ToolInfo& info, const std::function<void()>& work) {
@@ -105,16 +110,51 @@ int refuse_usage(const ToolInfo& info, const std::string& text) {
     return exit_usage;
 }
 
-int parse_and_work(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
-                   const std::function<void(OptionList&)>& declare, const std::function<void()>& work) {
-    OptionList list(info.name, info.about, info.epilog);
-    declare(list);
-    declare_common(list, info, common);
-    if (argc <= 1 && info.has_input) return refuse_usage(info, "no arguments");
-    const OptionsRead read = list.read(argc, argv);
+std::vector<std::string> words_of(const std::vector<Subcommand>& commands) {
+    std::vector<std::string> words;
+    for (const Subcommand& command : commands)
+        if (*command.word) words.push_back(command.word);
+    return words;
+}
+
+std::unique_ptr<OptionList> declared(const std::vector<Subcommand>& commands, std::size_t chosen,
+                                     CommonOptions& common) {
+    const auto& [word, info, declare, work] = commands[chosen];
+    HelpPage head{info.name, info.about, info.usage, info.details, info.examples, {}, {}};
+    if (chosen > 0) head.command += std::string(" ") + word;
+    if (chosen == 0 && commands.size() > 1) head.commands = words_of(commands);
+    auto list = std::make_unique<OptionList>(head);
+    declare_common(*list, info, common);
+    declare(*list);
+    if (!info.first.empty()) {
+        std::vector<std::string> first = info.first;
+        first.insert(first.end(), {"-o", "--help", "--help-all", "--version", "-q"});
+        list->first(first);
+    }
+    return list;
+}
+
+// The manual page of this one, or what a shell is to complete of all of them.
+std::string help_as(const std::string& form, const std::vector<Subcommand>& commands, std::size_t chosen,
+                    CommonOptions& common) {
+    if (form == "man") return manual_page(declared(commands, chosen, common)->page(), bough_version());
+    std::vector<HelpPage> pages;
+    for (std::size_t k = 0; k < commands.size(); ++k) pages.push_back(declared(commands, k, common)->page());
+    return completion(pages, form);
+}
+
+int parse_and_work(const std::vector<Subcommand>& commands, std::size_t chosen, std::vector<char*> arguments,
+                   const std::string& command_line, CommonOptions& common) {
+    const ToolInfo& info = commands[chosen].info;
+    const std::unique_ptr<OptionList> list = declared(commands, chosen, common);
+    if (arguments.size() <= 1 && info.has_input) return refuse_usage(info, "no arguments");
+    const OptionsRead read = list->read(int(arguments.size()), arguments.data());
     switch (read.end) {
     case OptionsRead::End::help:
         std::cout << read.text;
+        return exit_done;
+    case OptionsRead::End::help_as:
+        std::cout << help_as(read.text, commands, chosen, common);
         return exit_done;
     case OptionsRead::End::version:
         std::cout << version_text(info.name);
@@ -126,16 +166,45 @@ int parse_and_work(const ToolInfo& info, int argc, char** argv, CommonOptions& c
     }
     if (common.threads == 0) common.threads = machine_threads();
     use_threads(common.threads);
-    common.command_line = joined(info.name, argc, argv);
-    return work_and_report(info, work);
+    common.command_line = command_line;
+    return work_and_report(info, commands[chosen].work);
+}
+
+// A word that can only be meant as a sub-command's name: letters alone, and no file is called so.
+bool is_no_file(const std::string& word) {
+    std::error_code none;
+    return !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos &&
+           !std::filesystem::exists(word, none);
+}
+
+int choose_and_work(const std::vector<Subcommand>& commands, int argc, char** argv, CommonOptions& common) {
+    // An input is never called like a sub-command by accident, because ./compare is another word.
+    const std::string word = argc > 1 ? argv[1] : "";
+    std::vector<char*> arguments(argv, argv + argc);
+    const std::string line = joined(commands.front().info.name, argc, argv);
+    const std::vector<std::string> words = words_of(commands);
+    for (std::size_t k = 0; k < commands.size(); ++k)
+        if (!word.empty() && word == commands[k].word) {
+            arguments.erase(arguments.begin() + 1);
+            return parse_and_work(commands, k, arguments, line, common);
+        }
+    if (commands.size() > 1 && is_no_file(word)) {
+        const std::string name = nearest_name(word, words, 2);
+        std::string all;
+        for (const std::string& each : words) all += (all.empty() ? "" : ", ") + each;
+        if (words.size() == commands.size() || !name.empty())
+            return refuse_usage(commands.front().info, "'" + word + "' is neither a file nor one of " + all +
+                                                           (name.empty() ? "" : "; did you mean " + name + "?"));
+    }
+    return parse_and_work(commands, 0, arguments, line, common);
 }
 
 } // namespace
 
-int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
-             const std::function<void(OptionList&)>& declare, const std::function<void()>& work) {
+int run_tool(const std::vector<Subcommand>& commands, int argc, char** argv, CommonOptions& common) {
+    const ToolInfo& info = commands.front().info;
     prepare_process(info);
-    int code = parse_and_work(info, argc, argv, common, declare, work);
+    int code = choose_and_work(commands, argc, argv, common);
     if (code == exit_done && !common.quiet)
         for (const std::string& note : common.notes) say(info.name, note);
     std::cout.flush();
@@ -144,6 +213,11 @@ int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
         if (code == exit_done) code = exit_output;
     }
     return code;
+}
+
+int run_tool(const ToolInfo& info, int argc, char** argv, CommonOptions& common,
+             const std::function<void(OptionList&)>& declare, const std::function<void()>& work) {
+    return run_tool({{"", info, declare, work}}, argc, argv, common);
 }
 
 } // namespace bough

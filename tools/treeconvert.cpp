@@ -40,18 +40,21 @@ struct Options {
     bool strict = false, stats = false, split = false, list_materials = false;
 };
 
-const ToolInfo info = {"treeconvert",
-                       "Turns splines, or any file that treegen --import takes, into a tree of jointed rigid bodies.\n"
-                       "Usage: treeconvert INPUT [-o FILE] [--mesh FILE.obj|FILE.glb] [--material NAME|FILE] ...",
-                       "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json "
-                       "gives trunk_0.json,\n"
-                       "trunk_1.json ... in the order of the roots.\n"
-                       "  treegen --bodies 2000 | treeconvert - --mesh rest.obj -o tree.json\n"
-                       "Exit: 0 done, 1 usage, 2 bad input (or --strict), 4 output not written, 130 interrupted.",
-                       {"json", "safetensors"}};
+const ToolInfo info = {
+    .name = "treeconvert",
+    .about = "Turns splines, or any file that treegen imports, into a tree of jointed rigid bodies.",
+    .usage = "treeconvert INPUT [-o FILE] [--mesh FILE] [--material NAME|FILE] ...",
+    .details = "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json gives "
+               "trunk_0.json, trunk_1.json ... in the order of the roots.",
+    .examples = "treegen --bodies 2000 | treeconvert - --mesh rest.obj -o tree.json\n"
+                "treeconvert oak.xml --stats -o oak.tree.json",
+    .formats = {"json", "safetensors"},
+    .first = {"INPUT", "--units", "--up", "--trunk-diameter", "--stats", "--strict", "--material", "--list-materials",
+              "--segment-length", "--max-bodies", "--mesh", "--sides", "--max-joints", "--leaves-as", "--split"}};
 
 void declare(OptionList& list, Options& o) {
     list.add("INPUT", o.input, "Splines or an importable file; - for stdin");
+    list.group("Wood");
     list.add("--segment-length", o.segment_length, "Longest body of a branch [m]; from the branch unless given")
         .takes("M")
         .check(positive_number());
@@ -61,6 +64,7 @@ void declare(OptionList& list, Options& o) {
     list.add("--max-bodies", o.max_bodies, "Lengthen bodies until there are at most N")
         .takes("N")
         .check(whole_number(1));
+    list.group("Mesh");
     list.add(
             "--mesh", o.mesh,
             "Also write the skin mesh in the drawn pose: FILE.obj with FILE.mtl beside it, or FILE.glb with its joints")
@@ -76,14 +80,19 @@ void declare(OptionList& list, Options& o) {
              "branches they are from the trunk; the joints' x axes then lie along the branches, as it wants them")
         .takes("FILE")
         .check(file_name());
+    list.group("Wood");
     list.add("--material", o.material,
              "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
         .takes("NAME|FILE");
     list.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
+    list.group("Input");
     list.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
     list.add_flag("--stats", o.stats, "Print what was understood of the input and what was made of it on stderr");
+    list.group("Output");
     list.add_flag("--split", o.split, "One file for each root");
+    list.group("Wood");
     add_merge_options(list, o.merge);
+    list.group("Input");
     add_import_options(list, o.choice);
 }
 
@@ -258,6 +267,7 @@ void work(Options& o) {
     Splines splines = read_import(o.input, o.choice, found);
     if (o.stats) std::cerr << import_statistics(splines, found);
     std::vector<std::string> notes = std::move(found.lines);
+    const std::size_t guesses = notes.size();
     const Material material = chosen_material(o, splines);
     splines.source = with_command_line(splines.source, o.common);
     SegmentReport report;
@@ -277,7 +287,8 @@ void work(Options& o) {
     else
         write_one(tree, o, o.common.output, o.mesh, o.wind_groups);
     if (o.stats) std::cerr << statistics(splines, tree, report) << merged;
-    for (const std::string& note : notes) o.common.notes.push_back(name + ": " + note);
+    for (std::size_t k = o.stats ? guesses : 0; k < notes.size(); ++k) // --stats has told of the guesses
+        o.common.notes.push_back(name + ": " + notes[k]);
 }
 
 } // namespace

@@ -23,28 +23,28 @@ struct Options {
 };
 
 const ToolInfo info = {
-    "treegen",
-    "Makes a tree as splines: grown by Weber and Penn's recursion, grown into a volume (--envelope), or imported.\n"
-    "Usage: treegen [--species NAME] [--age YEARS] [--season NAME] [--bodies N] [--seed N] [--leaves] [--petals] "
-    "[--fruit]\n"
-    "       treegen --params FILE [--bodies N] [--seed N] [--leaves] [--petals] [-o FILE]\n"
-    "       treegen --envelope sphere|cone|box|FILE [--envelope-size X,Y,Z] [--attractors N] ... [-o FILE]\n"
-    "       treegen --import FILE [--units UNIT] [--up AXIS] [--strict] [--stats] [--leaves] [--fruit] [-o FILE]",
-    "Writes bough splines (.json, .safetensors), or a skeleton for other programs: SWC (.swc) or a treetools tree "
-    "file\n"
-    "(.txt), in metres and Z up.\n"
-    "Imports SpeedTree raw XML (with Spine, or bones only), armatures and lines of FBX, glTF and COLLADA, cylinders "
-    "of\n"
-    "TreeQSM, SimpleForest and aRchi, treetools tree files, SWC, MTG, ez-tree's branches, PLY skeletons, OBJ lines "
-    "and\n"
-    "curves, curves of Blender (CSV, JSON), and bough splines; which one a file is, its content decides. The result\n"
-    "goes to treeconvert:\n"
-    "  treegen --bodies 2000 --seed 7 | treeconvert - -o tree.json\n"
-    "Exit: 0 done, 1 usage, 2 bad input, 4 output not written, 130 interrupted.",
-    {"json", "safetensors", "swc", "treetools"}};
+    .name = "treegen",
+    .about = "Makes a tree as splines: grown, grown into a volume, or imported from another program.",
+    .usage = "treegen [--species NAME] [--bodies N] [--seed N] [--leaves] [-o FILE]\n"
+             "treegen --params FILE [--bodies N] [--seed N] [--leaves] [-o FILE]\n"
+             "treegen --envelope sphere|cone|box|FILE [--leaves] [-o FILE]\n"
+             "treegen --import FILE [--units UNIT] [--up AXIS] [--leaves] [-o FILE]",
+    .details =
+        "The output is bough splines (.json, .safetensors), or a skeleton for other programs: SWC (.swc) or a "
+        "treetools "
+        "tree file (.txt), in metres and Z up. treeconvert makes a tree of bodies of it.\n"
+        "--import reads SpeedTree raw XML, armatures and lines of FBX, glTF and COLLADA, cylinders of TreeQSM, "
+        "SimpleForest and aRchi, treetools tree files, SWC, MTG, ez-tree's branches, PLY skeletons, OBJ lines and "
+        "curves, curves of Blender (CSV, JSON), and bough splines. The content tells which one a file is.",
+    .examples = "treegen --bodies 2000 --seed 7 | treeconvert - -o tree.json\n"
+                "treegen --import oak.xml --leaves --stats -o oak.splines.json",
+    .formats = {"json", "safetensors", "swc", "treetools"},
+    .first = {"--species", "--list-species", "--params", "--age", "--season", "--bodies", "--seed", "--leaves",
+              "--petals", "--fruit", "--envelope", "--envelope-size", "--import", "--units", "--up"}};
 
 void declare(OptionList& list, Options& o) {
     add_growth_options(list, o.growth);
+    list.group("Input");
     list.add("--import", o.import, "Import this file instead of growing; - for stdin").takes("FILE");
     list.add_flag("--strict", o.strict, "With --import: guesses, repairs and omissions of the reader are errors");
     add_import_options(list, o.choice);
@@ -102,7 +102,8 @@ Splines imported(Options& o) {
     const std::string name = input_name(o.import);
     if (o.stats) std::cerr << import_statistics(splines, notes);
     if (o.strict && !notes.lines.empty()) throw InputError(name, notes.lines.front() + " (--strict)");
-    for (const std::string& line : notes.lines) o.common.notes.push_back(name + ": " + line);
+    if (!o.stats) // which has told them
+        for (const std::string& line : notes.lines) o.common.notes.push_back(name + ": " + line);
     leave_out(splines, o.growth, o.common.notes);
     return splines;
 }

@@ -92,18 +92,24 @@ std::vector<std::uint32_t> what_breaks(const TreesimOptions& o, Simulation ahead
 }
 
 void refuse_contradictions(const TreesimOptions& o, const Setting& setting) {
-    if (o.report_error && has_free_bodies(setting.scene))
-        throw UsageError(std::string("--report-error: not with a scene's ") + (free_part(setting.scene) + 1) +
+    if (o.report.error && has_free_bodies(setting.scene))
+        throw UsageError(std::string("--report error: not with a scene's ") + (free_part(setting.scene) + 1) +
                          ", which the second run would not have");
     if (setting.whole && o.loop.blend) throw UsageError("--loop-blend: not where joints are held (/simulate, /rigid)");
     if (!o.save_tree.empty()) require_one_tree(setting);
 }
 
+// Whether nothing acts on the trees but the weight that they stand under.
+bool stands_still(const Scene& scene) {
+    return !scene.wind && scene.pulls.empty() && scene.root_motion.empty() && !scene.fracture && scene.balls.empty() &&
+           scene.walkers.empty() && (scene.pose != Pose::rest || scene.gravity.isZero());
+}
+
 RunWishes wishes_of(const TreesimOptions& o, const std::string& format) {
     RunWishes wishes;
     wishes.fields = chosen_fields(o);
-    wishes.trees = o.loop.seconds || o.report_error || !o.save_tree.empty() || is_mesh(format);
-    wishes.poses = wishes.trees || !o.no_output || o.report_rigid;
+    wishes.trees = o.loop.seconds || o.report.error || !o.save_tree.empty() || is_mesh(format);
+    wishes.poses = wishes.trees || !o.no_output || o.report.rigid;
     wishes.state = !o.save_state.empty() || !o.resume.empty();
     return wishes;
 }
@@ -111,8 +117,8 @@ RunWishes wishes_of(const TreesimOptions& o, const std::string& format) {
 // What a run that has ended took.
 void report(const TreesimOptions& o, const Simulation& run, const FrameRange& range) {
     const RunAccount account = run_of(run).account();
-    if (o.report_cost) std::cerr << cost_line(account, o.run, range.cost.count(), range.steps());
-    if (!o.explain) return;
+    if (o.report.cost) std::cerr << cost_line(account, o.run, range.cost.count(), range.steps());
+    if (!o.report.plan) return;
     for (std::size_t k = 0; k < stage_count; ++k)
         std::cerr << "calls " << stage_name(Stage(k)) << " " << account.calls[k] << "\n";
     std::cerr << "allocated " << account.state_bytes << " bytes\n";
@@ -129,17 +135,20 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
     const std::int64_t before = frames_before(o, *setting); // while the tree is all there
     Simulation run = started(setting, o.run, o.common.threads, wishes_of(o, format));
     interrupt_at_boundary();
-    if (o.explain) std::cerr << run.explain();
+    if (o.report.plan) std::cerr << run.explain();
     if (const std::string awake = run_of(run).account().awake; o.run.asks_for_sleep() && !awake.empty())
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " + awake);
+    if (frames > 1 && o.resume.empty() && stands_still(setting->scene))
+        o.common.notes.push_back(
+            "nothing will move: the scene has no wind, pulls, moved roots or balls; try --wind gusty");
     FrameRange range = frames_to_make(o, run, frames);
     settle(run, before, o);
     const std::int64_t started = run.steps();
     std::vector<std::uint32_t> broken;
     if (is_mesh(format) && setting->scene.fracture) broken = what_breaks(o, run.copy(), range);
     Companions beside;
-    if (o.report_error) beside.error.emplace(run);
-    if (o.report_rigid) {
+    if (o.report.error) beside.error.emplace(run);
+    if (o.report.rigid) {
         beside.rigid.emplace(*setting, o.run, o.common.threads);
         settle(beside.rigid->whole(), before, o);
     }
@@ -153,7 +162,8 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
     if (loops) measure_seam(run, loop, o.loop, o.run, o.common.notes);
     report(o, run, range); // before the state is saved, which takes arrays of its own
     save(o, run, range.done);
-    if (o.hash) std::cerr << "hash " << hash_text(run.hash()) << "\n";
+    if (o.report.guards) std::cerr << guards_lines(run_of(run).account(), started);
+    if (o.report.hash) std::cerr << "hash " << hash_text(run.hash()) << "\n";
     if (beside.rigid) std::cerr << beside.rigid->line(range.cost.count(), range.steps()) << "\n";
     if (beside.error) std::cerr << error_line(beside.error->result()) << "\n";
     note_run(run_of(run).account(), started, o.common.notes);
@@ -177,27 +187,22 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
     return simulate(o, read, format, std::move(model));
 }
 
-// What has nothing to do with putting parts together would be ignored.
-void put_together(const TreesimOptions& o) {
-    const std::vector<std::string> known{"--join",      "-o",          "--format", "--hash",
-                                         "--no-output", "--no-source", "-q",       "--threads"};
-    if (const std::string other = o.list->given_beside(known); !other.empty())
-        throw UsageError(other + ": not with --join");
-    const std::string format = o.no_output ? "" : chosen_format(o.common);
-    if (is_mesh(format)) throw UsageError("--join: meshes are not joined; expected .jsonl, .json, .safetensors");
+void put_together(TreesimOptions& o) {
+    if (o.join.parts.empty()) throw UsageError("PART: missing");
+    o.join.hash = chosen_reports(o.reports).hash;
+    const std::string format = chosen_format(o.common);
+    if (is_mesh(format)) throw UsageError("join: meshes are not joined; expected .jsonl, .json, .safetensors");
     std::vector<NamedFile> parts;
-    for (const std::string& part : o.join.parts) parts.push_back({"--join", part});
+    for (const std::string& part : o.join.parts) parts.push_back({"PART", part});
     refuse_overwriting(parts, {{"-o", o.common.output}});
     interrupt_at_boundary();
-    JoinOptions join = o.join;
-    join.hash = o.hash;
-    const std::string line = join_parts(join, o.common, format, !o.no_output);
+    const std::string line = join_parts(o.join, o.common, format);
     if (!line.empty()) std::cerr << line << "\n";
 }
 
 void work(TreesimOptions& o) {
-    if (!o.join.parts.empty()) return put_together(o);
     if (o.run.input.empty()) throw UsageError("INPUT: missing");
+    o.report = chosen_reports(o.reports);
     const std::string format = o.no_output ? "" : chosen_format(o.common);
     chosen_fields(o);
     refuse_contradictions(o, format);
@@ -213,6 +218,7 @@ void work(TreesimOptions& o) {
 
 int main(int argc, char** argv) {
     TreesimOptions o;
-    return run_tool(
-        treesim_info, argc, argv, o.common, [&o](OptionList& list) { declare(list, o); }, [&o] { work(o); });
+    return run_tool({{"", treesim_info, [&o](OptionList& list) { declare(list, o); }, [&o] { work(o); }},
+                     {"join", join_info, [&o](OptionList& list) { declare_join(list, o); }, [&o] { put_together(o); }}},
+                    argc, argv, o.common);
 }

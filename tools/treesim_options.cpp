@@ -2,47 +2,55 @@
 #include "file_names.h"
 #include "formats/exports/obj.h"
 #include "shown_model.h"
+#include <algorithm>
 
 namespace bough {
 
 const ToolInfo treesim_info = {
-    "treesim",
-    "Moves a tree or a scene in time and writes its frames.\n"
-    "Usage: treesim TREE|SCENE [--wind NAME|FILE] [--seconds S|--frames N] [-o FILE] ...",
-    "Frames go to stdout as JSON lines: a header line, then a frame a line. -o frames/oak_%04d.obj writes a mesh a\n"
-    "frame and frames/oak.mtl, -o oak.glb one skinned and animated mesh, -o oak.mdd or oak.pc2 where the vertices of\n"
-    "the mesh are that treeconvert --mesh oak.obj writes (Blender: import oak.obj, add the modifier Mesh Cache,\n"
-    "leave its axes: Forward +Y, Up +Z). --resume goes on after the saved frame with the same\n"
-    "tree and scene; --seconds and --frames then say how many frames are added.\n"
-    "  treesim tree.json --wind gusty --seconds 10 > motion.jsonl\n"
-    "Exit: 0 done, 1 usage, 2 bad input, 3 non-finite or a loop that does not close, 4 output not written, 130 "
-    "interrupted (frames so far stay).",
-    {"jsonl", "json", "safetensors", "obj", "glb", "mdd", "pc2"}};
+    .name = "treesim",
+    .about = "Moves a tree or a scene in time and writes its frames.",
+    .usage = "treesim TREE|SCENE [--wind NAME|FILE] [--seconds S] [-o FILE] ...\n"
+             "treesim join PART... [-o FILE]   (parts of a scene put together)",
+    .details =
+        "Frames go to stdout as JSON lines: a header line, then a frame a line. -o frames/oak_%04d.obj writes a mesh a "
+        "frame and frames/oak.mtl, -o oak.glb one skinned and animated mesh, -o oak.mdd or oak.pc2 where the vertices "
+        "of the mesh are that treeconvert --mesh oak.obj writes (Blender: import oak.obj, add the modifier Mesh "
+        "Cache, leave its axes: Forward +Y, Up +Z).\n"
+        "--resume goes on after the saved frame with the same tree and scene; --seconds and --frames then say how many "
+        "frames are added.",
+    .examples = "treesim oak.xml --wind gusty --seconds 6 -o oak.glb\n"
+                "treesim tree.json --wind gusty --seconds 10 > motion.jsonl\n"
+                "treesim tree.json --wind breeze --set material.E=9e9 -o soft.glb",
+    .formats = {"jsonl", "json", "safetensors", "obj", "glb", "mdd", "pc2"},
+    .first = {"INPUT", "--set", "--wind", "--seed", "--gravity", "--seconds", "--frames", "--fps", "--loop",
+              "--loop-blend", "--max-joints", "--leaves-as", "--substeps", "--solver", "--report"}};
+
+const ToolInfo join_info = {
+    .name = "treesim",
+    .about = "Puts together the parts of a scene that treesim --shard made.",
+    .usage = "treesim join PART... [-o FILE]\n"
+             "treesim join STATE... --report hash",
+    .details =
+        "Motions become one motion, frame by frame. Saved states become the hash of the whole run. The parts may "
+        "come in any order; all of them must be there. Meshes are not joined: each part's stands in the whole's "
+        "place.",
+    .examples = "treesim join part1.state.json part2.state.json --report hash\n"
+                "treesim join part*.safetensors -o park.safetensors",
+    .formats = {"jsonl", "json", "safetensors"}};
 
 namespace {
 
 constexpr double sleep_default = 1e-5; // [rad/s]
 
-} // namespace
-
-void declare(OptionList& list, TreesimOptions& o) {
-    o.run.sleep_default = sleep_default;
-    o.list = &list;
-    add_run_options(list, o.run, seconds_default);
-    add_sleep_option(list, o.run);
-    list.add("--settle", o.settle,
-             "Seconds of the wind that are run before frame 0, which then shows the sway and not the first blow. By "
-             "default as long as the slowest sway takes to forget the start, 2 to 20 s; 0, a start at rest, without "
-             "wind and where the start is what is looked at: pose rest, /fracture. Balls, walkers and what may break "
-             "wait for frame 0")
-        .takes("S")
-        .check(not_negative_number());
-    add_loop_options(list, o.loop);
-    list.add("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
-        .takes("LIST");
-    list.add("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
-        .takes("N")
-        .check(whole_number(3, 256));
+void declare_mesh(OptionList& list, TreesimOptions& o) {
+    list.group("Mesh");
+    add_max_joints(list, o.gltf);
+    add_leaves_as(list, o.gltf);
+    list.add("--mesh", o.mesh,
+             "own: the mesh that INPUT itself has is shown, a SpeedTree XML's with its materials, in a .glb a skinned "
+             "model's too (where it has one, the default); made: one made from the tree")
+        .takes("NAME")
+        .one_of({"own", "made"});
     list.add("--skin", o.skin,
              "With -o FILE.glb: write this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: "
              "its own meshes, skins and materials, with the motion as an animation of its bones; or, for any mesh "
@@ -50,50 +58,97 @@ void declare(OptionList& list, TreesimOptions& o) {
              "where its bones do")
         .takes("FILE")
         .check(file_name());
-    list.add("--mesh", o.mesh,
-             "own: the mesh that INPUT itself has is shown, a SpeedTree XML's with its materials, in a .glb a skinned "
-             "model's too (where it has one, the default); made: one made from the tree")
-        .takes("NAME")
-        .one_of({"own", "made"});
-    add_max_joints(list, o.gltf);
-    add_leaves_as(list, o.gltf);
+    list.add("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
+        .takes("N")
+        .check(whole_number(3, 256));
     add_key_tolerance(list, o.gltf);
     list.add_flag("--rustle", o.rustle, "In a mesh, clumps' drawn leaves rustle with the wind");
-    list.add_flag("--no-output", o.no_output, "Write no frames (for --hash, --explain, --save-state)");
-    list.add_flag("--explain", o.explain, "Print each stage and array on stderr: on or left out, and why");
-    list.add_flag("--hash", o.hash, "Print `hash <16 hex digits>` of the final state on stderr");
-    list.add_flag(
-        "--report-error", o.report_error,
-        "Print `error ...` on stderr: what the branches' tips are off by at this step, from a second run at a "
-        "quarter of the step beside this one (about five times the time more); with --solver coupled");
-    list.add_flag("--report-cost", o.report_cost,
-                  "Print `cost ...` on stderr: bodies, steps a frame, milliseconds a frame that the steps alone took");
-    list.add_flag(
-        "--report-rigid", o.report_rigid,
-        "Print `rigid ...` on stderr: how many joints move, what the branches' tips are off by for those that "
-        "/simulate or the tree's /rigid hold, and both costs, from a run of the whole tree beside this one");
+}
+
+void declare_output(OptionList& list, TreesimOptions& o) {
+    list.group("Output");
+    list.add("--report", o.reports,
+             "Print on stderr, with commas: hash, of the final state; cost, the milliseconds a frame that the steps "
+             "took; error, what the branches' tips are off by at this step, from a second run beside this one (five "
+             "times the time more); guards, how often the step held or bounded something; plan, each stage and array, "
+             "on or left out, and why; rigid, what held joints save and lose, from a run of the whole tree")
+        .takes("LIST")
+        .any_number_of_times()
+        .suggests({"cost", "error", "guards", "hash", "plan", "rigid"});
+    list.add("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
+        .takes("LIST");
+    list.add_flag("--no-output", o.no_output, "Write no frames (for --report, --save-state)");
     list.add("--save-state", o.save_state, "Write the last frame's state, for --resume")
         .takes("FILE")
         .check(file_name());
     list.add("--save-tree", o.save_tree,
-             "Write the tree as it stands at the last frame, drawn there: run again with --pose drawn it stays, its "
+             "Write the tree as it stands at the last frame, drawn there: run again with pose drawn it stays, its "
              "springs at rest around what forces had bent it to. It stands where the scene put it; /wood and /load "
              "are in it, the load as its own weight, stiffness_scale and damping_scale are not. For scenes of one tree")
         .takes("FILE")
         .check(file_name());
-    list.add("--resume", o.resume, "Go on from this state").takes("FILE");
-    list.add("--shard", o.run.shard,
-             "Only the i-th of n parts of a scene's trees; bodies move as they do in the whole (--join)")
-        .takes("i/n");
-    list.add("--join", o.join.parts,
-             "Put the motions of all parts of a scene together (-o), or their saved states (--hash), and do nothing "
-             "else")
-        .takes("PART...")
-        .in_a_row();
     list.add_flag(
         "--watch", o.watch,
         "Run, and again whenever the scene, one of its trees or the wind's file has changed, until Ctrl-C; -o "
         "FILE is written anew each time, whole or not at all");
+}
+
+} // namespace
+
+void declare(OptionList& list, TreesimOptions& o) {
+    o.run.sleep_default = sleep_default;
+    add_run_options(list, o.run, seconds_default);
+    list.group("Input");
+    list.add("--resume", o.resume, "Go on from this state").takes("FILE");
+    add_sleep_option(list, o.run);
+    add_loop_options(list, o.loop);
+    list.group("Wind");
+    list.add("--settle", o.settle,
+             "Seconds of the wind that are run before frame 0, which then shows the sway and not the first blow. By "
+             "default as long as the slowest sway takes to forget the start, 2 to 20 s; 0, a start at rest, without "
+             "wind and where the start is what is looked at: pose rest, /fracture. Balls, walkers and what may break "
+             "wait for frame 0")
+        .takes("S")
+        .check(not_negative_number());
+    declare_output(list, o);
+    declare_mesh(list, o);
+    list.group("Distributed");
+    list.add("--shard", o.run.shard,
+             "Only the i-th of n parts of a scene's trees; bodies move as they do in the whole (treesim join)")
+        .takes("i/n");
+    for (const char* name : {"hash", "explain", "report-error", "report-cost", "report-rigid"}) {
+        const std::string now = name;
+        list.renamed("--" + now, "--report " + (now == "explain" ? "plan" : now.substr(now.rfind('-') + 1)));
+    }
+    list.renamed("--joint-inertia", "--set joint_inertia=NAME");
+    list.renamed("--join", "treesim join PART...");
+}
+
+void declare_join(OptionList& list, TreesimOptions& o) {
+    list.group("Input");
+    list.add("PART", o.join.parts, "Motions, or saved states, of all parts").takes("...").in_a_row();
+    list.group("Output");
+    list.add("--report", o.reports, "hash: print the hash of the whole run, of saved states")
+        .takes("hash")
+        .one_of({"hash"})
+        .any_number_of_times();
+    list.renamed("--hash", "--report hash");
+}
+
+Reports chosen_reports(const std::vector<std::string>& lists) {
+    Reports reports;
+    const std::pair<const char*, bool*> names[] = {{"cost", &reports.cost},     {"error", &reports.error},
+                                                   {"guards", &reports.guards}, {"hash", &reports.hash},
+                                                   {"plan", &reports.plan},     {"rigid", &reports.rigid}};
+    for (const std::string& list : lists)
+        for (const std::string& name : split_list(list)) {
+            const auto* found = std::find_if(std::begin(names), std::end(names),
+                                             [&](const auto& known) { return name == known.first; });
+            if (found == std::end(names))
+                throw UsageError("--report holds '" + name + "', expected cost, error, guards, hash, plan, rigid");
+            *found->second = true;
+        }
+    return reports;
 }
 
 MotionFields chosen_fields(const TreesimOptions& o) {
@@ -134,10 +189,10 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (!o.common.format.empty()) throw UsageError("--no-output: not with --format");
         if (!o.fields.empty()) throw UsageError("--no-output: not with --fields");
     }
-    if (o.report_error && o.run.solver != solver_name(Solver::coupled))
-        throw UsageError("--report-error: only with --solver coupled, whose error is its step's alone");
-    if (o.report_rigid && !o.resume.empty())
-        throw UsageError("--report-rigid: not with --resume, which says nothing of the joints that are held");
+    if (o.report.error && o.run.solver != solver_name(Solver::coupled))
+        throw UsageError("--report error: only with --solver coupled, whose error is its step's alone");
+    if (o.report.rigid && !o.resume.empty())
+        throw UsageError("--report rigid: not with --resume, which says nothing of the joints that are held");
     const bool mesh = is_mesh(format);
     if (o.rustle && !mesh) throw UsageError("--rustle: only with a mesh (.obj, .glb, .mdd, .pc2)");
     if (o.rustle && o.loop.blend) throw UsageError("--rustle: not with --loop-blend, whose end is its beginning");
@@ -181,8 +236,8 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         const std::pair<bool, const char*> others[] = {
             {!o.save_state.empty(), "--save-state"},
             {!o.resume.empty(), "--resume"},
-            {o.report_error, "--report-error"},
-            {o.report_rigid, "--report-rigid"},
+            {o.report.error, "--report error"},
+            {o.report.rigid, "--report rigid"},
             {!o.run.shard.empty(), "--shard"}}; // each part would end in its own time
         for (const auto& [given, name] : others)
             if (given) throw UsageError(std::string("--loop: not with ") + name);

@@ -10,6 +10,11 @@ namespace bough {
 
 constexpr double seconds_default = 10;
 
+// What --report prints on stderr.
+struct Reports {
+    bool cost = false, error = false, guards = false, hash = false, plan = false, rigid = false;
+};
+
 struct TreesimOptions {
     CommonOptions common;
     RunOptions run;
@@ -17,18 +22,22 @@ struct TreesimOptions {
     std::string skin; // the user's own model
     std::string mesh; // "made", "own"; empty: own where INPUT has one
     JoinOptions join;
-    const OptionList* list = nullptr; // for what was given
     GltfChoice gltf;
     std::optional<int> sides;
     bool rustle = false;
     LoopChoice loop;
-    std::optional<double> settle; // [s] --settle; none: as settle.h says
-    bool explain = false, hash = false, report_error = false, report_cost = false, report_rigid = false,
-         no_output = false, watch = false;
+    std::optional<double> settle;     // [s] --settle; none: as settle.h says
+    std::vector<std::string> reports; // --report, as given
+    Reports report;                   // what these name
+    bool no_output = false, watch = false;
 };
 
-extern const ToolInfo treesim_info;
+extern const ToolInfo treesim_info, join_info;
 void declare(OptionList&, TreesimOptions&);
+void declare_join(OptionList&, TreesimOptions&); // of treesim join
+
+// What --report names. Throws UsageError for what is none of them.
+Reports chosen_reports(const std::vector<std::string>& lists);
 
 // Throws UsageError for a name that is none.
 MotionFields chosen_fields(const TreesimOptions&);

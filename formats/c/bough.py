@@ -592,7 +592,7 @@ class Simulation(_Handle, _HasBodies):
         _check(_c.bough_restore(self._handle, data, len(data), _text(name)))
 
     def hash(self):
-        """What `treesim --hash` prints: 16 hexadecimal digits."""
+        """What `treesim --report hash` prints: 16 hexadecimal digits."""
         value = ctypes.c_uint64()
         _check(_c.bough_hash(self._handle, ctypes.byref(value)))
         return f"{value.value:016x}"

@@ -1,4 +1,5 @@
 #include "document_parts.h"
+#include "formats/nearest_name.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
 #include <algorithm>
@@ -12,19 +13,6 @@ std::string advice(const std::string& found, const std::string& expected) {
     if (found == "bough-scene" && expected == "bough-tree") return ": a scene names its trees itself, give it alone";
     if (found == "bough-tree" && expected == "bough-splines") return ": it has been through treeconvert already";
     return "";
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
-        }
-    }
-    return row[b.size()];
 }
 
 // In one line and of bounded length, whatever the file holds.
@@ -83,17 +71,11 @@ std::vector<std::string> names(const std::vector<Field>& fields) {
 
 void unknown_field(const std::string& name, const std::string& at, std::string_view key,
                    const std::vector<std::string>& known) {
-    const std::string* nearest = nullptr;
-    std::size_t least = std::min<std::size_t>(key.size() / 2, 3) + 1;
-    if (key.size() <= 64)
-        for (const std::string& candidate : known)
-            if (const std::size_t distance = edit_distance(key, candidate); distance < least) {
-                least = distance;
-                nearest = &candidate;
-            }
+    const std::string nearest =
+        key.size() > 64 ? std::string() : nearest_name(key, known, std::min<std::size_t>(key.size() / 2, 3));
     std::string expected;
-    if (nearest) {
-        expected = "did you mean " + in_quotes(*nearest) + "?";
+    if (!nearest.empty()) {
+        expected = "did you mean " + in_quotes(nearest) + "?";
     } else {
         expected = "expected one of ";
         for (const std::string& candidate : known) expected += (&candidate == &known.front() ? "" : ", ") + candidate;

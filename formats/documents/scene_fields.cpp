@@ -1,4 +1,5 @@
 #include "scene_fields.h"
+#include "formats/nearest_name.h"
 #include "lib/base/counted.h"
 #include <algorithm>
 #include <limits>
@@ -35,8 +36,11 @@ bool ObjectReader::has(const std::string& key) {
 
 const json& ObjectReader::need(const std::string& key) {
     const json* value = find(key);
-    if (!value) missing_field(name_, at_, key);
-    return *value;
+    if (value) return *value;
+    for (const auto& [other, there] : value_.items()) // misspelt, it is there under another name
+        if (std::find(known_.begin(), known_.end(), other) == known_.end() && !nearest_name(other, {key}, 2).empty())
+            unknown_field(name_, at_, other, {key});
+    missing_field(name_, at_, key);
 }
 
 void ObjectReader::fail(const std::string& key, const std::string& message) const {

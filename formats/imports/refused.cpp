@@ -61,7 +61,7 @@ struct Ending {
     const char* is;
     const char* advice;
 };
-constexpr std::array<Ending, 28> endings{{
+constexpr std::array<Ending, 29> endings{{
     {".srt", "a compiled SpeedTree tree (.srt), which holds no readable skeleton", raw_xml},
     {".spm", "a SpeedTree Modeler file (.spm), which holds no readable skeleton", raw_xml},
     {".st", "a SpeedTree file (.st), which holds no readable skeleton", raw_xml},
@@ -92,6 +92,7 @@ constexpr std::array<Ending, 28> endings{{
     {".laz", "a LAS point cloud, which holds no skeleton",
      "reconstruct it (TreeQSM, SimpleForest, rayextract, AdTree)"},
     {".bin", "a buffer of other data", "name the .gltf that it belongs to"},
+    {".mtl", "the materials of a Wavefront OBJ and no tree", "name the .obj that it belongs to"},
 }};
 
 bool matches(std::string_view content, std::string_view pattern) {
@@ -99,6 +100,19 @@ bool matches(std::string_view content, std::string_view pattern) {
     for (std::size_t k = 0; k < pattern.size(); ++k)
         if (pattern[k] != '?' && pattern[k] != content[k]) return false;
     return true;
+}
+
+const Begin* known_begin(std::string_view content) {
+    for (const Begin& begin : begins)
+        if (matches(content, begin.begins)) return &begin;
+    return nullptr;
+}
+
+const Ending* known_ending(const std::string& name) {
+    const std::string file = lower_case(name);
+    for (const Ending& ending : endings)
+        if (file.ends_with(ending.ends)) return &ending;
+    return nullptr;
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::string& is, const std::string& advice) {
@@ -114,7 +128,7 @@ void refuse_xml(std::string_view head, const std::string& name) {
         refuse(name, "an Arbaro species, parameters of a generator and no tree", "treegen --params grows it");
     if (holds(head, "<html") || holds(head, "<HTML") || holds(head, "<!DOCTYPE html"))
         refuse(name, "a web page", "download the file itself");
-    throw InputError(name, std::string("is XML, but not SpeedTree raw XML (<SpeedTreeRaw>), ") + readable);
+    refuse(name, "XML, but neither SpeedTree raw XML (<SpeedTreeRaw>) nor an Arbaro species", raw_xml);
 }
 
 void refuse_json(std::string_view head, const std::string& name) {
@@ -129,16 +143,19 @@ void refuse_json(std::string_view head, const std::string& name) {
 
 } // namespace
 
+bool is_known_unread(std::string_view content, const std::string& name) {
+    if (known_begin(content)) return true;
+    const std::size_t first = text_start(content.substr(0, 4096));
+    return first < content.size() && content[first] != '{' && known_ending(name);
+}
+
 void refuse_unread(std::string_view content, const std::string& name) {
     if (content.empty()) throw InputError(name, std::string("is empty, ") + readable);
-    for (const Begin& b : begins)
-        if (matches(content, b.begins)) refuse(name, b.is, b.advice);
+    if (const Begin* begin = known_begin(content)) refuse(name, begin->is, begin->advice);
     const std::string_view head = content.substr(0, 4096);
     const std::size_t first = text_start(head);
     if (first == head.size()) throw InputError(name, std::string("is blank, ") + readable);
-    const std::string file = lower_case(name);
-    for (const Ending& e : endings)
-        if (file.ends_with(e.ends)) refuse(name, e.is, e.advice);
+    if (const Ending* ending = known_ending(name)) refuse(name, ending->is, ending->advice);
     if (head[first] == '<') refuse_xml(head, name);
     refuse_json(head, name);
     if (holds(head, std::string_view("\0", 1)))

@@ -54,7 +54,7 @@ constexpr std::size_t most_of_byte = 64;
 
 Json parsed(std::string_view text, const std::string& name) {
     // Json's destructor takes memory of its own, and ends the program where there is none: so it is asked for beforehand. Untouched, it costs nothing.
-    ::operator delete(::operator new(most_of_byte * text.size()));
+    ::operator delete(::operator new(most_of_byte* text.size()));
     const auto shallow = [](int depth, Json::parse_event_t, const Json&) {
         if (depth > deepest) throw std::runtime_error("nested deeper than 200");
         return true;

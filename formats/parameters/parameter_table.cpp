@@ -1,4 +1,5 @@
 #include "parameter_table.h"
+#include "formats/nearest_name.h"
 #include "formats/plain_text.h"
 #include <algorithm>
 #include <cmath>
@@ -6,23 +7,6 @@
 namespace bough {
 
 namespace {
-
-// Levenshtein's distance, small and capital letters alike.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const bool same = lower_case(a[i]) == lower_case(b[j]);
-            const std::size_t changed = diagonal + (same ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, changed});
-        }
-    }
-    return row.back();
-}
 
 std::string range(double least, double most) {
     if (std::isinf(most)) return std::isinf(least) ? "a number" : "at least " + shown(least);
@@ -138,9 +122,7 @@ void ParameterTable::not_honoured(std::initializer_list<const char*> names, cons
 void ParameterTable::finish() const {
     for (const auto& [name, value] : values_) {
         if (asked_.count(name)) continue;
-        std::string nearest;
-        for (const std::string& other : asked_)
-            if (nearest.empty() || distance(name, other) < distance(name, nearest)) nearest = other;
+        const std::string nearest = nearest_name(name, {asked_.begin(), asked_.end()}, name.size() + 100);
         throw InputError(file_line(file_, value.line),
                          "unknown parameter " + quoted(name) + ", the nearest known one is " + nearest);
     }

@@ -11,9 +11,9 @@ using std::numbers::pi;
 namespace {
 
 constexpr double petiole_radius = 0.009; // blade lengths
-constexpr double twig_share = 1.5e-4;     // wood's cross-section over the leaf area that it bears (Huber value)
-constexpr double shoot_modulus = 3e9;     // [Pa]
-constexpr double shoot_droop = 0.25;      // [rad] at most, held out level
+constexpr double twig_share = 1.5e-4;    // wood's cross-section over the leaf area that it bears (Huber value)
+constexpr double shoot_modulus = 3e9;    // [Pa]
+constexpr double shoot_droop = 0.25;     // [rad] at most, held out level
 constexpr double clump_damping_ratio = 0.2;
 constexpr double stalk_radius = 0.04;      // fruit radii
 constexpr double least_stalk_length = 0.5; // fruit radii

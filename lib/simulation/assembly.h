@@ -36,7 +36,7 @@ struct Assembly {
     Scene scene;
     std::string source; // command lines that made the trees
     Part part = {};
-    std::vector<std::string> changes{};   // what of the scene is in the tree by now: a line each, for --explain
+    std::vector<std::string> changes{};   // what of the scene is in the tree by now: a line each, for the plan's report
     std::shared_ptr<const Whole> whole{}; // where joints are held; tree, ranges and scene are then of what moves
 };
 

@@ -1,4 +1,4 @@
-// explanation.h: a plan's account of itself as text: what `treesim --explain` and Simulation::explain() print.
+// explanation.h: a plan's account of itself as text: what `treesim --report plan` and Simulation::explain() print.
 #pragma once
 #include "../plan/plan.h"
 

@@ -133,7 +133,8 @@ public:
     // it is as there. Throws SceneError without Options::grounds, for a tree that is not there or has keys of its own.
     void set_ground(std::size_t tree, const GroundMotion&, int steps = 1);
 
-    std::uint64_t hash() const; // of angles and rates, broken joints and free bodies: what `treesim --hash` prints
+    std::uint64_t
+    hash() const; // of angles and rates, broken joints and free bodies: what `treesim --report hash` prints
     // A run that goes on from what save() gave ends as this one, bit by bit; wind, gravity, wood and grounds are those that this run has by now. restore() throws
     // SceneError where it was another run's, and then changes nothing.
     SavedState save() const;

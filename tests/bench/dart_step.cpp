@@ -1,5 +1,5 @@
 // DART's step on one of our trees, to be held against treeprofile's figures: bodies on ball joints with the tree's masses, inertias,
-// stiffness and damping (DART's springs are implicit), under gravity, started at rest, unloaded, as --pose rest does.
+// stiffness and damping (DART's springs are implicit), under gravity, started at rest, unloaded, as --set pose=rest does.
 //   dart_step TREE [STEPS [FPS]]     prints ns a body and step
 // Making the skeleton takes minutes from some thousand bodies on.
 #include "formats/documents/tree.h"

@@ -3,19 +3,19 @@
 
 fixtures=$top/data/fixtures
 for file in "$maple" "$fixtures/cylinder_small.txt" "$fixtures/shrub.mtg" "$fixtures/eztree_list.json" "$fixtures/two_trees.txt" "$fixtures/twig_armature.gltf"; do
-    expect 0 treesim "$file" --wind gusty --frames 5 --no-output --hash
+    expect 0 treesim "$file" --wind gusty --frames 5 --no-output --report hash
     by_hand=$(sed -n 's/.*by hand: //p' err)
     [[ $by_hand == "treeconvert $file -o "* ]] || fail "$file: no line that does it by hand: $(cat err)"
     moved=$(grep '^hash' err)
     expect 0 $by_hand -q
-    expect 0 treesim "${by_hand##* }" --wind gusty --frames 5 --no-output --hash -q
+    expect 0 treesim "${by_hand##* }" --wind gusty --frames 5 --no-output --report hash -q
     [[ $moved == "$(cat err)" ]] || fail "$file moves otherwise than converted by hand: $moved, $(cat err)"
 done
 # Splines are one of them, from a pipe too; what treegen makes moves without a step between.
 treegen --bodies 300 --seed 3 -q -o splines.json
-expect 0 treesim splines.json --wind gusty --frames 5 --no-output --hash -q
+expect 0 treesim splines.json --wind gusty --frames 5 --no-output --report hash -q
 hash=$(cat err)
-[[ $(treesim - --wind gusty --frames 5 --no-output --hash -q <splines.json 2>&1) == "$hash" ]] || fail "splines from a pipe move otherwise"
+[[ $(treesim - --wind gusty --frames 5 --no-output --report hash -q <splines.json 2>&1) == "$hash" ]] || fail "splines from a pipe move otherwise"
 grep -q "by hand: treeconvert - -o" <(treesim - --frames 2 --no-output <"$maple" 2>&1) || fail "a pipe's note"
 cp "$fixtures/shrub.mtg" "a 'shrub.mtg"
 treesim "a 'shrub.mtg" --frames 2 --no-output 2>err
@@ -28,7 +28,7 @@ grep -q "by hand: treeconvert" err || fail "treeprofile says nothing: $(cat err)
 expect 0 treeprofile stability "$fixtures/shrub.mtg" --frames 4 --only chain
 cp "$maple" maple.xml
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "maple.xml"}, {"file": "a '"'"'shrub.mtg", "position": [8, 0, 0]}, {"file": "maple.xml", "position": [0, 0, 9]}], "wind": "breeze"}' >scene.json
-expect 0 treesim scene.json --frames 4 --no-output --hash
+expect 0 treesim scene.json --frames 4 --no-output --report hash
 [[ $(grep -c "by hand" err) -eq 2 ]] || fail "a scene's trees are not each named once: $(cat err)"
 
 # Nothing of the user's is written over.

@@ -16,7 +16,7 @@ maple=$top/data/young_maple.xml
 # Runs start at rest here, as they are held against closed forms and each other, unless they say how they start. settle.sh has the default.
 treesim() {
     case " $* " in
-    "  " | *" --settle "* | *" --join "* | *" --help "* | *" --version "*) command treesim "$@" ;;
+    "  " | " join "* | *" --settle "* | *" --help "* | *" --version "*) command treesim "$@" ;;
     *) command treesim --settle 0 "$@" ;;
     esac
 }
@@ -58,7 +58,7 @@ absent() {
 }
 
 # hash ARGUMENT...: the line that tells the hash where treesim ends.
-hash() { treesim "$@" --hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
+hash() { treesim "$@" --report hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
 
 # code LANGUAGE PAGE: the block of that language in one of the project's pages.
 code() {

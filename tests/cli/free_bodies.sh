@@ -12,7 +12,7 @@ cat >scene.json <<'END'
  "balls": [{"position": [0.3, 6, 0.1], "velocity": [0, -6, 0], "radius": 0.1, "mass": 1},
            {"position": [-0.5, 7, 0.4], "velocity": [0, -8, 0], "radius": 0.05, "mass": 0.3}]}
 END
-hash() { treesim scene.json --no-output --hash "$@" 2>&1 | grep '^hash '; }
+hash() { treesim scene.json --no-output --report hash "$@" 2>&1 | grep '^hash '; }
 
 for run in "coupled" "analytic" "coupled --precision float" "coupled --simd off" "coupled --scheme P34"; do
     read -ra by <<<"--solver $run"
@@ -27,7 +27,7 @@ done
 # With output the same, in every form; frames list what happened.
 one=$(hash --frames 40)
 for kind in jsonl json safetensors glb; do
-    [[ $(treesim scene.json --frames 40 --hash -o "motion.$kind" 2>&1 | grep '^hash ') == "$one" ]] || fail "output changes the hash: $kind"
+    [[ $(treesim scene.json --frames 40 --report hash -o "motion.$kind" 2>&1 | grep '^hash ') == "$one" ]] || fail "output changes the hash: $kind"
 done
 bodies=$(head -n 1 motion.jsonl | sed 's/.*"bodies": \([0-9]*\).*/\1/')
 python3 - "$bodies" <<'END' || fail "the motion's events are wrong"
@@ -72,10 +72,10 @@ treesim scene.json --frames 12 -q -o frames/a_%04d.obj
 [[ $(grep -c '^v ' frames/a_0000.obj) -eq $(grep -c '^v ' frames/a_0011.obj) ]] || fail "the mesh changes its vertices"
 
 # Costs and plan say so; a scene without has none of it.
-treesim scene.json --no-output --frames 3 --explain --report-cost 2>plan
+treesim scene.json --no-output --frames 3 --report plan --report cost 2>plan
 grep -q '^stage fracture on: /fracture' plan || fail "the plan does not name fracture"
 grep -q '^cost [0-9]* bodies, 1 step a frame, [0-9.]* ms a frame$' plan || fail "no cost: $(grep ^cost plan)"
-treesim apple.json --wind gusty --no-output --frames 3 --explain 2>plan
+treesim apple.json --wind gusty --no-output --frames 3 --report plan 2>plan
 grep -q '^stage contacts left out: no balls, no fracture' plan || fail "the plan of a tree alone has contacts"
 grep -q '^calls fracture 0' plan || fail "fracture was called"
 if grep -q '^free bodies' plan; then fail "free bodies take memory"; fi
@@ -98,7 +98,7 @@ scene '"contact": {"ground": "yes"}'
 refused 2 "true or false" treesim bad.json --frames 2
 scene '"fracture": {}'
 refused 2 "fracture" treesim bad.json --frames 2 --solver articulated-implicit
-refused 1 "--report-error" treesim scene.json --frames 2 --report-error
+refused 1 "--report error" treesim scene.json --frames 2 --report error
 refused 2 "/fracture" treeprofile error scene.json --frames 5
 hash --frames 5 --save-state half.json >/dev/null
 python3 -c 'import json; s = json.load(open("half.json")); s["free_bodies"] = [3]; json.dump(s, open("cut.json", "w"))'

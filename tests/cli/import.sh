@@ -12,7 +12,9 @@ for file in cylinder_small.txt simpleforest_small.csv archi_small.csv shrub.mtg 
     done
     # Whatever was guessed or left out is a line of its own, which --strict turns into an error.
     notes=$(grep -c '^note ' err || true)
-    [[ $notes -eq $(grep -c '^treegen: ' err) ]] || fail "$file: $notes lines in --stats, but $(grep -c '^treegen: ' err) notes"
+    ! grep -q '^treegen: ' err || fail "$file: --stats tells a guess twice: $(cat err)"
+    treegen --import "$fixtures/$file" --leaves -o tree.json 2>plain
+    [[ $notes -eq $(grep -c '^treegen: ' plain) ]] || fail "$file: $notes lines in --stats, but $(grep -c '^treegen: ' plain) notes without"
     if ((notes > 0)); then
         refused 2 "(--strict)" treegen --import "$fixtures/$file" --strict -o strict.json
         refused 2 "(--strict)" treeconvert "$fixtures/$file" --strict -o strict.json
@@ -100,7 +102,7 @@ for name in "${cases[@]}"; do
     [[ $code -eq 0 && ! -s err ]] || fail "exit $code of treeconvert $name, expected 0 or 2: $(head -c 300 err)"
     [[ $name =~ $readable ]] || fail "$name was read, expected a refusal"
     code=0
-    limited 120 treesim tree.json -q --seconds 2 --wind gusty --no-output --hash >out 2>err </dev/null || code=$?
+    limited 120 treesim tree.json -q --seconds 2 --wind gusty --no-output --report hash >out 2>err </dev/null || code=$?
     if [[ $code -eq 2 ]]; then # neurons, metres long, and branches drawn for pictures: no wood carries them
         one_line "too soft to carry its weight" treesim
         echo "notice: $name is read, but its wood is too soft to stand"

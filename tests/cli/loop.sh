@@ -51,7 +51,7 @@ done
 
 # A tree, plain and in lanes, float and double: it closes, and one hash for any threads and output.
 treegen --bodies 300 --seed 3 | treeconvert - -o tree.json
-hash() { treesim tree.json --wind gusty --loop 4 "$@" --hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
+hash() { treesim tree.json --wind gusty --loop 4 "$@" --report hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
 for run in "" "--simd off" "--precision float --loop-tolerance 1e-3" "--solver analytic --substeps 2"; do
     # shellcheck disable=SC2086
     one=$(hash $run --threads 1) || fail "no loop with $run"
@@ -95,7 +95,7 @@ storm=(leafy.json --wind storm --loop 2 --loop-periods 2 --loop-tolerance 1e-9)
 refused 3 "the motion does not repeat after 2 periods" treesim "${storm[@]}" -o never.glb
 absent never.glb
 refused 3 "the motion does not repeat after 5 periods" treesim pole.json --wind wind.json --gravity 0,0,0 --loop 3 --loop-tolerance 1e-12 \
-    --loop-periods 5 --damping-scale 0 --scheme P34 -o never.json
+    --loop-periods 5 --set damping_scale=0 --scheme P34 -o never.json
 absent never.json
 expect 0 treesim "${storm[@]}" --loop-blend -o blend.jsonl
 grep -q "loop's ends were apart by .* after 2 periods: blended (--loop-blend)" err || fail "what was blended is not said: $(cat err)"
@@ -144,7 +144,7 @@ scene() { echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"fil
 refused 1 "--loop is 1.01 s, which at 30 frames a second is 30.3 frames; the nearest whole number is 30, --loop 1" \
     treesim tree.json --wind gusty --loop 1.01
 refused 1 "--loop: the scene has no /wind" treesim tree.json --loop 2
-for option in "--seconds 2" "--frames 3" "--save-state s.json" "--resume s.json" "--report-error" "--shard 1/2"; do
+for option in "--seconds 2" "--frames 3" "--save-state s.json" "--resume s.json" "--report error" "--shard 1/2"; do
     # shellcheck disable=SC2086
     refused 1 "--loop: not with ${option%% *}" treesim tree.json --wind gusty --loop 2 $option
 done

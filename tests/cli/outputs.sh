@@ -171,9 +171,9 @@ same in.json kept.json
 same wind.json wind_kept.json
 for part in 1 2; do treesim scene.json --frames 2 -q --shard $part/2 -o part$part.json; done
 cp part1.json part_kept.json
-refused 1 "which --join reads" treesim --join part1.json part2.json -o part1.json
+refused 1 "which PART reads" treesim join part1.json part2.json -o part1.json
 same part1.json part_kept.json
-expect 0 treesim --join part1.json part2.json -o joined.json
+expect 0 treesim join part1.json part2.json -o joined.json
 sed 's/, {"file": "other.json".*}\]/]/' scene.json >single.json
 cp single.json single_kept.json
 refused 1 "which INPUT reads" treesim single.json --frames 2 --no-output --save-tree single.json

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# park.sh: many trees: places, starts, parts (--shard, --join), walkers.
+# park.sh: many trees: places, starts, parts (--shard, treesim join), walkers.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 for k in 1 2 3; do
@@ -16,7 +16,7 @@ cat >park.json <<'END'
 END
 
 # One tree on several places is as many trees.
-expect 0 treesim park.json --seconds 1 --no-output --hash -q
+expect 0 treesim park.json --seconds 1 --no-output --report hash -q
 whole=$(cat err)
 python3 - <<'END'
 import json
@@ -25,7 +25,7 @@ entry = scene["trees"].pop(1)
 scene["trees"][1:1] = [{"file": entry["file"], **place} for place in entry["places"]]
 json.dump(scene, open("spelled.json", "w"))
 END
-expect 0 treesim spelled.json --seconds 1 --no-output --hash -q
+expect 0 treesim spelled.json --seconds 1 --no-output --report hash -q
 [[ $(cat err) == "$whole" ]] || fail "places are not trees: $(cat err), $whole"
 # A start is felt, and by its own tree alone.
 python3 - <<'END'
@@ -34,20 +34,20 @@ scene = json.load(open("spelled.json"))
 for tree in scene["trees"]: tree.pop("start", None)
 json.dump(scene, open("together.json", "w"))
 END
-expect 0 treesim together.json --seconds 1 --no-output --hash -q
+expect 0 treesim together.json --seconds 1 --no-output --report hash -q
 [[ $(cat err) != "$whole" ]] || fail "starts change nothing"
-expect 0 treesim park.json --seconds 0.2 --explain --no-output
+expect 0 treesim park.json --seconds 0.2 --report plan --no-output
 grep -q "starts, 3 clocks" err || fail "the plan does not name the starts: $(grep lanes err)"
 # Its places share constants, in float whatever their yaws; trees of their own do not, nor what may break.
 rows() { grep '^constants of rows in lanes ' err; }
-expect 0 treesim park.json --frames 2 --precision float --explain --no-output
+expect 0 treesim park.json --frames 2 --precision float --report plan --no-output
 rows | grep -Eq '^constants of rows in lanes [0-9]+ bytes, [0-9]+ rows: shared by instances, [0-9]+ kept$' || fail "places share nothing: $(rows)"
 read -r all kept < <(rows | sed -E 's/.* ([0-9]+) rows: .* ([0-9]+) kept/\1 \2/')
 ((kept < all)) || fail "$kept rows are kept of $all"
 sed 's/"trees"/"fracture": {"leaf": 1}, "trees"/' park.json >breaks.json
-expect 0 treesim breaks.json --frames 2 --precision float --explain --no-output
+expect 0 treesim breaks.json --frames 2 --precision float --report plan --no-output
 rows | grep -q ' rows: none shared, /fracture$' || fail "shared, but may break: $(rows)"
-expect 0 treesim t1.json --frames 2 --explain --no-output
+expect 0 treesim t1.json --frames 2 --report plan --no-output
 rows | grep -q ' rows: none shared, one tree$' || fail "one tree shares: $(rows)"
 
 # Parts: whatever their number, precision and solver, the whole's motion and hash.
@@ -60,15 +60,15 @@ END
 for way in "2 double coupled park" "3 float coupled park" "4 double analytic park" "2 float analytic still" "3 double coupled still"; do
     read -r parts precision solver scene <<<"$way"
     options=(--seconds 1 --precision "$precision" --solver "$solver" -q)
-    expect 0 treesim "$scene.json" "${options[@]}" --hash -o whole.safetensors
+    expect 0 treesim "$scene.json" "${options[@]}" --report hash -o whole.safetensors
     cp err hash
     for ((i = 1; i <= parts; ++i)); do
         expect 0 treesim "$scene.json" "${options[@]}" --shard "$i/$parts" -o "part$i.safetensors" --save-state "state$i.json"
     done
     # In any order.
     mapfile -t motions < <(ls -r part?.safetensors)
-    expect 0 treesim --join "${motions[@]}" -o joined.safetensors
-    expect 0 treesim --join state?.json --hash
+    expect 0 treesim join "${motions[@]}" -o joined.safetensors
+    expect 0 treesim join state?.json --report hash
     same err hash
     python3 - <<'END'
 import json, struct
@@ -88,23 +88,23 @@ done
 # As lines, and from a part that was cut.
 expect 0 treesim park.json --frames 5 -q -o whole.jsonl
 for i in 1 2; do expect 0 treesim park.json --frames 5 -q --shard $i/2 -o part$i.jsonl; done
-expect 0 treesim --join part1.jsonl part2.jsonl -o joined.jsonl
+expect 0 treesim join part1.jsonl part2.jsonl -o joined.jsonl
 same <(tail -n +2 whole.jsonl) <(tail -n +2 joined.jsonl)
 for i in 1 2; do
     expect 0 treesim park.json --frames 3 -q --shard $i/2 --no-output --save-state half$i.json
     expect 0 treesim park.json --frames 2 -q --shard $i/2 --no-output --resume half$i.json --save-state end$i.json
 done
-expect 0 treesim --join end1.json end2.json --hash
-expect 0 treesim park.json --frames 5 -q --no-output --hash
+expect 0 treesim join end1.json end2.json --report hash
+expect 0 treesim park.json --frames 5 -q --no-output --report hash
 cp err hash
-expect 0 treesim --join end2.json end1.json --hash
+expect 0 treesim join end2.json end1.json --report hash
 same err hash
 # Each tree finds its own sag, with its neighbours or without.
-snowy=(park.json --frames 5 -q --pose settled --set 'load={"branch":2,"leaf":0.05}')
+snowy=(park.json --frames 5 -q --set pose=settled --set 'load={"branch":2,"leaf":0.05}')
 for i in 1 2; do expect 0 treesim "${snowy[@]}" --shard $i/2 --no-output --save-state end$i.json; done
-expect 0 treesim "${snowy[@]}" --no-output --hash
+expect 0 treesim "${snowy[@]}" --no-output --report hash
 cp err hash
-expect 0 treesim --join end1.json end2.json --hash
+expect 0 treesim join end1.json end2.json --report hash
 same err hash
 for i in 1 2; do expect 0 treesim park.json --frames 5 -q --shard $i/2 --no-output --save-state end$i.json; done
 refused 2 "/theta: is" treesim park.json --frames 2 --shard 2/2 --no-output --resume half1.json
@@ -115,25 +115,25 @@ refused 1 "expected i/n" treesim park.json --shard two
 refused 1 "the scene has 4 trees" treesim park.json --shard 1/5
 refused 1 "not with --shard" treesim park.json --shard 1/2 --sleep 1e-4
 refused 1 "only with a scene" treesim t1.json --shard 1/2
-refused 1 "part 2 of 2 is missing" treesim --join part1.jsonl -o x.jsonl
-refused 2 "which part1.jsonl is already" treesim --join part1.jsonl part1.jsonl -o x.jsonl
-refused 1 "--seconds: not with --join" treesim --join part1.jsonl part2.jsonl --seconds 3
-refused 1 "a motion has none" treesim --join part1.jsonl part2.jsonl --hash -o x.jsonl
-refused 1 "resumed part by part" treesim --join end1.json end2.json -o x.json
-refused 2 "expected motions or states alone" treesim --join part1.jsonl end2.json -o x.jsonl
+refused 1 "part 2 of 2 is missing" treesim join part1.jsonl -o x.jsonl
+refused 2 "which part1.jsonl is already" treesim join part1.jsonl part1.jsonl -o x.jsonl
+refused 1 "--seconds" treesim join part1.jsonl part2.jsonl --seconds 3
+refused 1 "a motion has none" treesim join part1.jsonl part2.jsonl --report hash -o x.jsonl
+refused 1 "resumed part by part" treesim join end1.json end2.json -o x.json
+refused 2 "expected motions or states alone" treesim join part1.jsonl end2.json -o x.jsonl
 head -n 3 part2.jsonl >short.jsonl
-refused 2 "has only 2 frames" treesim --join part1.jsonl short.jsonl -o x.jsonl
+refused 2 "has only 2 frames" treesim join part1.jsonl short.jsonl -o x.jsonl
 expect 0 treesim park.json --frames 5 --fps 60 -q --shard 2/2 -o other.jsonl
-refused 2 "/fps" treesim --join part1.jsonl other.jsonl -o x.jsonl
+refused 2 "/fps" treesim join part1.jsonl other.jsonl -o x.jsonl
 expect 0 treesim park.json --frames 5 -q --shard 2/2 --wind storm -o other.jsonl --save-state other.json
-refused 2 "/whole" treesim --join part1.jsonl other.jsonl -o x.jsonl
-refused 2 "/whole" treesim --join end1.json other.json --hash
-refused 2 "/parts" treesim --join whole.jsonl -o x.jsonl
-refused 1 "files" treesim --join part1.jsonl part2.jsonl part1.jsonl -o x.jsonl
+refused 2 "/whole" treesim join part1.jsonl other.jsonl -o x.jsonl
+refused 2 "/whole" treesim join end1.json other.json --report hash
+refused 2 "/parts" treesim join whole.jsonl -o x.jsonl
+refused 1 "files" treesim join part1.jsonl part2.jsonl part1.jsonl -o x.jsonl
 sed 's/"file": "t3.json"/"file": "t3.json", "yaw": 5/' park.json >turned.json
 refused 2 "/whole" treesim turned.json --frames 2 --shard 1/2 --no-output --resume half1.json
 refused 1 "--save-tree" treesim t1.json --frames 2 -o same.json --save-tree same.json
-expect 0 treesim --join part1.jsonl part2.jsonl -o bare.jsonl --no-source
+expect 0 treesim join part1.jsonl part2.jsonl -o bare.jsonl --no-source
 absent x.jsonl x.json
 python3 - <<'END'
 import json
@@ -153,12 +153,12 @@ cat >walk.json <<'END'
  "walkers": [{"mass": 1.5, "stops": [{"on": {"branch": 0, "at": 0.1}, "time": 0}, {"on": {"branch": 0, "at": 0.9}, "time": 0.8},
                                      {"on": {"tree": 1, "branch": 0, "at": 0.8}, "time": 1.6}]}]}
 END
-expect 0 treesim walk.json --seconds 2 --hash --threads 1 -q -o walk.jsonl
+expect 0 treesim walk.json --seconds 2 --report hash --threads 1 -q -o walk.jsonl
 cp err hash
-expect 0 treesim walk.json --seconds 2 --hash --threads 2 -q --no-output
+expect 0 treesim walk.json --seconds 2 --report hash --threads 2 -q --no-output
 same err hash
 expect 0 treesim walk.json --seconds 1 --save-state walk.state.json -q --no-output
-expect 0 treesim walk.json --seconds 1 --resume walk.state.json --hash -q --no-output
+expect 0 treesim walk.json --seconds 1 --resume walk.state.json --report hash -q --no-output
 same err hash
 grep -q '"leapt"' walk.jsonl || fail "the leap is no event"
 grep -q '"landed"' walk.jsonl || fail "the landing is no event"

@@ -3,13 +3,13 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --bodies 150 --seed 3 | treeconvert - -q -o tree.json
-hash() { treesim "$@" --no-output -q --hash 2>&1 | grep '^hash [0-9a-f]\{16\}$'; }
+hash() { treesim "$@" --no-output -q --report hash 2>&1 | grep '^hash [0-9a-f]\{16\}$'; }
 scene() { # NAME FIELDS
     echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"file\": \"tree.json\"}]${2:+, $2}}" >"$1.json"
 }
 
 # The scene of figure 12 as it is; what it changed is said, and counted by python from the documents alone.
-expect 0 treesim "$top/data/scenes/splines.json" --frames 20 --no-output --hash --explain
+expect 0 treesim "$top/data/scenes/splines.json" --frames 20 --no-output --report hash --report plan
 grep -q '^tree changed by /wood: stiffness of 285 joints, damping of 285, mass of 0 bodies; [0-9]* joints near [0-9]* forks$' err ||
     fail "what the curves changed is not said: $(grep changed err)"
 one=$(grep '^hash' err)
@@ -22,14 +22,14 @@ sed 's/"wood".*/"gravity": [0, -9.81, 0]}/; /"damping"/d; /"stiffness"/d; /"radi
 scene wind '"wind": "gusty"'
 two='{"stiffness": 2, "damping": 0.5}'
 scene doubled "\"wind\": \"gusty\", \"wood\": {\"branch\": $two, \"leaf\": $two, \"petal\": $two, \"fruit\": $two}"
-[[ $(hash doubled.json --frames 20) == $(hash wind.json --frames 20 --stiffness-scale 2 --damping-scale 0.5) ]] ||
+[[ $(hash doubled.json --frames 20) == $(hash wind.json --frames 20 --set stiffness_scale=2 --set damping_scale=0.5) ]] ||
     fail "factors of 2 and 1/2 are not those scales"
 scene none '"wind": "gusty", "wood": {}, "load": {}'
 [[ $(hash none.json --frames 20) == $(hash wind.json --frames 20) ]] || fail "an empty wood and load change the motion"
-expect 0 treesim none.json --frames 1 --no-output --explain
+expect 0 treesim none.json --frames 1 --no-output --report plan
 grep -q '^tree changed by /wood: stiffness of 0 joints, damping of 0, mass of 0 bodies$' err || fail "no line for an empty wood"
 grep -q '^tree changed by /load: 0 kg on 0 bodies$' err || fail "no line for an empty load"
-expect 0 treesim wind.json --frames 1 --no-output --explain
+expect 0 treesim wind.json --frames 1 --no-output --report plan
 ! grep -q '^tree changed' err || fail "a scene without wood changes its tree"
 scene wrong '"wood": {"curves": [{"on": {"body": 100000}, "radius": [0], "stiffness": [1]}]}'
 refused 2 "/wood/curves/0/on: body 100000, but tree 0 has" treesim wrong.json
@@ -38,7 +38,7 @@ refused 2 "/wood/fork/length: is missing" treesim wrong.json
 
 # Snow: a state goes on with the same snow only.
 scene snow '"load": {"branch": 4}'
-expect 0 treesim snow.json --frames 4 --no-output --explain --save-state snow.state
+expect 0 treesim snow.json --frames 4 --no-output --report plan --save-state snow.state
 grep -q '^tree changed by /load: [0-9.]* kg on [0-9]* bodies$' err || fail "what lies on the tree is not said"
 [[ $(hash snow.json --frames 3 --resume snow.state) == $(hash snow.json --frames 7) ]] || fail "snow does not go on as it was"
 scene more '"load": {"branch": 4.5}'
@@ -97,7 +97,7 @@ for form in json safetensors; do
 done
 python3 -c 'import json; d = json.load(open("lagged.state.json")); del d["spin_dot"]; json.dump(d, open("cut.json", "w"))'
 refused 2 "/spin_dot: is 0 bodies, but this run has" treesim "${run[@]}" --frames 5 --resume cut.json
-expect 0 treesim "${run[@]}" --frames 3 --no-output --explain
+expect 0 treesim "${run[@]}" --frames 3 --no-output --report plan
 grep -q '^stage lanes left out: plain path: /fictitious$' err || fail "why it runs on the plain path is not said"
 grep -q '^calls fictitious 2$' err || fail "the terms were not worked out in each step"
 expect 0 treeprofile error "${run[@]}" --steps 1,2,4 --frames 5 --precision double --joint-inertia paper

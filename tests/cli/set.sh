@@ -3,7 +3,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --bodies 120 --seed 3 --leaves | treeconvert - --material apple -o tree.json
-hash() { treesim "$@" --frames 8 --no-output --hash 2>&1 | grep '^hash [0-9a-f]\{16\}$'; }
+hash() { treesim "$@" --frames 8 --no-output --report hash 2>&1 | grep '^hash [0-9a-f]\{16\}$'; }
 scene() { echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"file\": \"tree.json\"}], $1}" >"$2"; }
 
 scene '"wind": "gusty"' gusty.json
@@ -12,7 +12,7 @@ one=$(hash turned.json)
 [[ -n $one && $(hash gusty.json) != "$one" ]] || fail "two scenes have one motion"
 [[ $(hash gusty.json --set 'wind.velocity=[3,0,4]' --set pose=settled) == "$one" ]] || fail "--set is not the scene that says so"
 [[ $(hash tree.json --wind gusty --set 'wind.velocity=[3,0,4]' --set pose=settled) == "$one" ]] || fail "... on a tree and --wind"
-[[ $(hash gusty.json --wind storm --pose rest --seed 7 --set wind=gusty --set 'wind.velocity=[3,0,4]' --set pose=settled) == "$one" ]] ||
+[[ $(hash gusty.json --wind storm --set pose=rest --seed 7 --set wind=gusty --set 'wind.velocity=[3,0,4]' --set pose=settled) == "$one" ]] ||
     fail "--set does not come last"
 [[ $(hash gusty.json --gravity 0,0,0 --set 'gravity=[0,-9.81,0]') == $(hash gusty.json) ]] || fail "--set comes before --gravity"
 [[ $(hash gusty.json --seed 7 --set wind.seed=1) == $(hash gusty.json) ]] || fail "--set comes before --seed"

@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 treegen --species apple --bodies 600 --seed 3 --leaves -q >apple.splines
 treeconvert apple.splines -q -o apple.json
 scene() { printf '{"format": "bough-scene", "version": 1, "trees": [{"file": "apple.json"}], "wind": "gusty", %s}' "$1" >"${2:-part.json}"; }
-hash() { treesim "$@" --no-output --hash 2>&1 | grep '^hash '; }
+hash() { treesim "$@" --no-output --report hash 2>&1 | grep '^hash '; }
 
 # One hash for any number of threads and for a run cut in two, with output and without.
 scene '"simulate": {"last_level": 1}'
@@ -18,7 +18,7 @@ for run in "coupled" "analytic" "coupled --precision float" "coupled --simd off"
 done
 one=$(hash part.json --frames 30)
 for kind in jsonl safetensors glb; do
-    [[ $(treesim part.json --frames 30 --hash -o "motion.$kind" 2>&1 | grep '^hash ') == "$one" ]] || fail "output changes the hash: $kind"
+    [[ $(treesim part.json --frames 30 --report hash -o "motion.$kind" 2>&1 | grep '^hash ') == "$one" ]] || fail "output changes the hash: $kind"
 done
 # What holds no joint changes nothing.
 scene '"simulate": {"last_level": 99}' all.json
@@ -55,8 +55,8 @@ for f in lines[1:]:
 assert moved > 1e-3
 END
 
-# --explain counts; --report-rigid reports; fewer joints are fewer bodies of the plan.
-treesim part.json --no-output --frames 20 --explain --report-rigid --report-cost 2>plan
+# --report plan counts; --report rigid reports; fewer joints are fewer bodies of the plan.
+treesim part.json --no-output --frames 20 --report plan --report rigid --report cost 2>plan
 grep -q '^tree changed by /simulate: [0-9]* of [0-9]* joints move; held: [0-9]* by /simulate/first_level, last_level$' plan || fail "not explained: $(head -3 plan)"
 left=$(sed -n 's/^tree changed by \/simulate: \([0-9]*\) of.*/\1/p' plan)
 grep -q "^plan: $left bodies" plan || fail "the plan has other bodies than the $left that move: $(head -1 plan)"
@@ -65,7 +65,7 @@ grep -Eq "^rigid $left of [0-9]+ joints move; tips off by [0-9.e-]+ m RMS, [0-9.
 for by in '"radius": 0.02' '"subtrees": [{"branch": 1, "at": 0}]' '"box": {"least": [-9, 0, -9], "most": [0, 9, 9]}' '"error": 0.05' \
     '"error": 5, "view": {"from": [0, 2, 30]}'; do
     scene "\"simulate\": {$by}"
-    treesim part.json --no-output --frames 5 --explain 2>plan
+    treesim part.json --no-output --frames 5 --report plan 2>plan
     grep -Eq '^tree changed by /simulate: [0-9]+ of [0-9]+ joints move; held: ' plan || fail "$by holds nothing: $(head -2 plan)"
 done
 scene '"simulate": {"radius": 0.02}, "pulls": [{"on": {"level": 1}, "time": [0, 1], "force": [[0, 0, 1], [0, 0, 2]]}]'
@@ -73,7 +73,7 @@ treesim part.json --no-output --frames 5
 
 # treeprofile runs them too.
 treeprofile part.json --frames 6 --repeat 2 -q >profile
-treesim part.json --no-output --frames 2 --explain 2>plan
+treesim part.json --no-output --frames 2 --report plan 2>plan
 left=$(sed -n 's/^tree changed by \/simulate: \([0-9]*\) of.*/\1/p' plan)
 grep -q "^bodies $left," profile || fail "treeprofile has not the $left bodies that move: $(grep ^bodies profile)"
 
@@ -91,7 +91,7 @@ treeconvert apple.splines --merge-below 0.2 --seconds 3 --threads 1 -q -o again.
 sed 's/"source":.*//' merged.json >a
 sed 's/"source":.*//' again.json >b
 same a b
-treesim merged.json --wind gusty --seconds 3 --no-output --report-rigid 2>report
+treesim merged.json --wind gusty --seconds 3 --no-output --report rigid 2>report
 python3 - "$found" "$left" <<'END' || fail "the trial's error is not the run's: $found, $(cat report)"
 import json, re, sys
 line = open("report").read()
@@ -124,9 +124,9 @@ scene '"simulate": {"first_level": 50}'
 refused 2 "nothing is left that moves" treesim part.json --frames 2
 printf '{"format": "bough-scene", "version": 1, "trees": [{"file": "apple.json"}], "simulate": {"error": 0.01}}' >bad.json
 refused 2 "/simulate/error" treesim bad.json --frames 2
-refused 1 "--report-rigid" treesim apple.json --wind gusty --frames 2 --no-output --report-rigid
+refused 1 "--report rigid" treesim apple.json --wind gusty --frames 2 --no-output --report rigid
 scene '"simulate": {"last_level": 1}'
 hash part.json --frames 3 --save-state half.json >/dev/null
-refused 1 "--report-rigid" treesim part.json --frames 2 --no-output --report-rigid --resume half.json
+refused 1 "--report rigid" treesim part.json --frames 2 --no-output --report rigid --resume half.json
 scene '"simulate": {"last_level": 0}' other.json
 refused 2 "theta" treesim other.json --frames 2 --no-output --resume half.json

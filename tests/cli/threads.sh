@@ -3,7 +3,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --bodies 6000 --seed 5 --leaves --fruit | treeconvert - -o tree.json
-hash() { treesim tree.json --wind gusty --no-output --hash "$@" 2>&1 | grep '^hash '; }
+hash() { treesim tree.json --wind gusty --no-output --report hash "$@" 2>&1 | grep '^hash '; }
 for run in "analytic --precision double" "analytic --precision float" "coupled --precision double" \
     "coupled --precision float" "coupled --scheme P34"; do
     read -ra by <<<"--solver $run"

@@ -24,8 +24,8 @@ treegen --bodies 400 --seed 3 --leaves --no-source | treeconvert - --no-source >
 treeconvert splines.json --no-source -o file.json
 same pipe.json file.json
 treeconvert splines.json --no-source -o file.safetensors
-treesim file.json --frames 3 --no-output --hash 2>a
-treesim file.safetensors --frames 3 --no-output --hash 2>b
+treesim file.json --frames 3 --no-output --report hash 2>a
+treesim file.safetensors --frames 3 --no-output --report hash 2>b
 same a b
 refused 2 "file.json" treeconvert file.json
 

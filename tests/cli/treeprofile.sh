@@ -10,7 +10,7 @@ refused 1 "arguments" treeprofile stages
 
 # The report is that of treesim's run: the same hash; stages and "other" make the whole.
 expect 0 treeprofile stages tree.json --wind gusty --frames 30 --report r.json
-grep -q "^hash $(treesim tree.json --wind gusty --frames 30 --no-output --hash 2>&1 | sed 's/hash //')$" out ||
+grep -q "^hash $(treesim tree.json --wind gusty --frames 30 --no-output --report hash 2>&1 | sed 's/hash //')$" out ||
     fail "the hash is not that of treesim"
 python3 -c '
 import json, math
@@ -27,12 +27,12 @@ for s in r["stages"]:
 expect 0 treeprofile tree.json --frames 5 --report r.csv
 expect 0 treeprofile stages tree.json --frames 5 --repeat 1 --solver articulated-implicit
 grep -q '^articulated ' out && ! grep -q '^spring ' out || fail "the articulated solver's stages are not in the table"
-grep -q "^hash $(treesim tree.json --frames 5 --no-output --hash --solver articulated-implicit 2>&1 | sed 's/hash //')$" out ||
+grep -q "^hash $(treesim tree.json --frames 5 --no-output --report hash --solver articulated-implicit 2>&1 | sed 's/hash //')$" out ||
     fail "the articulated solver's hash is not that of treesim"
 expect 0 treeprofile stages tree.json --frames 5 --repeat 1 --solver coupled --scheme p34 --precision float --simd off --report p34.json
 grep -q '^resolvent ' out && ! grep -q '^spring ' out || fail "the coupled solver's stages are not in the table"
 grep -q ', coupled, P34, float$' out || fail "the scheme is not in the table"
-grep -q "^hash $(treesim tree.json --frames 5 --no-output --hash --solver coupled --scheme P34 --precision float --simd off 2>&1 | sed 's/hash //')$" out ||
+grep -q "^hash $(treesim tree.json --frames 5 --no-output --report hash --solver coupled --scheme P34 --precision float --simd off 2>&1 | sed 's/hash //')$" out ||
     fail "the coupled solver's hash is not that of treesim"
 expect 0 treeprofile stages tree.json --frames 5 --repeat 1 --solver coupled --precision float --report p12.json
 refused 2 "/scheme" treeprofile compare p12.json p34.json

@@ -46,7 +46,7 @@ if command -v gnuplot >/dev/null; then
     expect 0 treeprofile scaling "${small[@]}" --report r.html
     grep -q '</html>' r.html || fail "the page is none"
 fi
-hash_of() { treesim "$@" --frames 5 --no-output --hash 2>&1 | sed -n 's/^hash //p'; }
+hash_of() { treesim "$@" --frames 5 --no-output --report hash 2>&1 | sed -n 's/^hash //p'; }
 for size in 200 400; do
     treegen --species willow --bodies $size --seed 1 | treeconvert - -o willow_$size.json
 done

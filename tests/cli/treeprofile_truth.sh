@@ -7,11 +7,11 @@ refused 1 "--steps" treeprofile error small.json --wind gusty --steps 3
 refused 1 "--steps" treeprofile error small.json --wind gusty --steps 1/0
 refused 1 "--substeps" treeprofile error small.json --substeps 2
 refused 1 "articulated-reference" treeprofile error small.json --solver articulated-reference
-refused 1 "--pose drawn" treeprofile error small.json --pose drawn
+refused 1 "--set pose=drawn" treeprofile error small.json --set pose=drawn
 refused 1 "--frames" treeprofile error small.json --frames 3
 refused 1 ".html" treeprofile error small.json --report r.pdf
 refused 2 "absent.json" treeprofile error absent.json
-refused 2 "moves" treeprofile error small.json --gravity 0,0,0 --pose rest
+refused 2 "moves" treeprofile error small.json --gravity 0,0,0 --set pose=rest
 
 expect 0 treeprofile error small.json --wind gusty --seconds 0.5 --steps 1,2,4 --report r.json
 python3 -c '

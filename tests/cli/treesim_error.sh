@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# treesim --report-error: what a run tells of its own error.
+# treesim --report error: what a run tells of its own error.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --bodies 60 --seed 3 | treeconvert - -o small.json
@@ -7,7 +7,7 @@ treegen --bodies 60 --seed 3 | treeconvert - -o small.json
 # The error that a run tells of itself: one line, also with -q, whatever is written; the run is none the wiser. What it is
 # worth is tests/lib/simulation/error_estimate.cpp's and tests/goals' row i; here the line is held against two runs of small.json at the two steps.
 run=(small.json --wind gusty --solver coupled)
-reported() { treesim "${run[@]}" --report-error "$@" 2>&1 >/dev/null | grep '^error '; }
+reported() { treesim "${run[@]}" --report error "$@" 2>&1 >/dev/null | grep '^error '; }
 treesim "${run[@]}" --frames 16 --substeps 2 --fields pose -o coarse.jsonl
 treesim "${run[@]}" --frames 16 --substeps 8 --fields pose -o fine.jsonl
 one=$(reported --frames 16 --substeps 2 -q --no-output)
@@ -35,25 +35,25 @@ assert near(rms, 1000 * (sum(off) / len(off)) ** 0.5), (rms, 1000 * (sum(off) / 
 assert near(worst, 1000 * max(off) ** 0.5), (worst, 1000 * max(off) ** 0.5)
 assert near(percent, 100 * (sum(off) / sum(moved)) ** 0.5), (percent, 100 * (sum(off) / sum(moved)) ** 0.5)
 END
-for also in "-o m.glb" "-o m.jsonl --threads 1" "--hash --explain"; do
+for also in "-o m.glb" "-o m.jsonl --threads 1" "--report hash --report plan"; do
     # shellcheck disable=SC2086
     [[ $(reported --frames 16 --substeps 2 $also) == "$one" ]] || fail "$also changes the error: $(reported --frames 16 --substeps 2 $also)"
 done
 for also in "" "--substeps 3" "--precision float" "--scheme LIE"; do
     # shellcheck disable=SC2086
-    [[ $(hash "${run[@]}" --frames 8 $also --report-error) == $(hash "${run[@]}" --frames 8 $also) ]] ||
-        fail "--report-error changes the motion, $also"
+    [[ $(hash "${run[@]}" --frames 8 $also --report error) == $(hash "${run[@]}" --frames 8 $also) ]] ||
+        fail "--report error changes the motion, $also"
     # shellcheck disable=SC2086
     [[ $(reported --frames 8 -q --no-output $also | wc -l) -eq 1 ]] || fail "no error reported, $also"
 done
 treesim "${run[@]}" --frames 8 -q --no-output --save-state part.json
-[[ $(hash "${run[@]}" --frames 9 --resume part.json --report-error) == $(hash "${run[@]}" --frames 9 --resume part.json) ]] ||
-    fail "--report-error changes a motion that goes on"
+[[ $(hash "${run[@]}" --frames 9 --resume part.json --report error) == $(hash "${run[@]}" --frames 9 --resume part.json) ]] ||
+    fail "--report error changes a motion that goes on"
 [[ $(reported --frames 9 --resume part.json -q) == "error up to about "* ]] || fail "no error of a run that goes on"
 [[ $(reported --frames 2) == "error up to about "* ]] || fail "one step: $(reported --frames 2)"
 [[ $(reported --frames 1) == "error unknown: too few frames to compare" ]] || fail "no step: $(reported --frames 1)"
-[[ $(treesim small.json --solver coupled --report-error --frames 9 --no-output 2>&1) == "error none: no tip moves" ]] || fail "an error at rest"
-[[ $(treesim small.json --stiffness-scale 1e4 --pose rest --report-error --frames 30 --no-output -q 2>&1) == "error unknown: at a quarter of the step "* ]] ||
+[[ $(treesim small.json --solver coupled --report error --frames 9 --no-output -q 2>&1) == "error none: no tip moves" ]] || fail "an error at rest"
+[[ $(treesim small.json --set stiffness_scale=1e4 --set pose=rest --report error --frames 30 --no-output -q 2>&1) == "error unknown: at a quarter of the step "* ]] ||
     fail "a tree 10 000 times as stiff is resolved"
-refused 1 "--report-error: only with --solver coupled" treesim small.json --solver analytic --report-error
-refused 1 "--report-error: only with --solver coupled" treesim small.json --solver articulated-implicit --report-error
+refused 1 "--report error: only with --solver coupled" treesim small.json --solver analytic --report error
+refused 1 "--report error: only with --solver coupled" treesim small.json --solver articulated-implicit --report error

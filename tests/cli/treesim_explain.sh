@@ -1,23 +1,23 @@
 #!/usr/bin/env bash
-# treesim --explain: what runs, and what is left out.
+# treesim --report plan: what runs, and what is left out.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
 
-# --explain says what is left out.
-treesim tree.json --frames 3 --explain --no-output 2>still
-treesim tree.json --frames 3 --explain --no-output --wind calm 2>windy
+# --report plan says what is left out.
+treesim tree.json --frames 3 --report plan --no-output 2>still
+treesim tree.json --frames 3 --report plan --no-output --wind calm 2>windy
 grep -q '^stage lanes on: SIMD [a-z0-9]*; asleep' still && grep -q '^stage lanes on: SIMD [a-z0-9]*; /wind; no sleep' windy ||
-    fail "--explain says nothing of the wind in lanes"
+    fail "--report plan says nothing of the wind in lanes"
 grep -q '^calls lanes 2$' still && grep -q '^calls midpoint 0$' windy || fail "calls of lanes are not as explained"
 for solver in coupled analytic; do
-    treesim tree.json --frames 3 --explain --no-output --solver $solver 2>unread
-    treesim tree.json --frames 3 --explain --solver $solver 2>read >/dev/null
+    treesim tree.json --frames 3 --report plan --no-output --solver $solver 2>unread
+    treesim tree.json --frames 3 --report plan --solver $solver 2>read >/dev/null
     grep -q '^constants of bodies in document order left out' unread && grep -q '^constants of bodies in document order on' read &&
         ! grep -q '^array [a-zA-Z_]* on' unread && grep -q '^array R_wb on' read || fail "$solver keeps poses that nobody reads, or leaves out what is read"
     for explained in unread read; do
         [[ $(sed -n 's/^state: \([0-9]*\) bytes.*/\1/p' $explained) == $(sed -n 's/^allocated \([0-9]*\) bytes/\1/p' $explained) ]] ||
-            fail "--explain, $solver, $explained: the state is not as large as planned"
+            fail "--report plan, $solver, $explained: the state is not as large as planned"
     done
     treesim tree.json --frames 3 --no-output --solver $solver --save-state unread.state
     treesim tree.json --frames 3 --solver $solver --save-state read.state >/dev/null
@@ -28,7 +28,7 @@ del a["source"], b["source"]
 sys.exit(a != b or len(a["theta"]) == 0)' "$@"; }
     same_arrays unread.state read.state || fail "$solver: a state saved without output is another one"
 done
-treesim tree.json --frames 3 --explain --no-output --simd off 2>still
-treesim tree.json --frames 3 --explain --no-output --simd off --wind calm 2>windy
-grep -q 'wind_field left out' still && grep -q 'wind_field on' windy || fail "--explain says nothing of the wind"
+treesim tree.json --frames 3 --report plan --no-output --simd off 2>still
+treesim tree.json --frames 3 --report plan --no-output --simd off --wind calm 2>windy
+grep -q 'wind_field left out' still && grep -q 'wind_field on' windy || fail "--report plan says nothing of the wind"
 grep -q '^calls wind_field 0$' still && grep -q '^calls wind_field 2$' windy || fail "calls are not as explained"

@@ -42,12 +42,12 @@ for solver in analytic coupled; do
         fail "a moved root does not go on as it was, $solver"
 done
 expect 0 treesim place/moved.json --frames 20 -q --wind breeze -o moved.glb
-treesim place/moved.json --solver analytic --frames 2 --no-output --explain 2>&1 |
-    grep -q '^stage root_motion on: /root_motion$' || fail "--explain says nothing of root motion"
-treesim place/moved.json --solver coupled --frames 2 --no-output --explain 2>&1 |
-    grep -q '^stage lanes on: SIMD [a-z0-9]*; roots moved by /root_motion; no sleep: /root_motion$' || fail "--explain says nothing of root motion"
-treesim place/moved.json --solver coupled --simd off --frames 2 --no-output --explain 2>&1 |
-    grep -q '^stage midpoint on: every scene; roots moved by /root_motion$' || fail "--explain says nothing of root motion"
+treesim place/moved.json --solver analytic --frames 2 --no-output --report plan 2>&1 |
+    grep -q '^stage root_motion on: /root_motion$' || fail "--report plan says nothing of root motion"
+treesim place/moved.json --solver coupled --frames 2 --no-output --report plan 2>&1 |
+    grep -q '^stage lanes on: SIMD [a-z0-9]*; roots moved by /root_motion; no sleep: /root_motion$' || fail "--report plan says nothing of root motion"
+treesim place/moved.json --solver coupled --simd off --frames 2 --no-output --report plan 2>&1 |
+    grep -q '^stage midpoint on: every scene; roots moved by /root_motion$' || fail "--report plan says nothing of root motion"
 broken() { # sed script, pointer
     sed "$1" place/moved.json >place/broken.json
     ! cmp -s place/broken.json place/moved.json || fail "$1 changes nothing"

@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
 
 # Sleep: a still tree is left out after a second, and from a saved state goes on sleeping; wrong rates are refused.
-treesim tree.json --frames 90 --no-output --hash 2>err && grep -q ' steps of a body were left out: at rest below 1e-05 rad/s' err ||
+treesim tree.json --frames 90 --no-output --report hash,guards 2>err && grep -q '^guards asleep [1-9][0-9]* left out at rest below 1e-05 rad/s$' err ||
     fail "nothing slept: $(cat err)"
 whole=$(grep '^hash' err)
 expect 0 treesim tree.json --frames 50 --no-output --save-state asleep.json
@@ -43,10 +43,10 @@ assert moved > 1e-4, moved
 assert max(abs(x - y) for x, y in zip(a, b)) < 1e-2 * moved
 END
 treesim tree.json --frames 90 --no-output --sleep off 2>err && ! grep -q 'left out' err || fail "--sleep off"
-treesim tree.json --frames 3 --no-output --explain --sleep 1e-3 2>err && grep -q '^stage lanes on: .*; asleep below 0.001 rad/s' err || fail "--sleep 1e-3"
-treesim tree.json --frames 3 --no-output --explain --wind gusty 2>err && grep -q '; no sleep: /wind/turbulence' err || fail "no sleep in gusts"
+treesim tree.json --frames 3 --no-output --report plan --sleep 1e-3 2>err && grep -q '^stage lanes on: .*; asleep below 0.001 rad/s' err || fail "--sleep 1e-3"
+treesim tree.json --frames 3 --no-output --report plan --wind gusty 2>err && grep -q '; no sleep: /wind/turbulence' err || fail "no sleep in gusts"
 refused 1 "--sleep" treesim tree.json --frames 3 --no-output --sleep -1
-for what in "--wind gusty" "--scheme LIE" "--joint-limit 170"; do
+for what in "--wind gusty" "--scheme LIE" "--set joint_limit=170"; do
     # shellcheck disable=SC2086
     treesim tree.json --frames 3 --no-output --sleep 1e-3 $what 2>&1 | grep -q '^treesim: --sleep: nothing sleeps in this run: ' || fail "--sleep in vain with $what"
 done

@@ -11,8 +11,8 @@ default=${default% (default): }
 [[ $(hash small.json --wind gusty --frames 8) == $(hash small.json --wind gusty --frames 8 --solver "$default") ]] ||
     fail "$default is not the default"
 one=$(hash small.json --wind gusty --frames 8 --solver analytic)
-[[ $(hash small.json --wind gusty --frames 8 --solver analytic --joint-inertia paper) != "$one" ]] ||
-    fail "--joint-inertia paper changes nothing"
+[[ $(hash small.json --wind gusty --frames 8 --solver analytic --set joint_inertia=paper) != "$one" ]] ||
+    fail "joint_inertia paper changes nothing"
 treesim small.json --wind gusty --frames 4 --solver analytic --no-output --save-state analytic.state
 
 # Each precision and code its own motion, the same cut in two by a state of either form.
@@ -59,12 +59,12 @@ refused 2 "/fps" treesim small.json --wind gusty --frames 4 --solver coupled --s
 refused 1 "--scheme" treesim small.json --solver coupled --scheme P13
 refused 1 "{P12,P.25,P.5,P34,LIE}" treesim small.json --solver coupled --scheme midpoint # damped nothing: withdrawn
 refused 1 "--scheme: only with --solver coupled" treesim small.json --solver analytic --scheme P12
-refused 1 "--joint-inertia" treesim small.json --solver coupled --joint-inertia paper
+refused 1 "joint_inertia" treesim small.json --solver coupled --set joint_inertia=paper
 refused 1 "--tolerance" treesim small.json --solver coupled --tolerance 1e-4
-expect 0 treesim small.json --solver coupled --joint-limit 20 --frames 3
-treesim small.json --frames 3 --solver coupled --scheme LIE --no-output --explain 2>plan
+expect 0 treesim small.json --solver coupled --set joint_limit=20 --frames 3
+treesim small.json --frames 3 --solver coupled --scheme LIE --no-output --report plan 2>plan
 grep -q '^plan: .* solver coupled, scheme LIE$' plan && grep -q '^array resolvent left out, .*: a scheme of a real pole$' plan &&
-    grep -q '^calls resolvent 2$' plan && grep -q '^calls spring 0$' plan || fail "--explain does not tell the coupled step"
+    grep -q '^calls resolvent 2$' plan && grep -q '^calls spring 0$' plan || fail "--report plan does not tell the coupled step"
 
 for solver in articulated-implicit articulated-reference; do
     one=$(hash small.json --wind gusty --frames 8 --solver $solver)
@@ -77,10 +77,10 @@ for solver in articulated-implicit articulated-reference; do
     done
     refused 2 "/solver" treesim small.json --wind gusty --frames 4 --solver analytic --resume solver.json
     refused 1 "--precision float" treesim small.json --solver $solver --precision float
-    refused 1 "--joint-inertia" treesim small.json --solver $solver --joint-inertia paper
-    refused 1 "--joint-limit" treesim small.json --solver $solver --joint-limit 10
-    treesim small.json --frames 3 --solver $solver --no-output --explain 2>&1 | grep -q "^stage articulated on: solver $solver" ||
-        fail "--explain does not name $solver"
+    refused 1 "joint_inertia" treesim small.json --solver $solver --set joint_inertia=paper
+    refused 1 "joint_limit" treesim small.json --solver $solver --set joint_limit=10
+    treesim small.json --frames 3 --solver $solver --no-output --report plan 2>&1 | grep -q "^stage articulated on: solver $solver" ||
+        fail "--report plan does not name $solver"
 done
 [[ $(hash small.json --wind gusty --frames 8 --solver articulated-reference --tolerance 1e-4) != "$one" ]] ||
     fail "--tolerance changes nothing"
@@ -91,15 +91,15 @@ refused 3 "stage articulated (theta), body" treesim small.json --wind gusty --fr
 grep -q "substeps" err || fail "what to do about explicit steps is not said: $(cat err)"
 
 # Joint limits: kept within, noted, part of what a saved state belongs to; none that is reached, none that is felt.
-limited() { treesim tree.json --solver "${limits_of:-analytic}" --pose rest --wind storm --frames 20 "$@"; }
+limited() { treesim tree.json --solver "${limits_of:-analytic}" --set pose=rest --wind storm --frames 20 "$@"; }
 for limits_of in coupled analytic; do
-    limited --joint-limit 3 --fields angles 2>err | python3 -c '
+    limited --set joint_limit=3 --fields angles --report guards 2>err | python3 -c '
 import json, math, sys
 frames = [json.loads(line) for line in list(sys.stdin)[1:]]
 most = max(abs(a) for f in frames for a in f["theta"])
-assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "--joint-limit is not kept, $limits_of"
-    grep -q 'times\? a joint was stopped at its limit' err || fail "stops at a limit are not noted, $limits_of"
+assert abs(math.degrees(most) - 3) < 1e-9, math.degrees(most)' || fail "joint_limit is not kept, $limits_of"
+    grep -q '^guards limits [1-9]' err || fail "stops at a limit are not counted, $limits_of"
 done
-limited --joint-limit 3 --no-output -q --save-state limited.state
-refused 2 "limited.state" treesim tree.json --solver analytic --pose rest --wind storm --frames 20 --resume limited.state
-[[ $(hash tree.json --frames 20 --joint-limit 170) == $(hash tree.json --frames 20 --simd off) ]] || fail "a limit far off is felt"
+limited --set joint_limit=3 --no-output -q --save-state limited.state
+refused 2 "limited.state" treesim tree.json --solver analytic --set pose=rest --wind storm --frames 20 --resume limited.state
+[[ $(hash tree.json --frames 20 --set joint_limit=170) == $(hash tree.json --frames 20 --simd off) ]] || fail "a limit far off is felt"

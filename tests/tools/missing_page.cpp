@@ -25,7 +25,8 @@ TEST_CASE("an input cut short while it is read ends the tool in one line, with e
         CommonOptions common;
         volatile char last = 0;
         const int code = run_tool(
-            {"cutter", "reads a file that is cut short", "", {}}, 2, arguments, common, [](OptionList&) {},
+            {.name = "cutter", .about = "reads a file that is cut short", .usage = ""}, 2, arguments, common,
+            [](OptionList&) {},
             [&] {
                 Output unfinished(output);
                 unfinished.write("half");

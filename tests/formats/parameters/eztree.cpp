@@ -1,7 +1,7 @@
 // eztree.h (growth and format): straight trees worked out by hand, counts by the rule, the branch queues that ez-tree itself
 // made where they are present, and what the reader refuses or names.
-#include "formats/open.h"
 #include "formats/parameters/eztree.h"
+#include "formats/open.h"
 #include "lib/growth/eztree_rotation.h"
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
-#include "lib/growth/grow.h"
 #include "lib/growth/pipe.h"
+#include "lib/growth/grow.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;

@@ -1,8 +1,8 @@
 // Instances of one tree share their constants: what each row reads is what it reads where nothing is shared, nothing more is kept than is different,
 // and runs are the same to the last bit. Beside each park stands the same one under names of files of its own for each tree, which shares nothing.
-#include "lib/coupled/coupled_rows.h"
 #include "lib/lanes/shared_constants.h"
 #include "lib/analytic/analytic_rows.h"
+#include "lib/coupled/coupled_rows.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/solver_parts.h"
 #include <cstring>

@@ -1,7 +1,7 @@
 // A tree whose material is changed against one that was cut with the changed material in the first place.
+#include "lib/model/material_change.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
-#include "lib/model/material_change.h"
 #include <catch2/catch.hpp>
 #include <cstring>
 

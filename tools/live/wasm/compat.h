@@ -16,8 +16,7 @@
 #ifndef __cpp_lib_bit_cast
 namespace std {
 template <class To, class From>
-    requires(sizeof(To) == sizeof(From))
-constexpr To bit_cast(const From& from) noexcept {
+requires(sizeof(To) == sizeof(From)) constexpr To bit_cast(const From& from) noexcept {
     return __builtin_bit_cast(To, from);
 }
 } // namespace std
@@ -35,8 +34,7 @@ inline to_chars_result put(char* first, char* last, const char* text, int length
 
 // The shortest decimals that give the same number: of at most as many as always do.
 template <class Real>
-    requires is_floating_point_v<Real>
-to_chars_result to_chars(char* first, char* last, Real value) {
+requires is_floating_point_v<Real> to_chars_result to_chars(char* first, char* last, Real value) {
     constexpr bool single = sizeof(Real) == sizeof(float);
     char text[40];
     int length = 0;
@@ -54,8 +52,8 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
 }
 // Decimal: no white space or plus before it, no hexadecimal, as from_chars has it.
 template <class Real>
-    requires is_floating_point_v<Real>
-from_chars_result from_chars(const char* first, const char* last, Real& value, chars_format = chars_format::general) {
+requires is_floating_point_v<Real> from_chars_result from_chars(const char* first, const char* last, Real& value,
+                                                                chars_format = chars_format::general) {
     const char* end = first;
     const auto more = [&](auto&& is) {
         const char* const from = end;
@@ -78,7 +76,8 @@ from_chars_result from_chars(const char* first, const char* last, Real& value, c
     }
     const string text(first, end);
     errno = 0;
-    const Real read = sizeof(Real) == sizeof(float) ? Real(strtof(text.c_str(), nullptr)) : Real(strtod(text.c_str(), nullptr));
+    const Real read =
+        sizeof(Real) == sizeof(float) ? Real(strtof(text.c_str(), nullptr)) : Real(strtod(text.c_str(), nullptr));
     if (errno == ERANGE) return {end, errc::result_out_of_range};
     value = read;
     return {end, errc()};

@@ -27,11 +27,11 @@ struct ModelObject final : c::Object {
 struct MeshObject final : c::Object {
     static constexpr const char* name = "mesh";
     const char* kind() const override { return name; }
-    std::shared_ptr<const Tree> drawn;  // the trees joined, as drawn
-    std::optional<OwnMesh> own;         // which came with the tree
-    Skin skin;                          // of that, or made
+    std::shared_ptr<const Tree> drawn;    // the trees joined, as drawn
+    std::optional<OwnMesh> own;           // which came with the tree
+    Skin skin;                            // of that, or made
     std::vector<Eigen::Quaternionf> back; // body from world, drawn
-    std::vector<Eigen::Vector3f> joint; // [m] own joints, drawn
+    std::vector<Eigen::Vector3f> joint;   // [m] own joints, drawn
     struct Offset {
         Eigen::Vector4f place, turn; // [m], 0; x y z w: world now from world drawn
     };

@@ -12,7 +12,7 @@ using namespace bough::live;
 
 namespace {
 
-constexpr std::size_t most_joints = 1000;                     // some viewers fail beyond about 1100
+constexpr std::size_t most_joints = 1000;                      // some viewers fail beyond about 1100
 constexpr double key_tolerance = 0.1 * std::numbers::pi / 180; // [rad] as treesim's
 
 MotionFrame frame_of(const Simulation& run, std::size_t bodies, std::int64_t frame, double fps) {
@@ -76,8 +76,8 @@ template <class Take> void run_frames(Scene scene, const SimulationOptions& opti
 } // namespace
 
 // frames at fps, each of so many steps; loop: one period that repeats. *size: bytes of what is given, the page's to free. NULL where it failed.
-LIVE void* live_glb(const bough_scene* scene, const void* mesh, double step, int precision, double fps, int steps, double frames, int loop,
-                    std::size_t* size) {
+LIVE void* live_glb(const bough_scene* scene, const void* mesh, double step, int precision, double fps, int steps,
+                    double frames, int loop, std::size_t* size) {
     void* bytes = nullptr;
     call_of_running([&] {
         const auto own = find<MeshObject>(mesh);
@@ -92,7 +92,8 @@ LIVE void* live_glb(const bough_scene* scene, const void* mesh, double step, int
         how.key_tolerance = key_tolerance;
         how.generator = std::string("bough ") + bough_version() + " live";
         std::size_t room = 64 * own->skin.position.size() + 12 * own->skin.triangle.size() +
-                           groups.size() * (2000 + std::size_t(24 * frames)) + 300 * own->drawn->size_bodies() + (1u << 20);
+                           groups.size() * (2000 + std::size_t(24 * frames)) + 300 * own->drawn->size_bodies() +
+                           (1u << 20);
         for (int again = 0; again < 2; ++again) { // the room is a guess; what did not fit says how much it takes
             bytes = std::malloc(room);
             if (!bytes) throw std::bad_alloc();

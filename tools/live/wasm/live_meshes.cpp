@@ -30,8 +30,8 @@ LIVE void* live_mesh(const bough_simulation* simulation, const bough_scene* scen
         const Scene own = scene_of(scene);
         if (model && own.trees.size() == 1) {
             const Placement& at = own.trees[0];
-            const Eigen::Affine3d place = Eigen::Translation3d(at.position) *
-                                          Eigen::AngleAxisd(at.yaw * std::numbers::pi / 180, Vec3::UnitY());
+            const Eigen::Affine3d place =
+                Eigen::Translation3d(at.position) * Eigen::AngleAxisd(at.yaw * std::numbers::pi / 180, Vec3::UnitY());
             std::vector<std::string> notes;
             mesh->own = bound_to(find<ModelObject>(model)->model, *mesh->drawn, place, notes);
             mesh->skin = skin_of(*mesh->own);
@@ -63,7 +63,8 @@ LIVE bough_result live_mesh_counts(const void* mesh, std::size_t* counts) {
 
 // vertex: 9 floats each: position, normal (world, drawn), the two bodies that move it most and the second one's share. color: r g b 255, sRGB.
 // index: 3 for each triangle. part: name's length in bytes, first triangle, triangles, for each. Arrays of the sizes that live_mesh_counts says.
-LIVE bough_result live_mesh_arrays(const void* mesh, float* vertex, std::uint8_t* color, std::uint32_t* index, std::uint32_t* part) {
+LIVE bough_result live_mesh_arrays(const void* mesh, float* vertex, std::uint8_t* color, std::uint32_t* index,
+                                   std::uint32_t* part) {
     return call([&] {
         const Skin& skin = find<MeshObject>(mesh)->skin;
         for (std::size_t v = 0; v < skin.position.size(); ++v) {

@@ -25,7 +25,8 @@ LIVE bough_result live_put(bough_scene* scene, std::size_t place, const bough_tr
     return bough_scene_put(scene, place, tree);
 }
 
-LIVE bough_simulation* live_simulate(const bough_scene* scene, double step, int precision, int pulls, const bough_simulation* before) {
+LIVE bough_simulation* live_simulate(const bough_scene* scene, double step, int precision, int pulls,
+                                     const bough_simulation* before) {
     bough_settings settings = bough_default_settings();
     settings.step = step;
     settings.precision = precision;
@@ -39,7 +40,7 @@ LIVE bough_simulation* live_simulate(const bough_scene* scene, double step, int 
 LIVE bough_result live_step(bough_simulation* simulation, double* report) {
     bough_report made{};
     const bough_result result = bough_step(simulation, &made);
-    const double all[] = {double(made.steps),   made.time,         double(made.fast_turns),
+    const double all[] = {double(made.steps),   made.time,          double(made.fast_turns),
                           double(made.guarded), double(made.broke), double(made.landed)};
     std::copy(std::begin(all), std::end(all), report);
     return result;
@@ -53,8 +54,8 @@ LIVE bough_result live_positions(bough_simulation* simulation, std::size_t* give
     return BOUGH_OK;
 }
 
-LIVE bough_result live_set_wind(bough_simulation* simulation, double x, double y, double z, double turbulence, double gust_factor,
-                                double gust_period, double seed) {
+LIVE bough_result live_set_wind(bough_simulation* simulation, double x, double y, double z, double turbulence,
+                                double gust_factor, double gust_period, double seed) {
     return call_of_running([&] {
         const Use<SimulationObject> use(simulation);
         Wind wind = use->wind ? *use->wind : Wind(); // what the scene says and cannot change stays
@@ -96,7 +97,8 @@ LIVE int live_pick(bough_simulation* simulation, const double* ray, double apert
 
 // What a hand at a point of a body, at rest, has to do with: reach[0] its compliance [m/N], sum over the joints that bear it of lever^2 / K;
 // reach[1] the force [N] that turns no joint by more than half a radian and all of them by no more than 2, reach[2..4] the point in the world.
-LIVE bough_result live_reach(bough_simulation* simulation, std::size_t body, const double* point, double stiffness, double* reach) {
+LIVE bough_result live_reach(bough_simulation* simulation, std::size_t body, const double* point, double stiffness,
+                             double* reach) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
         const Simulation& run = use->simulation;

@@ -110,7 +110,8 @@ LIVE const void* live_bodies(const bough_simulation* simulation, int which, std:
     bough_bodies bodies;
     if (bough_simulation_bodies(simulation, &bodies) != BOUGH_OK) return nullptr;
     *count = which == 5 ? bodies.trees + 1 : bodies.count;
-    const void* const arrays[] = {bodies.parent, bodies.kind, bodies.size, bodies.mass, bodies.level, bodies.first_body};
+    const void* const arrays[] = {bodies.parent, bodies.kind,  bodies.size,
+                                  bodies.mass,   bodies.level, bodies.first_body};
     return which >= 0 && which < 6 ? arrays[which] : nullptr;
 }
 
@@ -152,7 +153,8 @@ LIVE void* live_tree_document(const bough_tree* tree, std::size_t* size) {
 }
 
 // The curve through keys (x rising) at `samples` places from `from` to `to`.
-LIVE bough_result live_curve(const double* x, const double* y, std::size_t keys, double from, double to, std::size_t samples, double* out) {
+LIVE bough_result live_curve(const double* x, const double* y, std::size_t keys, double from, double to,
+                             std::size_t samples, double* out) {
     return call([&] {
         const std::vector<double> xs(x, x + keys), ys(y, y + keys);
         for (std::size_t k = 0; k < samples; ++k)

@@ -8,9 +8,11 @@ namespace bough {
 
 ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOptions& options) {
     if (kind == AssimpKind::glb || kind == AssimpKind::gltf) return scene_of_gltf(content, options);
-    throw InputError(options.name, std::string("is ") + model_kind_name(kind) +
-                                       ", which this page does not read; on the command line treeconvert makes a tree of it (treeconvert FILE -o "
-                                       "tree.safetensors), or save it as glTF");
+    throw InputError(
+        options.name,
+        std::string("is ") + model_kind_name(kind) +
+            ", which this page does not read; on the command line treeconvert makes a tree of it (treeconvert FILE -o "
+            "tree.safetensors), or save it as glTF");
 }
 
 std::string find_texture(const std::string&, const std::string&, std::vector<std::string>&) {
