@@ -37,7 +37,10 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
     std::optional<OwnMesh> own;
-    if (model.bound) own = bound_to(std::move(*model.bound), shown, place_of_tree(setting), o.common.notes);
+    if (model.bound)
+        own = bound_to(std::move(*model.bound), shown, place_of_tree(setting), o.common.notes);
+    else if (is_mesh(format) && !model.driven)
+        own = dressed(shown, o.sides, o.dress, format, plain_leaves(o));
     if (is_point_cache(format) || format == "obj") {
         Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
         if (format == "obj") return obj_sink(o.common.output, shown, std::move(skin), rustle, o.common.notes);

@@ -1,5 +1,6 @@
 // treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
 #include "converted.h"
+#include "dressing.h"
 #include "file_names.h"
 #include "formats/documents/material.h"
 #include "formats/documents/splines.h"
@@ -33,6 +34,7 @@ struct Options {
     ImportChoice choice;
     std::string input, mesh, wind_groups, material;
     GltfChoice gltf;
+    DressChoice dress;
     MergeChoice merge;
     std::optional<double> segment_length, max_bend;
     std::optional<std::int64_t> max_bodies;
@@ -75,6 +77,7 @@ void declare(OptionList& list, Options& o) {
         .check(whole_number(3, 256));
     add_max_joints(list, o.gltf);
     add_leaves_as(list, o.gltf);
+    add_dress_options(list, o.dress);
     list.add("--wind-groups", o.wind_groups,
              "With --mesh FILE.glb: also write its joints' groups for Unreal's Dynamic Wind (JSON), by how many "
              "branches they are from the trunk; the joints' x axes then lie along the branches, as it wants them")
@@ -115,6 +118,11 @@ std::string mtl_of(const std::string& mesh) {
     return std::filesystem::path(mesh).replace_extension(".mtl").string();
 }
 
+// The option that asks for leaves as they are without species.
+const char* plain_leaves(const Options& o) {
+    return o.gltf.instances() ? "--leaves-as instances" : !o.wind_groups.empty() ? "--wind-groups" : nullptr;
+}
+
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
     refuse_merge_contradictions(o.merge);
@@ -125,6 +133,7 @@ void refuse_contradictions(const Options& o) {
     const char* const glb = o.gltf.given() ? o.gltf.given() : !o.wind_groups.empty() ? "--wind-groups" : nullptr;
     if (glb && ending(o.mesh) != ".glb") throw UsageError(std::string(glb) + ": only with --mesh FILE.glb");
     if (o.wind_groups == "-") throw UsageError("--wind-groups is '-', expected a file name");
+    refuse_contradictions(o.dress, ending(o.mesh) == ".glb" ? "glb" : "obj", !o.mesh.empty(), plain_leaves(o));
     refuse_own_inputs(o, o.common.output, o.mesh, o.wind_groups);
     if (o.split) refuse_no_patterns(o);
     require_outputs({{"-o", o.common.output},
@@ -206,13 +215,19 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
 using Outputs = std::vector<std::unique_ptr<Output>>;
 
 void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::string& mesh, const std::string& wind) {
-    const Skin skin = chosen_skin(tree, o.sides.value_or(SkinOptions().sides), o.gltf);
+    const int sides = o.sides.value_or(SkinOptions().sides);
+    const std::optional<OwnMesh> own =
+        dressed(tree, o.sides, o.dress, ending(mesh) == ".glb" ? "glb" : "obj", plain_leaves(o));
+    const Skin skin = !own ? chosen_skin(tree, sides, o.gltf) : ending(mesh) == ".glb" ? Skin() : skin_of(*own);
     if (ending(mesh) == ".glb") {
         const JointGroups groups = chosen_joints(tree, o.gltf);
         GltfOptions options = gltf_options(o.gltf, tree.source);
         options.x_along = !wind.empty();
         outputs.push_back(std::make_unique<Output>(mesh));
-        GltfWriter(*outputs.back(), skin, tree, groups, options).finish();
+        if (own)
+            GltfWriter(*outputs.back(), *own, tree, groups, options).finish();
+        else
+            GltfWriter(*outputs.back(), skin, tree, groups, options).finish();
         if (!wind.empty()) {
             outputs.push_back(std::make_unique<Output>(wind));
             write_dynamic_wind(*outputs.back(), tree, groups);

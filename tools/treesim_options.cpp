@@ -62,6 +62,7 @@ void declare_mesh(OptionList& list, TreesimOptions& o) {
         .takes("N")
         .check(whole_number(3, 256));
     add_key_tolerance(list, o.gltf);
+    add_dress_options(list, o.dress);
     list.add_flag("--rustle", o.rustle, "In a mesh, clumps' drawn leaves rustle with the wind");
 }
 
@@ -183,6 +184,10 @@ std::string chosen_format(const CommonOptions& common) {
     return "jsonl";
 }
 
+const char* plain_leaves(const TreesimOptions& o) {
+    return !o.skin.empty() ? "--skin" : o.rustle ? "--rustle" : o.gltf.instances() ? "--leaves-as instances" : nullptr;
+}
+
 void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.no_output) {
         if (o.common.output != "-") throw UsageError("--no-output: not with -o");
@@ -209,6 +214,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (o.skin == "-" && o.run.input == "-") throw UsageError("--skin -: the input is read from stdin already");
         if (o.skin == "-" && o.watch) throw UsageError("--watch: not with --skin -, which cannot be read again");
     }
+    refuse_contradictions(o.dress, format, mesh, plain_leaves(o));
     if (const char* given = o.gltf.given(); given && format != "glb")
         throw UsageError(std::string(given) + ": only with .glb");
     if (format == "obj") {

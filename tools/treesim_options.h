@@ -1,5 +1,6 @@
 // treesim_options.h: what treesim is asked to do: its options, and which of them contradict each other.
 #pragma once
+#include "dressing.h"
 #include "frame_sink.h"
 #include "join.h"
 #include "loop.h"
@@ -23,6 +24,7 @@ struct TreesimOptions {
     std::string mesh; // "made", "own"; empty: own where INPUT has one
     JoinOptions join;
     GltfChoice gltf;
+    DressChoice dress;
     std::optional<int> sides;
     bool rustle = false;
     LoopChoice loop;
@@ -49,6 +51,8 @@ inline bool is_point_cache(const std::string& format) {
 inline bool is_mesh(const std::string& format) {
     return format == "obj" || format == "glb" || is_point_cache(format);
 }
+// The option that asks for leaves as they are without species; null: none.
+const char* plain_leaves(const TreesimOptions&);
 // Throws UsageError.
 void refuse_contradictions(const TreesimOptions&, const std::string& format);
 

@@ -2,6 +2,7 @@
 #include "gltf_parts.h"
 #include "own_mesh.h"
 #include <algorithm>
+#include <cmath>
 
 namespace bough {
 namespace {
@@ -131,12 +132,20 @@ std::string primitive(GltfFile& file, const OwnMesh& mesh, const OwnPart& part, 
                                        small ? write_own_joints<std::uint8_t>(to, mesh, part, groups)
                                              : write_own_joints<std::uint16_t>(to, mesh, part, groups);
                                    });
-    text += ",\"WEIGHTS_0\":" + add(16, GltfType::f32, "VEC4", [&mesh, &part, &groups](GltfBytes& to) {
-                each_vertex(mesh, part, [&](const OwnSurface&, std::size_t v, const OwnPlace* place) {
-                    const float second = groups_of(part, groups, v, place).second;
-                    to.add_all(1 - second, second, 0.0f, 0.0f);
-                });
-            });
+    // Shares of 65535, which sum to it.
+    text += ",\"WEIGHTS_0\":" +
+            add(
+                8, GltfType::u16, "VEC4",
+                [&mesh, &part, &groups](GltfBytes& to) {
+                    each_vertex(mesh, part, [&](const OwnSurface&, std::size_t v, const OwnPlace* place) {
+                        const float share = groups_of(part, groups, v, place).second;
+                        // Of two joints neither is left with nothing.
+                        const auto second =
+                            std::uint16_t(share > 0 ? std::clamp(std::lround(65535 * share), 1L, 65534L) : 0);
+                        to.add_all(std::uint16_t(65535 - second), second, std::uint16_t(0), std::uint16_t(0));
+                    });
+                },
+                ",\"normalized\":true");
     const std::uint64_t count = 3 * std::uint64_t(triangles_of(mesh, part));
     const bool short_index = n <= 65535;
     const int view = file.add_view((short_index ? 2 : 4) * count, GltfTarget::indices, 0,

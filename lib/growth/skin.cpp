@@ -78,8 +78,8 @@ void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vect
     }
     for (const std::int32_t start : chains.starts) {
         const std::size_t n = std::size_t(sides[std::size_t(start)]);
-        vertices += 2 * (n + 1) + 2 * n;
-        triangles += 2 * 2 * n;
+        vertices += 3 * (n + 1) + 2 * n;
+        triangles += 3 * 2 * n;
     }
     skin.position.reserve(vertices);
     skin.normal.reserve(vertices);

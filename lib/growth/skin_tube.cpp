@@ -8,6 +8,8 @@ namespace {
 
 constexpr double point_ratio = 1e-3; // an end ring thinner than this times its neighbour is drawn as a point
 constexpr double nested = 0.8;       // how much of its parent's inner radius a collar may fill: room for bends
+constexpr double flared = 1.45; // the root ring over the branch's own radius there, where the parent is thick enough
+constexpr double flare_length = 1.1; // of the branch's radius: from the root ring to where its own radius begins
 
 struct Ring {
     Vec3 center;
@@ -50,9 +52,17 @@ void add_junction(std::vector<Ring>& rings, const Tree& tree, const DrawnPose& p
     if (tube.parent_tip) room = std::min(room, parent_size.x() - place);
     const double out = std::clamp(thickness - (joint - collar).norm(), 0.0, 0.25 * size.x());
     const double t = size.x() > 0 ? out / size.x() : 0;
-    rings.push_back({pose.at(parent, collar), std::min(size.y(), nested * room), bound_to(parent)});
+    const double own = radius_at(size, out), flare = std::max(own, std::min(flared * own, nested * thickness));
+    const double begins =
+        out + flare_length * own; // only on a piece that is long enough for it, of a tube that is round enough
+    const bool flares = tube.sides > 3 && flare > 1.02 * own && begins < 0.45 * size.x();
+    rings.push_back({pose.at(parent, collar), std::min(flares ? flare : size.y(), nested * room), bound_to(parent)});
     rings.push_back(
-        {pose.at(body, {0, 0, out}), radius_at(size, out), {std::int32_t(body), std::int32_t(parent), float(0.5 - t)}});
+        {pose.at(body, {0, 0, out}), flares ? flare : own, {std::int32_t(body), std::int32_t(parent), float(0.5 - t)}});
+    if (flares)
+        rings.push_back({pose.at(body, {0, 0, begins}),
+                         radius_at(size, begins),
+                         {std::int32_t(body), std::int32_t(parent), float(0.5 * (0.5 - t))}});
 }
 
 // Rings from base to tip, without tangents and v.

@@ -74,6 +74,8 @@ std::vector<Vec3> colors_in_season(const Species& s, Season season) {
 
 void check_species(const Species& s) {
     check_growth(s.growth);
+    check_leaf_form(s.leaf);
+    check_bark_form(s.bark);
     check_shares("season_leaves", s.season_leaves);
     check_shares("season_petals", s.season_petals);
     check_shares("season_fruit", s.season_fruit);

@@ -1,6 +1,8 @@
 // species.h: a kind of tree: how it grows when mature, how it was smaller when young, and what it bears in which season.
 #pragma once
+#include "bark_form.h"
 #include "grow.h"
+#include "leaf_form.h"
 #include <array>
 #include <string>
 #include <vector>
@@ -19,6 +21,8 @@ struct Species {
     std::vector<double> season_petals = {1, 0, 0, 0};
     std::vector<double> season_fruit = {0, 1, 1, 0};
     std::vector<Vec3> color;             // as Splines::color; empty or 4
+    LeafForm leaf;                       // how its leaves look
+    BarkForm bark;                       // and its bark
     std::vector<Vec3> season_leaf_color; // sRGB of leaves in the four seasons; empty: color's in all
 
     // Height over that of a tree without end follows Chapman and Richards, (1 - e^(-height_rate age))^height_power.

@@ -76,7 +76,7 @@ inline std::vector<double> numbers(const Glb& glb, std::size_t index) {
             } else {
                 std::uint32_t value = 0;
                 std::memcpy(&value, at, size);
-                all.push_back(value);
+                all.push_back(accessor.value("normalized", false) ? value / (size == 1 ? 255.0 : 65535.0) : value);
             }
         }
     return all;

@@ -230,8 +230,8 @@ TEST_CASE("The mesh of a SpeedTree file comes through whole") {
     CHECK(factor[1] == Approx(0.2140411)); // sRGB 0.5
     const std::vector<double> color =
         gltf_reader::numbers(glb, glb.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]);
-    CHECK(color[0] / 65535 == Approx(0.5).margin(1e-5));
-    CHECK(color[3] == 65535);
+    CHECK(color[0] == Approx(0.5).margin(1e-5));
+    CHECK(color[3] == 1);
     const Eigen::Affine3d place = Eigen::Translation3d(5, 0, -2) * Eigen::AngleAxisd(0.7, Vec3::UnitY());
     Shown moved = shown_of(content);
     Tree tree;

@@ -1,0 +1,148 @@
+#include "dress.h"
+#include "formats/documents/document_parts.h"
+#include "formats/exports/gltf_parts.h"
+#include "lib/growth/blade.h"
+#include "lib/growth/clump.h"
+#include "lib/model/body_shape.h"
+#include "lib/model/drawn_pose.h"
+#include "picture.h"
+#include "texture_file.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bough {
+namespace {
+
+// A part of a skin, by itself.
+OwnPart part_of(const Skin& skin, const SkinPart& from) {
+    OwnPart part;
+    part.name = from.name;
+    part.color = from.color;
+    const VertexStretch used = vertices_of(skin, from);
+    part.standing.uv.resize(1);
+    for (auto v = std::size_t(used.first); v <= std::size_t(used.last); ++v) {
+        part.standing.position.push_back(skin.position[v].cast<float>());
+        part.standing.normal.push_back(skin.normal[v].cast<float>());
+        part.standing.uv[0].push_back({skin.texture[v][0], 1 - skin.texture[v][1]});
+        part.body.push_back({skin.joint[v][0], skin.joint[v][1]});
+        part.second.push_back(skin.weight[v][1]);
+    }
+    for (std::size_t t = from.first_index; t < from.first_index + from.index_count; ++t) {
+        const auto& [a, b, c] = skin.triangle[t];
+        part.standing.triangle.push_back({a - used.first, b - used.first, c - used.first});
+    }
+    return part;
+}
+
+OwnSurface shape_of(const Blade& blade) {
+    OwnSurface shape;
+    for (const Vec3& p : blade.position) shape.position.push_back(p.cast<float>());
+    for (const Vec3& n : blade.normal) shape.normal.push_back(n.cast<float>());
+    shape.uv = {blade.uv};
+    shape.triangle = blade.triangle;
+    return shape;
+}
+
+OwnPlace placed(std::int32_t shape, std::size_t body, const Mat3& axes, const Vec3& foot, double length) {
+    return {shape, std::int32_t(body), (length * axes).cast<float>(), foot.cast<float>()};
+}
+
+// Leaves at their places, as blades or sprays.
+OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const DressOptions& o, const Vec3& color) {
+    OwnPart part;
+    part.name = "leaf";
+    part.color = color;
+    const double width = species.growth.leaf_scale_x;
+    const bool card = o.detail == LeafDetail::card;
+    const Blade blade = card ? blade_card(species.leaf, width) : blade_mesh(species.leaf, width);
+    const Blade spray = spray_card(species.leaf, width);
+    const auto single = std::int32_t(mesh.shape.size());
+    mesh.shape.push_back(shape_of(blade));
+    mesh.shape.push_back(shape_of(spray));
+    mesh.shape.push_back(shape_of(spray_card(species.leaf, width, true)));
+    const DrawnPose pose = drawn_pose(tree);
+    const std::int32_t most = clump_leaves_drawn(tree);
+    const auto in_spray = double(spray_leaves().size());
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        if (tree.kind[i] != Kind::leaf) continue;
+        const double area = leaf_area(tree.size[i][0], tree.size[i][1]);
+        if (!is_clump(tree, i)) {
+            part.placed.push_back(placed(single, i, pose.R_wb[i], pose.x_w[i], std::sqrt(area / blade.area)));
+            continue;
+        }
+        const std::int32_t leaves = std::min(tree.leaf_count[i], most);
+        const std::int32_t count = card ? std::max(1, std::int32_t(std::lround(leaves / in_spray))) : leaves;
+        const double length = std::sqrt(area / count / (card ? spray.area : blade.area));
+        const double drawn = clump_leaf_size(tree, i, count).x();
+        std::int32_t other = 0; // of the two sprays
+        for (const ClumpLeaf& leaf : clump_leaves(tree, i, pose.R_wb[i], count)) {
+            const Vec3 foot = leaf.foot + 0.5 * (drawn - length) * leaf.axes.col(2); // the middle stays
+            part.placed.push_back(placed(single + (card ? 1 + (other++ + std::int32_t(i)) % 2 : 0), i,
+                                         pose.R_wb[i] * leaf.axes, pose.at(i, foot), length));
+        }
+    }
+    return part;
+}
+
+// What a skin draws of leaves and petals: kites.
+void add_flat(OwnMesh& mesh, const Skin& skin, const char* name) {
+    for (const SkinPart& part : skin.part)
+        if (part.name == name) mesh.part.push_back(part_of(skin, part));
+}
+
+std::string texture_json(std::size_t image) {
+    return "{\"index\":" + std::to_string(image) + "}";
+}
+
+// A picture of its own in the mesh; returns its number.
+std::size_t add_image(OwnMesh& mesh, const char* name, const Picture& picture) {
+    mesh.image.push_back({name, "image/png", png_of(picture.size, picture.size, picture.channels, picture.pixel)});
+    return mesh.image.size() - 1;
+}
+
+std::string bark_material(OwnMesh& mesh, const Species& species, const Vec3& color, int size) {
+    const BarkPictures pictures = bark_pictures(species.bark, color, size);
+    const std::size_t base = add_image(mesh, "bark", pictures.color),
+                      normal = add_image(mesh, "bark normal", pictures.normal);
+    return "{\"name\":\"bark\",\"pbrMetallicRoughness\":{\"baseColorTexture\":" + texture_json(base) +
+           ",\"metallicFactor\":0,\"roughnessFactor\":0.92},\"normalTexture\":" + texture_json(normal) + "}";
+}
+
+std::string leaf_material(OwnMesh& mesh, const Species& species, const std::vector<Vec3>& color,
+                          const DressOptions& o) {
+    const Picture picture = leaf_picture(species.leaf, species.growth.leaf_scale_x, color[1], color[0], o.textures);
+    const std::string base = texture_json(add_image(mesh, "leaf", picture));
+    std::string cutoff;
+    append_number(cutoff, std::round(1000 * alpha_cutoff(picture)) / 1000);
+    return "{\"name\":\"leaf\",\"pbrMetallicRoughness\":{\"baseColorTexture\":" + base +
+           ",\"metallicFactor\":0,\"roughnessFactor\":0.6},\"doubleSided\":true" +
+           (o.detail == LeafDetail::card ? ",\"alphaMode\":\"MASK\",\"alphaCutoff\":" + cutoff + "}" : "}");
+}
+
+} // namespace
+
+OwnMesh dress(const Tree& tree, const Species& species, const DressOptions& o) {
+    const std::vector<Vec3>& color = tree.color.empty() ? default_colors() : tree.color;
+    const Skin skin = build_skin(tree, {o.sides, true});
+    OwnMesh mesh;
+    add_flat(mesh, skin, "bark");
+    if (o.detail == LeafDetail::kite || species.leaf.none())
+        add_flat(mesh, skin, "leaf");
+    else if (OwnPart leaves = leaves_of(mesh, tree, species, o, color[1]); !leaves.placed.empty())
+        mesh.part.push_back(std::move(leaves));
+    add_flat(mesh, skin, "petal");
+    add_flat(mesh, skin, "fruit");
+    for (std::size_t k = 0; k < mesh.part.size(); ++k) {
+        OwnPart& part = mesh.part[k];
+        part.material = std::int32_t(k);
+        if (part.name == "bark" && o.textures > 0)
+            mesh.material.push_back(bark_material(mesh, species, color[0], o.textures));
+        else if (part.name == "leaf" && !part.placed.empty() && o.textures > 0)
+            mesh.material.push_back(leaf_material(mesh, species, color, o));
+        else
+            mesh.material.push_back(gltf_material(part.name, part.color));
+    }
+    return mesh;
+}
+
+} // namespace bough

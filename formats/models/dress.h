@@ -1,0 +1,23 @@
+// dress.h: a tree with the leaves and the bark of its species, as a mesh with materials (own_mesh.h).
+//
+// Bark, fruit: build_skin's. Each leaf, or each leaf of a clump, is its species' blade (lib/growth/blade.h) at its place, of its body's area: as a mesh, or
+// as a card whose picture's alpha cuts it out. A clump as cards is some sprays of six leaves each, which is what keeps a crown of ten thousands of leaves
+// small; its alpha's cutoff is such that thin leaves do not vanish from afar. Petals stay kites. Leaves are moved by their own bodies alone.
+#pragma once
+#include "formats/exports/own_mesh.h"
+#include "lib/growth/species.h"
+
+namespace bough {
+
+enum class LeafDetail : std::uint8_t { kite, card, mesh };
+
+struct DressOptions {
+    LeafDetail detail = LeafDetail::card;
+    int textures = 512; // [pixels] sides of pictures; 0: none, parts have one colour each
+    int sides = 12;     // SkinOptions
+};
+
+// The tree's own colours; of the species the forms of leaf and bark. O(bodies + pixels). Throws std::length_error as build_skin does.
+OwnMesh dress(const Tree&, const Species&, const DressOptions&);
+
+} // namespace bough

@@ -1,0 +1,78 @@
+#include "dressing.h"
+#include "exits.h"
+#include "formats/documents/species.h"
+#include "formats/open.h"
+
+namespace bough {
+namespace {
+
+std::optional<Species> species_of(const Tree& tree, const DressChoice& o) {
+    if (o.look == "none") return std::nullopt;
+    std::optional<Species> species = find_species(o.look.empty() ? tree.name : o.look);
+    if (species || o.look.empty()) return species && !species->leaf.none() ? species : std::nullopt;
+    if (o.look.find_first_of("./") == std::string::npos)
+        throw UsageError("--look is '" + o.look + "', neither none, a species (treegen --list-species) nor a file");
+    return read_species(read_input(o.look), input_name(o.look));
+}
+
+} // namespace
+
+void add_dress_options(OptionList& list, DressChoice& o) {
+    list.add("--look", o.look,
+             "Species whose leaves and bark a mesh shows: a name, or a species document (the species that the tree is "
+             "called after, where it is one); none: leaves are kites, parts have one colour")
+        .takes("NAME|FILE");
+    list.add("--leaf-detail", o.leaf_detail,
+             "How its leaves are drawn: mesh, each by its outline, folded and curled; card, a rectangle whose picture "
+             "cuts it out, clumps as sprays of six (in a .glb the default); kite (else the default)")
+        .takes("NAME")
+        .one_of({"kite", "card", "mesh"});
+    list.add("--textures", o.textures,
+             "Sides of the pictures of leaves and bark in a .glb [pixels]: 256, 512 (default), 1024; or none")
+        .takes("N|none")
+        .one_of({"none", "256", "512", "1024"});
+}
+
+void refuse_contradictions(const DressChoice& o, const std::string& format, bool mesh, const char* plain) {
+    const char* const given = o.given();
+    if (!given) return;
+    if (mesh && o.look == "none" && o.leaf_detail.empty() && o.textures.empty()) return; // asks for nothing
+    if (!mesh) throw UsageError(std::string(given) + ": only with a mesh");
+    if (plain) throw UsageError(std::string(given) + ": not with " + plain);
+    if (format == "glb") {
+        if (!o.look.empty() && o.look != "none" && o.textures == "none" && o.leaf_detail != "mesh")
+            throw UsageError("--look: not with --textures none, but with --leaf-detail mesh, as nothing would show it");
+        if (o.leaf_detail == "card" && o.textures == "none")
+            throw UsageError(
+                "--leaf-detail card: not with --textures none, which leaves nothing to cut the leaves out");
+        return;
+    }
+    if (!o.look.empty() && o.look != "none" && o.leaf_detail != "mesh")
+        throw UsageError("--look: without --leaf-detail mesh only with .glb, whose textures show it");
+    if (!o.textures.empty() && o.textures != "none") throw UsageError("--textures: only with .glb");
+    if (o.leaf_detail == "card")
+        throw UsageError("--leaf-detail card: only with .glb, whose textures cut the leaves out");
+}
+
+std::optional<OwnMesh> dressed(const Tree& tree, std::optional<int> sides, const DressChoice& o,
+                               const std::string& format, const char* plain) {
+    if (plain) return std::nullopt;
+    const bool glb = format == "glb";
+    DressOptions options;
+    const std::string detail = !o.leaf_detail.empty() ? o.leaf_detail : glb && o.textures != "none" ? "card" : "kite";
+    if (sides) options.sides = *sides;
+    if (!sides && !glb) options.sides = SkinOptions().sides; // as treeconvert --mesh and point caches have it
+    options.textures = !glb || o.textures == "none" ? 0 : o.textures.empty() ? 512 : std::stoi(o.textures);
+    options.detail = detail == "card" ? LeafDetail::card : detail == "mesh" ? LeafDetail::mesh : LeafDetail::kite;
+    if (options.detail == LeafDetail::kite && options.textures == 0) return std::nullopt;
+    const std::optional<Species> species = species_of(tree, o);
+    if (!species) {
+        if (o.given() && o.look != "none")
+            throw UsageError(std::string(o.given()) + ": the tree is called '" + tree.name +
+                             "', which is no species whose leaves are known; --look names one");
+        return std::nullopt;
+    }
+    return dress(tree, *species, options);
+}
+
+} // namespace bough

@@ -1,0 +1,31 @@
+// dressing.h: --look, --leaf-detail, --textures: how a tree's leaves and bark are drawn (formats/models/dress.h).
+#pragma once
+#include "formats/models/dress.h"
+#include "option_list.h"
+#include <optional>
+
+namespace bough {
+
+struct DressChoice {
+    std::string look;        // a species, a species document, "none"; empty: the species that the tree is called after
+    std::string leaf_detail; // "kite", "card", "mesh"; empty: card in a .glb, else kite
+    std::string textures;    // "none" or a number; empty: 512 in a .glb, else none
+    const char* given() const {
+        return !look.empty()          ? "--look"
+               : !leaf_detail.empty() ? "--leaf-detail"
+               : !textures.empty()    ? "--textures"
+                                      : nullptr;
+    }
+};
+void add_dress_options(OptionList&, DressChoice&);
+
+// Throws UsageError where an option is given for a mesh of that format (glb, obj, mdd, pc2) that cannot have it, or for none. plain: an option that asks for
+// leaves as they are without species, by name; null: none.
+void refuse_contradictions(const DressChoice&, const std::string& format, bool mesh, const char* plain);
+
+// The tree as its species looks; nothing where it has none, or where leaves are kites and nothing is textured. Throws UsageError for a species that is
+// not known, InputError for a document that is wrong.
+std::optional<OwnMesh> dressed(const Tree&, std::optional<int> sides, const DressChoice&, const std::string& format,
+                               const char* plain);
+
+} // namespace bough
