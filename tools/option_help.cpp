@@ -95,8 +95,8 @@ std::vector<std::string> typed_names(const HelpPage& page) {
 
 // The first sentence, for a list that a shell shows.
 std::string in_short(const std::string& text) {
-    const std::size_t end = text.find_first_of(".;:");
-    return text.substr(0, std::min(end, std::size_t(60)));
+    const std::string sentence = text.substr(0, text.find_first_of(";:"));
+    return sentence.size() <= 60 ? sentence : sentence.substr(0, sentence.rfind(' ', 60)) + " ...";
 }
 
 std::string function_name(const HelpPage& page) {
@@ -163,12 +163,14 @@ std::string zsh(const std::vector<HelpPage>& pages) {
 std::string fish(const std::vector<HelpPage>& pages) {
     const HelpPage& tool = pages.front();
     std::string out;
-    const std::string others = joined(tool.commands, " ");
-    if (!others.empty())
-        out += "complete -c " + tool.command + " -n '__fish_is_first_token' -a " + quoted_for_shell(others) + "\n";
+    if (!tool.commands.empty())
+        out += "complete -c " + tool.command + " -n '__fish_is_first_token' -a " +
+               quoted_for_shell(joined(tool.commands, " ")) + "\n";
+    std::string others; // than the first, whose options are the tool's own
+    for (std::size_t k = 1; k < pages.size(); ++k) others += " " + pages[k].command.substr(tool.command.size() + 1);
     for (std::size_t k = 0; k < pages.size(); ++k) {
-        const std::string seen = "__fish_seen_subcommand_from ";
-        const std::string when = k > 0            ? seen + pages[k].command.substr(tool.command.size() + 1)
+        const std::string seen = "__fish_seen_subcommand_from";
+        const std::string when = k > 0            ? seen + pages[k].command.substr(tool.command.size())
                                  : others.empty() ? ""
                                                   : "not " + seen + others;
         for (const OptionHelp& option : pages[k].options) {

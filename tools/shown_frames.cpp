@@ -41,6 +41,10 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         own = bound_to(std::move(*model.bound), shown, place_of_tree(setting), o.common.notes);
     else if (is_mesh(format) && !model.driven)
         own = dressed(shown, o.sides, o.dress, format, plain_leaves(o));
+    if (own && !model.bound && setting.tree_files.size() > 1)
+        o.common.notes.push_back("the trees of " + std::to_string(setting.tree_files.size()) + " files all look as " +
+                                 (o.dress.look.empty() ? "the first one's species, " + shown.name : o.dress.look) +
+                                 " does (--look)");
     if (is_point_cache(format) || format == "obj") {
         Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
         if (format == "obj") return obj_sink(o.common.output, shown, std::move(skin), rustle, o.common.notes);

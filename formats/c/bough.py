@@ -158,7 +158,7 @@ for _name, _result, _arguments in (
         ("tree_bodies", int, [_pointer] * 2), ("read_scene", int, [_string, _size, _string, _pointer]), ("scene_file", _string, [_pointer, _size]),
         ("scene_put", int, [_pointer, _size, _pointer]), ("scene_add", int, [_pointer, _pointer, _pointer, ctypes.c_double]),
         ("wind_preset", int, [_string, _pointer]), ("scene_set_wind", int, [_pointer] * 2), ("simulate", int, [_pointer] * 4),
-        ("step", int, [_pointer] * 2), ("read", int, [_pointer, ctypes.c_int, _pointer]), ("read_events", int, [_pointer] * 2),
+        ("step", int, [_pointer] * 2), ("settle", int, [_pointer, ctypes.c_double]), ("settling_time", int, [_pointer] * 2), ("read", int, [_pointer, ctypes.c_int, _pointer]), ("read_events", int, [_pointer] * 2),
         ("simulation_bodies", int, [_pointer] * 2), ("pick", int, [_pointer, _pointer, _pointer, ctypes.c_double, _pointer, _pointer]),
         ("pull", int, [_pointer, _size, _pointer, _pointer]), ("set_wind", int, [_pointer] * 2), ("set_gravity", int, [_pointer] * 2),
         ("set_wood", int, [_pointer, ctypes.c_double, ctypes.c_double]), ("save", int, [_pointer, _pointer, _size, _pointer]),
@@ -484,6 +484,15 @@ class Simulation(_Handle, _HasBodies):
 
     def __len__(self):
         return self._array(0).count
+
+    def settle(self, seconds=None):
+        """Before the first step: the wind has blown for so many seconds already; None: until a start at rest is forgotten. Returns them."""
+        if seconds is None:
+            found = ctypes.c_double()
+            _check(_c.bough_settling_time(self._handle, ctypes.byref(found)))
+            seconds = found.value
+        _check(_c.bough_settle(self._handle, seconds))
+        return seconds
 
     def step(self):
         """From now to now + step. Returns a Report; raises NonFiniteError, and then at each further step."""

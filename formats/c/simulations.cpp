@@ -114,6 +114,25 @@ bough_result bough_simulate(const bough_scene* scene, const bough_settings* sett
     });
 }
 
+bough_result bough_settle(bough_simulation* simulation, double seconds) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        if (!(seconds >= 0) || !std::isfinite(seconds))
+            throw WrongCall("seconds: is " + std::to_string(seconds) + ", expected 0 or more");
+        if (use->simulation.steps() != 0) throw WrongCall("simulation: has been stepped, expected one at its start");
+        const StepReport made = use->simulation.settle(seconds);
+        if (!made.finite()) throw NonFinite("the simulation became non-finite before its start: " + made.non_finite);
+    });
+}
+
+bough_result bough_settling_time(bough_simulation* simulation, double* seconds) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        required(seconds, "seconds");
+        *seconds = use->simulation.settling_time();
+    });
+}
+
 bough_result bough_step(bough_simulation* simulation, bough_report* report) {
     return call([&] {
         const Use<SimulationObject> use(simulation);

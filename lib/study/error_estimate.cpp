@@ -109,6 +109,8 @@ template <class T> TipError ErrorEstimate<T>::result() const {
 }
 
 RunError::RunError(Simulation& simulation) : run_(run_of(simulation)) {
+    visit_run(run_,
+              [](auto& run) { present(run.plan, run.state); }); // what has run already may have its state in lanes
     const Tree& tree = run_.assembly().tree;
     if (const Run<float>* const run = run_.single())
         single_.emplace(tree, run->plan, run->state);

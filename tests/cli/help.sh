@@ -49,6 +49,13 @@ for tool in treesim treeprofile; do source <("$tool" --help-as bash); done
 [[ $(offered treeprofile compare --f) == "--fail-above --format" || $(offered treeprofile compare --f) == "--fail-above" ]] ||
     fail "treeprofile compare --f is completed to $(offered treeprofile compare --f)"
 
+if command -v fish >/dev/null; then
+    treeprofile --help-as fish >treeprofile.fish
+    [[ $(fish -c 'source treeprofile.fish; complete -C "treeprofile compare --fa"' | cut -f 1) == --fail-above ]] || fail "fish completes no --fail-above"
+    [[ -z $(fish -c 'source treeprofile.fish; complete -C "treeprofile modes --fail-a"') ]] || fail "fish offers --fail-above to treeprofile modes"
+    [[ $(fish -c 'source treeprofile.fish; complete -C "treeprofile --wind gu"' | cut -f 1) == gusty ]] || fail "fish completes no wind"
+fi
+
 # Old names say the new ones.
 treegen --bodies 60 --leaves -q | treeconvert - -q -o tree.json
 for old in "--hash:--report hash" "--explain:--report plan" "--report-error:--report error" "--report-cost:--report cost" \

@@ -109,6 +109,11 @@ for _ in range(14):
     run.step()
 assert run.hash() == pathlib.Path("park.hash").read_text().split()[-1], run.hash()
 
+# Settled, it begins in the wind's sway.
+calm, swaying = bough.Simulation(bough.read_scene("park.json")), bough.Simulation(bough.read_scene("park.json"))
+assert 2 <= swaying.settle() <= 20 and calm.hash() != swaying.hash()
+raises(bough.UsageError, "seconds", lambda: calm.settle(-1))
+
 # A state of treesim's goes on here, one of ours bit by bit.
 run = of(tree)
 run.restore("birch.state")

@@ -68,6 +68,22 @@ TEST_CASE("a run through C is that of the C++ door, bit by bit, in all fields") 
     OK(bough_free(simulation));
 }
 
+TEST_CASE("a run through C settles into the wind as the door's does, and only at its start") {
+    bough_simulation* const simulation = in_wind("gusty", bough_default_settings());
+    Simulation own(own_scene("gusty"), {});
+    double seconds = -1;
+    OK(bough_settling_time(simulation, &seconds));
+    CHECK(seconds == own.settling_time());
+    CHECK(seconds >= 2);
+    OK(bough_settle(simulation, seconds));
+    REQUIRE(own.settle(seconds).finite());
+    CHECK(hash(simulation) == own.hash());
+    OK(bough_step(simulation, nullptr));
+    CHECK(bough_settle(simulation, 1) == BOUGH_USAGE);
+    CHECK(bough_settle(simulation, -1) == BOUGH_USAGE);
+    OK(bough_free(simulation));
+}
+
 TEST_CASE("bodies and documents are those of the C++ door") {
     const Tree own = own_birch();
     bough_tree* const tree = birch();

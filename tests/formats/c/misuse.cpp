@@ -111,6 +111,11 @@ TEST_CASE("handles that are none, of another kind or freed are refused by every 
     using Call = std::function<bough_result(bough_simulation*)>;
     const std::vector<Call> calls = {
         [](auto* s) { return bough_step(s, nullptr); },
+        [](auto* s) { return bough_settle(s, 0.1); },
+        [](auto* s) {
+            double seconds;
+            return bough_settling_time(s, &seconds);
+        },
         [](auto* s) {
             bough_array a;
             return bough_read(s, BOUGH_POSITION, &a);
