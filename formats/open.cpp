@@ -14,7 +14,7 @@
 namespace bough {
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t(1) << 20;
+constexpr std::size_t read_size = std::size_t(1) << 20;
 
 std::string reason(int error) {
     return std::generic_category().message(error);
@@ -75,9 +75,9 @@ std::string read_all(int fd, std::size_t expected, bool pipe, const std::string&
     std::size_t looked_at = std::size_t(64) << 20; // asked after each block it would take longer than reading
     try {
         content.reserve(expected);
-        const auto buffer = std::make_unique<char[]>(std::min(expected + 1, buffer_size));
+        const auto buffer = std::make_unique<char[]>(std::min(expected + 1, read_size));
         for (;;) {
-            const ssize_t n = ::read(fd, buffer.get(), std::min(expected + 1, buffer_size));
+            const ssize_t n = ::read(fd, buffer.get(), std::min(expected + 1, read_size));
             if (n < 0 && errno == EINTR) continue;
             if (n < 0) throw InputError(name, "cannot be read: " + reason(errno));
             if (n == 0) break;

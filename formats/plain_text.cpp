@@ -117,7 +117,7 @@ std::string file_line(const std::string& name, std::size_t line) {
     return name + ":" + std::to_string(line);
 }
 
-std::string quoted(std::string_view text) {
+std::string in_ascii_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     std::string out = "\"";
     for (const char c : text.substr(0, longest)) out += c >= ' ' && c <= '~' ? c : '?';

@@ -62,7 +62,7 @@ private:
 std::string file_line(const std::string& name, std::size_t line);
 
 // A piece of input in quotes, fit for a one-line message: unprintable bytes as '?', cut after 40 characters.
-std::string quoted(std::string_view);
+std::string in_ascii_quotes(std::string_view);
 // The text with every byte that is not part of valid UTF-8, and every control character, replaced by '?'.
 std::string valid_utf8(std::string text);
 // What the standard library and nlohmann-json say of an error, as a user may read it: without `[json.exception.type_error.302] `, and of

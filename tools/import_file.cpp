@@ -21,6 +21,9 @@ void add_import_options(OptionList& list, ImportChoice& choice) {
              "alike")
         .takes("M")
         .check(positive_number());
+    list.add_flag(
+        "--keep-place", choice.keep_place,
+        "Leave the imported tree where its file has it; without, its foot is set on the ground at the origin");
     add_reader_options(list);
 }
 
@@ -46,9 +49,12 @@ Splines read_import(const std::string& name, const ImportChoice& choice, ImportN
     options.unit = unit_in_metres(choice.units);
     if (!choice.up.empty()) options.up = lower_case(choice.up[0]);
     options.trunk_diameter = choice.trunk_diameter;
+    options.keep_place = choice.keep_place;
     if (own && (options.unit || options.up))
         throw UsageError(std::string(choice.units.empty() ? "--up" : "--units") + ": " + options.name +
                          " is a bough document, which is in metres and Y up");
+    if (own && options.keep_place)
+        throw UsageError("--keep-place: " + options.name + " is a bough document, which stays where it is");
     if (own && options.trunk_diameter)
         throw UsageError("--trunk-diameter: " + options.name + " is a bough document, whose radii are its own");
     if (before) before(own);

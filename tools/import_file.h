@@ -8,10 +8,11 @@
 
 namespace bough {
 
-// --units, --up and --trunk-diameter of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
+// --units, --up, --trunk-diameter and --keep-place of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
 struct ImportChoice {
     std::string units, up;
     std::optional<double> trunk_diameter; // [m]
+    bool keep_place = false;
 };
 void add_import_options(OptionList&, ImportChoice&);
 std::optional<double> unit_in_metres(const std::string& units);

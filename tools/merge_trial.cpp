@@ -9,8 +9,8 @@
 namespace bough {
 namespace {
 
-constexpr double seconds_default = 10;
-constexpr const char* wind_default = "gusty";
+constexpr double trial_seconds = 10;
+constexpr const char* trial_wind = "gusty";
 
 } // namespace
 
@@ -37,11 +37,11 @@ void refuse_merge_contradictions(const MergeChoice& choice) {
 std::string merge_by_trial(Tree& tree, const MergeChoice& choice, const CommonOptions& common,
                            const std::string& input) {
     RunOptions run;
-    run.wind = choice.wind.empty() ? wind_default : choice.wind;
+    run.wind = choice.wind.empty() ? trial_wind : choice.wind;
     MergeBelow how;
     how.error = *choice.below;
     how.scene = chosen_scene(run);
-    how.seconds = choice.seconds.value_or(seconds_default);
+    how.seconds = choice.seconds.value_or(trial_seconds);
     how.simd = chosen_simd(run);
     MergedBelow merged;
     {

@@ -13,7 +13,7 @@
 namespace bough {
 namespace {
 
-constexpr double seconds_default = 2;
+constexpr double error_seconds = 2;
 
 struct ErrorCommand {
     CommonOptions& common;
@@ -24,7 +24,7 @@ struct ErrorCommand {
 
 void declare(OptionList& list, ErrorCommand& o) {
     o.list = &list;
-    add_run_options(list, o.run, seconds_default);
+    add_run_options(list, o.run, error_seconds);
     list.group("Measuring");
     list.add("--joint-inertia", o.joint_inertia, "Of the series with the analytic solver, those with this (both)")
         .takes("NAME")
@@ -138,8 +138,8 @@ void work(ErrorCommand& o) {
                          free_part(setting.scene) + std::string(": treeprofile error has no reference "
                                                                 "solution of free bodies and walkers"));
     let_move(o, setting.scene);
-    const Problem problem{
-        setting.tree, setting.ranges, setting.scene, o.run.fps, frames_of(o.run, seconds_default), chosen_simd(o.run)};
+    const Problem problem{setting.tree,      setting.ranges, setting.scene, o.run.fps, frames_of(o.run, error_seconds),
+                          chosen_simd(o.run)};
     const double coarsest = std::max(1.0, 1 / options.steps_per_frame.front());
     if (double(problem.frames - 1) < 2 * coarsest)
         throw UsageError("--frames: at least two of the longest steps are needed");

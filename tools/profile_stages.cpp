@@ -13,7 +13,7 @@
 namespace bough {
 namespace {
 
-constexpr double seconds_default = 2;
+constexpr double stages_seconds = 2;
 
 struct StagesOptions {
     CommonOptions& common;
@@ -23,7 +23,7 @@ struct StagesOptions {
 };
 
 void declare_stages(OptionList& list, StagesOptions& o) {
-    add_run_options(list, o.run, seconds_default);
+    add_run_options(list, o.run, stages_seconds);
     add_sleep_option(list, o.run);
     list.group("Measuring");
     list.renamed("--joint-inertia", "--set joint_inertia=NAME");
@@ -98,7 +98,7 @@ std::string table(const Report& r) {
 }
 
 void work_stages(StagesOptions& o) {
-    const std::int64_t frames = frames_of(o.run, seconds_default);
+    const std::int64_t frames = frames_of(o.run, stages_seconds);
     if (frames < 3) throw UsageError("--frames: at least 3 (the start, a warm-up, and one to measure)");
     require_outputs({{"-o", o.common.output}, {"--report", o.report}});
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};

@@ -5,6 +5,8 @@
 #include "formats/models/model_kind.h"
 #include "formats/models/reader_limits.h"
 #include "import_file.h"
+#include "lib/model/drawn_pose.h"
+#include <numbers>
 
 namespace bough {
 namespace {
@@ -33,12 +35,33 @@ void refuse_unused(const TreesimOptions& o) {
     if (!o.gltf.leaves_as.empty()) throw UsageError("--leaves-as: " + made);
 }
 
+// Whether the tree, where the scene has put it, stands where the model's file has it rather than where an import sets it (`moved`): it was
+// made with --keep-place.
+bool kept_its_place(const Setting& setting, const Vec3& moved) {
+    const Placement place = setting.scene.trees.empty() ? Placement() : setting.scene.trees.front();
+    const DrawnPose pose = drawn_pose(setting.tree);
+    Vec3 foot = Vec3::Zero();
+    double lowest = INFINITY, roots = 0;
+    for (std::size_t i = 0; i < setting.tree.size_bodies(); ++i)
+        if (setting.tree.parent[i] < 0) {
+            foot += pose.x_w[i];
+            lowest = std::min(lowest, pose.x_w[i].y());
+            ++roots;
+        }
+    foot /= roots;
+    foot.y() = lowest;
+    const Eigen::AngleAxisd back(-place.yaw * std::numbers::pi / 180, Vec3::UnitY());
+    const Vec3 before = back * (foot - place.position);
+    return (before + moved).norm() < before.norm();
+}
+
 SpeedtreeModel speedtree_model(TreesimOptions& o, const std::string& path, const Setting& setting) {
     ImportNotes found, notes;
     if (path == o.run.input && setting.imported)
         found = *setting.imported;
     else
         read_import(path, {}, found); // for its unit, its axes and where it stands
+    if (setting.ranges.size() == 1 && kept_its_place(setting, found.moved)) found.moved.setZero();
     const MappedInput file(path);
     SpeedtreeModel model = read_speedtree_model(file.content(), path, found, notes, [&file] { file.give_back(); });
     file.check();
@@ -85,6 +108,8 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
 void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting, const std::string& format) {
     if (!o.skin.empty() && !model.driven) {
         model.bound = speedtree_model(o, o.skin, setting);
+    } else if (!o.skin.empty()) {
+        if (setting.ranges.size() == 1 && kept_its_place(setting, model.driven->moved)) model.driven->moved.setZero();
     } else if (wants_own(o, format) && setting.imported) {
         const bool speedtree = is_speedtree_file(o.run.input) && has_speedtree_mesh(MappedInput(o.run.input).content());
         if (speedtree) model.bound = speedtree_model(o, o.run.input, setting);

@@ -14,7 +14,7 @@ struct Number {
     double Material::*value;
 };
 
-constexpr Number numbers[] = {
+constexpr Number number_fields[] = {
     {"density", &Material::density},
     {"youngs_modulus", &Material::youngs_modulus},
     {"shear_modulus", &Material::shear_modulus},
@@ -98,9 +98,9 @@ Material read_material(std::string_view content, const std::string& file) {
         } else if (field == "source") {
             material.source = text(value, file, field);
         } else {
-            const auto known = std::find_if(std::begin(numbers), std::end(numbers),
+            const auto known = std::find_if(std::begin(number_fields), std::end(number_fields),
                                             [&f = field](const Number& n) { return f == n.name; });
-            if (known == std::end(numbers)) throw InputError(at(file, field), "is not a field of a material");
+            if (known == std::end(number_fields)) throw InputError(at(file, field), "is not a field of a material");
             material.*(known->value) = number(value, file, field);
         }
     }

@@ -8,7 +8,7 @@
 namespace bough {
 namespace {
 
-constexpr DocumentType type{"bough-species", 1};
+constexpr DocumentType species_document{"bough-species", 1};
 
 // One number of every level: an array in the document.
 struct LevelColumn {
@@ -137,13 +137,13 @@ std::vector<Field> fields_of(Species& s, Forms& forms) {
 } // namespace
 
 bool is_species(std::string_view content) {
-    return document_format(content) == type.format;
+    return document_format(content) == species_document.format;
 }
 
 Species read_species(std::string_view content, const std::string& name) {
     Species s;
     Forms forms;
-    read_document(content, name, type, fields_of(s, forms));
+    read_document(content, name, species_document, fields_of(s, forms));
     s.growth.rules = rules_named(forms.rules, name);
     if (forms.tropism.size() > 1) throw InputError(name + ": /tropism", "holds several vectors, expected one");
     if (!forms.tropism.empty()) s.growth.tropism = forms.tropism.front();

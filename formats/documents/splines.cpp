@@ -4,7 +4,7 @@
 namespace bough {
 namespace {
 
-constexpr DocumentType type{"bough-splines", 1};
+constexpr DocumentType splines_document{"bough-splines", 1};
 
 std::vector<Field> fields_of(Splines& s) {
     const auto count = [](const auto& array) { return [&array] { return array.size(); }; };
@@ -41,18 +41,18 @@ std::vector<Field> fields_of(Splines& s) {
 } // namespace
 
 bool is_splines(std::string_view content) {
-    return document_format(content) == type.format;
+    return document_format(content) == splines_document.format;
 }
 
 Splines read_splines(std::string_view content, const std::string& name) {
     Splines splines;
-    read_document(content, name, type, fields_of(splines));
+    read_document(content, name, splines_document, fields_of(splines));
     refuse(check(splines), name, fields_of(splines));
     return splines;
 }
 
 void write_splines(Output& output, const Splines& splines, Form form) {
-    write_document(output, form, type, fields_of(const_cast<Splines&>(splines))); // a writer only looks
+    write_document(output, form, splines_document, fields_of(const_cast<Splines&>(splines))); // a writer only looks
 }
 
 } // namespace bough

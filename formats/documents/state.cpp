@@ -5,7 +5,7 @@
 namespace bough {
 namespace {
 
-constexpr DocumentType type{"bough-state", 1};
+constexpr DocumentType state_document{"bough-state", 1};
 
 // Absent, the array is empty.
 Field without_filling(Field field) {
@@ -89,13 +89,13 @@ void check_state(const SavedState& state, const std::string& name) {
 } // namespace
 
 bool is_state(std::string_view content) {
-    return document_format(content) == type.format;
+    return document_format(content) == state_document.format;
 }
 
 SavedState read_state(std::string_view content, const std::string& name) {
     SavedState state;
     std::string fingerprint;
-    read_document(content, name, type, fields_of(state, fingerprint));
+    read_document(content, name, state_document, fields_of(state, fingerprint));
     if (!read_hexadecimal(fingerprint, state.fingerprint))
         throw InputError(name + ": /fingerprint", "is not 16 hexadecimal digits");
     check_state(state, name);
@@ -107,7 +107,7 @@ void write_state(Output& output, const SavedState& state, Form form) {
     std::vector<Field> fields = fields_of(const_cast<SavedState&>(state), fingerprint); // a writer only looks
     if (state.parts == 1) // as it was before there were any
         std::erase_if(fields, [](const Field& field) { return field.name == "part" || field.name == "parts"; });
-    write_document(output, form, type, fields);
+    write_document(output, form, state_document, fields);
 }
 
 } // namespace bough

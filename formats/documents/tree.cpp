@@ -4,7 +4,7 @@
 namespace bough {
 namespace {
 
-constexpr DocumentType type{"bough-tree", 1};
+constexpr DocumentType tree_document{"bough-tree", 1};
 
 // 0 or 1 for each body; where all are 0 it is left out.
 Field flags(const std::string& name, std::vector<std::uint8_t>& values, const Per& per) {
@@ -57,25 +57,25 @@ std::vector<Field> fields_of(Tree& t) {
 } // namespace
 
 bool is_tree(std::string_view content) {
-    return document_format(content) == type.format;
+    return document_format(content) == tree_document.format;
 }
 
 Tree read_tree(std::string_view content, const std::string& name) {
     Tree tree;
-    read_document(content, name, type, fields_of(tree));
+    read_document(content, name, tree_document, fields_of(tree));
     refuse(check(tree), name, fields_of(tree));
     return tree;
 }
 
 Tree read_tree(const Input& input) {
     Tree tree;
-    read_document(input, type, fields_of(tree));
+    read_document(input, tree_document, fields_of(tree));
     refuse(check(tree), input.name(), fields_of(tree));
     return tree;
 }
 
 void write_tree(Output& output, const Tree& tree, Form form) {
-    write_document(output, form, type, fields_of(const_cast<Tree&>(tree))); // a writer only looks
+    write_document(output, form, tree_document, fields_of(const_cast<Tree&>(tree))); // a writer only looks
 }
 
 } // namespace bough

@@ -285,7 +285,7 @@ Splines finish_import(ImportedTree&& tree, const ImportOptions& options, ImportN
         add_leaf(s, leaf, nearest_on(tree.branches[leaf.branch].point, leaf.position).fraction, frame);
     make_twigs(tree.leaves, frame.unit, s, notes);
     take_trunk_diameter(s, options, notes);
-    bring_to_origin(s, notes);
+    set_on_ground(s, options.keep_place, notes);
     name_absurd_scale(s, options.unit.has_value(), notes);
     if (const auto defect = check(s)) {
         std::string entry;

@@ -44,7 +44,7 @@ bool JsonPull::next(char close) {
 bool JsonPull::next_key(std::string_view& key) {
     if (!next('}')) return false;
     key = string();
-    if (peek() != ':') refuse("expected : after " + quoted(key));
+    if (peek() != ':') refuse("expected : after " + in_ascii_quotes(key));
     ++at_;
     return true;
 }
@@ -76,13 +76,13 @@ std::string_view JsonPull::word() {
 double JsonPull::number() {
     const std::string_view token = word();
     const auto value = parse_number(token);
-    if (!value) refuse(quoted(token) + ", expected a finite number");
+    if (!value) refuse(in_ascii_quotes(token) + ", expected a finite number");
     return *value;
 }
 
 bool JsonPull::boolean() {
     const std::string_view token = word();
-    if (token != "true" && token != "false") refuse(quoted(token) + ", expected true or false");
+    if (token != "true" && token != "false") refuse(in_ascii_quotes(token) + ", expected true or false");
     return token == "true";
 }
 
@@ -102,7 +102,7 @@ void JsonPull::skip() {
             string();
         } else if (const std::string_view token = word();
                    token != "true" && token != "false" && token != "null" && !parse_number(token)) {
-            refuse(quoted(token) + " is no value");
+            refuse(in_ascii_quotes(token) + " is no value");
         }
     } while (!open.empty());
 }

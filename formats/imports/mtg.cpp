@@ -57,7 +57,7 @@ std::optional<double> number(const mtg::File& file, const mtg::Vertex& v, std::s
     if (text.empty() || text == "NA" || text == "-") return {};
     const auto value = parse_number(text, true);
     if (!value)
-        throw InputError(file_line(name, v.line), std::string(file.features[feature]) + " is " + quoted(text) +
+        throw InputError(file_line(name, v.line), std::string(file.features[feature]) + " is " + in_ascii_quotes(text) +
                                                       ", expected a finite number or nothing");
     return value;
 }

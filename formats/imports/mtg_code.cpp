@@ -101,7 +101,7 @@ void Parser::add_class(std::string_view line) {
     const std::string_view token = next_token(line, at);
     const auto scale = parse_integer(token);
     if (!scale || *scale < 0)
-        refuse("class " + quoted(symbol) + " has the scale " + quoted(token) + ", expected a whole number");
+        refuse("class " + in_ascii_quotes(symbol) + " has the scale " + in_ascii_quotes(token) + ", expected a whole number");
     classes_.scale.emplace_back(symbol, *scale);
 }
 
@@ -171,7 +171,7 @@ void Parser::entities(std::string_view code, std::string_view row) {
     while (at < code.size()) {
         const char edge = code[at];
         if (edge != '/' && edge != '<' && edge != '+')
-            refuse(quoted(code.substr(at)) + " does not begin with an edge, expected '/', '<' or '+'");
+            refuse(in_ascii_quotes(code.substr(at)) + " does not begin with an edge, expected '/', '<' or '+'");
         const bool many = edge == '<' && code.substr(at, 2) == "<<";
         at += many ? 2 : 1;
         const std::size_t name = at;
@@ -180,7 +180,7 @@ void Parser::entities(std::string_view code, std::string_view row) {
         while (at < code.size() && is_digit(code[at])) ++at;
         const std::string_view symbol = code.substr(name, number - name);
         const auto scale = classes_.find(symbol);
-        if (!scale) refuse("entity " + quoted(code.substr(name, at - name)) + " is of no class that CLASSES names");
+        if (!scale) refuse("entity " + in_ascii_quotes(code.substr(name, at - name)) + " is of no class that CLASSES names");
         const std::int64_t index = parse_integer(code.substr(number, at - number)).value_or(-1);
         file_.entities += many && index > index_before && index_before >= 0 ? std::size_t(index - index_before) : 1;
         index_before = index;
@@ -204,7 +204,7 @@ File Parser::parse() {
             std::size_t at = 0;
             const std::string_view word = next_token(line, at);
             if (word != "ENTITY-CODE" && word != "TOPO")
-                refuse("begins with " + quoted(word) + ", expected ENTITY-CODE and the names of features");
+                refuse("begins with " + in_ascii_quotes(word) + ", expected ENTITY-CODE and the names of features");
             add_features(line);
             has_header = true;
             continue;

@@ -14,9 +14,9 @@ constexpr std::array<std::string_view, 44> keywords{
     "surf",     "parm",       "trim",      "hole",   "scrv",   "sp",     "end", "con",  "bevel", "lod",  "c_interp",
     "d_interp", "shadow_obj", "trace_obj", "ctech",  "stech",  "call",   "csh", "bsp",  "bzp",   "cdc",  "res"};
 
-class Reader {
+class LineReader {
 public:
-    Reader(std::string_view content, const std::string& name) : content_(content), name_(name) {}
+    LineReader(std::string_view content, const std::string& name) : content_(content), name_(name) {}
 
     ObjLines read() {
         for (std::size_t at = bom_size(content_); at < content_.size();) {
@@ -61,7 +61,7 @@ private:
 
     double number(std::string_view token, const char* what) const {
         const auto value = parse_number(token);
-        if (!value) refuse(quoted(token) + " is not " + what + ", expected a finite number");
+        if (!value) refuse(in_ascii_quotes(token) + " is not " + what + ", expected a finite number");
         return *value;
     }
 
@@ -114,7 +114,7 @@ private:
     std::int32_t vertex(std::string_view token) {
         const auto index = parse_integer(token.substr(0, token.find('/')));
         const std::int64_t count = std::int64_t(obj_.lines.point.size());
-        if (!index) refuse(quoted(token) + " is not a vertex's index, expected an integer");
+        if (!index) refuse(in_ascii_quotes(token) + " is not a vertex's index, expected an integer");
         if (*index == 0 || *index < -count || *index > 0x7fffffff) refuse_index(*index, line_);
         const std::int64_t i = *index > 0 ? *index - 1 : count + *index;
         if (i > highest_) {
@@ -153,7 +153,7 @@ private:
         else if (type_ == "cardinal")
             curve_.kind = ObjCurve::Kind::cardinal;
         else
-            refuse("curv of cstype " + quoted(type_) + ", expected bspline, bezier or cardinal");
+            refuse("curv of cstype " + in_ascii_quotes(type_) + ", expected bspline, bezier or cardinal");
         for (int k = 0; k < 2; ++k) number(next_token(line, at), "an end of the curve's range");
         for (std::string_view t = next_token(line, at); !t.empty() && t.front() != '#'; t = next_token(line, at))
             obj_.curve_point.push_back(vertex(t));
@@ -187,7 +187,7 @@ private:
 } // namespace
 
 ObjLines read_obj_lines(std::string_view content, const std::string& name) {
-    return Reader(content, name).read();
+    return LineReader(content, name).read();
 }
 
 bool looks_like_obj(std::string_view content) {

@@ -6,8 +6,8 @@
 namespace bough {
 namespace {
 
-constexpr double far_aside = 10, far_above = 1; // of the tree's extent
-constexpr double tallest = 120, lowest = 0.1;   // [m]
+constexpr double stands = 0.01;               // of the tree's extent
+constexpr double tallest = 120, lowest = 0.1; // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
@@ -34,7 +34,8 @@ double median(std::vector<double>& values) {
 
 } // namespace
 
-void bring_to_origin(Splines& s, ImportNotes& notes) {
+void set_on_ground(Splines& s, bool keep, ImportNotes& notes) {
+    if (keep) return;
     const Box box = box_of(s);
     const double extent = (box.high - box.low).maxCoeff();
     Vec3 base = Vec3::Zero();
@@ -49,15 +50,14 @@ void bring_to_origin(Splines& s, ImportNotes& notes) {
     }
     base /= double(std::max<std::size_t>(1, roots));
     base.y() = ground;
-    const double aside = std::max(std::abs(base.x()), std::abs(base.z()));
-    if (aside <= far_aside * extent && std::abs(ground) <= far_above * extent) return;
+    if (base.cwiseAbs().maxCoeff() <= stands * extent) return;
     notes.moved = -base;
     for (Vec3& p : s.point) p -= base;
     for (Vec3& p : s.leaf_position) p -= base;
     for (Vec3& p : s.fruit_position) p -= base;
     for (Vec3& p : s.fruit_center) p -= base;
-    notes.lines.push_back("far from the origin: moved so that its base stands there, by " + shown(-base.x()) + ", " +
-                          shown(-base.y()) + ", " + shown(-base.z()) + " m (x, y up, z)");
+    notes.lines.push_back("its foot stood at " + shown(base.x()) + ", " + shown(base.y()) + ", " + shown(base.z()) +
+                          " m (x, y up, z): set on the ground at the origin (--keep-place leaves it)");
 }
 
 void name_absurd_scale(const Splines& s, bool unit_given, ImportNotes& notes) {

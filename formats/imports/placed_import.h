@@ -4,10 +4,10 @@
 
 namespace bough {
 
-// A tree whose bases stand more than 10 times its own extent away to the side, or more than once above or below the
-// origin (coordinates of a survey), is moved: the middle of its bases, and the lowest of them, to the origin, as wind is
-// given over the ground. One note with the way.
-void bring_to_origin(Splines&, ImportNotes&);
+// Moves the tree so that its foot, the middle of its bases at the height of the lowest of them, stands at the origin: wind blows over the
+// ground at y = 0, and a scene's position says where the foot is. A foot within 1 % of the tree's extent stays (a stem sunk a little into the
+// ground, float's rounding), and so does every one where `keep`. One note with the way. O(points).
+void set_on_ground(Splines&, bool keep, ImportNotes&);
 
 // A note where the tree is higher than any (120 m) or lower than 0.1 m: the unit is then the likely mistake. Where the
 // user gave the unit, only above 1200 m: what is small may be meant (a neuron).

@@ -47,7 +47,7 @@ public:
             } else if (key == "property") {
                 take_property(text, in);
             } else {
-                refuse(quoted(key) + " is no line of a PLY header");
+                refuse(in_ascii_quotes(key) + " is no line of a PLY header");
             }
         }
         if (!has_form) refuse("has no format line, expected ascii, binary_little_endian or binary_big_endian");
@@ -77,7 +77,7 @@ private:
         else if (form == "binary_big_endian")
             header_.form = PlyHeader::Form::big;
         else
-            refuse("format " + quoted(form) + ", expected ascii, binary_little_endian or binary_big_endian");
+            refuse("format " + in_ascii_quotes(form) + ", expected ascii, binary_little_endian or binary_big_endian");
     }
 
     void take_element(std::string_view text, std::size_t in) {
@@ -92,7 +92,7 @@ private:
     PlyType type(std::string_view name) const {
         for (const TypeName& t : type_names)
             if (name == t.name) return t.type;
-        refuse(quoted(name) + " is no type of a property");
+        refuse(in_ascii_quotes(name) + " is no type of a property");
     }
 
     void take_property(std::string_view text, std::size_t in) {
@@ -219,7 +219,7 @@ private:
         if (at_ == content_.size()) refuse("ends early");
         const std::string_view token = next_token(content_, at_);
         const auto value = parse_number(token);
-        if (!value) refuse(quoted(token) + " is no finite number");
+        if (!value) refuse(in_ascii_quotes(token) + " is no finite number");
         return *value;
     }
 
@@ -241,7 +241,7 @@ PlyHeader read_ply_header(std::string_view content, const std::string& name) {
     for (const PlyElement& e : header.element) {
         const std::size_t least = least_bytes(e, header.form);
         if (least > 0 ? e.count > bytes / least : e.count > 0)
-            throw InputError(name, "names " + std::to_string(e.count) + " of element " + quoted(e.name) +
+            throw InputError(name, "names " + std::to_string(e.count) + " of element " + in_ascii_quotes(e.name) +
                                        ", more than fit into the file: is it whole?");
     }
     return header;

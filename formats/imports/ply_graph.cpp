@@ -52,7 +52,7 @@ VertexColumns columns_of(const PlyElement& e, const std::string& name, ImportNot
     c.factor = 0.5;
     if (c.radius >= 0)
         notes.lines.push_back("radius taken as half of the vertices' " +
-                              quoted(e.property[std::size_t(c.radius)].name));
+                              in_ascii_quotes(e.property[std::size_t(c.radius)].name));
     return c;
 }
 
@@ -79,14 +79,14 @@ EdgeColumns edge_columns(const PlyElement& e, const std::string& name) {
         if ((c.to = find(e, {pair[1]})) >= 0) return c;
     }
     if (c.list < 0)
-        throw InputError(name, "has element " + quoted(e.name) +
+        throw InputError(name, "has element " + in_ascii_quotes(e.name) +
                                    " without a list of vertices or a pair such as vertex1 and vertex2");
     return c;
 }
 
-class Reader {
+class GraphReader {
 public:
-    Reader(std::string_view content, const std::string& name, ImportNotes& notes)
+    GraphReader(std::string_view content, const std::string& name, ImportNotes& notes)
         : header_(read_ply_header(content, name)), name_(name) {
         for (const PlyElement& e : header_.element) {
             if (is_vertex(e) && !vertex_) vertex_ = &e;
@@ -176,7 +176,7 @@ bool recognizes_ply(std::string_view content) {
 }
 
 Splines read_ply(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
-    LineGraph graph = Reader(content, options.name, notes).graph;
+    LineGraph graph = GraphReader(content, options.name, notes).graph;
     options.let_go();
     ImportedTree tree = tree_of_lines(std::move(graph), options.up, options.name, notes);
     tree.source = "PLY skeleton " + options.name;

@@ -34,9 +34,9 @@ Vec3 vector(JsonPull& json) {
     return {v[0], v[1], v[2]};
 }
 
-class Reader {
+class CurveReader {
 public:
-    Reader(std::string_view content, const std::string& name) : json_(content, name) {
+    CurveReader(std::string_view content, const std::string& name) : json_(content, name) {
         std::string_view key;
         for (json_.begin_object(); json_.next_key(key);) {
             if (key == "splines")
@@ -159,14 +159,14 @@ bool recognizes_curves(std::string_view content) {
 }
 
 Splines read_curves(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
-    Reader file(content, options.name);
+    CurveReader file(content, options.name);
     ImportedTree tree;
     LooseCurves curves = file.curves();
     options.let_go();
     if (curves.size() == 0) throw InputError(options.name, "holds no spline with points, expected at least one");
     tree.unit = unit_called(file.units);
     if (!file.units.empty() && !tree.unit)
-        notes.lines.push_back("units " + quoted(file.units) + " are none that are known");
+        notes.lines.push_back("units " + in_ascii_quotes(file.units) + " are none that are known");
     if (file.up == "Z" || file.up == "z") tree.up = 'z';
     if (file.up == "Y" || file.up == "y") tree.up = 'y';
     if (file.without_bevel())

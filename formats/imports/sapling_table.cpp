@@ -102,9 +102,9 @@ template <class Place> Row parse_row(std::string_view line, const Header& h, Pla
         if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
         if (field.empty() && (c == radius || c == bevel)) return;
         const auto number = parse_number(field, h.comma != ',');
-        if (!number) throw InputError(place(), quoted(field) + " is no finite number");
+        if (!number) throw InputError(place(), in_ascii_quotes(field) + " is no finite number");
         if (c <= knot && *number != std::floor(*number))
-            throw InputError(place(), quoted(field) + " is not a curve's or point's number, expected an integer");
+            throw InputError(place(), in_ascii_quotes(field) + " is not a curve's or point's number, expected an integer");
         value[c] = *number;
         seen[c] = true;
     });
@@ -176,7 +176,7 @@ Splines read_table(std::string_view content, const ImportOptions& options, Impor
     std::string_view line;
     lines.next(line);
     const Header header = parse_header(line);
-    for (const std::string& other : header.others) notes.lines.push_back("column " + quoted(other) + " not read");
+    for (const std::string& other : header.others) notes.lines.push_back("column " + in_ascii_quotes(other) + " not read");
     const auto most_rows = std::size_t(std::count(content.begin(), content.end(), '\n'));
     LooseCurves curves = curves_of(lines, header, options.name, most_rows);
     if (curves.size() == 0) throw InputError(options.name, "holds no point, expected a row for each after the first");

@@ -24,7 +24,7 @@ std::int32_t exponent(const Segment& s, const std::vector<Vec3>& point, const st
     return std::clamp(std::ilogb(size), -1100, 1100);
 }
 
-struct Box {
+struct MortonBox {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     void add(const Vec3& p) {
         low = low.cwiseMin(p);
@@ -45,13 +45,13 @@ Vec3 middle_of(const Segment& s, const std::vector<Vec3>& point) {
 // Pieces of so many segments that they are sorted each for itself: rank + 1 of each, along a Morton curve; 0: all others.
 constexpr std::int32_t many_segments = 512, most_ranks = 1 << 15;
 
-std::vector<std::int32_t> rank_large(const std::vector<Segment>& segments, std::size_t pieces, const Box& all,
+std::vector<std::int32_t> rank_large(const std::vector<Segment>& segments, std::size_t pieces, const MortonBox& all,
                                      const std::vector<Vec3>& point) {
     std::vector<std::int32_t> rank(pieces, 0);
     for (const Segment& s : segments) ++rank[s.piece];
-    std::vector<std::pair<std::int32_t, Box>> large;
+    std::vector<std::pair<std::int32_t, MortonBox>> large;
     for (std::int32_t& r : rank) {
-        if (r >= many_segments) large.emplace_back(std::int32_t(&r - rank.data()), Box());
+        if (r >= many_segments) large.emplace_back(std::int32_t(&r - rank.data()), MortonBox());
         r = r >= many_segments ? std::int32_t(large.size()) : 0;
     }
     for (const Segment& s : segments)
@@ -68,7 +68,7 @@ std::vector<std::int32_t> rank_large(const std::vector<Segment>& segments, std::
 void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& radius, std::vector<Segment>& segments,
                    std::size_t pieces) {
     constexpr std::size_t aligned = 64;
-    Box box;
+    MortonBox box;
     std::int32_t largest = std::numeric_limits<std::int32_t>::min();
     for (const Segment& s : segments) {
         box.add(point[s.a]);

@@ -21,7 +21,7 @@ Elements::Elements(std::string_view content, const std::string& name)
         load(whole_, content, pugi::parse_default);
     const pugi::xml_node root = pieces_ ? some.document_element() : whole_.document_element();
     if (std::string_view(root.name()) != "SpeedTreeRaw")
-        throw InputError(name, "root element is " + quoted(root.name()) + ", expected SpeedTreeRaw");
+        throw InputError(name, "root element is " + in_ascii_quotes(root.name()) + ", expected SpeedTreeRaw");
     if (!pieces_) return;
     for (const XmlSection& section : pieces_->section) {
         read_tag(section.tag, some);

@@ -35,7 +35,7 @@ T Fields::attribute(const pugi::xml_node& node, const char* attribute, const cha
     const pugi::xml_attribute found = node.attribute(attribute);
     if (!found) refuse(node, std::string("has no ") + attribute + ", expected " + what);
     const auto value = parse(trimmed(found.value()));
-    if (!value) refuse(node, std::string(attribute) + " is " + quoted(found.value()) + ", expected " + what);
+    if (!value) refuse(node, std::string(attribute) + " is " + in_ascii_quotes(found.value()) + ", expected " + what);
     return T(*value);
 }
 
@@ -78,7 +78,7 @@ std::vector<T> Fields::list(const pugi::xml_node& parent, const char* child, con
         if (!value) {
             const std::size_t lines = std::size_t(std::count(text.data(), token.data(), '\n'));
             throw InputError(file_line(name_, line(node.first_child()) + lines),
-                             std::string("<") + parent.name() + "> " + child + " holds " + quoted(token) +
+                             std::string("<") + parent.name() + "> " + child + " holds " + in_ascii_quotes(token) +
                                  ", expected " + what);
         }
         values.push_back(*value);

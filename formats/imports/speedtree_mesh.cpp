@@ -7,10 +7,10 @@
 namespace bough::speedtree {
 namespace {
 
-class Reader {
+class MeshReader {
 public:
-    Reader(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
-           const Eigen::Affine3d& world)
+    MeshReader(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
+               const Eigen::Affine3d& world)
         : elements_(content, name), world_(world) {
         for (std::size_t b = 0; b < bones.size(); ++b) bones_.emplace(bones[b].id, std::int32_t(b));
     }
@@ -144,7 +144,7 @@ private:
 
 MeshFile parse_mesh(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
                     const Eigen::Affine3d& world) {
-    return Reader(content, name, bones, world).read();
+    return MeshReader(content, name, bones, world).read();
 }
 
 bool has_mesh(std::string_view content) {

@@ -73,7 +73,7 @@ double radius_at(const ImportedBranch& b, const OnPolyline& place) {
     return (1 - place.t) * b.radius[place.segment] + place.t * b.radius[place.segment + 1];
 }
 
-std::optional<double> median(std::vector<double>& values) {
+std::optional<double> median_or_none(std::vector<double>& values) {
     if (values.empty()) return {};
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -171,7 +171,7 @@ double radius_factor(const File& file, const SpineBranches& spines, std::optiona
         ratios = bark_ratios(file, spines);
         yardstick = " distances of bark points";
     }
-    if (const auto ratio = median(ratios)) {
+    if (const auto ratio = median_or_none(ratios)) {
         const double factor = known_factor(*ratio);
         if (factor != 1)
             notes.lines.push_back("radii of spines multiplied by " + shown(factor) +

@@ -211,7 +211,7 @@ std::optional<double> stated_unit(const pugi::xml_node& root, const Fields& f) {
     if (is({"mm", "millimeter", "millimetre"})) return 0.001;
     if (is({"in", "inch"}) || u == "inches") return 0.0254;
     if (is({"ft", "foot"}) || u == "feet") return 0.3048;
-    f.refuse(root, "units is " + quoted(units.value()) + ", expected m, cm, mm, in or ft");
+    f.refuse(root, "units is " + in_ascii_quotes(units.value()) + ", expected m, cm, mm, in or ft");
 }
 
 char stated_up(const pugi::xml_node& root, const Fields& f) {
@@ -224,7 +224,7 @@ char stated_up(const pugi::xml_node& root, const Fields& f) {
              {letter, "+" + letter, letter + "-up", letter + "_up", letter + "up", letter + " up"})
             if (axis == name) return c;
     }
-    f.refuse(root, "upAxis is " + quoted(up.value()) + ", expected Y or Z");
+    f.refuse(root, "upAxis is " + in_ascii_quotes(up.value()) + ", expected Y or Z");
 }
 
 std::string stated_version(const pugi::xml_node& root) {

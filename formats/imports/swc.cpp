@@ -24,7 +24,7 @@ struct Node {
     std::size_t line;
 };
 
-struct Table {
+struct SampleTable {
     std::vector<Node> nodes;
     bool more_columns = false;
 };
@@ -64,12 +64,13 @@ Node parse_node(std::string_view line, std::size_t number, const std::string& na
     more_columns = more_columns || !next_token(line, at).empty();
     const auto integer = [&](std::size_t k, const char* what) {
         const auto value = whole_number(field[k]);
-        if (!value) refuse(name, number, quoted(field[k]) + " is not a node's " + what + ", expected an integer");
+        if (!value) refuse(name, number, in_ascii_quotes(field[k]) + " is not a node's " + what + ", expected an integer");
         return *value;
     };
     const auto real = [&](std::size_t k, const char* what) {
         const auto value = parse_number(field[k]);
-        if (!value) refuse(name, number, quoted(field[k]) + " is not a node's " + what + ", expected a finite number");
+        if (!value)
+            refuse(name, number, in_ascii_quotes(field[k]) + " is not a node's " + what + ", expected a finite number");
         return *value;
     };
     Node node;
@@ -83,8 +84,8 @@ Node parse_node(std::string_view line, std::size_t number, const std::string& na
     return node;
 }
 
-Table parse_table(std::string_view content, const std::string& name) {
-    Table table;
+SampleTable parse_table(std::string_view content, const std::string& name) {
+    SampleTable table;
     each_row(content, [&](std::string_view line, std::size_t number) {
         table.nodes.push_back(parse_node(line, number, name, table.more_columns));
         return true;
@@ -166,7 +167,7 @@ bool is_our_own(std::string_view content) {
 }
 
 Splines read_swc(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
-    const Table table = parse_table(content, options.name);
+    const SampleTable table = parse_table(content, options.name);
     if (table.nodes.empty())
         throw InputError(options.name, "holds no node, expected lines of id type x y z radius parent");
     if (table.more_columns) notes.lines.push_back("columns after the seventh are not read");

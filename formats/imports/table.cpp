@@ -129,8 +129,8 @@ std::size_t Table::column(std::initializer_list<std::string_view> names) const {
 }
 
 void Table::refuse(std::size_t column, const char* expected) const {
-    throw InputError(file_line(name_, line_), "column " + quoted(names_[column]) + " holds " + quoted(cells_[column]) +
-                                                  ", expected " + expected);
+    throw InputError(file_line(name_, line_), "column " + in_ascii_quotes(names_[column]) + " holds " +
+                                                  in_ascii_quotes(cells_[column]) + ", expected " + expected);
 }
 
 double Table::number(std::size_t column) const {

@@ -71,7 +71,8 @@ Fields parse_fields(std::string_view line, const std::string& place) {
 
 double number(std::string_view token, const std::string& place, const char* what) {
     const auto value = parse_number(token);
-    if (!value) throw InputError(place, quoted(token) + " is not a segment's " + what + ", expected a finite number");
+    if (!value)
+        throw InputError(place, in_ascii_quotes(token) + " is not a segment's " + what + ", expected a finite number");
     return *value;
 }
 
@@ -97,7 +98,7 @@ void add_tree(Skeleton& s, std::string_view text, const Fields& f, std::size_t l
     for (std::size_t at = f.tree; at < field.size(); at += f.segment) {
         const auto parent = parse_integer(field[at + f.parent]);
         if (!parent || *parent < -1 || *parent >= count)
-            throw InputError(place, quoted(field[at + f.parent]) + " is not a parent_id, expected -1 to " +
+            throw InputError(place, in_ascii_quotes(field[at + f.parent]) + " is not a parent_id, expected -1 to " +
                                         std::to_string(count - 1));
         add_node(s, field.data() + at, *parent < 0 ? -1 : std::int32_t(first + *parent), line, place);
     }

@@ -253,12 +253,12 @@ ChosenJoints choose_joints(const ModelScene& scene, const Vec3& up, ImportNotes&
     if (bare.bones > 0)
         notes.lines.push_back(counted(bare.bones, "bone", "bones") + " of " +
                               counted(bare.armatures, "armature", "armatures") + " that move no vertex left out (" +
-                              quoted(bare.name) + (bare.armatures > 1 ? " ..." : "") +
+                              in_ascii_quotes(bare.name) + (bare.armatures > 1 ? " ..." : "") +
                               "): export what is a tree with its mesh, or alone");
     if (controls > 0)
         notes.lines.push_back(counted(controls, "bone", "bones") + " left out as " +
                               (controls == 1 ? "a control by its name (" : "controls by their names (") +
-                              quoted(control) + (controls > 1 ? " ..." : "") + "): rename what is wood");
+                              in_ascii_quotes(control) + (controls > 1 ? " ..." : "") + "): rename what is wood");
     note(unnamed, "node that no skin names left out: a bone of an armature without a mesh?",
          "nodes in a row that no skin names left out: bones of an armature without a mesh?", notes);
     if (!moves && !scene.vertex.empty()) notes.lines.push_back("the mesh is moved by no bone of the armature");

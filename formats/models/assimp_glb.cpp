@@ -69,7 +69,7 @@ void refuse_names_used_twice(const aiScene& scene, std::string_view content, Ass
         stack.pop_back();
         const std::string name = skin_name(node->mName);
         if (bones.contains(name) && !seen.insert(name).second)
-            throw InputError(file, "two of its nodes are called " + quoted(name) +
+            throw InputError(file, "two of its nodes are called " + in_ascii_quotes(name) +
                                        ", as a skin's bone is; give the bones of each armature names of their own, or "
                                        "export glTF");
         stack.insert(stack.end(), node->mChildren, node->mChildren + node->mNumChildren);

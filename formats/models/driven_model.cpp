@@ -156,7 +156,7 @@ void DrivenModel::leave_out_animations(std::vector<std::string>& notes) {
             kept.push_back(animation);
             continue;
         }
-        left_out += (left_out.empty() ? "" : ", ") + bough::quoted(animation.value("name", std::string()));
+        left_out += (left_out.empty() ? "" : ", ") + bough::in_ascii_quotes(animation.value("name", std::string()));
         for (const Json& sampler : animation.at("samplers"))
             for (const char* array : {"input", "output"}) arrays.push_back(sampler.at(array).get<std::size_t>());
     }
@@ -165,7 +165,7 @@ void DrivenModel::leave_out_animations(std::vector<std::string>& notes) {
         notes.push_back(model_.name + ": animations of the same bones left out for the new one: " + left_out);
     if (const std::string unknown = prune(*model_.document, arrays); !unknown.empty())
         notes.push_back(model_.name + ": the arrays of what was left out stay in the file, as it uses " +
-                        bough::quoted(unknown) + ", which may name them");
+                        bough::in_ascii_quotes(unknown) + ", which may name them");
 }
 
 void DrivenModel::write(const MotionFrame& frame) {

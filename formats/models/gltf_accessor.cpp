@@ -144,7 +144,7 @@ Array checked(const GltfDocument& document, const Json& named, const GltfUse& us
     array.normalized = accessor.value("normalized", false);
     const std::string type = accessor.at("type").get<std::string>();
     if (type != use.type || !allows(use.numbers, *array.component, array.normalized))
-        throw std::out_of_range(place + " is " + bough::quoted(type) + " of " +
+        throw std::out_of_range(place + " is " + bough::in_ascii_quotes(type) + " of " +
                                 (array.normalized ? "normalized " : "") + array.component->name + ", expected " +
                                 use.type + " of " + name_of(use.numbers));
     const std::size_t count = whole_number(accessor, "count", place), width = width_of(type);

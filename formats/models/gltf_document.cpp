@@ -170,7 +170,7 @@ void embed_images(GltfDocument& document, const std::string& folder, ImportNotes
         }
         const char* const type = image_type(bytes);
         if (!type) {
-            notes.lines.push_back("image " + bough::quoted(uri) + " not put into the file, its name stays: " + why);
+            notes.lines.push_back("image " + bough::in_ascii_quotes(uri) + " not put into the file, its name stays: " + why);
             continue;
         }
         const std::size_t view = add_view(document, bytes);
@@ -222,7 +222,7 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
     document.json = parsed(chunks.json, name);
     try {
         const std::string version = document.json.at("asset").at("version").get<std::string>();
-        if (!version.starts_with("2.")) throw std::out_of_range("asset version is " + bough::quoted(version));
+        if (!version.starts_with("2.")) throw std::out_of_range("asset version is " + bough::in_ascii_quotes(version));
         move_views(document.json, merge_buffers(document, chunks, folder));
         if (images == GltfImages::embed) embed_images(document, folder, notes);
     } catch (const std::bad_alloc&) {

@@ -43,7 +43,7 @@ std::string from_base64(std::string_view text) {
         if (c == '=' || is_blank(c)) continue;
         const int v = value[static_cast<unsigned char>(c)];
         if (v < 0)
-            throw std::runtime_error("a data: URI holds " + bough::quoted(std::string_view(&c, 1)) +
+            throw std::runtime_error("a data: URI holds " + bough::in_ascii_quotes(std::string_view(&c, 1)) +
                                      ", expected base64");
         bits = bits << 6 | static_cast<std::uint32_t>(v);
         if (++count % 4 == 1) continue;
@@ -64,16 +64,16 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
         return head.ends_with(";base64") ? from_base64(data) : unescaped(data);
     }
     if (uri.find("://") != std::string::npos || uri.starts_with("/"))
-        throw std::runtime_error(bough::quoted(uri) +
+        throw std::runtime_error(bough::in_ascii_quotes(uri) +
                                  " is not beside the file, expected a relative path or a data: URI");
     if (folder.empty())
-        throw std::runtime_error(bough::quoted(uri) + " cannot be looked for: the file was read from a pipe");
+        throw std::runtime_error(bough::in_ascii_quotes(uri) + " cannot be looked for: the file was read from a pipe");
     const std::string file = folder + "/" + unescaped(uri);
-    if (!within_reach(file, folder)) throw std::runtime_error(bough::quoted(uri) + " " + out_of_reach);
+    if (!within_reach(file, folder)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + out_of_reach);
     try {
         return read_input(file);
     } catch (const InputError&) {
-        throw std::runtime_error(bough::quoted(uri) + " is not beside the file, or cannot be read");
+        throw std::runtime_error(bough::in_ascii_quotes(uri) + " is not beside the file, or cannot be read");
     }
 }
 

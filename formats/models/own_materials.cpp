@@ -72,9 +72,9 @@ public:
     void add_notes() {
         for (const auto& [file, places] : missing_) {
             std::string text =
-                "texture " + bough::quoted(file) + " not found, its material does without it; looked for";
+                "texture " + bough::in_ascii_quotes(file) + " not found, its material does without it; looked for";
             for (std::size_t k = 0; k < places.size(); ++k) text += (k > 0 ? ", " : " ") + places[k];
-            notes_.lines.push_back(places.empty() ? "texture " + bough::quoted(file) +
+            notes_.lines.push_back(places.empty() ? "texture " + bough::in_ascii_quotes(file) +
                                                         " not looked for, as what is read from a pipe stands nowhere"
                                                   : text);
         }

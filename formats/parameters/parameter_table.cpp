@@ -18,7 +18,7 @@ std::string range(double least, double most) {
 void ParameterTable::add(const std::string& name, ParameterValue value) {
     const std::size_t line = value.line;
     if (!values_.emplace(name, std::move(value)).second)
-        throw InputError(file_line(file_, line), quoted(name) + " is there twice, expected once");
+        throw InputError(file_line(file_, line), in_ascii_quotes(name) + " is there twice, expected once");
 }
 
 bool ParameterTable::is_list(const std::string& name) const {
@@ -36,7 +36,7 @@ void ParameterTable::refuse(const std::string& name, const std::string& expected
     const auto at = values_.find(name);
     if (at == values_.end()) throw InputError(file_, name + ": is missing, expected " + expected);
     throw InputError(file_line(file_, at->second.line),
-                     name + ": is " + quoted(at->second.text) + ", expected " + expected);
+                     name + ": is " + in_ascii_quotes(at->second.text) + ", expected " + expected);
 }
 
 double ParameterTable::number(const std::string& name, double fallback, double least, double most) {
@@ -124,7 +124,7 @@ void ParameterTable::finish() const {
         if (asked_.count(name)) continue;
         const std::string nearest = nearest_name(name, {asked_.begin(), asked_.end()}, name.size() + 100);
         throw InputError(file_line(file_, value.line),
-                         "unknown parameter " + quoted(name) + ", the nearest known one is " + nearest);
+                         "unknown parameter " + in_ascii_quotes(name) + ", the nearest known one is " + nearest);
     }
 }
 

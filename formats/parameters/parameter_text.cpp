@@ -32,7 +32,7 @@ void Parser::refuse(const std::string& expected) const {
     if (at_ >= text_.size()) throw InputError(place, "ends early, expected " + expected);
     std::size_t end = at_ + 1;
     while (end < text_.size() && !is_blank(text_[end]) && text_[end] != ',') ++end;
-    throw InputError(place, quoted(text_.substr(at_, end - at_)) + ", expected " + expected);
+    throw InputError(place, in_ascii_quotes(text_.substr(at_, end - at_)) + ", expected " + expected);
 }
 
 void Parser::skip() {
@@ -137,7 +137,7 @@ ParameterTable Parser::run() {
     if (!take('{')) refuse("{ of a JSON object or a Python dict");
     while (!take('}')) {
         const std::string name = string();
-        if (!take(':')) refuse(": after " + quoted(name));
+        if (!take(':')) refuse(": after " + in_ascii_quotes(name));
         table.add(name, value());
         if (take(',')) continue;
         if (!take('}')) refuse("a comma or }");

@@ -8,7 +8,7 @@ namespace {
 
 using Four = std::array<double, 4>;
 
-void read_levels(ParameterTable& t, GrowthParameters& p) {
+void read_tree_gen_levels(ParameterTable& t, GrowthParameters& p) {
     const int grown = p.levels;
     const auto column = [&](const char* name, const Four& fallback, double least, double most, bool whole,
                             double LevelParameters::*value) {
@@ -45,7 +45,7 @@ void read_levels(ParameterTable& t, GrowthParameters& p) {
     p.level[0].base_splits = std::max(0, t.whole("base_splits", 0, -100, 100));
 }
 
-void read_leaves(ParameterTable& t, GrowthParameters& p, ParameterNotes& notes) {
+void read_tree_gen_leaves(ParameterTable& t, GrowthParameters& p, ParameterNotes& notes) {
     p.leaves = t.whole("leaf_blos_num", 40, -1000000, 1000000);
     p.leaf_scale = t.number("leaf_scale", 0.17, 1e-6, 1000);
     p.leaf_scale_x = t.number("leaf_scale_x", 1, 1e-6, 1000);
@@ -77,8 +77,8 @@ GrowthParameters read_tree_gen(ParameterTable& t, ParameterNotes& notes) {
     p.prune_width_peak = t.number("prune_width_peak", 0.5, 1e-6, 1 - 1e-6);
     p.prune_power_low = t.number("prune_power_low", 0.5, 0, 10);
     p.prune_power_high = t.number("prune_power_high", 0.5, 0, 10);
-    read_levels(t, p);
-    read_leaves(t, p, notes);
+    read_tree_gen_levels(t, p);
+    read_tree_gen_leaves(t, p, notes);
     const std::vector<double> pull = t.three("tropism", {0, 0, 0.5}, -1000, 1000);
     p.tropism = Vec3(pull[0], pull[2], -pull[1]); // z up to y up
     t.not_honoured({"bevel_res"}, "of the mesh alone", notes.not_honoured);

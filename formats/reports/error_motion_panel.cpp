@@ -1,9 +1,9 @@
 #include "error_motion_panel.h"
 #include "gnuplot.h"
+#include "lib/base/shortest_text.h"
 #include "report_rows.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 namespace bough {
 namespace {
@@ -36,12 +36,6 @@ std::vector<Statistic> statistics_of(const MotionSummary& truth) {
 }
 
 // For gnuplot, which reads a decimal point.
-std::string number(double value) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return {digits.data(), end};
-}
-
 } // namespace
 
 int motion_panel_height(const ErrorReport& report) {
@@ -51,7 +45,7 @@ int motion_panel_height(const ErrorReport& report) {
 
 std::string motion_panel(const ErrorReport& report, const std::vector<MotionMarks>& marks, int height, int top) {
     const std::vector<Statistic> rows = statistics_of(report.motion);
-    const auto from_top = [&](int pixels) { return number(1 - double(pixels) / height); };
+    const auto from_top = [&](int pixels) { return shortest_text(1 - double(pixels) / height); };
     double low = 0.5, high = 2;
     std::string blocks, plots, tics;
     for (std::size_t k = 0; k < marks.size(); ++k) {
@@ -63,7 +57,7 @@ std::string motion_panel(const ErrorReport& report, const std::vector<MotionMark
             if (!(share > 0) || !std::isfinite(share)) continue;
             low = std::min(low, share / 1.2);
             high = std::max(high, share * 1.2);
-            block += number(share) + " " + std::to_string(row) + "\n";
+            block += shortest_text(share) + " " + std::to_string(row) + "\n";
         }
         if (block.empty()) continue;
         blocks += name + " << END\n" + block + "END\n";
@@ -79,8 +73,8 @@ std::string motion_panel(const ErrorReport& report, const std::vector<MotionMark
            " left\nset lmargin at screen 0.33\nset rmargin at screen 0.965\nset tmargin at screen " +
            from_top(top + head) + "\nset bmargin at screen " + from_top(top + head + row_height * int(rows.size())) +
            "\nunset ytics\nset ytics (" + tics + ") nomirror textcolor rgb 'black'\nset yrange [" +
-           number(double(rows.size()) - 0.4) + ":-0.6]\nset logscale x\nset xrange [" + number(low) + ":" +
-           number(high) + "]\nset xlabel 'of the truth'\nset grid xtics ytics lc rgb '#c8c8c8' lw 0.6\n" +
+           shortest_text(double(rows.size()) - 0.4) + ":-0.6]\nset logscale x\nset xrange [" + shortest_text(low) +
+           ":" + shortest_text(high) + "]\nset xlabel 'of the truth'\nset grid xtics ytics lc rgb '#c8c8c8' lw 0.6\n" +
            "set arrow 1 from 1,graph 0 to 1,graph 1 nohead lw 2 dt 3 lc rgb '#707070'\nplot NaN notitle" + plots +
            "\nunset arrow 1\n";
 }

@@ -5,24 +5,20 @@
 namespace bough {
 namespace {
 
-std::string known(const std::string& text, double value) {
-    return std::isfinite(value) ? text : "-";
-}
-
 PageCell share(double value) {
     return {known(percent(value), value)};
 }
 
-PageCell number(double value) {
+PageCell figure_cell(double value) {
     return {known(figure(value), value)};
 }
 
 PageCell degrees(double angle) {
-    return number(angle * 180 / M_PI);
+    return figure_cell(angle * 180 / M_PI);
 }
 
-std::vector<PageCell> row_of(const ErrorRun& r) {
-    std::vector<PageCell> row = {number(r.seconds_per_simulated_second)};
+std::vector<PageCell> cells_of(const ErrorRun& r) {
+    std::vector<PageCell> row = {figure_cell(r.seconds_per_simulated_second)};
     for (const double value :
          {r.error_rms, r.error_max, r.error_rms_peak, r.error_max_peak, r.error_rms_height, r.error_max_height})
         row.push_back(r.finite ? share(value) : PageCell{"non-finite"});
@@ -45,8 +41,8 @@ std::vector<PageCell> wood_row(const ErrorRun& r) {
 
 std::vector<PageCell> motion_row(const MotionSummary& m) {
     std::vector<PageCell> row = {
-        number(m.top.lean), number(m.top.spread), number(m.top.peak), {std::to_string(m.still)}};
-    for (const double spread : m.level_spread) row.push_back(number(spread));
+        figure_cell(m.top.lean), figure_cell(m.top.spread), figure_cell(m.top.peak), {std::to_string(m.still)}};
+    for (const double spread : m.level_spread) row.push_back(figure_cell(spread));
     for (int axis = 0; axis < 3; ++axis) row.push_back(degrees(m.leaves.spread[axis]));
     row.push_back(degrees(m.leaves.turn));
     row.push_back(share(m.leaves.fast));
@@ -136,7 +132,7 @@ void write_error_html(Output& output, const ErrorReport& report, const ReportMet
                         "rms of height", "max of height", "angle rms deg", "frequency",  "decay",         "step",
                         "step max",      "model",         "model max",     "arithmetic", "arithmetic max"};
     add_runs(
-        page.table, report, [](const ErrorRun&) { return true; }, row_of);
+        page.table, report, [](const ErrorRun&) { return true; }, cells_of);
     if (std::isfinite(report.wood_deflection.rms)) page.more.push_back({"Wood by branch level", wood_table(report)});
     if (report.motion.frames > 0) page.more.push_back({"Motion", motion_table(report)});
     write_page(output, page, meta);

@@ -1,21 +1,18 @@
 #include "error_plot.h"
 #include "error_motion_panel.h"
 #include "gnuplot.h"
+#include "lib/base/shortest_text.h"
+#include "log_plot.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace bough {
 namespace {
 
-// Okabe and Ito's colours, told apart by people of any colour vision. Marks differ as well: full, and hollow for points
-// below the reference's error.
-constexpr std::array<const char*, 8> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                "#e69f00", "#56b4e9", "#1b1b1b", "#8c8c8c"};
+// Hollow marks are points below the reference's error.
 constexpr std::array<int, 5> full_marks = {7, 5, 9, 11, 13};
 constexpr std::array<const char*, 3> part_colours = {"#0072b2", "#e69f00", "#888888"};
-constexpr int picture_width = 1080, plot_height = 560, key_line = 21;
 
 struct Style {
     const char* colour;
@@ -35,10 +32,6 @@ struct Line {
     std::vector<Point> points;
     std::string title; // with what could not be drawn
 };
-
-bool drawable(double value) {
-    return std::isfinite(value) && value > 0;
-}
 
 // The run's error, or the reference's where the run is below it.
 bool make_point(const ErrorRun& run, double reference, Point& point) {
@@ -95,12 +88,6 @@ std::vector<Line> make_lines(const std::vector<ErrorSeries>& all, double referen
 }
 
 // For gnuplot, which reads a decimal point.
-std::string number(double value) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return {digits.data(), end};
-}
-
 struct Range {
     double low, high;
 };
@@ -114,14 +101,14 @@ Range around(std::vector<double> values, Range empty) {
 }
 
 std::string range_text(Range r) {
-    return "[" + number(r.low) + ":" + number(r.high) + "]";
+    return "[" + shortest_text(r.low) + ":" + shortest_text(r.high) + "]";
 }
 
 // A block of points "$name" of the line: full or hollow ones; all of them as the line itself.
 std::string block(const std::string& name, const Line& line, int which) {
     std::string text = "$" + name + " << END\n";
     for (const Point& p : line.points)
-        if (which == 2 || p.hollow == (which == 1)) text += number(p.time) + " " + number(p.error) + "\n";
+        if (which == 2 || p.hollow == (which == 1)) text += shortest_text(p.time) + " " + shortest_text(p.error) + "\n";
     return text + "END\n";
 }
 
@@ -133,7 +120,7 @@ std::string labels(const Line& line) {
         const bool one = p.run->steps_per_frame == 1, first = &p == &line.points.front();
         const bool end = line.style.dash == 1 && (first || &p == &line.points.back());
         if (!one && !end) continue;
-        const std::string at = " at " + number(p.time) + "," + number(p.error) + " ";
+        const std::string at = " at " + shortest_text(p.time) + "," + shortest_text(p.error) + " ";
         const std::string colour = std::string("rgb '") + line.style.colour + "' front\n";
         const char* place = one ? "center offset 0,1.1" : first ? "center offset 0,0.8" : "left offset 1,0";
         text += "set label " + gnuplot_text(steps_text(p.run->steps_per_frame)) + at + place +
@@ -157,7 +144,7 @@ std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines
         for (const Point& p : line.points) times.push_back(p.time), errors.push_back(p.error);
     const Range x = around(times, {1e-4, 1}), y = around(errors, {1e-4, 1});
     const bool reference = drawable(report.reference_error);
-    const auto at = [&](double from_top) { return number(1 - from_top / height); };
+    const auto at = [&](double from_top) { return shortest_text(1 - from_top / height); };
     std::string text;
     for (std::size_t k = 0; k < lines.size(); ++k)
         for (int which = 0; which < 3; ++which)
@@ -173,7 +160,7 @@ std::string plot_panel(const ErrorReport& report, const std::vector<Line>& lines
     text += "set key at screen 0.09,screen " + at(plot_height - 8) + " left top Left reverse samplen 4 spacing 1.25\n";
     std::vector<std::string> plots;
     if (reference)
-        plots.push_back(number(report.reference_error) + " with lines lw 2 dt 3 lc rgb '#707070' title " +
+        plots.push_back(shortest_text(report.reference_error) + " with lines lw 2 dt 3 lc rgb '#707070' title " +
                         gnuplot_text("the reference's own error, " + percent(report.reference_error) +
                                      ": nothing below it is claimed"));
     for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -221,12 +208,12 @@ std::string split_panel(const std::vector<Line>& lines, int height, int top, int
     std::string text =
         "unset label\nunset logscale y\nset logscale x\nset format x '%g'\nset format y '%g'\nunset ylabel\n";
     text += "unset title\nset label 'The error at 1 step a frame, in its parts' at screen 0.09,screen " +
-            number(1 - double(top + 24) / height) + " left\nset key default\nset key at screen 0.965,screen " +
-            number(1 - double(top + 16) / height) + " right top horizontal Left reverse samplen 1.5\n";
-    text += "set lmargin at screen 0.33\nset tmargin at screen " + number(1 - double(top + 48) / height) +
-            "\nset bmargin at screen " + number(1 - double(bottom - 58) / height) + "\n";
+            shortest_text(1 - double(top + 24) / height) + " left\nset key default\nset key at screen 0.965,screen " +
+            shortest_text(1 - double(top + 16) / height) + " right top horizontal Left reverse samplen 1.5\n";
+    text += "set lmargin at screen 0.33\nset tmargin at screen " + shortest_text(1 - double(top + 48) / height) +
+            "\nset bmargin at screen " + shortest_text(1 - double(bottom - 58) / height) + "\n";
     text += "set xrange " + range_text(x) + "\nset yrange [" +
-            number(double(std::max<std::size_t>(runs.size(), 1)) - 0.4) + ":-0.6]\n";
+            shortest_text(double(std::max<std::size_t>(runs.size(), 1)) - 0.4) + ":-0.6]\n";
     text += "set xlabel 'RMS of tips / RMS tip deflection'\nset style fill solid 1.0 noborder\nunset ytics\n";
     std::string tics;
     for (std::size_t k = 0; k < runs.size(); ++k)
@@ -243,8 +230,8 @@ std::string split_panel(const std::vector<Line>& lines, int height, int top, int
             const double value = parts[3 * k + part];
             if (!drawable(value)) continue;
             const double middle = double(k) + 0.25 * (double(part) - 1);
-            text += number(x.low) + " " + number(middle) + " " + number(x.low) + " " + number(value) + " " +
-                    number(middle - 0.1) + " " + number(middle + 0.1) + "\n";
+            text += shortest_text(x.low) + " " + shortest_text(middle) + " " + shortest_text(x.low) + " " +
+                    shortest_text(value) + " " + shortest_text(middle - 0.1) + " " + shortest_text(middle + 0.1) + "\n";
             any = true;
         }
         text += "END\n";

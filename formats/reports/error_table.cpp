@@ -10,11 +10,7 @@ namespace {
 
 constexpr int wide = 9; // of a column of figures
 
-std::string known(const std::string& text, double value) {
-    return std::isfinite(value) ? text : "-";
-}
-
-std::string cell(double share) {
+std::string share_cell(double share) {
     std::string text = known(percent(share), share);
     if (text.size() > wide) { // as -1.62e-05%: one digit of it keeps the columns apart
         std::array<char, 32> digits;
@@ -71,8 +67,8 @@ Block tips_block(const ErrorReport& report) {
             padded(below ? "<" + percent(report.reference_error) : known(percent(r.error_rms), r.error_rms), wide + 1);
         for (const double share :
              {r.error_max, r.error_rms_peak, r.error_max_peak, r.error_rms_height, r.error_max_height})
-            text += cell(share);
-        return text + number_cell(degrees(r.error_angle)) + cell(r.error_frequency) + cell(r.error_decay);
+            text += share_cell(share);
+        return text + number_cell(degrees(r.error_angle)) + share_cell(r.error_frequency) + share_cell(r.error_decay);
     };
     return b;
 }
@@ -86,7 +82,7 @@ Block parts_block() {
         std::string text;
         for (const double share : {r.error_step, r.error_step_max, r.error_model, r.error_model_max, r.error_arithmetic,
                                    r.error_arithmetic_max})
-            text += cell(share);
+            text += share_cell(share);
         return text;
     };
     b.has = [](const ErrorRun& r) {
@@ -108,9 +104,9 @@ Block wood_block(const ErrorReport& report) {
     b.names[0] = names_of(above);
     b.names[1] = names_of(below);
     b.figures = [levels](const ErrorRun& r) {
-        std::string text = cell(r.error_wood.rms_peak) + cell(r.error_wood.max_peak);
+        std::string text = share_cell(r.error_wood.rms_peak) + share_cell(r.error_wood.max_peak);
         for (std::size_t k = 0; k < std::min(levels, r.error_level.size()); ++k)
-            text += cell(r.error_level[k].rms_peak) + cell(r.error_level[k].max_peak);
+            text += share_cell(r.error_level[k].rms_peak) + share_cell(r.error_level[k].max_peak);
         return text;
     };
     b.has = [](const ErrorRun& r) { return r.finite; };
@@ -122,7 +118,7 @@ std::string motion_figures(const MotionSummary& m) {
     return number_cell(m.top.lean) + number_cell(m.top.spread) + number_cell(m.top.peak) +
            padded(std::to_string(m.still), wide - 2) + number_cell(degrees(l.spread.x())) +
            number_cell(degrees(l.spread.y())) + number_cell(degrees(l.spread.z())) + number_cell(degrees(l.turn)) +
-           cell(l.fast);
+           share_cell(l.fast);
 }
 
 Block motion_block(const ErrorReport& report) {
@@ -134,7 +130,7 @@ Block motion_block(const ErrorReport& report) {
     b.names[1] = names_of({"m", "m", "m"}) + padded("", wide - 2) +
                  names_of({"deg std", "deg std", "deg std", "deg", "30 deg", "off by"});
     b.truth = motion_figures(report.motion);
-    b.figures = [](const ErrorRun& r) { return motion_figures(r.motion) + cell(r.error_spectrum); };
+    b.figures = [](const ErrorRun& r) { return motion_figures(r.motion) + share_cell(r.error_spectrum); };
     b.has = [](const ErrorRun& r) { return r.motion.frames > 0; };
     return b;
 }

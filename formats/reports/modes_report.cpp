@@ -1,7 +1,7 @@
 #include "modes_report.h"
 #include "gnuplot.h"
+#include "lib/base/shortest_text.h"
 #include <algorithm>
-#include <charconv>
 
 namespace bough {
 namespace {
@@ -30,11 +30,6 @@ std::vector<ReportRow> rows_of(const ModesReport& report) {
     std::vector<ReportRow> rows;
     for (std::size_t k = 0; k < report.modes.size(); ++k) rows.push_back(row_of(report, k));
     return rows;
-}
-
-std::string number(double value) {
-    char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
 } // namespace
@@ -89,7 +84,8 @@ std::string modes_svg(const std::vector<DrawnShape>& shapes, const std::string& 
     const auto block = [&](const std::string& label, const std::vector<DrawnShape::Line>& lines) {
         script += "$" + label + " << END\n";
         for (const DrawnShape::Line& l : lines) {
-            script += number(l.x0) + " " + number(l.y0) + "\n" + number(l.x1) + " " + number(l.y1) + "\n\n";
+            script += shortest_text(l.x0) + " " + shortest_text(l.y0) + "\n" + shortest_text(l.x1) + " " +
+                      shortest_text(l.y1) + "\n\n";
             left = std::min({left, l.x0, l.x1}), right = std::max({right, l.x0, l.x1});
             low = std::min({low, l.y0, l.y1}), high = std::max({high, l.y0, l.y1});
         }
@@ -100,8 +96,8 @@ std::string modes_svg(const std::vector<DrawnShape>& shapes, const std::string& 
         block("swung" + std::to_string(k), shapes[k].swung);
     }
     script += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(across) +
-              "\nunset border\nunset tics\nunset key\nset size ratio -1\nset xrange [" + number(left) + ":" +
-              number(right) + "]\nset yrange [" + number(low) + ":" + number(high) + "]\n";
+              "\nunset border\nunset tics\nunset key\nset size ratio -1\nset xrange [" + shortest_text(left) + ":" +
+              shortest_text(right) + "]\nset yrange [" + shortest_text(low) + ":" + shortest_text(high) + "]\n";
     for (std::size_t k = 0; k < shapes.size(); ++k)
         script += "set title " + gnuplot_text(shapes[k].title) + "\nplot $standing" + std::to_string(k) +
                   " with lines lw 0.6 lc rgb '#b0b0b0', $swung" + std::to_string(k) +

@@ -1,4 +1,5 @@
 #include "report.h"
+#include "lib/base/shortest_text.h"
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,11 +8,6 @@ namespace bough {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string number(double value) {
-    char text[32];
-    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 struct Reader {
     const std::string& name;
@@ -77,8 +73,8 @@ void write_report_csv(Output& output, const Report& report) {
     const std::string run = std::to_string(report.bodies) + "," + std::to_string(report.frames) + "," +
                             std::to_string(report.threads) + "," + report.precision + "," + report.hash + "\n";
     for (const ReportStage& stage : report.stages)
-        output.write(stage.name + "," + std::to_string(stage.calls) + "," + number(stage.seconds) + "," +
-                     number(stage.ns_per_body_frame) + "," + number(stage.share) + "," + run);
+        output.write(stage.name + "," + std::to_string(stage.calls) + "," + shortest_text(stage.seconds) + "," +
+                     shortest_text(stage.ns_per_body_frame) + "," + shortest_text(stage.share) + "," + run);
 }
 
 Report read_report(std::string_view content, const std::string& name) {

@@ -86,6 +86,10 @@ void write_rows_csv(Output& output, const ReportRow& names, const std::vector<Re
     for (const ReportRow& row : rows) line(row, [](const auto& entry) { return csv_text(entry.second); });
 }
 
+std::string known(std::string text, double value) {
+    return std::isfinite(value) ? text : "-";
+}
+
 std::string figure(double value) {
     if (!std::isfinite(value)) return "non-finite";
     std::array<char, 32> digits;

@@ -33,10 +33,11 @@ void write_lists_json(Output&, const char* format, const ReportMeta&, const Repo
 void write_rows_csv(Output&, const ReportRow& names, const std::vector<ReportRow>& rows);
 
 // ---- figures for people, independent of the locale ----
-std::string percent(double share);              // "12.3%", "0.0012%", "non-finite"
-std::string figure(double value);               // 3 digits: "0.0123", "1.2e-07", "non-finite"
-std::string padded(std::string, int width);     // > 0: at the right of so many columns, < 0: at the left
-std::string steps_text(double steps_per_frame); // "1/4", "16"
-std::string escaped_markup(std::string_view);   // for the text of HTML and XML, and for quoted attributes
+std::string percent(double share);                 // "12.3%", "0.0012%", "non-finite"
+std::string known(std::string text, double value); // the text, "-" for a value that is not finite
+std::string figure(double value);                  // 3 digits: "0.0123", "1.2e-07", "non-finite"
+std::string padded(std::string, int width);        // > 0: at the right of so many columns, < 0: at the left
+std::string steps_text(double steps_per_frame);    // "1/4", "16"
+std::string escaped_markup(std::string_view);      // for the text of HTML and XML, and for quoted attributes
 
 } // namespace bough

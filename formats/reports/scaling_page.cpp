@@ -4,8 +4,8 @@
 namespace bough {
 namespace {
 
-std::string known(double value, double unit = 1) {
-    return std::isfinite(value) ? figure(value / unit) : "-";
+std::string in_unit(double value, double unit = 1) {
+    return known(figure(value / unit), value);
 }
 
 } // namespace
@@ -17,11 +17,11 @@ void write_scaling_html(Output& output, const ScalingReport& report, const Repor
                     {"runs of each, interleaved", std::to_string(report.repeat)}};
     for (const ScalingLimits& l : report.limits) {
         const std::string which = l.simd + ", " + std::to_string(l.threads) + (l.threads == 1 ? " thread" : " threads");
-        page.summary.emplace_back("memory read, write, copy: " + which, known(l.read, 1e9) + ", " +
-                                                                            known(l.write, 1e9) + ", " +
-                                                                            known(l.copy, 1e9) + " GB/s");
+        page.summary.emplace_back("memory read, write, copy: " + which, in_unit(l.read, 1e9) + ", " +
+                                                                            in_unit(l.write, 1e9) + ", " +
+                                                                            in_unit(l.copy, 1e9) + " GB/s");
         page.summary.emplace_back("peak float, double: " + which,
-                                  known(l.peak_float, 1e9) + ", " + known(l.peak_double, 1e9) + " Gop/s");
+                                  in_unit(l.peak_float, 1e9) + ", " + in_unit(l.peak_double, 1e9) + " Gop/s");
     }
     page.svg = scaling_svg(report, output.name());
     page.notes = {"The limit is the longer of two times: the bytes that a step moves at the fastest of read, write and "
@@ -35,13 +35,13 @@ void write_scaling_html(Output& output, const ScalingReport& report, const Repor
         for (const ScalingRun* r : series.runs)
             page.table.rows.push_back({{std::to_string(r->bodies)},
                                        {std::to_string(r->frames)},
-                                       {known(r->ns)},
-                                       {known(r->ns_least)},
-                                       {known(r->ns_most)},
-                                       {known(r->limit_ns)},
-                                       {known(r->over_limit())},
+                                       {in_unit(r->ns)},
+                                       {in_unit(r->ns_least)},
+                                       {in_unit(r->ns_most)},
+                                       {in_unit(r->limit_ns)},
+                                       {in_unit(r->over_limit())},
                                        {r->limited_by.empty() ? "-" : r->limited_by, "text"},
-                                       {known(r->memory_slope)},
+                                       {in_unit(r->memory_slope)},
                                        {r->hash, "text"}});
     }
     write_page(output, page, meta);

@@ -1,32 +1,20 @@
 #include "gnuplot.h"
+#include "lib/base/shortest_text.h"
+#include "log_plot.h"
 #include "scaling_report.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 namespace bough {
 namespace {
 
-// As in error_plot.cpp: told apart by people of any colour vision, and by their marks.
-constexpr std::array<const char*, 8> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                "#e69f00", "#56b4e9", "#1b1b1b", "#8c8c8c"};
 constexpr std::array<int, 5> marks = {7, 5, 9, 11, 13};
-constexpr int picture_width = 1080, plot_height = 560, key_line = 21;
-
-std::string number(double value) {
-    std::array<char, 32> digits;
-    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
-bool drawable(double value) {
-    return std::isfinite(value) && value > 0;
-}
 
 // "$name": bodies, ns, of the runs that have such a figure. False where none has.
 bool block(std::string& text, const std::string& name, const ScalingSeries& series, double ScalingRun::*figure) {
     std::string points;
     for (const ScalingRun* run : series.runs)
-        if (drawable(run->*figure)) points += std::to_string(run->bodies) + " " + number(run->*figure) + "\n";
+        if (drawable(run->*figure)) points += std::to_string(run->bodies) + " " + shortest_text(run->*figure) + "\n";
     if (!points.empty()) text += "$" + name + " << END\n" + points + "END\n";
     return !points.empty();
 }
@@ -36,7 +24,7 @@ bool block(std::string& text, const std::string& name, const ScalingSeries& seri
 std::string scaling_svg(const ScalingReport& report, const std::string& name) {
     const std::vector<ScalingSeries> all = scaling_series(report);
     const int height = plot_height + key_line * int(all.size() + 1) + 20;
-    const auto at = [&](double from_top) { return number(1 - from_top / height); };
+    const auto at = [&](double from_top) { return shortest_text(1 - from_top / height); };
     std::string text, plots;
     const auto plot = [&](const std::string& what) { plots += (plots.empty() ? "plot " : ", \\\n  ") + what; };
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -61,9 +49,9 @@ std::string scaling_svg(const ScalingReport& report, const std::string& name) {
             if (drawable(value)) y.push_back(value);
     }
     const auto range = [](const std::vector<double>& values, double low, double high) {
-        if (values.empty()) return "[" + number(low) + ":" + number(high) + "]";
+        if (values.empty()) return "[" + shortest_text(low) + ":" + shortest_text(high) + "]";
         const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        return "[" + number(*least / 1.5) + ":" + number(*most * 1.5) + "]";
+        return "[" + shortest_text(*least / 1.5) + ":" + shortest_text(*most * 1.5) + "]";
     };
     script += "set xrange " + range(x, 1000, 1e6) + "\nset yrange " + range(y, 1, 1000) +
               "\nset xlabel 'bodies'\nset ylabel 'ns a body and frame'\n"

@@ -5,10 +5,6 @@
 namespace bough {
 namespace {
 
-std::string known(const std::string& text, double value) {
-    return std::isfinite(value) ? text : "-";
-}
-
 const char* mark_of(CellState state) {
     switch (state) {
     case CellState::held:
@@ -23,7 +19,7 @@ const char* mark_of(CellState state) {
     return "not-run";
 }
 
-std::vector<PageCell> row_of(const StabilityCell& c) {
+std::vector<PageCell> cells_of(const StabilityCell& c) {
     const double degrees = c.max_angle * 180 / M_PI;
     return {{c.name, "text"},
             {c.solver, "text"},
@@ -66,7 +62,7 @@ void write_stability_html(Output& output, const StabilityReport& report, const R
     for (const std::string& group : stability_groups(report)) {
         page.table.rows.push_back({{group, "head"}});
         for (const StabilityCell& cell : report.cells)
-            if (cell.group == group) page.table.rows.push_back(row_of(cell));
+            if (cell.group == group) page.table.rows.push_back(cells_of(cell));
     }
     write_page(output, page, meta);
 }

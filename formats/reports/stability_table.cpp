@@ -5,10 +5,6 @@
 namespace bough {
 namespace {
 
-std::string known(const std::string& text, double value) {
-    return std::isfinite(value) ? text : "-";
-}
-
 struct Widths {
     int name = 6, solver = 6;
 };

@@ -12,7 +12,7 @@ template <class T> AnalyticWork<T>& work_of(State<T>& state) {
     return static_cast<AnalyticWork<T>&>(*state.own);
 }
 
-template <class V> bool finite(const V& value) {
+template <class V> bool is_finite(const V& value) {
     if constexpr (std::is_floating_point_v<V>)
         return std::isfinite(value);
     else
@@ -93,7 +93,7 @@ template <class T> NonFinite AnalyticStepper<T>::non_finite(const State<T>& stat
                  [&](const std::string& name, const auto& array, AnalyticNeed) {
                      const char* stage = early ? nullptr : early_stage(name);
                      for (std::size_t i = 0; stage && !early && i < array.size(); ++i)
-                         if ((early = !finite(array[i]))) found = {std::string(stage) + " (" + name + ")", i};
+                         if ((early = !is_finite(array[i]))) found = {std::string(stage) + " (" + name + ")", i};
                  });
     return found;
 }

@@ -9,11 +9,12 @@
 namespace bough {
 namespace {
 
-enum class Draw { radius, angle };
+enum class PieceDraw { radius, angle };
 
 // Of a standard normal distribution (Box and Muller).
 double normal_draw(RandomKey key) {
-    const double u = 1 - random_unit(key, Draw::radius), angle = 2 * std::numbers::pi * random_unit(key, Draw::angle);
+    const double u = 1 - random_unit(key, PieceDraw::radius),
+                 angle = 2 * std::numbers::pi * random_unit(key, PieceDraw::angle);
     return std::sqrt(-2 * std::log(u)) * std::cos(angle);
 }
 

@@ -1,4 +1,5 @@
 #include "walker.h"
+#include "../base/angles.h"
 #include "../base/shortest_text.h"
 #include "../model/drawn_pose.h"
 #include <algorithm>
@@ -7,8 +8,6 @@
 
 namespace bough {
 namespace {
-
-constexpr double two_pi = 2 * std::numbers::pi;
 
 struct Drawn : DrawnPose {
     const Tree& tree;

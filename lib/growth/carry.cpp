@@ -14,7 +14,7 @@ using std::numbers::pi;
 constexpr double gravity = 9.81;
 constexpr double safety = 4; // against toppling
 
-struct Load {
+struct HungLoad {
     double at;         // fraction of the bearing branch's arc length
     double mass;       // [kg]
     Vec3 first_moment; // [kg m] about the world's origin
@@ -25,11 +25,11 @@ struct Load {
 class Carrier {
 public:
     Carrier(Splines& s, const Material& wood, double most_sag, std::size_t b);
-    void bear(std::vector<Load>& loads);
-    Load whole() const { return {s_.parent_at[branch_], mass_, moment_, s_.radius[first_]}; }
+    void bear(std::vector<HungLoad>& loads);
+    HungLoad whole() const { return {s_.parent_at[branch_], mass_, moment_, s_.radius[first_]}; }
 
 private:
-    void add(const Load& load);
+    void add(const HungLoad& load);
     void add_piece(std::size_t k);
     void raise(std::size_t k);
 
@@ -46,7 +46,7 @@ Carrier::Carrier(Splines& s, const Material& wood, double most_sag, std::size_t 
     : s_(s), wood_(wood), most_sag_(most_sag), branch_(b), first_(std::size_t(s.first_point[b])),
       last_(std::size_t(s.first_point[b + 1]) - 1), arc_(arc_lengths(points_of(s, b))) {}
 
-void Carrier::add(const Load& load) {
+void Carrier::add(const HungLoad& load) {
     mass_ += load.mass;
     moment_ += load.first_moment;
 }
@@ -83,8 +83,8 @@ void Carrier::raise(std::size_t k) {
     }
 }
 
-void Carrier::bear(std::vector<Load>& loads) {
-    std::sort(loads.begin(), loads.end(), [](const Load& x, const Load& y) { return x.at > y.at; });
+void Carrier::bear(std::vector<HungLoad>& loads) {
+    std::sort(loads.begin(), loads.end(), [](const HungLoad& x, const HungLoad& y) { return x.at > y.at; });
     std::size_t next = 0;
     for (std::size_t k = last_ + 1; k-- > first_;) {
         // What hangs between two points is borne by both.
@@ -107,7 +107,7 @@ void Carrier::bear(std::vector<Load>& loads) {
     }
 }
 
-void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<Load>>& loads) {
+void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<HungLoad>>& loads) {
     for (std::size_t i = 0; i < s.leaves(); ++i) {
         const double thickness = s.is_petal(i) ? wood.petal_thickness : wood.leaf_thickness;
         const MassProperties leaf = leaf_prism(s.leaf_length[i], s.leaf_width[i], thickness, wood.leaf_density);
@@ -124,7 +124,7 @@ void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<
 
 void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
     const std::vector<double> drawn = s.radius;
-    std::vector<std::vector<Load>> loads(s.branches());
+    std::vector<std::vector<HungLoad>> loads(s.branches());
     hang_items(s, wood, loads);
     for (std::size_t b = s.branches(); b-- > 0;) {
         Carrier carrier(s, wood, most_sag, b);

@@ -8,7 +8,7 @@
 namespace bough {
 namespace {
 
-enum class Draw : std::uint8_t {
+enum class ClumpDraw : std::uint8_t {
     clump = 210,
     leaf,
     start,
@@ -30,7 +30,7 @@ Vec3 in_ball(double u, double v, double w) {
     return radius * Vec3(level * std::cos(around), level * std::sin(around), z);
 }
 
-Vec3 any_vector(RandomKey key, Draw draw) {
+Vec3 any_vector(RandomKey key, ClumpDraw draw) {
     return in_ball(random_unit(key, draw, 0), random_unit(key, draw, 1), random_unit(key, draw, 2));
 }
 
@@ -57,24 +57,24 @@ Vec3 clump_leaf_size(const Tree& tree, std::size_t body, std::int32_t count) {
 }
 
 std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Mat3& R_wb, std::int32_t count) {
-    const RandomKey clump = random_key(RandomKey{0}, Draw::clump, std::uint64_t(body));
+    const RandomKey clump = random_key(RandomKey{0}, ClumpDraw::clump, std::uint64_t(body));
     const Vec3 up = R_wb.transpose() * Vec3::UnitY();
     const double length = tree.size[body].x(), width = tree.size[body].y();
     const Vec3 half(width / 2, 0.3 * width, length / 2);
     const double blade = clump_leaf_size(tree, body, count).x();
     std::vector<ClumpLeaf> leaves;
     for (std::int32_t k = 0; k < count; ++k) {
-        const RandomKey key = random_key(clump, Draw::leaf, std::uint64_t(k));
+        const RandomKey key = random_key(clump, ClumpDraw::leaf, std::uint64_t(k));
         const auto even = [&](std::size_t d) {
-            return fraction(random_unit(clump, Draw::start, d) + double(k + 1) * kStep[d]);
+            return fraction(random_unit(clump, ClumpDraw::start, d) + double(k + 1) * kStep[d]);
         };
         const Vec3 place = in_ball(even(0), even(1), even(2));
         const Vec3 middle = tree.com[body] + half.cwiseProduct(place);
         const Vec3 away = direction_of(middle, Vec3::UnitZ());
         ClumpLeaf leaf;
         const Vec3 z =
-            direction_of(0.6 * away + 0.7 * place - 0.35 * up + 0.6 * any_vector(key, Draw::direction), away);
-        const Vec3 facing = up + 0.5 * place + 0.6 * any_vector(key, Draw::normal);
+            direction_of(0.6 * away + 0.7 * place - 0.35 * up + 0.6 * any_vector(key, ClumpDraw::direction), away);
+        const Vec3 facing = up + 0.5 * place + 0.6 * any_vector(key, ClumpDraw::normal);
         const Vec3 side = direction_of(facing.cross(z), direction_of(Vec3::UnitX().cross(z), Vec3::UnitY()));
         leaf.axes.col(0) = side;
         leaf.axes.col(1) = z.cross(side);

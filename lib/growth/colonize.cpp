@@ -7,7 +7,7 @@
 namespace bough {
 namespace {
 
-enum class Draw : std::uint8_t { points };
+enum class CloudDraw : std::uint8_t { points };
 
 constexpr double kNearer = 0.25; // of a step, that a child must come nearer to a point
 constexpr int kLevels = 256;     // at which the envelope is looked for above the foot of the trunk
@@ -229,7 +229,7 @@ void Colonizer::run() {
 
 Colony colonize_nodes(const ColonizeParameters& p, std::uint64_t seed) {
     Colony colony;
-    const RandomKey key = random_key(RandomKey{0}, Draw::points, seed);
+    const RandomKey key = random_key(RandomKey{0}, CloudDraw::points, seed);
     for (std::int64_t i = 0; i < p.points; ++i)
         colony.point.push_back(point_inside(p.envelope, key, static_cast<std::uint64_t>(i)));
     colony.reached.assign(colony.point.size(), 0);

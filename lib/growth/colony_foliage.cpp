@@ -9,7 +9,7 @@
 namespace bough {
 namespace {
 
-enum class Draw : std::uint8_t { foliage, leaves, fruits, start, lean, turn, place };
+enum class FoliageDraw : std::uint8_t { foliage, leaves, fruits, start, lean, turn, place };
 
 constexpr double kGolden = 137.5 * kDegree; // from one leaf to the next
 constexpr double kTurnV = 20 * kDegree, kLeanV = 10 * kDegree;
@@ -82,19 +82,20 @@ void add_colony_foliage(const ColonizeParameters& p, std::uint64_t seed, bool wi
                         Splines& s) {
     if (!with_leaves && !with_fruit) return;
     for (std::size_t b = 0; b < s.branches(); ++b) {
-        const RandomKey key = random_key(random_key(RandomKey{0}, Draw::foliage, seed), Draw::foliage, b);
+        const RandomKey key = random_key(random_key(RandomKey{0}, FoliageDraw::foliage, seed), FoliageDraw::foliage, b);
         const Twig twig(s, b, p.leafy);
-        const auto leaves = with_leaves ? whole_number(p.leaves, random_unit(key, Draw::leaves)) : 0;
-        const double start = 2 * std::numbers::pi * random_unit(key, Draw::start);
+        const auto leaves = with_leaves ? whole_number(p.leaves, random_unit(key, FoliageDraw::leaves)) : 0;
+        const double start = 2 * std::numbers::pi * random_unit(key, FoliageDraw::start);
         for (std::int64_t i = 0; i < leaves; ++i) {
             const auto k = static_cast<std::uint64_t>(i);
-            const double turn = start + kGolden * static_cast<double>(i) + kTurnV * random_sign(key, Draw::turn, k);
-            const double lean = p.leaf_angle * kDegree + kLeanV * random_sign(key, Draw::lean, k);
+            const double turn =
+                start + kGolden * static_cast<double>(i) + kTurnV * random_sign(key, FoliageDraw::turn, k);
+            const double lean = p.leaf_angle * kDegree + kLeanV * random_sign(key, FoliageDraw::lean, k);
             add_leaf(p, b, twig.at((static_cast<double>(i) + 0.5) / static_cast<double>(leaves)), turn, lean, s);
         }
-        const auto fruits = with_fruit ? whole_number(p.fruits, random_unit(key, Draw::fruits)) : 0;
+        const auto fruits = with_fruit ? whole_number(p.fruits, random_unit(key, FoliageDraw::fruits)) : 0;
         for (std::int64_t i = 0; i < fruits; ++i)
-            add_fruit(p, b, twig.at(random_unit(key, Draw::place, static_cast<std::uint64_t>(i))), s);
+            add_fruit(p, b, twig.at(random_unit(key, FoliageDraw::place, static_cast<std::uint64_t>(i))), s);
     }
     say_leaf_count(s);
 }

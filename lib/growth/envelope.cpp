@@ -5,7 +5,7 @@
 namespace bough {
 namespace {
 
-enum class Draw : std::uint8_t { u, v, w };
+enum class EnvelopeDraw : std::uint8_t { u, v, w };
 
 constexpr std::uint64_t kTries = 1'000'000;
 
@@ -53,17 +53,18 @@ bool contains(const Envelope& e, const Vec3& point) {
 Vec3 point_inside(const Envelope& e, RandomKey key, std::uint64_t index) {
     if (e.shape == EnvelopeShape::mesh) {
         const Vec3 lower = e.mesh->lower(), size = e.mesh->upper() - lower;
-        const RandomKey own = random_key(key, Draw::u, index);
+        const RandomKey own = random_key(key, EnvelopeDraw::u, index);
         for (std::uint64_t i = 0; i < kTries; ++i) {
-            const Vec3 unit(random_unit(own, Draw::u, i), random_unit(own, Draw::v, i), random_unit(own, Draw::w, i));
+            const Vec3 unit(random_unit(own, EnvelopeDraw::u, i), random_unit(own, EnvelopeDraw::v, i),
+                            random_unit(own, EnvelopeDraw::w, i));
             const Vec3 p = lower + unit.cwiseProduct(size);
             if (e.mesh->contains(p)) return p;
         }
         throw std::invalid_argument(
             "envelope: none of 1e6 points of its bounding box is inside, expected a closed mesh");
     }
-    const double u = random_unit(key, Draw::u, index), v = random_unit(key, Draw::v, index),
-                 w = random_unit(key, Draw::w, index);
+    const double u = random_unit(key, EnvelopeDraw::u, index), v = random_unit(key, EnvelopeDraw::v, index),
+                 w = random_unit(key, EnvelopeDraw::w, index);
     Vec3 p(u - 0.5, v, w - 0.5);
     const double turn = 2 * std::numbers::pi * w;
     if (e.shape == EnvelopeShape::sphere) {

@@ -9,7 +9,7 @@
 namespace bough {
 namespace {
 
-constexpr double kTip = 0.001; // [unit] radius at the end of the last branches
+constexpr double kLastRadius = 0.001; // [unit] radius at the end of the last branches
 
 // George Marsaglia's multiply with carry, two of 16 bits, in the 32-bit signed arithmetic that ez-tree does it in.
 class Draws {
@@ -98,7 +98,7 @@ Splines EzGrower::run() {
 }
 
 double EzGrower::radius_of(const Waiting& b, int section) const {
-    if (section == b.sections && b.level == p_.levels) return kTip;
+    if (section == b.sections && b.level == p_.levels) return kLastRadius;
     const double along = static_cast<double>(section) / b.sections;
     return b.radius * (1 - (p_.evergreen ? 1 : p_.taper[static_cast<std::size_t>(b.level)]) * along);
 }

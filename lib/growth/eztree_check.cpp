@@ -5,7 +5,7 @@
 namespace bough {
 namespace {
 
-constexpr double kMostItems = 5e7; // branches and leaves
+constexpr double kMostEztreeItems = 5e7; // branches and leaves
 
 // Written so that NaN fails.
 void within(const std::string& name, double value, double least, double most) {
@@ -54,7 +54,7 @@ void check_eztree(const EzTreeParameters& p) {
         all += branches;
     }
     all += branches * (p.leaf_count + (p.evergreen ? 0 : 1));
-    if (!(all <= kMostItems))
+    if (!(all <= kMostEztreeItems))
         throw std::invalid_argument("branch.children: make " + shortest_text(all) +
                                     " branches and leaves, expected at most 5e7");
     if (!p.trellis.enabled) return;

@@ -7,16 +7,16 @@
 namespace bough {
 namespace {
 
-struct Load {
+struct ChildAt {
     double at;    // fraction of the bearing branch's arc length
     double power; // [m^exponent] r^exponent
 };
 
 // Raises the radii of one branch for its loads; returns what it needs at its base.
-double thicken(Splines& s, std::size_t b, double exponent, std::vector<Load>& loads) {
+double thicken(Splines& s, std::size_t b, double exponent, std::vector<ChildAt>& loads) {
     const auto first = std::size_t(s.first_point[b]), last = std::size_t(s.first_point[b + 1]) - 1;
     const std::vector<double> arc = arc_lengths(points_of(s, b));
-    std::sort(loads.begin(), loads.end(), [](const Load& x, const Load& y) { return x.at > y.at; });
+    std::sort(loads.begin(), loads.end(), [](const ChildAt& x, const ChildAt& y) { return x.at > y.at; });
     double needed = std::pow(s.radius[last], exponent);
     std::size_t next = 0;
     for (std::size_t k = last + 1; k-- > first;) {
@@ -32,7 +32,7 @@ double thicken(Splines& s, std::size_t b, double exponent, std::vector<Load>& lo
 
 void thicken_by_pipe_model(Splines& s, double exponent) {
     const std::vector<double> drawn = s.radius;
-    std::vector<std::vector<Load>> loads(s.branches());
+    std::vector<std::vector<ChildAt>> loads(s.branches());
     for (std::size_t b = s.branches(); b-- > 0;) {
         const double power = thicken(s, b, exponent, loads[b]);
         if (s.parent[b] >= 0) loads[std::size_t(s.parent[b])].push_back({s.parent_at[b], power});

@@ -10,7 +10,13 @@ namespace {
 
 using std::numbers::pi;
 
-enum class Draw : std::uint8_t { rustle = 220, axis, rate, phase, psi }; // apart from the draws of growth (stem.h)
+enum class RustleDraw : std::uint8_t {
+    rustle = 220,
+    axis,
+    rate,
+    phase,
+    psi
+}; // apart from the draws of growth (stem.h)
 
 constexpr double kMost = 20 * pi / 180, kSpeed = 6; // of A(U)
 constexpr double kFrequency = 1.45, kHighest = 4.2; // of f(U)
@@ -58,11 +64,11 @@ Rustle::Rustle(const Skin& skin, ClumpWind wind, const RustleOptions& options)
         const std::int32_t body = skin.joint[std::size_t(v)][0];
         const bool next = clump < 0 || clumps_[std::size_t(clump)] != body;
         if (next) ++clump, number = 0;
-        const RandomKey key = random_key(random_key(RandomKey{0}, Draw::rustle, std::uint64_t(body)), Draw::rustle,
-                                         std::uint64_t(number++));
-        const double c = together_ ? 1 : kSlowest + (kFastest - kSlowest) * random_unit(key, Draw::rate);
-        leaves_.push_back({together_ ? 0 : clump, pi / 4 * random_sign(key, Draw::axis), c, kSecond * c,
-                           2 * pi * random_unit(key, Draw::phase), 2 * pi * random_unit(key, Draw::psi)});
+        const RandomKey key = random_key(random_key(RandomKey{0}, RustleDraw::rustle, std::uint64_t(body)),
+                                         RustleDraw::rustle, std::uint64_t(number++));
+        const double c = together_ ? 1 : kSlowest + (kFastest - kSlowest) * random_unit(key, RustleDraw::rate);
+        leaves_.push_back({together_ ? 0 : clump, pi / 4 * random_sign(key, RustleDraw::axis), c, kSecond * c,
+                           2 * pi * random_unit(key, RustleDraw::phase), 2 * pi * random_unit(key, RustleDraw::psi)});
     }
     if (clumps_.empty()) return;
     amplitude_.resize(paths());

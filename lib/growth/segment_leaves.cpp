@@ -6,14 +6,6 @@ namespace bough {
 
 namespace {
 
-bool arbaro(const GrowthParameters& p) {
-    return p.rules == GrowthRules::arbaro;
-}
-
-double varied(double value, double v, RandomKey key, Draw draw) {
-    return value + v * random_sign(key, draw);
-}
-
 LevelParameters leaf_level(const GrowthParameters& p) {
     LevelParameters l = p.level[std::size_t(std::min(p.levels, 3))];
     if (!p.leaf_angles.empty())
@@ -25,7 +17,7 @@ LevelParameters leaf_level(const GrowthParameters& p) {
 // A leaf, or with tree-gen a flower in its place.
 void one_leaf(const GrowthParameters& p, const SegmentStem& stem, const GrownStem& grown, double offset,
               const Quat& turned, RandomKey key, const Items& items, Splines& out) {
-    const double grown_up = arbaro(p) ? 1 : stem.scale / p.scale;
+    const double grown_up = by_arbaro(p) ? 1 : stem.scale / p.scale;
     if (p.blossom_rate > 0 && random_unit(key, Draw::blossom) < p.blossom_rate) {
         if (!items.petals) return;
         add_flower(p, grown.branch, grown.fraction(offset), grown.point_at(offset), turned * Vec3::UnitZ(), grown_up,
@@ -44,8 +36,8 @@ void fan(const GrowthParameters& p, const SegmentStem& stem, const GrownStem& gr
     const Quat tip = grown.segment_at(stem.length).frame;
     for (int i = 0; i < count; ++i) {
         const RandomKey key = random_key(stem.key, Draw::leaf, std::uint64_t(i));
-        const double part = arbaro(p) ? (i + 0.5) / count : count > 1 ? double(i) / (count - 1) : 0.5;
-        const double v = l.rotate_v / (arbaro(p) ? count : 1);
+        const double part = by_arbaro(p) ? (i + 0.5) / count : count > 1 ? double(i) / (count - 1) : 0.5;
+        const double v = l.rotate_v / (by_arbaro(p) ? count : 1);
         const double spread = l.rotate * (part - 0.5) + v * random_sign(key, Draw::rotate);
         const double down = varied(l.down_angle, std::abs(l.down_angle_v), key, Draw::down_angle);
         one_leaf(p, stem, grown, stem.length,

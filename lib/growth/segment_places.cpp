@@ -1,17 +1,10 @@
 #include "segment_places.h"
+#include "turn.h"
 #include <algorithm>
 
 namespace bough {
 
 namespace {
-
-bool arbaro(const GrowthParameters& p) {
-    return p.rules == GrowthRules::arbaro;
-}
-
-double varied(double value, double v, RandomKey key, Draw draw) {
-    return value + v * random_sign(key, draw);
-}
 
 void arbaro_places(const GrowthParameters& p, const SegmentStem& stem, int segment, double density, double& dealt,
                    const LevelParameters& child, std::vector<double>& offsets) {
@@ -71,7 +64,7 @@ void tree_gen_places(const GrowthParameters& p, const SegmentStem& stem, int seg
 double segment_children(const GrowthParameters& p, const SegmentStem& stem) {
     const double most = p.level[std::size_t(stem.level) + 1].branches;
     const double relative = stem.length / stem.parent_length / stem.parent_child_length;
-    if (arbaro(p)) {
+    if (by_arbaro(p)) {
         if (stem.level == 0) return most / (1 - p.level[0].base_size);
         return std::floor(most * (stem.level == 1 ? 0.2 + 0.8 * relative : 1 - 0.5 * stem.place));
     }
@@ -83,7 +76,7 @@ double segment_children(const GrowthParameters& p, const SegmentStem& stem) {
 
 double segment_leaves(const GrowthParameters& p, const SegmentStem& stem) {
     if (stem.level == 0) return 0;
-    if (arbaro(p)) return std::abs(p.leaves) * shape_ratio(p, p.leaf_distrib, stem.place);
+    if (by_arbaro(p)) return std::abs(p.leaves) * shape_ratio(p, p.leaf_distrib, stem.place);
     if (p.leaves < 0) return -p.leaves;
     return p.leaves * stem.scale / p.scale * stem.length / (stem.parent_child_length * stem.parent_length);
 }
@@ -93,13 +86,13 @@ std::vector<Insertion> segment_places(const GrowthParameters& p, const SegmentSt
     std::vector<Insertion> result;
     std::vector<double> offsets;
     const bool last = stem.level + 1 >= p.levels;
-    double dealt = arbaro(p) ? random_unit(stem.key, Draw::children) : 0;
-    double turn = arbaro(p) ? 0 : 360 * random_unit(stem.key, Draw::rotate, std::uint64_t(1) << 40);
+    double dealt = by_arbaro(p) ? random_unit(stem.key, Draw::children) : 0;
+    double turn = by_arbaro(p) ? 0 : 360 * random_unit(stem.key, Draw::rotate, std::uint64_t(1) << 40);
     for (std::size_t i = 0; i < line.segment.size(); ++i) {
         const int segment = stem.first_segment + int(i);
         // Leaves are not shared out where stems split.
         const double density = last ? stem.density : line.density[i];
-        if (arbaro(p)) {
+        if (by_arbaro(p)) {
             arbaro_places(p, stem, segment, density, dealt, child, offsets);
             continue;
         }
@@ -119,10 +112,10 @@ std::vector<Insertion> segment_places(const GrowthParameters& p, const SegmentSt
 double segment_down_angle(const GrowthParameters& p, const SegmentStem& parent, const LevelParameters& l, double offset,
                           RandomKey key) {
     if (l.down_angle_v >= 0) return varied(l.down_angle, l.down_angle_v, key, Draw::down_angle);
-    const bool bare = !arbaro(p) || parent.level == 0;
+    const bool bare = !by_arbaro(p) || parent.level == 0;
     const double length = parent.length * (1 - (bare ? p.level[std::size_t(parent.level)].base_size : 0));
     const double angle = l.down_angle + l.down_angle_v * (1 - 2 * shape_ratio(p, 0, (parent.length - offset) / length));
-    return arbaro(p) ? angle : varied(angle, 0.1 * std::abs(angle), key, Draw::down_angle);
+    return by_arbaro(p) ? angle : varied(angle, 0.1 * std::abs(angle), key, Draw::down_angle);
 }
 
 } // namespace bough

@@ -12,6 +12,10 @@ struct Insertion {
     double turn;   // [deg]
 };
 
+inline bool by_arbaro(const GrowthParameters& p) {
+    return p.rules == GrowthRules::arbaro;
+}
+
 // Children, or leaves, of a whole stem of this length, before splits take their part.
 double segment_children(const GrowthParameters&, const SegmentStem&);
 double segment_leaves(const GrowthParameters&, const SegmentStem&);

@@ -1,11 +1,11 @@
 #include "wind.h"
+#include "../base/angles.h"
 #include <array>
 #include <numbers>
 
 namespace bough {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr int waves = 24;
 
 // SplitMix64: a well-spread 64-bit value for each counter.

@@ -1,4 +1,5 @@
 #include "wind_field.h"
+#include "../base/angles.h"
 #include "../base/monotone.h"
 #include "wind.h"
 #include <array>
@@ -9,7 +10,6 @@
 namespace bough {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi, degree = std::numbers::pi / 180;
 constexpr std::size_t most_octaves = 32;
 constexpr double most_rings = 1 << 22; // what lanes look up (wide_pair.h)
 constexpr std::size_t most_entries = 1 << 22;

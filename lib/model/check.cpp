@@ -15,13 +15,13 @@ std::string text(std::size_t value) {
     return std::to_string(value);
 }
 
-bool finite(double value) {
+bool is_finite(double value) {
     return std::isfinite(value);
 }
-template <class Derived> bool finite(const Eigen::MatrixBase<Derived>& value) {
+template <class Derived> bool is_finite(const Eigen::MatrixBase<Derived>& value) {
     return value.allFinite();
 }
-bool finite(const Quat& value) {
+bool is_finite(const Quat& value) {
     return value.coeffs().allFinite();
 }
 
@@ -52,7 +52,7 @@ public:
 
     template <class T> Rules& all_finite(const char* field, const std::vector<T>& values) {
         return each(
-            field, values, [](std::size_t, const T& v) { return finite(v); },
+            field, values, [](std::size_t, const T& v) { return is_finite(v); },
             [](std::size_t, const T&) { return std::string("is not finite, expected finite numbers"); });
     }
 
@@ -60,13 +60,13 @@ public:
         const bool open = high == std::numeric_limits<double>::infinity();
         const std::string expected = open ? text(low) + " or more" : text(low) + " to " + text(high);
         return each(
-            field, values, [=](std::size_t, double v) { return finite(v) && v >= low && v <= high; },
+            field, values, [=](std::size_t, double v) { return is_finite(v) && v >= low && v <= high; },
             [=](std::size_t, double v) { return "is " + text(v) + ", expected " + expected; });
     }
 
     Rules& positive(const char* field, const std::vector<double>& values) {
         return each(
-            field, values, [](std::size_t, double v) { return finite(v) && v > 0; },
+            field, values, [](std::size_t, double v) { return is_finite(v) && v > 0; },
             [](std::size_t, double v) { return "is " + text(v) + ", expected more than 0"; });
     }
 

@@ -7,11 +7,11 @@
 namespace bough {
 namespace {
 
-constexpr double energy_tolerance = 0.01;
+constexpr double excess_tolerance = 0.01;
 
-template <class T> struct Sum {
+template <class T> struct Conserved {
     double kinetic = 0, total = 0; // [J]
-    Sum(const Plan<T>& plan, const State<T>& state, const World<T>& world) {
+    Conserved(const Plan<T>& plan, const State<T>& state, const World<T>& world) {
         const Energy e = energy(plan, state);
         kinetic = e.bodies;
         total = e.bodies + e.elastic + e.potential;
@@ -54,7 +54,7 @@ void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const 
                                 Scheme::p12, setup.simd);
     State<T> state = make_state(plan);
     World<T> world = make_world(plan, setup.tree, setup.ranges);
-    const Sum<T> start(plan, state, world);
+    const Conserved<T> start(plan, state, world);
     double largest = start.kinetic, excess = 0, fastest = 0, work = 0;
     cell.finite = true;
     for (std::int64_t k = 0; k < frames && cell.finite; ++k) {
@@ -68,7 +68,7 @@ void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const 
         if (!cell.finite) break;
         for (const Vector3<T>& theta : state.theta) cell.max_angle = std::fmax(cell.max_angle, double(theta.norm()));
         for (const FreeBody& free : world.free) fastest = std::max(fastest, free.motion.v.norm());
-        const Sum<T> now(plan, state, world);
+        const Conserved<T> now(plan, state, world);
         largest = std::max(largest, now.kinetic);
         const double rounding = 256 * double(std::numeric_limits<T>::epsilon()) * std::abs(start.total);
         if (largest > 0)
@@ -89,7 +89,7 @@ void run(const StabilitySetup& setup, Solver solver, std::int64_t frames, const 
     for (const Ball& ball : setup.scene.balls) fair = std::max(fair, ball.velocity.norm() + fall);
     if (solver == Solver::coupled) {
         cell.energy_drift = excess;
-        cell.bounded = excess <= energy_tolerance;
+        cell.bounded = excess <= excess_tolerance;
         if (!cell.bounded) cell.note = "energy grows; ";
     } else {
         cell.bounded = fastest <= 10 * fair;

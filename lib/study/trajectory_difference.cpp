@@ -4,7 +4,7 @@
 namespace bough {
 namespace {
 
-struct Sum {
+struct SumOfSquares {
     double squares = 0, most = 0;
     std::size_t count = 0;
 
@@ -31,7 +31,7 @@ template <class F> void each(std::size_t points, const std::vector<std::size_t>*
 Distance distance(const Points& a, std::int64_t stride_a, const Points& b, std::int64_t stride_b,
                   const std::vector<std::size_t>* of) {
     const std::int64_t stride = std::max(stride_a, stride_b);
-    Sum sum;
+    SumOfSquares sum;
     for (std::int64_t f = stride;; f += stride) {
         const auto i = std::size_t(f / stride_a), j = std::size_t(f / stride_b);
         if (i >= a.size() || j >= b.size()) break;
@@ -46,7 +46,7 @@ Distance distance(const Trajectory& a, const Trajectory& b) {
 }
 
 Distance deflection(const Points& points, const std::vector<std::size_t>* of) {
-    Sum sum;
+    SumOfSquares sum;
     for (std::size_t f = 1; f < points.size(); ++f)
         each(points[f].size(), of, [&](std::size_t k) { sum.add((points[f][k] - points[0][k]).squaredNorm()); });
     return sum.result();

@@ -29,7 +29,7 @@ repair loose.csv "1 curve attached to the nearest branch, as the file names no p
 repair loose.csv "2 of 5 radii are missing or 0; filled by the pipe rule"
 repair loose.csv "1 point that repeats the one before left out"
 awk -F, -v OFS=, 'NR > 1 { $5 += 990 } { print }' loose.csv >far.csv
-repair far.csv "far from the origin: moved so that its base stands there"
+repair far.csv "set on the ground at the origin (--keep-place leaves it)"
 awk -F, -v OFS=, 'NR > 1 { $3 *= 0.01; $5 *= 0.01; $6 *= 0.01 } { print }' loose.csv >small.csv
 repair small.csv "0.04 m high, hardly a tree: is the unit right?"
 printf 'v 0 0 0\nv 0 2 0\nv 0 2 0\nv 0 3 0\nv 0.2 2 0\nv 1 3 0\nl 1 2\nl 3 4\nl 5 6\n' >lines.obj

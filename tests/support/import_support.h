@@ -46,7 +46,10 @@ struct Imported {
     }
 };
 
-inline Imported imported(const std::string& content, const std::string& name, ImportOptions options = {}) {
+// Where the file has it, unless it is to be set on the ground.
+inline Imported imported(const std::string& content, const std::string& name, ImportOptions options = {},
+                         bool on_ground = false) {
+    options.keep_place = !on_ground;
     options.name = name;
     Imported result;
     result.splines = import_splines(content, options, result.notes);

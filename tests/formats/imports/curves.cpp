@@ -111,17 +111,22 @@ TEST_CASE("wrong JSON of curves is refused with its line") {
     damage(curves(), "damaged.json", 1);
 }
 
-TEST_CASE("a tree far from the origin is moved there, an absurd size is named") {
+TEST_CASE("a tree is set on the ground at its foot, an absurd size is named") {
     ImportOptions options;
     options.up = 'z';
     const std::string survey = "spline,x,y,z,radius\n0,500000,4000000,254,0.1\n0,500000,4000000,260,0.05\n";
-    const Imported in = imported(survey, "x.csv", options);
+    const Imported in = imported(survey, "x.csv", options, true);
     CHECK(near(in.splines.point[0], {0, 0, 0}));
     CHECK(near(in.splines.point[1], {0, 6, 0}, 1e-6));
-    CHECK(in.notes_hold("far from the origin: moved so that its base stands there, by -5e+05, -254, 4e+06 m"));
+    CHECK(in.notes_hold("its foot stood at 5e+05, 254, -4e+06 m (x, y up, z): set on the ground at the origin"));
     CHECK_FALSE(in.notes_hold("is the unit right"));
-    const Imported near_by = imported("spline,x,y,z,radius\n0,30,0,-0.3,0.1\n0,30,0,6,0.05\n", "x.csv", options);
-    CHECK(near(near_by.splines.point[0], {30, -0.3, 0}));
+    const std::string aside = "spline,x,y,z,radius\n0,30,0,-0.3,0.1\n0,30,0,6,0.05\n";
+    CHECK(near(imported(aside, "x.csv", options, true).splines.point[0], {0, 0, 0}));
+    const Imported kept = imported(aside, "x.csv", options);
+    CHECK(near(kept.splines.point[0], {30, -0.3, 0}));
+    CHECK_FALSE(kept.notes_hold("its foot stood"));
+    const Imported sunk = imported("spline,x,y,z,radius\n0,0,0,-0.05,0.1\n0,0,0,6,0.05\n", "x.csv", options, true);
+    CHECK(near(sunk.splines.point[0], {0, -0.05, 0})); // as an artist sinks a stem into the ground
     CHECK(imported("spline,x,y,z,radius\n0,0,0,0,0.1\n0,0,0,0.05,0.05\n", "x.csv")
               .notes_hold("0.05 m high, hardly a tree"));
 }

@@ -30,7 +30,7 @@ bool same(const Splines& a, const Splines& b) {
 } // namespace
 
 TEST_CASE("TreeQSM: 13 names over 17 columns, parents from 1, gaps bridged, a side branch where it begins") {
-    const Imported in = imported(fixture("cylinder_small.txt"), "cylinder_small.txt");
+    const Imported in = imported(fixture("cylinder_small.txt"), "cylinder_small.txt", {}, true);
     const Splines& s = in.splines;
     CHECK(s.source == "TreeQSM cylinders cylinder_small.txt");
     REQUIRE(s.branches() == 3);

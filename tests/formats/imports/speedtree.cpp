@@ -228,7 +228,7 @@ TEST_CASE("files that hold no skeleton are refused with what to do instead") {
     says("Ogawa" + binary, "oak.abc", "Alembic");
     says("PXR-USDC" + binary, "oak.usd", "USD");
     says("#usda 1.0\n", "oak.usda", "USD");
-    says("<Trees/>", "a.xml", "not SpeedTree raw XML");
+    says("<Trees/>", "a.xml", "neither SpeedTree raw XML");
     says("<?xml version='1.0'?><arbaro/>", "a.xml", "Arbaro");
     says("{\"format\": \"bough-tree\", \"version\": 1}", "oak.tree.json", "\"bough-tree\"");
     says("once upon a time", "a.txt", "unknown format");
