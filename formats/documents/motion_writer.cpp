@@ -169,8 +169,8 @@ struct MotionWriter::Implementation {
         }
         if (!header.events) return;
         for (const auto* array : {&event_frame, &event, &event_body, &event_on})
-            output.write({reinterpret_cast<const char*>(array->data()), 8 * events});
-        output.write({reinterpret_cast<const char*>(event_value.data()), 8 * events});
+            output.write({reinterpret_cast<const char*>(array->data()), 8 * event.size()});
+        output.write({reinterpret_cast<const char*>(event_value.data()), 8 * event_value.size()});
     }
 };
 

@@ -6,7 +6,7 @@
 // its ring by cos(a/2) in the plane of the bend; the tube as a whole loses about (1 - cos^2(a/2)) / 2 of its volume, 3 %
 // at 0.5 rad.
 // A side branch begins with a collar, a ring on its parent's axis inside the parent's tube and moved by the parent alone,
-// then a root ring where it comes out, moved by both, and flares there to up to 1.45 times its radius, which it has one radius further on (where the
+// then a root ring where it comes out, moved by both, and flares there to up to 1.18 times its radius, which it has one radius further on (where the
 // parent is thicker, the first piece long enough and n > 3); so no gap opens whichever way it bends, nor where a branch was
 // drawn starting off the parent's axis. An end ring thinner than 1/1000 of the next is drawn as a point.
 // Leaves and petals are drawn as kites of their prism's length, width and area, one for each broad face (no petiole);

@@ -8,7 +8,9 @@ namespace {
 
 constexpr double point_ratio = 1e-3; // an end ring thinner than this times its neighbour is drawn as a point
 constexpr double nested = 0.8;       // how much of its parent's inner radius a collar may fill: room for bends
-constexpr double flared = 1.45; // the root ring over the branch's own radius there, where the parent is thick enough
+constexpr double flared = 1.18; // the root ring over the branch's own radius there, where the parent is thick enough
+constexpr double collared =
+    2.2; // and the collar, within the parent: between the two the tube comes out of it, wider than it goes on
 constexpr double flare_length = 1.1; // of the branch's radius: from the root ring to where its own radius begins
 
 struct Ring {
@@ -56,7 +58,8 @@ void add_junction(std::vector<Ring>& rings, const Tree& tree, const DrawnPose& p
     const double begins =
         out + flare_length * own; // only on a piece that is long enough for it, of a tube that is round enough
     const bool flares = tube.sides > 3 && flare > 1.02 * own && begins < 0.45 * size.x();
-    rings.push_back({pose.at(parent, collar), std::min(flares ? flare : size.y(), nested * room), bound_to(parent)});
+    rings.push_back(
+        {pose.at(parent, collar), std::min(flares ? collared * own : size.y(), nested * room), bound_to(parent)});
     rings.push_back(
         {pose.at(body, {0, 0, out}), flares ? flare : own, {std::int32_t(body), std::int32_t(parent), float(0.5 - t)}});
     if (flares)

@@ -12,6 +12,8 @@
 #include "wide_counted.h" // in place of all that is about registers
 #elif defined(__AVX2__)
 #include <immintrin.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 #if defined(__AVX512F__)
@@ -95,6 +97,19 @@ template <class T> [[gnu::always_inline]] inline Wide<T> all(T value) {
 }
 [[gnu::always_inline]] inline bool any_above(WideDouble a, WideDouble b) {
     return _mm256_movemask_pd(_mm256_cmp_pd(__m256d(a), __m256d(b), _CMP_GT_OQ)) != 0;
+}
+#elif defined(__wasm_simd128__) // whose compiler does not make one instruction of the loops below
+[[gnu::always_inline]] inline WideFloat root(WideFloat w) {
+    return WideFloat(wasm_f32x4_sqrt(v128_t(w)));
+}
+[[gnu::always_inline]] inline WideDouble root(WideDouble w) {
+    return WideDouble(wasm_f64x2_sqrt(v128_t(w)));
+}
+[[gnu::always_inline]] inline bool any_above(WideFloat a, WideFloat b) {
+    return wasm_v128_any_true(wasm_f32x4_gt(v128_t(a), v128_t(b)));
+}
+[[gnu::always_inline]] inline bool any_above(WideDouble a, WideDouble b) {
+    return wasm_v128_any_true(wasm_f64x2_gt(v128_t(a), v128_t(b)));
 }
 #else
 template <class W> [[gnu::always_inline]] inline W root(W w) {

@@ -1,0 +1,119 @@
+// basics.mjs: the page opens and moves; a branch is pulled by mouse and by touch and comes back; what a browser lacks is said.
+import { at, branchOnScreen, closePage, expect, less, messages, norm, openPage, restarted, steps, still } from './browser.mjs';
+
+export async function opens_and_moves({ browser, url }) {
+    const page = await openPage(browser, url, { draws: true });
+    const bodies = await page.evaluate(() => bough.bodies);
+    expect(bodies > 1000, `${bodies} bodies, expected a tree`);
+    await restarted(page);
+    const before = await steps(page, 1), after = await steps(page, 60);
+    const way = Math.max(...after.map((value, k) => Math.abs(value - before[k])));
+    expect(way > 0.01 && way < 3, `in a second of wind the farthest body goes ${way} m`);
+    const vertices = await page.evaluate(() => {
+        const all = bough.view.skinned.positions();
+        return [all.every(Number.isFinite), all.length / 3];
+    });
+    expect(vertices[0] && vertices[1] > bodies, `${vertices[1]} vertices, all finite: ${vertices[0]}`);
+    const colors = await page.evaluate(() => {
+        bough.view.draw();
+        const { canvas } = bough.view, copy = document.createElement('canvas');
+        copy.width = copy.height = 64;
+        const pen = copy.getContext('2d');
+        pen.drawImage(canvas, 0, 0, 64, 64);
+        return new Set(Array.from(new Uint32Array(pen.getImageData(0, 0, 64, 64).data.buffer))).size;
+    });
+    expect(colors > 100, `the picture has ${colors} colours, expected a tree`);
+    await closePage(page);
+}
+
+export async function pulled_by_mouse({ browser, url }) {
+    const page = await openPage(browser, url);
+    await page.evaluate(() => bough.open('willow'));
+    await calm(page);
+    const branch = await branchOnScreen(page);
+    expect(branch, 'no branch is on the screen');
+    await still(page);
+    const rest = at(await steps(page, 1), branch.body);
+    const azimuth = await page.evaluate(() => bough.view.orbit.azimuth);
+    await page.mouse.move(branch.x, branch.y);
+    await page.mouse.down();
+    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'holds'));
+    await page.mouse.move(branch.x + 60, branch.y - 10, { steps: 4 });
+    const targets = await page.evaluate(() => bough.pointers.targets());
+    expect(targets.length === 1, 'the hand has no target');
+    const pulled = at(await steps(page, 120, targets), branch.body);
+    const wanted = less(targets[0][1], branch.world), way = less(pulled, rest);
+    const along = wanted.reduce((sum, value, k) => sum + value * way[k], 0) / norm(wanted);
+    expect(along > 0.02 * norm(wanted), `the branch went ${along} m of ${norm(wanted)} m towards the pointer`);
+    expect(await page.evaluate(() => bough.view.arrows.size) === 1, 'no arrow is drawn');
+    expect(await page.evaluate(() => bough.view.orbit.azimuth) === azimuth, 'the camera turned while a branch was held');
+    await page.mouse.up();
+    expect(await page.evaluate(() => bough.view.arrows.size) === 0, 'the arrow stays');
+    const back = at(await steps(page, 1200), branch.body);
+    expect(norm(less(back, rest)) < 0.3 * norm(way), `let go, it is ${norm(less(back, rest))} m off after ${norm(way)} m`);
+    // Beside the tree the same turns the camera.
+    await page.mouse.move(30, 400);
+    await page.mouse.down();
+    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'turns'));
+    await page.mouse.move(130, 400, { steps: 4 });
+    await page.mouse.up();
+    expect(await page.evaluate(() => bough.view.orbit.azimuth) !== azimuth, 'beside the tree the camera does not turn');
+    await closePage(page);
+}
+
+export async function calm(page) {
+    await page.evaluate(async () => {
+        bough.change(({ wind }) => Object.assign(wind, { speed: 0, turbulence: 0, gustFactor: 1 }), true);
+        await bough.apply(true);
+    });
+}
+
+export async function pulled_by_touch({ browser, url }) {
+    const page = await openPage(browser, url, { size: [1024, 768], touch: true });
+    await page.evaluate(() => bough.open('willow'));
+    await calm(page);
+    await still(page);
+    const branch = await branchOnScreen(page);
+    const touch = await page.context().newCDPSession(page);
+    const send = (type, points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y, id = 1]) => ({ x, y, id })) });
+    await send('touchStart', [[branch.x + 6, branch.y]]); // a finger is no needle
+    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'holds'));
+    await send('touchMove', [[branch.x + 50, branch.y + 30]]);
+    const targets = await page.evaluate(() => bough.pointers.targets());
+    const held = await page.evaluate(() => [...bough.pointers.all.values()][0].body);
+    const before = at(await steps(page, 0), held), way = norm(less(at(await steps(page, 90, targets), held), before));
+    expect(way > 1e-3, `the finger moved it by ${way} m`);
+    await send('touchEnd', []);
+    await page.waitForFunction(() => bough.pointers.all.size === 0);
+    // Two fingers beside the tree come nearer.
+    const far = await page.evaluate(() => bough.view.orbit.distance);
+    await send('touchStart', [[20, 60, 1]]);
+    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'turns'));
+    await send('touchStart', [[20, 60, 1], [60, 60, 2]]);
+    await page.waitForFunction(() => bough.pointers.all.size === 2);
+    await send('touchMove', [[20, 60, 1], [120, 60, 2]]);
+    await send('touchEnd', []);
+    const near = await page.evaluate(() => bough.view.orbit.distance);
+    expect(near < 0.8 * far, `two fingers: from ${far} m to ${near} m`);
+    await closePage(page);
+}
+
+export async function what_the_browser_lacks_is_said({ browser, url }) {
+    const says = async (before, words) => {
+        const page = await openPage(browser, url, { before, waits: false });
+        await page.waitForSelector('.message.error');
+        const [text] = await messages(page);
+        expect(words.every((word) => text.includes(word)), `says "${text}", expected ${words}`);
+        await page.context().close();
+    };
+    await says('WebAssembly.validate = () => false;', ['SIMD', 'Firefox 89']);
+    await says('HTMLCanvasElement.prototype.getContext = () => null;', ['WebGL2']);
+    await says('const get = window.fetch; window.fetch = (name) => get(String(name).replace("bough.wasm", "gone.wasm"));', ['bough.wasm', '404']);
+}
+
+export async function one_file_from_disk({ browser, file }) {
+    const page = await openPage(browser, `file://${file}`);
+    await page.evaluate(() => bough.open('young_maple'));
+    expect(await page.evaluate(() => bough.state.trees[0].file) === 'young_maple', `it says: ${await messages(page)}`);
+    await closePage(page);
+}

@@ -1,0 +1,54 @@
+// measures.mjs: sizes and times. Times are printed, and decide nothing: they are the machine's.
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { gzipSync } from 'node:zlib';
+import { closePage, expect, openPage, steps, still } from './browser.mjs';
+
+export async function the_page_is_small({ folder }) {
+    const names = ['index.html', 'style.css', 'page.js', 'worker.js', 'bough.wasm'];
+    const sizes = names.map((name) => gzipSync(fs.readFileSync(path.join(folder, name)), { level: 9 }).length);
+    const all = sizes.reduce((a, b) => a + b, 0);
+    console.log(`    gzipped: ${names.map((name, k) => `${name} ${sizes[k]}`).join(', ')}; all ${all} bytes`);
+    expect(all <= 1.5e6, `${all} bytes gzipped, expected at most 1.5 MB`);
+}
+
+export async function what_a_step_costs({ browser, url, work, tools }) {
+    const page = await openPage(browser, url);
+    const times = await page.evaluate(() => [bough.times.moved, bough.times.applied]);
+    console.log(`    first motion ${(times[0] / 1000).toFixed(2)} s after the page was opened (first scene applied at ${(times[1] / 1000).toFixed(2)} s)`);
+    await page.evaluate(() => bough.grow({ species: 'maple', bodies: 10000, seed: 3, leaves: true, fruit: false, petals: false }));
+    await page.evaluate(async () => {
+        bough.change(({ wind }) => Object.assign(wind, { speed: 8, turbulence: 0.2, gustFactor: 1.6, gustPeriod: 6 }), true);
+        bough.change((state) => { state.rate = 30; }, true);
+        await bough.apply(true);
+    });
+    await still(page);
+    await steps(page, 60);
+    const cost = await page.evaluate(async () => {
+        let sum = 0, count = 0;
+        for (let k = 0; k < 200; ++k) {
+            const { ms } = await bough.client.ask('frame', { seconds: 0, single: true, buffer: new ArrayBuffer(32 * bough.bodies) });
+            if (k >= 100) sum += ms, ++count;
+        }
+        const script = [];
+        for (let k = 0; k < 30; ++k) {
+            await new Promise((done) => requestAnimationFrame(done));
+            script.push(bough.script + (bough.taking ?? 0));
+        }
+        script.sort((a, b) => a - b);
+        return { ms: sum / count, script: script[15], bodies: bough.bodies };
+    });
+    execFileSync('bash', ['-c', 'treegen --species maple --bodies 10000 --seed 3 --leaves -q | treeconvert - -q -o maple.safetensors'],
+        { cwd: work, env: { ...process.env, PATH: `${tools}:${process.env.PATH}` } });
+    const run = (frames) => {
+        const start = process.hrtime.bigint();
+        execFileSync(path.join(tools, 'treesim'), ['maple.safetensors', '--wind', 'gusty', '--precision', 'float', '--simd', 'baseline', '--threads', '1',
+            '--frames', String(frames), '--hash', '-q'], { cwd: work, stdio: 'ignore' });
+        return Number(process.hrtime.bigint() - start) / 1e6;
+    };
+    const native = Math.min(...[0, 1, 2].map(() => (run(1100) - run(100)) / 1000));
+    console.log(`    ${cost.bodies} bodies in leaf: a step ${cost.ms.toFixed(2)} ms in the page, ${native.toFixed(2)} ms by treesim --simd baseline ` +
+        `(with its output): ${(cost.ms / native).toFixed(2)} times; JavaScript ${cost.script.toFixed(2)} ms a frame`);
+    await closePage(page);
+}

@@ -1,0 +1,259 @@
+// app.js: the page as a whole: its state, how it comes to the Worker, frame after frame.
+import { Bar } from './bar.js';
+import { youngMaple } from './builtins.js';
+import { Files } from './files.js';
+import { busy, problem, say, unsay } from './messages.js';
+import { Meters } from './meters.js';
+import { Panel } from './panel.js';
+import { Pointers } from './pointers.js';
+import { saveMotion, saveScene, updateAddress } from './save.js';
+import { copyOf, defaults, History, subtreeOf } from './state.js';
+import { View } from './view.js';
+
+const first = 'maple';
+const tooSlow = 12; // ms a step beyond which 60 frames a second have no room
+
+export class App {
+    constructor(client, known) {
+        this.client = client;
+        this.state = copyOf(defaults);
+        this.thickest = 0.2; // m, radius
+        this.paused = false;
+        this.speed = 1;
+        this.picked = null;
+        this.problem = problem;
+        this.view = new View(document.getElementById('picture'));
+        this.meters = new Meters();
+        this.files = new Files(this);
+        this.panel = new Panel(this, known);
+        this.bar = new Bar(this);
+        this.pointers = new Pointers({ client, view: this.view, problem, picked: (body) => this.pick(body) });
+        this.times = { opened: performance.now() };
+        this.frames = 0;
+        addEventListener('resize', () => this.fit());
+    }
+    async begin(state) {
+        const given = new URLSearchParams(location.search).has('open') ? await this.#given() : null;
+        const lost = state?.trees.find((source) => source.file && source.file !== youngMaple.file);
+        if (lost) problem(`The address names the file ${lost.name}, which it cannot hold: drop that file on the page. A built-in tree is shown.`);
+        if (state?.trees.some(({ file }) => file === youngMaple.file)) await this.files.needYoungMaple();
+        this.fit();
+        this.state = state && !lost ? state : await this.files.builtin(first);
+        this.good = this.state;
+        this.history = new History(this.state);
+        if (!await this.apply(true) && state) await this.open(first); // what an address says may not run
+        if (given) await this.files.open(given);
+        requestAnimationFrame((now) => this.frame(now));
+    }
+    // The files that tools/live/live was started with.
+    async #given() {
+        const names = await (await fetch('open.json')).json();
+        return Promise.all(names.map(async ({ name, at }) => new File([await (await fetch(at)).arrayBuffer()], name)));
+    }
+    fit() {
+        const panel = document.getElementById('panel').getBoundingClientRect();
+        const below = panel.width >= innerWidth, closed = panel.height === 0;
+        const bar = 64; // px at the bottom
+        this.view.inset = closed ? [0, bar] : below ? [0, panel.height + bar] : [panel.width, bar];
+        if (this.view.skinned) this.view.fit();
+    }
+
+    // edit(state) changes it; done: a step of the history.
+    change(edit, done) {
+        const next = copyOf(this.state);
+        edit(next);
+        this.state = next;
+        this.apply(false).then((right) => {
+            if (right && done) this.#remember();
+        });
+        if (done) this.panel.show(this.state);
+    }
+    #remember() {
+        this.history.add(this.state);
+        this.bar.show(this.history);
+        updateAddress(this.state);
+        unsay('slow');
+        this.slow = 0;
+    }
+    async opened(state) {
+        this.state = state;
+        this.pick(null);
+        this.view.orbit.touched = false;
+        if (await this.apply(true)) this.#remember();
+    }
+    async open(name) {
+        try {
+            await this.opened(await this.files.builtin(name));
+        } catch (error) {
+            problem(error.message);
+        }
+    }
+    grow(source) {
+        return this.opened({ ...copyOf(defaults), wind: { ...this.state.wind }, trees: [source], places: [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }] });
+    }
+    async undo(redo = false) {
+        const state = redo ? this.history.redo() : this.history.undo();
+        if (!state) return;
+        this.state = state;
+        await this.apply(false);
+        this.bar.show(this.history);
+        updateAddress(this.state);
+    }
+    redo() { return this.undo(true); }
+    restart() { return this.apply(true); }
+    async keep() {
+        try {
+            const trees = await this.client.ask('keep');
+            this.pointers.letGoAll();
+            this.change((state) => {
+                state.trees = trees;
+                state.places.forEach((place, k) => { place.tree = k; });
+            }, true);
+            say('The tree is now at rest as it stands.');
+        } catch (error) {
+            problem(error.message);
+        }
+    }
+
+    // The state to the Worker, the latest one where several come while one is made. Whether it runs.
+    apply(restart) {
+        this.wanted = { restart: restart || Boolean(this.wanted?.restart) };
+        this.applying ??= this.#applyAll().finally(() => { this.applying = null; });
+        return this.applying;
+    }
+    async #applyAll() {
+        let right = true;
+        while (this.wanted) {
+            const { restart } = this.wanted, state = copyOf(this.state);
+            this.wanted = null;
+            try {
+                const { mesh, bodies, notes } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
+                this.good = state;
+                this.bodies = bodies;
+                if (mesh) this.#shown(mesh);
+                if (mesh) this.panel.showNotes(notes);
+                if (!this.wanted) this.panel.show(this.state);
+                this.times.applied ??= performance.now();
+                right = true;
+            } catch (error) {
+                if (error.inWorker) console.error(error.inWorker);
+                problem(error.message);
+                right = false;
+                if (this.wanted) continue;
+                this.state = copyOf(this.good);
+                this.panel.show(this.state);
+            }
+        }
+        return right;
+    }
+    #shown(mesh) {
+        this.mesh = { parent: mesh.parent, kind: mesh.kind, size: mesh.size, first: mesh.first };
+        this.thickest = 0;
+        for (let i = 0; i < mesh.kind.length; ++i) if (mesh.kind[i] === 0) this.thickest = Math.max(this.thickest, mesh.size[3 * i + 1]);
+        this.view.show(mesh);
+        this.pick(null);
+    }
+
+    // A body of the trees, by its number in all of them, or null.
+    pick(body) {
+        if (body === null || body === undefined) {
+            this.picked = null;
+            this.view.skinned?.mark(null);
+        } else {
+            const inside = subtreeOf(this.mesh.parent, body);
+            const [place, own] = this.#placeOf(body);
+            this.picked = { body, place, own, count: inside.reduce((sum, one) => sum + one, 0), radius: this.mesh.size[3 * body + 1] };
+            this.view.skinned.mark(inside);
+        }
+        this.panel.showPicked(this.picked);
+        if (this.good) this.panel.show(this.state);
+    }
+    #placeOf(body) { // places' bodies stand one after another; which they are the Worker says with the mesh
+        const { first } = this.mesh;
+        let place = 0;
+        while (place + 1 < first.length - 1 && first[place + 1] <= body) ++place;
+        return [place, body - first[place]];
+    }
+
+    single() {
+        this.bar.toggle(true);
+        this.oneStep = true;
+    }
+    async frame(now) {
+        requestAnimationFrame((next) => this.frame(next));
+        const start = performance.now(), passed = this.last === undefined ? 0 : (now - this.last) / 1000;
+        this.last = now;
+        this.unasked = (this.unasked ?? 0) + passed;
+        if (!this.asking && this.bodies) this.#ask(now);
+        this.pointers.arrows();
+        this.panel.dial.follow(this.view.orbit.azimuth);
+        this.view.draw();
+        this.script = performance.now() - start; // ms of JavaScript, drawing calls among it
+        ++this.frames;
+        this.frameTime = 1000 * passed;
+        if (this.frames > 2 && this.frames < 200 && this.view.sun.castShadow) this.#spare(this.frameTime);
+    }
+    // Where pictures are drawn without a graphics card shadows are more than half of the work.
+    #spare(ms) {
+        this.late = ms > 70 ? (this.late ?? 0) + 1 : 0;
+        if (this.late !== 5) return;
+        this.view.shadows(false);
+        say('Pictures are drawn slowly here: shadows are off (Computing).');
+    }
+    #ask(now) {
+        const size = 32 * this.bodies;
+        const buffer = this.buffer?.byteLength === size ? this.buffer : new ArrayBuffer(size);
+        this.buffer = null;
+        const seconds = this.paused ? 0 : this.unasked * this.speed, single = Boolean(this.oneStep);
+        this.unasked = 0;
+        this.oneStep = false;
+        this.asking = this.client.ask('frame', { seconds, single, buffer, targets: this.pointers.targets() }, [buffer])
+            .then((answer) => this.#taken(answer, now))
+            .catch((error) => {
+                problem(`${error.message}. It stands still; Restart begins again.`);
+                this.bar.toggle(true);
+            })
+            .finally(() => { this.asking = null; });
+    }
+    #taken(answer, now) {
+        const started = performance.now();
+        this.buffer = answer.poses;
+        this.view.take(new Float32Array(answer.poses));
+        if (answer.steps > 0) this.times.moved ??= performance.now();
+        if (answer.hands?.length) document.getElementById('hint').classList.add('gone');
+        for (const [hand, message] of answer.lost ?? []) this.pointers.lost(hand, message);
+        this.answer = { ...answer, poses: null };
+        if (this.frameTime)
+            this.meters.add({ at: now / 1000, frame: this.frameTime, ms: answer.ms, steps: answer.steps, dropped: answer.dropped, bodies: this.bodies, estimate: answer.estimate });
+        if (answer.steps > 0) this.#watch(answer.ms);
+        this.taking = performance.now() - started;
+    }
+    // What is too large says so, and what can be done.
+    #watch(ms) {
+        this.slow = ms > Math.min(tooSlow, 800 / this.state.rate) ? (this.slow ?? 0) + 1 : 0;
+        if (this.slow !== 90) return;
+        const species = this.state.trees.length === 1 && (this.state.trees[0].of ?? this.state.trees[0]);
+        const actions = [['Move only thicker wood', () => this.change((state) => { state.least = Math.max(2 * state.least, 0.02 * this.thickest); }, true)]];
+        if (species?.species) actions.unshift(['Half the bodies', () => this.grow({ ...species, bodies: Math.round(species.bodies / 2) })]);
+        if (this.state.rate > 30) actions.push(['30 steps a second', () => this.change((state) => { state.rate = 30; }, true)]);
+        say(`A step of these ${this.bodies.toLocaleString('en')} bodies takes ${ms.toFixed(1)} ms: too long for ${this.state.rate} a second. It moves slower than real.`,
+            { key: 'slow', error: true, actions });
+    }
+
+    async copyAddress() {
+        const fits = await updateAddress(this.state);
+        const file = this.state.trees.some((source) => (source.of ?? source).file && (source.of ?? source).file !== youngMaple.file);
+        const kept = this.state.trees.some((source) => source.kept);
+        if (!fits) return problem('The scene is too long for an address; "Scene for treesim" saves all of it.');
+        if (file) return problem('The address cannot hold a file that was dropped, only its name; "Scene for treesim" saves all of it.');
+        await navigator.clipboard?.writeText(location.href).catch(() => {});
+        say(`The address holds the scene (${location.href.length} characters)${kept ? ', but for the pose that was kept' : ''}; it is copied.`);
+    }
+    async saveScene() {
+        await busy('Writing the trees …', () => saveScene(this)).catch((error) => problem(error.message));
+    }
+    async saveMotion(seconds, loop) {
+        await busy(loop ? 'Running it until it repeats …' : 'Running and writing it …', () => saveMotion(this, { seconds, loop }))
+            .then((bytes) => say(`${(bytes / 1e6).toFixed(1)} MB written.`)).catch((error) => problem(error.message));
+    }
+}

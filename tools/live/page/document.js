@@ -1,0 +1,88 @@
+// document.js: the page's state as a bough-scene document, which treesim reads too, and back.
+
+const rad = Math.PI / 180;
+
+// What a source of a tree is told by. A file's bytes stand elsewhere, by its id.
+export const sourceKey = (source) => source.kept ? `kept ${source.kept}` : JSON.stringify(source);
+
+// What is drawn of a state: trees where they stand, as first drawn. A pose that was kept has the shape it was made of.
+export const shapeOf = (state) => JSON.stringify([
+    state.places.map(({ tree, position, yaw }) => [sourceKey(state.trees[tree].of ?? state.trees[tree]), position, yaw]),
+    state.ownMesh,
+]);
+
+export const treeFile = (number) => `trees/tree_${number + 1}.safetensors`;
+
+export function windVector({ speed, direction }) {
+    return [speed * Math.cos(direction * rad), 0, -speed * Math.sin(direction * rad)];
+}
+
+function curvesOf(state) {
+    const curves = [];
+    const { keys } = state.curves;
+    const own = (values) => values.map((value) => Math.max(1e-6, value));
+    if (keys.stiffness.length > 0)
+        curves.push({ radius: keys.stiffness.map(([r]) => r), stiffness: own(keys.stiffness.map(([, f]) => f)), relative: true });
+    if (keys.damping.length > 0)
+        curves.push({ radius: keys.damping.map(([r]) => r), damping: keys.damping.map(([, f]) => f), relative: true });
+    for (const part of state.parts)
+        curves.push({
+            on: { tree: part.place, body: part.body },
+            radius: [0], stiffness: [part.stiffness], damping: [part.damping], relative: true,
+        });
+    return curves;
+}
+
+// gravity: that of the drawn pose; what it was changed to while it ran is the run's alone.
+export function sceneDocument(state, gravity = state.drawnGravity) {
+    const { wind } = state;
+    const document = { format: 'bough-scene', version: 1, ...state.base };
+    document.trees = state.places.map(({ tree, position, yaw, start }) => ({ file: treeFile(tree), position, yaw, start: start ?? 0 }));
+    document.gravity = [0, -gravity, 0];
+    document.wind = {
+        ...state.base.wind, velocity: windVector(wind), turbulence: wind.turbulence, gust_factor: wind.gustFactor,
+        gust_period: wind.gustPeriod, seed: wind.seed,
+    };
+    document.stiffness_scale = state.stiffness;
+    document.damping_scale = state.damping;
+    const curves = [...(state.base.wood?.curves ?? []), ...curvesOf(state)];
+    if (state.base.wood || curves.length > 0) document.wood = { ...state.base.wood, curves };
+    if (state.strength > 0) document.fracture = { ...state.base.fracture, strength: 1e6 * state.strength };
+    if (state.least > 0) document.simulate = { ...state.base.simulate, radius: state.least };
+    return document;
+}
+
+// A scene document of another's: what the page has controls for becomes theirs, all else stays as it is. treeOf(file): the number of that tree in
+// `trees`, which the caller has found.
+export function stateOfScene(document, trees, treeOf, defaults) {
+    const { trees: entries = [], gravity = [0, -9.81, 0], wind, stiffness_scale, damping_scale, ...base } = document;
+    delete base.format;
+    delete base.version;
+    const places = entries.flatMap(({ file, places: several, ...own }) => (several ?? [own]).map((place) => ({
+        tree: treeOf(file), position: place.position ?? [0, 0, 0], yaw: place.yaw ?? 0, start: place.start ?? 0,
+    })));
+    if (Math.hypot(gravity[0], gravity[2]) > 0)
+        throw new Error('/gravity: does not point down, which this page has no control for');
+    const state = {
+        ...structuredClone(defaults), trees, places, base,
+        gravity: -gravity[1], drawnGravity: -gravity[1],
+        stiffness: stiffness_scale ?? 1, damping: damping_scale ?? 1,
+    };
+    const taken = (section, field) => { // from the document, and where that leaves an empty section, with it
+        const value = base[section]?.[field];
+        if (value === undefined) return 0;
+        const { [field]: _, ...others } = base[section];
+        if (Object.keys(others).length > 0) base[section] = others;
+        else delete base[section];
+        return value;
+    };
+    state.strength = taken('fracture', 'strength') / 1e6;
+    state.least = taken('simulate', 'radius');
+    const { velocity = [0, 0, 0], turbulence, gust_factor, gust_period, seed, ...others } = wind ?? {};
+    if (wind) base.wind = others;
+    state.wind = {
+        speed: Math.hypot(...velocity), direction: Math.atan2(-velocity[2], velocity[0]) / rad, turbulence: turbulence ?? 0,
+        gustFactor: gust_factor ?? 1, gustPeriod: gust_period ?? 6, seed: seed ?? 1,
+    };
+    return state;
+}

@@ -1,0 +1,100 @@
+// files.js: files that come in: trees of any program, a scene with its trees; dropped anywhere, or chosen.
+import { builtinState, youngMaple } from './builtins.js';
+import { stateOfScene } from './document.js';
+import { defaults } from './state.js';
+
+const largest = 512e6; // bytes: beyond, a page has no memory for what is made of it
+
+export class Files {
+    // app: { client, state, opened(state, notes), problem(text) }
+    constructor(app) {
+        this.app = app;
+        this.known = new Map(); // id -> name
+        this.number = 0;
+        const target = document.body;
+        target.addEventListener('dragover', (event) => {
+            event.preventDefault();
+            target.classList.add('dropping');
+        });
+        target.addEventListener('dragleave', (event) => event.relatedTarget === null && target.classList.remove('dropping'));
+        target.addEventListener('drop', (event) => {
+            event.preventDefault();
+            target.classList.remove('dropping');
+            this.open([...event.dataTransfer.files]);
+        });
+    }
+    choose() {
+        const input = Object.assign(document.createElement('input'), { type: 'file', multiple: true });
+        input.onchange = () => this.open([...input.files]);
+        input.click();
+    }
+    async add(id, name, bytes) {
+        await this.app.client.ask('file', { id, name, bytes });
+        this.known.set(id, name);
+    }
+    // One tree, or a scene with the trees that it names; several trees stand side by side.
+    async open(files) {
+        try {
+            const read = [];
+            for (const file of files) {
+                if (file.size > largest) throw new Error(`${file.name}: has ${Math.round(file.size / 1e6)} MB, expected at most ${largest / 1e6}`);
+                if (file.size === 0) throw new Error(`${file.name}: is empty, or a folder`);
+                read.push({ name: file.name, bytes: await file.arrayBuffer() });
+            }
+            const scene = read.map(({ name, bytes }) => sceneOf(name, bytes)).find((found) => found);
+            await this.app.opened(scene ? await this.#stateOfScene(scene, read) : await this.#stateOfTrees(read));
+        } catch (error) {
+            this.app.problem(error.message);
+        }
+    }
+    async #source({ name, bytes }) {
+        const source = { file: `${++this.number} ${name}`, name };
+        await this.add(source.file, name, bytes);
+        return source;
+    }
+    async #stateOfTrees(read) {
+        const trees = [];
+        for (const file of read) trees.push(await this.#source(file));
+        const across = 12; // m, between trees that come together
+        const { wind } = this.app.state;
+        const places = trees.map((_, k) => ({ tree: k, position: [across * (k - (trees.length - 1) / 2), 0, 0], yaw: 0, start: 0 }));
+        return { ...structuredClone(defaults), wind: { ...wind }, trees, places };
+    }
+    async #stateOfScene({ name, document }, read) {
+        const bare = (path) => path.split(/[/\\]/).pop();
+        const trees = [], numbers = new Map();
+        for (const { file } of document.trees ?? []) {
+            if (numbers.has(file)) continue;
+            const found = read.find((one) => one.name === bare(file));
+            if (!found) throw new Error(`${name}: /trees names '${file}', which was not dropped with it; drop the scene and its trees together`);
+            numbers.set(file, trees.length);
+            trees.push(await this.#source(found));
+        }
+        if (trees.length === 0) throw new Error(`${name}: /trees is empty, expected at least one tree`);
+        return stateOfScene(document, trees, (file) => numbers.get(file), defaults);
+    }
+    async builtin(name) {
+        const state = builtinState(name);
+        if (state.trees.some(({ file }) => file === youngMaple.file)) await this.needYoungMaple();
+        return state;
+    }
+    async needYoungMaple() {
+        if (this.known.has(youngMaple.file)) return;
+        const inside = globalThis.boughInside?.youngMaple;
+        const answer = inside ? null : await fetch(youngMaple.name);
+        if (answer && !answer.ok) throw new Error(`${youngMaple.name}: the server answers ${answer.status}, expected the file beside the page`);
+        await this.add(youngMaple.file, youngMaple.name, inside ? new TextEncoder().encode(inside).buffer : await answer.arrayBuffer());
+    }
+}
+
+// A scene document, or null; another document of ours is the library's to read.
+function sceneOf(name, bytes) {
+    const head = new TextDecoder().decode(bytes.slice(0, 4096));
+    if (!/^\s*\{/.test(head) || !head.includes('bough-scene')) return null;
+    try {
+        const document = JSON.parse(new TextDecoder().decode(bytes));
+        return document.format === 'bough-scene' ? { name, document } : null;
+    } catch (error) {
+        throw new Error(`${name}: is no JSON: ${error.message}`);
+    }
+}

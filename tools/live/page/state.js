@@ -1,0 +1,53 @@
+// state.js: what the page's scene is, as plain data: what undo goes back to, the address holds and a scene document is made of.
+
+export const defaults = {
+    trees: [], // sources: {species, bodies, seed, leaves, petals, fruit}, {file: id, name, material, maxBodies, unit} or {kept, of}
+    places: [], // {tree: number in trees, position [m], yaw [deg], start [s]}
+    base: {}, // fields of a scene document that the page has no controls for
+    ownMesh: true, // a file's own mesh is shown where it has one
+    wind: { speed: 4, direction: 0, turbulence: 0.15, gustFactor: 1.4, gustPeriod: 6, seed: 1 }, // m/s, deg from +x about the vertical
+    gravity: 9.81, // m/s^2
+    drawnGravity: 9.81, // under which the drawn trees stand at rest
+    stiffness: 1, damping: 1, // times the wood's own
+    curves: { keys: { stiffness: [], damping: [] } }, // [radius m, factor] each, rising
+    parts: [], // {place, body, stiffness, damping}: subtrees
+    strength: 0, // MPa: wood breaks; 0: never
+    least: 0, // m: thinner wood does not move by itself
+    rate: 60, // steps a second
+    precision: 'float',
+};
+
+export const copyOf = (state) => structuredClone(state);
+
+// States that were, and that were undone.
+export class History {
+    constructor(state) {
+        this.past = [];
+        this.future = [];
+        this.present = copyOf(state);
+    }
+    add(state) {
+        if (JSON.stringify(state) === JSON.stringify(this.present)) return false;
+        this.past.push(this.present);
+        if (this.past.length > 200) this.past.shift();
+        this.future = [];
+        this.present = copyOf(state);
+        return true;
+    }
+    undo() { return this.#go(this.past, this.future); }
+    redo() { return this.#go(this.future, this.past); }
+    #go(from, to) {
+        if (from.length === 0) return null;
+        to.push(this.present);
+        this.present = from.pop();
+        return copyOf(this.present);
+    }
+}
+
+// Which bodies hang on one, itself among them.
+export function subtreeOf(parent, body) {
+    const inside = new Uint8Array(parent.length);
+    inside[body] = 1;
+    for (let i = body + 1; i < parent.length; ++i) if (parent[i] >= 0 && inside[parent[i]]) inside[i] = 1;
+    return inside;
+}

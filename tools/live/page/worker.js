@@ -1,0 +1,40 @@
+// worker.js: the Worker: answers calls [number, name, arguments] with [number, error, result], in order.
+import { Library, LibraryError } from './wasm.js';
+import { Run } from './run.js';
+
+let run = null;
+
+const answers = {
+    async start({ wasm }) {
+        const library = await Library.open(wasm);
+        run = new Run(library);
+        return {
+            species: library.names('species'),
+            materials: library.names('materials'),
+            presets: Object.fromEntries(['calm', 'breeze', 'gusty', 'storm'].map((name) => [name, library.windPreset(name)])),
+        };
+    },
+    apply: ({ state, restart }) => run.apply(state, restart),
+    file: ({ id, name, bytes }) => run.addFile(id, name, bytes),
+    frame: (asked) => run.frame(asked),
+    pick: ({ ray, aperture }) => run.pick(ray, aperture),
+    grab: ({ hand, body, point }) => run.hands.grab(hand, body, point),
+    letGo: ({ hand }) => run.hands.letGo(hand),
+    curve: ({ x, y, from, to, samples }) => run.library.curve(x, y, from, to, samples),
+    keep: () => run.keepPose(),
+    documents: () => run.documents(),
+    glb: (asked) => run.glb(asked),
+    positions: () => run.positions(),
+};
+
+onmessage = async ({ data: [number, name, asked] }) => {
+    try {
+        const result = await answers[name](asked ?? {});
+        const transfer = result?.transfer ?? [];
+        if (result) delete result.transfer;
+        postMessage([number, null, result], transfer);
+    } catch (error) {
+        const known = error instanceof LibraryError;
+        postMessage([number, { message: error.message, known, stack: known ? '' : error.stack }]);
+    }
+};

@@ -1,0 +1,34 @@
+// models.cpp: formats/models as a page has it: glTF is read here as everywhere; FBX and COLLADA, which assimp reads in a process of its own, are
+// refused with what to do; a file's textures are not looked for, since a page has no folder beside it.
+#include "formats/error.h"
+#include "formats/models/model_scene.h"
+#include "formats/models/texture_file.h"
+
+namespace bough {
+
+ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOptions& options) {
+    if (kind == AssimpKind::glb || kind == AssimpKind::gltf) return scene_of_gltf(content, options);
+    throw InputError(
+        options.name,
+        std::string("is ") + model_kind_name(kind) +
+            ", which this page does not read; on the command line treeconvert makes a tree of it (treeconvert FILE -o "
+            "tree.safetensors), or save it as glTF");
+}
+
+std::string find_texture(const std::string&, const std::string&, std::vector<std::string>&) {
+    return "";
+}
+Texture read_texture(const std::string& path, const std::string&) {
+    throw InputError(path, "is a texture, which this page does not read");
+}
+std::string png_of(int, int, int, const std::vector<std::uint8_t>&) {
+    return "";
+}
+std::uint8_t channel_at(const Pixels&, int, int, int, int, int) {
+    return 0;
+}
+bool Pixels::transparent() const {
+    return false;
+}
+
+} // namespace bough
