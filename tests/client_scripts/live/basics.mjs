@@ -1,5 +1,5 @@
 // basics.mjs: the page opens and moves; a branch is pulled by mouse and by touch and comes back; what a browser lacks is said.
-import { at, branchOnScreen, closePage, expect, less, messages, norm, openPage, restarted, steps, still } from './browser.mjs';
+import { at, branchOnScreen, closePage, expect, held, less, messages, norm, openPage, restarted, steps, still } from './browser.mjs';
 
 export async function opens_and_moves({ browser, url }) {
     const page = await openPage(browser, url, { draws: true });
@@ -33,23 +33,23 @@ export async function pulled_by_mouse({ browser, url }) {
     const branch = await branchOnScreen(page);
     expect(branch, 'no branch is on the screen');
     await still(page);
-    const rest = at(await steps(page, 1), branch.body);
+    const drawn = await steps(page, 1);
     const azimuth = await page.evaluate(() => bough.view.orbit.azimuth);
     await page.mouse.move(branch.x, branch.y);
     await page.mouse.down();
-    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'holds'));
+    const hand = await held(page), rest = at(drawn, hand.body); // which need not be the branch itself: twigs stand before it
     await page.mouse.move(branch.x + 60, branch.y - 10, { steps: 4 });
     const targets = await page.evaluate(() => bough.pointers.targets());
     expect(targets.length === 1, 'the hand has no target');
-    const pulled = at(await steps(page, 120, targets), branch.body);
-    const wanted = less(targets[0][1], branch.world), way = less(pulled, rest);
+    const pulled = at(await steps(page, 120, targets), hand.body);
+    const wanted = less(targets[0][1], hand.world), way = less(pulled, rest);
     const along = wanted.reduce((sum, value, k) => sum + value * way[k], 0) / norm(wanted);
     expect(along > 0.02 * norm(wanted), `the branch went ${along} m of ${norm(wanted)} m towards the pointer`);
     expect(await page.evaluate(() => bough.view.arrows.size) === 1, 'no arrow is drawn');
     expect(await page.evaluate(() => bough.view.orbit.azimuth) === azimuth, 'the camera turned while a branch was held');
     await page.mouse.up();
     expect(await page.evaluate(() => bough.view.arrows.size) === 0, 'the arrow stays');
-    const back = at(await steps(page, 1200), branch.body);
+    const back = at(await steps(page, 1200), hand.body);
     expect(norm(less(back, rest)) < 0.3 * norm(way), `let go, it is ${norm(less(back, rest))} m off after ${norm(way)} m`);
     // Beside the tree the same turns the camera.
     await page.mouse.move(30, 400);
@@ -77,11 +77,10 @@ export async function pulled_by_touch({ browser, url }) {
     const touch = await page.context().newCDPSession(page);
     const send = (type, points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y, id = 1]) => ({ x, y, id })) });
     await send('touchStart', [[branch.x + 6, branch.y]]); // a finger is no needle
-    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'holds'));
+    const hand = await held(page);
     await send('touchMove', [[branch.x + 50, branch.y + 30]]);
     const targets = await page.evaluate(() => bough.pointers.targets());
-    const held = await page.evaluate(() => [...bough.pointers.all.values()][0].body);
-    const before = at(await steps(page, 0), held), way = norm(less(at(await steps(page, 90, targets), held), before));
+    const before = at(await steps(page, 0), hand.body), way = norm(less(at(await steps(page, 90, targets), hand.body), before));
     expect(way > 1e-3, `the finger moved it by ${way} m`);
     await send('touchEnd', []);
     await page.waitForFunction(() => bough.pointers.all.size === 0);

@@ -98,6 +98,15 @@ export async function branchOnScreen(page) {
     });
 }
 
+// What the pointer that is down holds, once it does: its body, and where it was taken.
+export async function held(page) {
+    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'holds'));
+    return page.evaluate(() => {
+        const { body, world } = [...bough.pointers.all.values()][0];
+        return { body, world: world.toArray() };
+    });
+}
+
 // Files as if they were dropped: [name, bytes] each.
 export async function drop(page, files) {
     const all = files.map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]);

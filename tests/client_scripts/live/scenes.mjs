@@ -1,6 +1,6 @@
 // scenes.mjs: what is changed while it runs: wind, wood, curves, a subtree, the pose; pause and steps, undo, the address.
 import { calm } from './basics.mjs';
-import { at, branchOnScreen, change, closePage, expect, less, norm, openPage, restarted, steps, still } from './browser.mjs';
+import { at, branchOnScreen, change, closePage, expect, held, less, norm, openPage, restarted, steps, still } from './browser.mjs';
 
 const mean = (rows) => rows[0].map((_, k) => rows.reduce((sum, row) => sum + row[k], 0) / rows.length);
 
@@ -170,21 +170,21 @@ export async function keep_the_pose_and_undo({ browser, url }) {
     await calm(page);
     await still(page);
     const branch = await branchOnScreen(page);
-    const rest = at(await steps(page, 1), branch.body);
+    const drawn = await steps(page, 1);
     await page.mouse.move(branch.x, branch.y);
     await page.mouse.down();
-    await page.waitForFunction(() => [...bough.pointers.all.values()].some(({ does }) => does === 'holds'));
+    const hand = await held(page), rest = at(drawn, hand.body);
     await page.mouse.move(branch.x + 70, branch.y, { steps: 3 });
     const targets = await page.evaluate(() => bough.pointers.targets());
-    const pulled = at(await steps(page, 240, targets), branch.body), way = norm(less(pulled, rest));
+    const pulled = at(await steps(page, 240, targets), hand.body), way = norm(less(pulled, rest));
     await page.keyboard.press('k');
     await page.waitForFunction(() => !bough.applying && bough.state.trees[0].kept);
     await page.mouse.up();
-    const stays = at(await steps(page, 600), branch.body);
+    const stays = at(await steps(page, 600), hand.body);
     expect(norm(less(stays, pulled)) < 0.2 * way, `kept, it goes ${norm(less(stays, pulled))} m of ${way} m`);
     await page.click('#undo');
     await page.waitForFunction(() => !bough.applying && !bough.state.trees[0].kept);
-    const back = at(await steps(page, 1200), branch.body);
+    const back = at(await steps(page, 1200), hand.body);
     expect(norm(less(back, rest)) < 0.3 * way, `undone, it is ${norm(less(back, rest))} m off after ${way} m`);
     await page.click('#redo');
     await page.waitForFunction(() => !bough.applying && bough.state.trees[0].kept);
