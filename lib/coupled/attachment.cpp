@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace bough {
 namespace {
@@ -358,94 +356,12 @@ void place_attachments(const Plan<T>& plan, const CoupledPlan<T>& own, CoupledSt
     }
 }
 
-void settle_attachments(Attachments& a) {
-    for (AttachedBody& b : a.bodies) {
-        b.turned = b.GJ * b.now.theta_change;
-        b.spun = b.GJ * b.now.eta_change;
-        b.moved.setZero();
-        b.sped.setZero();
-        if (b.parent < 0) continue;
-        const AttachedBody& p = a.bodies[std::size_t(b.parent)];
-        const Vec3 r = b.x - p.x;
-        b.moved = p.moved + p.turned.cross(r);
-        b.sped = p.sped + p.spun.cross(r);
-        b.turned += p.turned;
-        b.spun += p.spun;
-    }
-    for (Attached& held : a.all) {
-        if (held.steps > 0) {
-            held.target += (held.goal - held.target) / held.steps;
-            --held.steps;
-        }
-        held.work = 0;
-        if (!held.on) continue;
-        const AttachedBody& b = a.bodies[held.at];
-        const Vec3 way = b.moved + b.turned.cross(held.rho), gained = b.sped + b.spun.cross(held.rho);
-        const Vec3 before = held.force;
-        held.spring = -held.k * (held.start + way - held.to_target);
-        held.force = held.spring - held.c * (held.velocity + gained - held.target_velocity - held.quicker / 2);
-        held.work = (before + held.force).dot(way) / 2;
-    }
-}
-
 template <class T> bool changes(const Plan<T>& plan, const Attached& held, double time) {
     if (held.steps > 0) return true;
     const double h = plan.dt;
     if (holds(held, time + h / 2) != holds(held, time - h / 2)) return true;
     const Vec3 now = target_at(plan, held, time).x;
     return target_at(plan, held, time - h).x != now || target_at(plan, held, time + h).x != now;
-}
-
-template <class S> AttachmentTerms<S> attachment_terms(const AttachmentSums& sums, std::complex<double> p, double h) {
-    using Real = typename Eigen::NumTraits<S>::Real;
-    const auto in_field = [](std::complex<double> z) {
-        if constexpr (Eigen::NumTraits<S>::IsComplex)
-            return S(Real(z.real()), Real(z.imag()));
-        else
-            return S(z.real());
-    };
-    const std::complex<double> z1 = h / p, z2 = z1 * z1, z_slope = 1.0 / p - 0.5;
-    const auto all = [&](std::complex<double> a, const auto& x, std::complex<double> b, const auto& y) {
-        return (x.template cast<std::complex<double>>() * a + y.template cast<std::complex<double>>() * b)
-            .unaryExpr(in_field)
-            .eval();
-    };
-    using Complex3 = Eigen::Matrix<std::complex<double>, 3, 1>;
-    const auto wrench = [&](const Vec3& f, const Vec3& slope, const Vec3& rate, const Vec3(&ground)[4]) {
-        Complex3 sum = f.cast<std::complex<double>>();
-        sum += z_slope * slope.cast<std::complex<double>>() + z1 * rate.cast<std::complex<double>>();
-        const std::complex<double> weights[4] = {z2, z1, z2 * z_slope, z1 * z_slope};
-        for (int k = 0; k < 4; ++k) sum += weights[k] * ground[k].cast<std::complex<double>>();
-        return sum.unaryExpr(in_field).eval();
-    };
-    AttachmentTerms<S> t;
-    t.A = all(z2, sums.A_stiffness, z1, sums.A_damping);
-    t.B = all(z2, cross_matrix(sums.B_stiffness), z1, cross_matrix(sums.B_damping));
-    t.M = in_field(z2 * sums.stiffness + z1 * sums.damping) * Eigen::Matrix<S, 3, 3>::Identity();
-    t.N = wrench(sums.N, sums.N_slope, sums.N_rate, sums.N_ground);
-    t.F = wrench(sums.F, sums.F_slope, sums.F_rate, sums.F_ground);
-    return t;
-}
-
-std::vector<double> saved_attachments(const Attachments& a) {
-    std::vector<double> saved;
-    for (const Attached& held : a.all)
-        if (held.planned >= 0)
-            for (const Vec3* v : {&held.force, &held.spring})
-                for (int k = 0; k < 3; ++k) saved.push_back((*v)[k]);
-    return saved;
-}
-
-void restore_attachments(Attachments& a, const std::vector<double>& saved) {
-    std::size_t next = 0, needed = 0;
-    for (const Attached& held : a.all) needed += held.planned >= 0 ? 6 : 0;
-    if (saved.size() != needed)
-        throw std::length_error("has " + std::to_string(saved.size()) + " numbers, this run needs " +
-                                std::to_string(needed));
-    for (Attached& held : a.all)
-        if (held.planned >= 0)
-            for (Vec3* v : {&held.force, &held.spring})
-                for (int k = 0; k < 3; ++k) (*v)[k] = saved[next++];
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
@@ -457,9 +373,7 @@ void restore_attachments(Attachments& a, const std::vector<double>& saved) {
     template void release_from(const Plan<T>&, CoupledState<T>&, const std::vector<std::size_t>&);                     \
     template void read_attached(const State<T>&, CoupledState<T>&);                                                    \
     template void place_attachments(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double);                  \
-    template bool changes(const Plan<T>&, const Attached&, double);                                                    \
-    template AttachmentTerms<T> attachment_terms(const AttachmentSums&, std::complex<double>, double);                 \
-    template AttachmentTerms<std::complex<T>> attachment_terms(const AttachmentSums&, std::complex<double>, double);
+    template bool changes(const Plan<T>&, const Attached&, double);
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)
 #undef BOUGH_INSTANTIATE
