@@ -399,29 +399,6 @@ class Scene(_Handle):
         if wind is not None:
             self.set_wind(wind)
 
-    def attach(self, body, point, stiffness, damping=0):
-        """A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point (3) [m] of a body, body frame, and a target in the world, which is
-        where the point is now. Any stiffness holds. Returns the attachment's number; until release(), or till the body breaks off."""
-        number = ctypes.c_uint64()
-        _check(_c.bough_attach(self._handle, _whole(body, "body", 0, 2**63), _vector(point, "point"), _number(stiffness, "stiffness"),
-                               _number(damping, "damping"), ctypes.byref(number)))
-        return number.value
-
-    def move_attachment(self, attachment, target, steps=1):
-        """Its target goes evenly to a place (3) [m], world, in the next `steps` steps, and stays there; 0: is there at once."""
-        _check(_c.bough_move_attachment(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1), _vector(target, "target"),
-                                        _whole(steps, "steps", 0, 2**31 - 1)))
-
-    def attachment_force(self, attachment):
-        """(3) [N] on the body, world, at the last step's end."""
-        force = _double3()
-        _check(_c.bough_attachment_force(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1), force))
-        return np.array(force)
-
-    def release(self, attachment):
-        """Lets go."""
-        _check(_c.bough_release(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1)))
-
     def set_wind(self, wind):
         """A preset's name, a Wind, or None: none, not even the air's drag."""
         _check(_c.bough_scene_set_wind(self._handle, None if wind is None else ctypes.byref(_wind(wind))))
@@ -604,6 +581,29 @@ class Simulation(_Handle, _HasBodies):
     def pull(self, body, point, force):
         """A force (3) [N], world, on a point (3) [m] of a body, body frame, in the next step alone (Simulation(pulls=True))."""
         _check(_c.bough_pull(self._handle, _whole(body, "body", 0, 2**63), _vector(point, "point"), _vector(force, "force")))
+
+    def attach(self, body, point, stiffness, damping=0):
+        """A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point (3) [m] of a body, body frame, and a target in the world, which is
+        where the point is now. Any stiffness holds. Returns the attachment's number; until release(), or till the body breaks off."""
+        number = ctypes.c_uint64()
+        _check(_c.bough_attach(self._handle, _whole(body, "body", 0, 2**63), _vector(point, "point"), _number(stiffness, "stiffness"),
+                               _number(damping, "damping"), ctypes.byref(number)))
+        return number.value
+
+    def move_attachment(self, attachment, target, steps=1):
+        """Its target goes evenly to a place (3) [m], world, in the next `steps` steps, and stays there; 0: is there at once."""
+        _check(_c.bough_move_attachment(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1), _vector(target, "target"),
+                                        _whole(steps, "steps", 0, 2**31 - 1)))
+
+    def attachment_force(self, attachment):
+        """(3) [N] on the body, world, at the last step's end."""
+        force = _double3()
+        _check(_c.bough_attachment_force(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1), force))
+        return np.array(force)
+
+    def release(self, attachment):
+        """Lets go."""
+        _check(_c.bough_release(self._handle, _whole(attachment, "attachment", 0, 2**64 - 1)))
 
     def set_wind(self, wind):
         """A preset's name or a Wind, from the next step on; the scene began with one (wind_preset() at least)."""
