@@ -14,7 +14,7 @@ struct ImportOptions {
         unit;    // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
     char up = 0; // 'y' or 'z' for the file's up axis; 0: as above
     std::optional<double> trunk_diameter; // [m] of the thickest trunk at its base: all radii are multiplied alike
-    bool keep_place = false; // leaves the tree where the file has it, off the ground too (placed_import.h)
+    bool keep_place = false;              // leaves the tree where the file has it, off the ground too (placed_import.h)
     std::string name;                     // how the file is called in messages
     std::string folder;                   // where files stand that it names (a .gltf's buffers); "": nowhere
     // Called by a reader that has taken the content in, before it makes a tree of it: whoever holds the content may give

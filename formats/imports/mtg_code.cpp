@@ -101,7 +101,8 @@ void Parser::add_class(std::string_view line) {
     const std::string_view token = next_token(line, at);
     const auto scale = parse_integer(token);
     if (!scale || *scale < 0)
-        refuse("class " + in_ascii_quotes(symbol) + " has the scale " + in_ascii_quotes(token) + ", expected a whole number");
+        refuse("class " + in_ascii_quotes(symbol) + " has the scale " + in_ascii_quotes(token) +
+               ", expected a whole number");
     classes_.scale.emplace_back(symbol, *scale);
 }
 
@@ -180,7 +181,8 @@ void Parser::entities(std::string_view code, std::string_view row) {
         while (at < code.size() && is_digit(code[at])) ++at;
         const std::string_view symbol = code.substr(name, number - name);
         const auto scale = classes_.find(symbol);
-        if (!scale) refuse("entity " + in_ascii_quotes(code.substr(name, at - name)) + " is of no class that CLASSES names");
+        if (!scale)
+            refuse("entity " + in_ascii_quotes(code.substr(name, at - name)) + " is of no class that CLASSES names");
         const std::int64_t index = parse_integer(code.substr(number, at - number)).value_or(-1);
         file_.entities += many && index > index_before && index_before >= 0 ? std::size_t(index - index_before) : 1;
         index_before = index;

@@ -134,9 +134,10 @@ void refuse_xml(std::string_view head, const std::string& name) {
 void refuse_json(std::string_view head, const std::string& name) {
     const std::size_t document = head.find("\"bough-");
     if (document != std::string_view::npos)
-        throw InputError(name, "is a document of kind " +
-                                   in_ascii_quotes(head.substr(document + 1, head.find('"', document + 1) - document - 1)) +
-                                   ", expected bough-splines or a foreign tree");
+        throw InputError(name,
+                         "is a document of kind " +
+                             in_ascii_quotes(head.substr(document + 1, head.find('"', document + 1) - document - 1)) +
+                             ", expected bough-splines or a foreign tree");
     for (const char* key : {"\"gnarliness\"", "\"curveRes\"", "\"g_scale\"", "\"levels\""})
         if (holds(head, key)) refuse(name, "parameters of a generator and no tree", "treegen --params grows them");
 }

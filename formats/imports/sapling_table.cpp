@@ -104,7 +104,8 @@ template <class Place> Row parse_row(std::string_view line, const Header& h, Pla
         const auto number = parse_number(field, h.comma != ',');
         if (!number) throw InputError(place(), in_ascii_quotes(field) + " is no finite number");
         if (c <= knot && *number != std::floor(*number))
-            throw InputError(place(), in_ascii_quotes(field) + " is not a curve's or point's number, expected an integer");
+            throw InputError(place(),
+                             in_ascii_quotes(field) + " is not a curve's or point's number, expected an integer");
         value[c] = *number;
         seen[c] = true;
     });
@@ -176,7 +177,8 @@ Splines read_table(std::string_view content, const ImportOptions& options, Impor
     std::string_view line;
     lines.next(line);
     const Header header = parse_header(line);
-    for (const std::string& other : header.others) notes.lines.push_back("column " + in_ascii_quotes(other) + " not read");
+    for (const std::string& other : header.others)
+        notes.lines.push_back("column " + in_ascii_quotes(other) + " not read");
     const auto most_rows = std::size_t(std::count(content.begin(), content.end(), '\n'));
     LooseCurves curves = curves_of(lines, header, options.name, most_rows);
     if (curves.size() == 0) throw InputError(options.name, "holds no point, expected a row for each after the first");

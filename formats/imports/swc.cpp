@@ -64,7 +64,8 @@ Node parse_node(std::string_view line, std::size_t number, const std::string& na
     more_columns = more_columns || !next_token(line, at).empty();
     const auto integer = [&](std::size_t k, const char* what) {
         const auto value = whole_number(field[k]);
-        if (!value) refuse(name, number, in_ascii_quotes(field[k]) + " is not a node's " + what + ", expected an integer");
+        if (!value)
+            refuse(name, number, in_ascii_quotes(field[k]) + " is not a node's " + what + ", expected an integer");
         return *value;
     };
     const auto real = [&](std::size_t k, const char* what) {

@@ -41,8 +41,8 @@ void measure_radii(const Bark& bark, const ModelScene& scene, Armature& armature
         const double before = bones[b].parent >= 0 ? bones[bones[b].parent].radius : 0;
         if (!(before > 0) || !(bones[b].radius > 2 * before)) continue;
         if (++growing == 1)
-            first =
-                in_ascii_quotes(scene.name[armature.node[b]]) + ", " + shown(bones[b].radius / before) + " times as thick";
+            first = in_ascii_quotes(scene.name[armature.node[b]]) + ", " + shown(bones[b].radius / before) +
+                    " times as thick";
     }
     if (measured == 0) return;
     armature.twigs = twigs_without_bones(bark, bones, tapers);

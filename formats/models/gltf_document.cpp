@@ -170,7 +170,8 @@ void embed_images(GltfDocument& document, const std::string& folder, ImportNotes
         }
         const char* const type = image_type(bytes);
         if (!type) {
-            notes.lines.push_back("image " + bough::in_ascii_quotes(uri) + " not put into the file, its name stays: " + why);
+            notes.lines.push_back("image " + bough::in_ascii_quotes(uri) +
+                                  " not put into the file, its name stays: " + why);
             continue;
         }
         const std::size_t view = add_view(document, bytes);
