@@ -92,7 +92,7 @@ struct Wind {
     std::optional<WindShelter> shelter;
     std::optional<double>
         period; // [s] after which all of it repeats: each frequency is the nearest multiple of 1 / period, at least one
-    // [s] By how much turbulence and gusts are ahead of time: of a wind that was changed in a run (goes_on). No part of a document.
+    // [s] By how much turbulence and gusts are ahead of time: of a wind that was changed in a run (go_on of laws/wind.h). No part of a document.
     double turbulence_ahead = 0, gust_ahead = 0;
 };
 // calm 1, breeze 4, gusty 8, storm 20 m/s along +x. nullopt for another name.

@@ -10,6 +10,7 @@
 #include "driven_ground.h"
 #include "explanation.h"
 #include "fingerprint.h"
+#include "hands.h"
 #include "saved.h"
 #include <algorithm>
 #include <cmath>
@@ -166,48 +167,20 @@ public:
     bool pushed() const override { return run_.plan.contact; }
     bool sleeps() const override { return run_.plan.stepper->sleeps(); }
     void wake() override { run_.plan.stepper->wake(run_.plan, run_.state); }
-    bool gone(std::size_t body) const override {
-        const std::vector<std::uint8_t>& gone = run_.world.remaining.gone;
-        return body < gone.size() && gone[body];
-    }
+    bool gone(std::size_t body) const override { return has_broken_off(run_, body); }
     void pull(std::size_t body, const Vec3& point, const Vec3& force) override {
         run_.state.loads.push_back({body, point.template cast<T>(), force.template cast<T>()});
     }
 
     std::uint64_t attach(std::size_t body, const Vec3& point, double k, double c) override {
-        present(run_.plan, run_.state);
-        std::size_t on = body;
-        Vec3 there = point;
-        if (assembly_->whole) {
-            const Reduced& places = assembly_->whole->places;
-            if (places.body[body] < 0)
-                throw SceneError("attach: body " + std::to_string(body) + " stands still (/simulate, /rigid)");
-            on = std::size_t(places.body[body]);
-            there = places.offset[body] + places.rotation[body] * point;
-        }
-        if (gone(on)) throw SceneError("attach: body " + std::to_string(body) + " has broken off");
-        if (!run_.plan.pose) throw SceneError("attach: this run keeps no poses");
-        const Vec3 target =
-            run_.state.x_w[on].template cast<double>() + run_.state.R_wb[on].template cast<double>() * there;
-        const std::uint64_t number = bough::attach(run_.plan, coupled_state(run_.state), on, there, k, c, target);
-        run_.plan.stepper->attachments_changed(run_.state);
-        return number;
+        return attach_hand(run_, *assembly_, body, point, k, c);
     }
     Attached* attachment(std::uint64_t number) override {
         return coupled() ? attached(coupled_state(run_.state).attachments, number) : nullptr;
     }
-    void release(std::uint64_t number) override {
-        bough::release(run_.plan, coupled_state(run_.state), number);
-        run_.plan.stepper->attachments_changed(run_.state);
-    }
-    std::vector<Attached> hands() const override {
-        std::vector<Attached> hands;
-        if (fast::coupled_plan(run_.plan))
-            for (const Attached& held : coupled_state(run_.state).attachments.all)
-                if (held.planned < 0) hands.push_back(held);
-        return hands;
-    }
-    void adopt(const Attached& hand, std::size_t body) override { adopt(run_, hand, body); }
+    void release(std::uint64_t number) override { release_hand(run_, number); }
+    std::vector<Attached> hands() const override { return hands_of(run_); }
+    void adopt(const Attached& hand, std::size_t body) override { adopt_hand(run_, hand, body); }
 
     std::uint64_t hash() override { return state_hash(run_.plan, run_.state, run_.world); }
 
@@ -255,8 +228,7 @@ public:
             stay(run);
             restore_run(saved, step, run);
             for (const Attached& hand : hands())
-                if (run.world.remaining.gone.empty() || !run.world.remaining.gone[hand.body])
-                    adopt(run, hand, hand.body);
+                if (!has_broken_off(run, hand.body)) adopt_hand(run, hand, hand.body);
             run_ = std::move(run);
         }
         broken_ = {};
@@ -339,11 +311,6 @@ private:
             return &run_;
         else
             return nullptr;
-    }
-
-    static void adopt(Run<T>& run, const Attached& hand, std::size_t body) {
-        bough::adopt(run.plan, coupled_state(run.state), hand, body);
-        run.plan.stepper->attachments_changed(run.state);
     }
 
     std::unique_ptr<Stepper<T>> stepper() const {

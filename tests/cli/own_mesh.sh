@@ -84,6 +84,31 @@ treesim - --frames 2 -o pipe.glb <art/tree.xml 2>err || fail "a pipe: $(cat err)
 grep -q "shown where INPUT names it" err || fail "a pipe's mesh: $(cat err)"
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "own.json", "position": [4, 0, 2], "yaw": 30}], "wind": "breeze"}' >scene.json
 expect 0 treesim scene.json --skin art/tree.xml --frames 2 -o scene.glb
+# A file whose tree stands 3 m aside and 2 m above its ground: set on the ground, or left there by --keep-place, its mesh stands with it. At rest both
+# show the vertices of the file that has it at the origin, there or 3 m aside and 2 m up.
+python3 - <<'P'
+import re
+text = open("art/tree.xml").read()
+for name, by in (("X", 3), ("Z", 2)):
+    text = re.sub(rf'\b(Abs{name}|Start{name}|End{name})="([^"]*)"', lambda m: f'{m[1]}="{float(m[2]) + by}"', text)
+    leaves = re.search(r"<LeafReferences.*?</LeafReferences>", text, re.S)[0]
+    moved = re.sub(rf"<{name}>(.*?)</{name}>", lambda m: f"<{name}>" + " ".join(str(float(v) + by) for v in m[1].split()) + f"</{name}>", leaves)
+    text = text.replace(leaves, moved)
+text = re.sub(r'(Name="Leaves") AbsX="[^"]*" AbsY="[^"]*" AbsZ="[^"]*"', r'\1 AbsX="0" AbsY="0" AbsZ="0"', text)
+open("art/aside.xml", "w").write(text)
+P
+expect 0 treeconvert art/aside.xml -o set.json
+grep -q "its foot stood at 3, 2, " err || fail "where the foot stood is not told: $(cat err)"
+expect 0 treeconvert art/aside.xml --keep-place -o kept.json
+! grep -q "its foot" err || fail "--keep-place moves the tree: $(cat err)"
+for tree in set kept; do expect 0 treesim "$tree.json" --skin art/aside.xml --frames 1 -o "${tree}_%d.obj"; done
+python3 - <<'P' || fail "the mesh of a tree that stands aside"
+vertices = lambda name: [[float(x) for x in line.split()[1:4]] for line in open(name) if line.startswith("v ")]
+at, moved, kept = vertices("skin_0.obj"), vertices("set_0.obj"), vertices("kept_0.obj")
+assert len(at) == len(moved) == len(kept) > 100
+assert max(abs(a - b) for p, q in zip(at, moved) for a, b in zip(p, q)) < 3e-6
+assert max(abs(a + s - b) for p, q in zip(at, kept) for a, s, b in zip(p, (3, 2, 0), q)) < 3e-6
+P
 twig=$top/data/fixtures/twig_armature.gltf
 expect 0 treesim "$twig" --wind storm --frames 4 -o twig.glb
 expect 0 treesim "$top/data/fixtures/lines.gltf" --frames 2 -o lines.glb

@@ -1,0 +1,10 @@
+# Writes species_files.cpp: the species that come with bough are compiled in, so that treegen and the page need no data beside them.
+file(GLOB species_documents CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../../data/species/*.json)
+set(species_entries "")
+foreach(document ${species_documents})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${document})
+  cmake_path(GET document STEM species_name)
+  file(READ ${document} species_content)
+  string(APPEND species_entries "        {\"${species_name}\", R\"species(${species_content})species\"},\n")
+endforeach()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/species_files.cpp.in species_files.cpp @ONLY)
