@@ -63,7 +63,8 @@ void declare(OptionList& list, Options& o) {
     list.add("--max-bend", o.max_bend, "Most that a branch turns within one body [deg] (20)")
         .takes("DEG")
         .check(positive_number());
-    list.add("--max-bodies", o.max_bodies, "Lengthen bodies until there are at most N")
+    list.add("--max-bodies", o.max_bodies,
+             "At most N bodies: what is left out stays as mass, drag and damping on what carries it,\nleaves in clumps")
         .takes("N")
         .check(whole_number(1));
     list.group("Mesh");
@@ -184,14 +185,19 @@ std::string sway_text(const Tree& tree) {
     return text.str();
 }
 
-std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report) {
+std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report, double leaf_density) {
     const auto [R_wb, x_w] = drawn_pose(tree);
     std::size_t kinds[4] = {0, 0, 0, 0}, roots = 0;
-    double mass = 0, top = 0, softest = INFINITY, stiffest = 0;
+    double mass = 0, leaves = 0, fruit = 0, area = 0, top = 0, softest = INFINITY, stiffest = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         ++kinds[std::size_t(tree.kind[i])];
         roots += tree.parent[i] < 0;
         mass += tree.mass[i];
+        if (tree.kind[i] == Kind::fruit) fruit += tree.mass[i];
+        if (is_flat(tree.kind[i])) {
+            area += foliage_area(tree, i);
+            leaves += foliage_area(tree, i) * tree.size[i][2] * leaf_density;
+        }
         top = std::max({top, x_w[i].y(), (x_w[i] + R_wb[i].col(2) * tree.size[i][0]).y()});
         softest = std::min(softest, tree.stiffness[i].minCoeff());
         stiffest = std::max(stiffest, tree.stiffness[i].maxCoeff());
@@ -202,7 +208,8 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
          << "bodies      " << tree.size_bodies() << ": " << kinds[0] << " of branches, " << kinds[1] << " leaves, "
          << kinds[3] << " petals, " << kinds[2] << " fruit; roots " << roots << "\n"
          << "material    " << tree.material << "\n"
-         << "mass        " << mass << " kg\n"
+         << "mass        " << mass << " kg: wood " << mass - leaves - fruit << ", leaves " << leaves << ", fruit "
+         << fruit << "; " << area << " m2 of leaves\n"
          << "height      " << top << " m\n"
          << "stiffness   " << softest << " to " << stiffest << " N m/rad\n"
          << "sway        " << sway_text(tree) << "\n"
@@ -301,7 +308,7 @@ void work(Options& o) {
         write_each(split_roots(tree), o);
     else
         write_one(tree, o, o.common.output, o.mesh, o.wind_groups);
-    if (o.stats) std::cerr << statistics(splines, tree, report) << merged;
+    if (o.stats) std::cerr << statistics(splines, tree, report, material.leaf_density) << merged;
     for (std::size_t k = o.stats ? guesses : 0; k < notes.size(); ++k) // --stats has told of the guesses
         o.common.notes.push_back(name + ": " + notes[k]);
 }

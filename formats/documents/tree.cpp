@@ -25,7 +25,7 @@ Field flags(const std::string& name, std::vector<std::uint8_t>& values, const Pe
 }
 
 // A number for each body, or none at all.
-Field counts(const std::string& name, std::vector<std::int32_t>& values, const Per& per) {
+template <class T> Field perhaps(const std::string& name, std::vector<T>& values, const Per& per) {
     Field field = array(name, values, per);
     std::get<Array>(field.value).fill = [](std::size_t) {}; // absent: empty
     return optional(std::move(field));
@@ -51,7 +51,10 @@ std::vector<Field> fields_of(Tree& t) {
             array("level", t.level, body),
             array("s", t.s, body),
             flags("rigid", t.rigid, body),
-            counts("leaf_count", t.leaf_count, body)};
+            perhaps("leaf_count", t.leaf_count, body),
+            perhaps("leaf_length", t.leaf_length, body),
+            perhaps("leaf_width", t.leaf_width, body),
+            perhaps("drag", t.drag, body)};
 }
 
 } // namespace

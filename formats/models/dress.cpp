@@ -65,7 +65,7 @@ OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const
     const auto in_spray = double(spray_leaves().size());
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (tree.kind[i] != Kind::leaf) continue;
-        const double area = leaf_area(tree.size[i][0], tree.size[i][1]);
+        const double area = foliage_area(tree, i);
         if (!is_clump(tree, i)) {
             part.placed.push_back(placed(single, i, pose.R_wb[i], pose.x_w[i], std::sqrt(area / blade.area)));
             continue;

@@ -96,7 +96,7 @@ FreeBody piece(const Tree& tree, const Scene& scene, const std::vector<Moving>& 
         part.q = (motion.q.conjugate() * Quat(b.pose.R)).normalized();
         part.joint = R.transpose() * (b.pose.x - motion.x);
         part.com = R.transpose() * arm;
-        part.drag_area = drag_area(part.kind, part.size, scene.air_density, plate_kappa(scene));
+        part.drag_area = drag_area(tree, b.body, part.kind, scene.air_density, plate_kappa(scene));
         out.parts.push_back(part);
     }
     out.inertia = R.transpose() * inertia * R;

@@ -154,7 +154,8 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
             part.q = in.quaternion();
             part.joint = in.vector();
             part.com = in.vector();
-            part.drag_area = drag_area(part.kind, part.size, plan.scene.air_density, plate_kappa(plan.scene));
+            part.drag_area =
+                drag_area(tree, std::size_t(part.body), part.kind, plan.scene.air_density, plate_kappa(plan.scene));
             free.parts.push_back(part);
         }
         finish(free);

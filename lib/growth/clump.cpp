@@ -52,6 +52,10 @@ std::int32_t clump_leaves_drawn(const Tree& tree) {
 
 Vec3 clump_leaf_size(const Tree& tree, std::size_t body, std::int32_t count) {
     const Vec3& size = tree.size[body];
+    if (!tree.leaf_length.empty() && tree.leaf_length[body] > 0) {
+        const double larger = std::sqrt(double(tree.leaf_count[body]) / double(count));
+        return {larger * tree.leaf_length[body], larger * tree.leaf_width[body], size.z()};
+    }
     const double smaller = 1 / std::sqrt(double(count));
     return {smaller * size.x(), smaller * size.y(), size.z()};
 }
@@ -60,7 +64,7 @@ std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Ma
     const RandomKey clump = random_key(RandomKey{0}, ClumpDraw::clump, std::uint64_t(body));
     const Vec3 up = R_wb.transpose() * Vec3::UnitY();
     const double length = tree.size[body].x(), width = tree.size[body].y();
-    const Vec3 half(width / 2, 0.3 * width, length / 2);
+    const Vec3 half(width / 2, 0.3 * width, length - tree.com[body].z());
     const double blade = clump_leaf_size(tree, body, count).x();
     std::vector<ClumpLeaf> leaves;
     for (std::int32_t k = 0; k < count; ++k) {

@@ -36,7 +36,7 @@ Vec3 tangent(const Curves& curves, std::size_t i) {
 
 // Cosine of the turning allowed; -2 where every turning is.
 double least_cosine(const CutRule& rule) {
-    const double bend = rule.max_bend * rule.grow;
+    const double bend = rule.max_bend * std::max(rule.grow, 1.0);
     return bend < pi ? std::cos(bend) - 1e-12 : -2.0;
 }
 

@@ -4,7 +4,8 @@
 //   round(11 sqrt(L / extent)), at least 1, at most L / (2 r_base)
 // with the extent of the whole tree (curves.h) and the curve's base radius: 11 pieces for a trunk as high as the tree, 6
 // for a bough of a third of it, 3 for one of a tenth, 1 for a twig of 1/50; no piece shorter than its branch is thick.
-// That depends on the splines alone. `grow` >= 1 lengthens pieces and the turning allowed alike.
+// That depends on the splines alone. `grow` >= 1 lengthens pieces and the turning allowed alike; below 1 it
+// shortens pieces alone, if need be below their branch's thickness.
 // Turning. A cut is forced at each point where the tangent has turned by more than max_bend since the last forced cut,
 // but not where it would leave a stretch shorter than the branch's radius there: so short a piece bends nothing. If as
 // many even pieces as wanted, or as stretches so found, or up to half as many again, keep the tangent of each within
@@ -19,7 +20,7 @@ namespace bough {
 struct CutRule {
     double segment_length = 0; // [m] 0: the default
     double max_bend = 0.35;    // [rad]
-    double grow = 1;           // infinity: as few pieces as can be
+    double grow = 1;           // > 0; infinity: as few pieces as can be
 };
 
 // Arc lengths of curve c's cuts, 0 and its length included, into `cuts` (replaced); returns the number of pieces. If

@@ -2,6 +2,7 @@
 #include "../model/stiffness.h"
 #include "bodies.h"
 #include "cut.h"
+#include "resolve.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,52 +25,50 @@ std::int64_t growing_bodies(const Splines& splines) {
     return std::int64_t(splines.leaves() + splines.fruits());
 }
 
-// The least lengthening with which all pieces fit, to a part in a thousand: bisection over its logarithm.
-double grow_to_fit(const Curves& curves, CutRule rule, std::int64_t room, std::int64_t others) {
-    const auto fits = [&](double grow) {
+// What a tree is to come to: N bodies at most, as many as come (0), or N about.
+struct Budget {
+    std::int64_t bodies = 0;
+    bool finer = false; // where as many as come are fewer
+};
+
+Budget budget_of(const Splines& splines, const SegmentOptions& options) {
+    if (options.max_bodies > 0) return {options.max_bodies, false};
+    if (options.segment_length > 0) return {};
+    return {splines.bodies, true};
+}
+
+// The shortening with which as many pieces come as asked for, to a part in a hundred: bisection over its logarithm. 1 where more come anyhow.
+double shorten_to_fill(const Curves& curves, CutRule rule, std::int64_t wanted) {
+    const auto pieces = [&](double grow) {
         rule.grow = grow;
-        return count_pieces(curves, rule, room) <= room;
+        return count_pieces(curves, rule, wanted);
     };
-    if (fits(1)) return 1;
-    const double as_few_as_can_be = std::numeric_limits<double>::infinity();
-    if (!fits(as_few_as_can_be)) {
-        rule.grow = as_few_as_can_be;
-        const std::int64_t least = count_pieces(curves, rule, most_bodies) + others;
-        throw std::invalid_argument("max_bodies is " + std::to_string(room + others) + ", but this tree has at least " +
-                                    std::to_string(least) + " bodies (a piece for each branch, and " +
-                                    std::to_string(others) + " leaves and fruit)");
+    if (curves.size() == 0 || pieces(1) >= wanted) return 1;
+    double low = 0.5, high = 1;
+    while (pieces(low) <= wanted) {
+        high = low;
+        low /= 2;
     }
-    double low = 1, high = 2;
-    while (!fits(high)) {
-        low = high;
-        high *= 2;
-    }
-    while (high / low > 1.001) {
+    while (high / low > 1.001 && pieces(high) < wanted - wanted / 100) {
         const double middle = std::sqrt(low * high);
-        (fits(middle) ? high : low) = middle;
+        (pieces(middle) <= wanted ? high : low) = middle;
     }
     return high;
 }
 
 CutRule rule_for(const Curves& curves, const Splines& splines, const SegmentOptions& options) {
     CutRule rule{options.segment_length, options.max_bend, 1};
-    const std::int64_t others = growing_bodies(splines);
-    if (options.max_bodies > 0) rule.grow = grow_to_fit(curves, rule, options.max_bodies - others, others);
+    const Budget budget = budget_of(splines, options);
+    if (budget.bodies == 0) return rule;
+    if (budget.finer)
+        rule.grow = shorten_to_fill(curves, rule, budget.bodies - growing_bodies(splines));
+    else if (rule.segment_length > 0 &&
+             count_pieces(curves, {0, rule.max_bend, 1}, most_bodies) < count_pieces(curves, rule, most_bodies))
+        rule.segment_length = 0; // what the budget would join again need not be cut
     return rule;
 }
 
-} // namespace
-
-std::int64_t count_bodies(const Splines& splines, const SegmentOptions& options) {
-    const Curves curves = make_curves(splines, options.merge);
-    const std::int64_t others = growing_bodies(splines), room = most_bodies - others;
-    const std::int64_t pieces = count_pieces(curves, rule_for(curves, splines, options), room);
-    refuse_more_than_an_index_holds(pieces, room);
-    return pieces + others;
-}
-
-Tree segment(const Splines& splines, const Material& material, const SegmentOptions& options, SegmentReport* report) {
-    const Curves curves = make_curves(splines, options.merge);
+Tree whole_tree(const Splines& splines, const Curves& curves, const Material& material, const SegmentOptions& options) {
     const std::int64_t room = most_bodies - growing_bodies(splines);
     const CutRule rule = rule_for(curves, splines, options);
     refuse_more_than_an_index_holds(count_pieces(curves, rule, room), room);
@@ -81,6 +80,26 @@ Tree segment(const Splines& splines, const Material& material, const SegmentOpti
     tree.material = material.name;
     tree.source = splines.source;
     tree.color = splines.color;
+    return tree;
+}
+
+} // namespace
+
+std::int64_t count_bodies(const Splines& splines, const SegmentOptions& options) {
+    const Curves curves = make_curves(splines, options.merge);
+    const std::int64_t others = growing_bodies(splines), room = most_bodies - others;
+    const std::int64_t pieces = count_pieces(curves, rule_for(curves, splines, options), room);
+    refuse_more_than_an_index_holds(pieces, room);
+    const std::int64_t budget = budget_of(splines, options).bodies;
+    if (budget == 0 || pieces + others <= budget) return pieces + others;
+    return std::int64_t(segment(splines, wood_presets().front(), options).size_bodies());
+}
+
+Tree segment(const Splines& splines, const Material& material, const SegmentOptions& options, SegmentReport* report) {
+    const Curves curves = make_curves(splines, options.merge);
+    Tree tree = whole_tree(splines, curves, material, options);
+    const std::int64_t budget = budget_of(splines, options).bodies;
+    if (budget > 0 && budget < std::int64_t(tree.size_bodies())) tree = resolve(tree, budget);
     if (report) {
         *report = {curves.merged_points, curves.dropped_branches, curves.thin_points, 0};
         for (std::size_t i = 0; i < tree.size_bodies(); ++i)

@@ -7,8 +7,11 @@
 // Stiffness. Compliance of a joint = half the parent piece's + half the child piece's, integrated over taper (at the
 // ground and where a side branch leaves: the child's half only): bend 1/(E I), twist 1/(G J), K = (kx, ky, kz).
 // Damping. beta = 2 zeta / omega with omega the branch's own first bending frequency (branch_mode.h).
+// Budget. With max_bodies, or where the splines say a number (Splines::bodies; not with a segment_length), a tree of more bodies than that is resolved by
+// fewer (resolve.h): the same tree, what is left out being part of what carries it. A tree of fewer is cut more finely, evenly, for Splines::bodies;
+// leaves and fruit stay one body each. max_bodies never makes more.
 // Order. Bodies stand branch by branch, a branch's pieces in order, parents before children; leaves and fruit follow
-// all branches. Cost O(points + bodies), some thirty times the former with max_bodies. A branch without length is left
+// all branches. Cost O(points + bodies), of the whole tree; some fifty times with a budget. A branch without length is left
 // out and counted (curves.h). The exact rules of cutting: cut.h.
 // Throws std::invalid_argument where max_bodies is less than the least number possible (says which), or where there
 // are more bodies than an index holds.
@@ -23,7 +26,7 @@ namespace bough {
 struct SegmentOptions {
     double segment_length = 0;   // [m] longest piece; 0: by the default rule, which depends on the splines alone
     double max_bend = 0.35;      // [rad] largest turning of the curve within one piece
-    std::int64_t max_bodies = 0; // 0: as many as come; else pieces grow longer until all bodies fit, never dropping any
+    std::int64_t max_bodies = 0; // 0: as the splines say, or as many as come
     double merge = 1e-6;         // points nearer than this times the tree's extent are one
 };
 
@@ -34,7 +37,7 @@ struct SegmentReport {
     double segment_length = 0;         // [m] longest piece, as used
 };
 
-// How many bodies segment() would make, without making them. O(points).
+// How many bodies segment() would make. O(points), with a budget as segment().
 std::int64_t count_bodies(const Splines&, const SegmentOptions&);
 
 Tree segment(const Splines&, const Material&, const SegmentOptions&, SegmentReport* report = nullptr);

@@ -39,7 +39,7 @@ void add_clump(Skin& skin, const Tree& tree, const DrawnPose& pose, std::size_t 
     const Vec3 size = clump_leaf_size(tree, body, leaves);
     for (const ClumpLeaf& leaf : clump_leaves(tree, body, R, leaves)) {
         skin.clump_leaf.push_back(std::int32_t(skin.position.size()));
-        add_blade(skin, Kind::leaf, size, R * leaf.axes, pose.at(body, leaf.foot), bound_to(body));
+        add_blade(skin, tree.kind[body], size, R * leaf.axes, pose.at(body, leaf.foot), bound_to(body));
     }
 }
 

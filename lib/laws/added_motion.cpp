@@ -55,7 +55,7 @@ void add_wind(const Tree& tree, const DrawnPose& drawn, const Scene& scene, int 
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const Vec3 at = drawn.x_w[i] + drawn.R_wb[i] * tree.com[i];
         const Vec3 u = peak_wind(*scene.wind, at, turned);
-        const double drag = drag_area(tree.kind[i], tree.size[i], scene.air_density, plate_kappa(scene));
+        const double drag = drag_area(tree, i, tree.kind[i], scene.air_density, plate_kappa(scene));
         if (!is_flat(tree.kind[i])) {
             loads.add(i, at, drag * air_force(tree.kind[i], drawn.R_wb[i], u).force);
             continue;

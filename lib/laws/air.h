@@ -48,6 +48,12 @@ inline double drag_area(Kind kind, const Vec3& size, double air_density, double 
     return cylinder_drag / 2 * air_density * frustum_section(size[0], size[1], size[2]);
 }
 
+// Of a body of the tree, by the law of `kind`: with what is part of it and not in its size (Tree::drag).
+inline double drag_area(const Tree& tree, std::size_t i, Kind kind, double air_density,
+                        double plate_kappa = plate_drag / 2) {
+    return (tree.drag.empty() ? 1 : tree.drag[i]) * drag_area(kind, tree.size[i], air_density, plate_kappa);
+}
+
 template <class T> struct AirForce {
     Vector3<T> force; // [m^2/s^2] over kappa rho A
     T speed;          // [m/s] that scales it: |u_n| or g |u|

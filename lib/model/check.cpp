@@ -184,6 +184,8 @@ std::optional<Defect> check(const Splines& splines) {
     if (rules.defect) return rules.defect;
 
     const auto& first = splines.first_point;
+    rules.rule(splines.bodies >= 0, "bodies", -1,
+               "is " + std::to_string(splines.bodies) + ", expected 0 (as many as come) or more");
     rules.parents(splines.parent)
         .between("parent_at", splines.parent_at, 0, 1)
         .not_negative("level", splines.level)
@@ -240,7 +242,10 @@ std::optional<Defect> check(const Tree& tree) {
         .length("level", tree.level, n, each)
         .length("s", tree.s, n, each)
         .length("rigid", tree.rigid, tree.rigid.empty() ? 0 : n, "none, or one for each body")
-        .length("leaf_count", tree.leaf_count, tree.leaf_count.empty() ? 0 : n, "none, or one for each body");
+        .length("leaf_count", tree.leaf_count, tree.leaf_count.empty() ? 0 : n, "none, or one for each body")
+        .length("leaf_length", tree.leaf_length, tree.leaf_length.empty() ? 0 : n, "none, or one for each body")
+        .length("leaf_width", tree.leaf_width, tree.leaf_length.size(), "as many as /leaf_length")
+        .length("drag", tree.drag, tree.drag.empty() ? 0 : n, "none, or one for each body");
     if (rules.defect) return rules.defect;
 
     rules.parents(tree.parent)
@@ -270,7 +275,10 @@ std::optional<Defect> check(const Tree& tree) {
         [](std::size_t, std::uint8_t r) {
             return "is " + std::to_string(int(r)) + ", expected 0 (its joint moves) or 1 (it is rigid)";
         });
-    check_counts(rules, tree.leaf_count, [&](std::size_t i) { return tree.kind[i] == Kind::leaf; });
+    check_counts(rules, tree.leaf_count, [&](std::size_t i) { return is_flat(tree.kind[i]); });
+    rules.between("leaf_length", tree.leaf_length, 0, unbounded)
+        .between("leaf_width", tree.leaf_width, 0, unbounded)
+        .between("drag", tree.drag, 0, unbounded);
     check_colors(rules, tree.color);
     return rules.defect;
 }

@@ -29,7 +29,7 @@ double area_from_above(const Tree& tree, std::size_t i, const Mat3& R_wb) {
     case Kind::leaf:
     case Kind::petal:
     case Kind::clump:
-        return leaf_area(size[0], size[1]) * std::abs(R_wb(1, 1));
+        return foliage_area(tree, i) * std::abs(R_wb(1, 1));
     case Kind::fruit:
         return sphere_section(size[1]);
     case Kind::branch:

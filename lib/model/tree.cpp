@@ -37,6 +37,9 @@ void Tree::resize(std::size_t bodies) {
     if (!rigid.empty()) rigid.resize(bodies);
     if (!load.empty()) load.resize(bodies);
     if (!leaf_count.empty()) leaf_count.resize(bodies, 1);
+    if (!leaf_length.empty()) leaf_length.resize(bodies, 0);
+    if (!leaf_width.empty()) leaf_width.resize(bodies, 0);
+    if (!drag.empty()) drag.resize(bodies, 1);
 }
 
 std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw) {
@@ -64,6 +67,9 @@ std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double ya
     add(tree.rigid, more.rigid, first, more.size_bodies(), std::uint8_t(0));
     add(tree.load, more.load, first, more.size_bodies(), 0.0);
     add(tree.leaf_count, more.leaf_count, first, more.size_bodies(), 1);
+    add(tree.leaf_length, more.leaf_length, first, more.size_bodies(), 0.0);
+    add(tree.leaf_width, more.leaf_width, first, more.size_bodies(), 0.0);
+    add(tree.drag, more.drag, first, more.size_bodies(), 1.0);
 
     place(tree, position, yaw, first);
     for (std::size_t i = first; i < tree.size_bodies(); ++i) {

@@ -35,11 +35,15 @@ struct Tree {
     std::vector<std::int32_t> level;  // that branch's level, 0 for trunks
     std::vector<double> s;            // fraction of that branch's arc length at the body's own joint, 0..1
 
-    // Either may be empty: none.
+    // Each may be empty: none.
     std::vector<std::uint8_t> rigid; // 1: the body moves as its parent does, its joint holds the drawn pose (reduce.h)
     std::vector<double> load; // [kg] what of the mass lies on the drawn tree and is not carried in its equilibrium
     std::vector<std::int32_t>
-        leaf_count; // how many leaves a leaf body stands for; 1 for other kinds. From 2 on: a clump
+        leaf_count; // how many leaves a leaf or petal body stands for; 1 for other kinds. From 2 on: a clump
+    std::vector<double> leaf_length,
+        leaf_width; // [m] of each leaf of a clump whose size says how far they spread (resolve.h); 0: the size is that of a
+                    // blade of all their area
+    std::vector<double> drag; // [1] the air takes hold of so many times the area of its size; empty: 1 each
 
     std::string name;        // what the tree is called
     std::string material;    // wood preset or file that gave mass and stiffness
@@ -60,6 +64,13 @@ inline bool continues_parent(const Tree& tree, std::size_t i) {
 // A body that stands for several leaves on their twigs: porous, where a leaf is a plate (leaf_air.h).
 inline bool is_clump(const Tree& tree, std::size_t i) {
     return !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
+}
+
+// [m^2] One side of all the leaves or petals that a flat body stands for: length times width / 2 each.
+inline double foliage_area(const Tree& tree, std::size_t i) {
+    if (!is_clump(tree, i) || tree.leaf_length.empty() || !(tree.leaf_length[i] > 0))
+        return tree.size[i][0] * tree.size[i][1] / 2;
+    return tree.leaf_count[i] * tree.leaf_length[i] * tree.leaf_width[i] / 2;
 }
 
 // The first broken rule, or none: at least one body, array lengths equal, parent before child, mass > 0, inertia

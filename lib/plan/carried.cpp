@@ -9,8 +9,7 @@ template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree) {
     plan.drag_area.reserve(plan.bodies);
     const Scene& scene = plan.scene;
     for (std::size_t i = 0; i < plan.bodies; ++i)
-        plan.drag_area.push_back(
-            T(drag_area(kind_in_air(tree, i), tree.size[i], scene.air_density, plate_kappa(scene))));
+        plan.drag_area.push_back(T(drag_area(tree, i, kind_in_air(tree, i), scene.air_density, plate_kappa(scene))));
 }
 
 template <class T> std::vector<Vec3> carried_moments(const Plan<T>& plan, const Tree& tree) {

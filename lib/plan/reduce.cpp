@@ -50,6 +50,7 @@ void copy_leaders(const Tree& whole, Reduced& r) {
     t.resize(r.leader.size());
     if (!whole.load.empty()) t.load.assign(r.leader.size(), 0);
     if (!whole.leaf_count.empty()) t.leaf_count.assign(r.leader.size(), 1);
+    if (!whole.drag.empty()) t.drag.assign(r.leader.size(), 1);
     for (std::size_t g = 0; g < r.leader.size(); ++g) {
         const auto i = std::size_t(r.leader[g]);
         const std::int32_t p = whole.parent[i];
@@ -73,6 +74,7 @@ void copy_leaders(const Tree& whole, Reduced& r) {
         t.level[g] = whole.level[i];
         t.s[g] = whole.s[i];
         if (!whole.leaf_count.empty()) t.leaf_count[g] = whole.leaf_count[i];
+        if (!whole.drag.empty()) t.drag[g] = whole.drag[i];
     }
 }
 

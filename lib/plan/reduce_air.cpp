@@ -50,7 +50,7 @@ void center_on_pressure(const Tree& whole, Reduced& r, const std::vector<std::ui
     std::vector<Vec3> pressed(joined.size(), Vec3::Zero()); // [m^3] first moment of drag areas
     std::vector<double> drag(joined.size(), 0);             // [m^2]
     each_joined(r, joined, [&](std::size_t i, std::size_t g) {
-        const double area = mean_drag(whole.kind[i]) * drag_area(whole.kind[i], whole.size[i], 1, plate_kappa);
+        const double area = mean_drag(whole.kind[i]) * drag_area(whole, i, whole.kind[i], 1, plate_kappa);
         drag[g] += area;
         pressed[g] += area * Vec3(r.offset[i] + r.rotation[i] * whole.com[i]);
     });
@@ -101,7 +101,7 @@ void fit_air(const Tree& whole, Reduced& r, const std::vector<std::uint8_t>& joi
         force.fill(Vec3::Zero());
         for (const std::int32_t member : members[g]) {
             const auto i = std::size_t(member);
-            const double drag = drag_area(whole.kind[i], whole.size[i], 1, plate_kappa);
+            const double drag = drag_area(whole, i, whole.kind[i], 1, plate_kappa);
             const Mat3 R = r.rotation[i].toRotationMatrix();
             for (std::size_t k = 0; k < directions.size(); ++k)
                 force[k] += drag / unfolded(whole.kind[i], 1.0) * air_force(whole.kind[i], R, directions[k]).force;
@@ -118,6 +118,7 @@ void fit_air(const Tree& whole, Reduced& r, const std::vector<std::uint8_t>& joi
         }
         const Fit cylinder = fits.cylinder(), sphere = fits.sphere();
         const double length = std::max(reach[g], t.com[g].norm());
+        if (!t.drag.empty()) t.drag[g] = 1; // the size has it all
         if (t.kind[g] == Kind::branch && cylinder.left <= sphere.left) {
             const double radius = cylinder.drag / (cylinder_drag / 2) / (2 * length);
             t.size[g] = Vec3(length, radius, radius);

@@ -91,7 +91,7 @@ FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scen
         lost += scene.damping_scale * tree.damping[whole] * theta.dot(own.stiffness[i].cwiseProduct(theta));
         if (!scene.wind) continue;
         const Kind kind = kind_in_air(tree, whole);
-        const double scale = drag_area(kind, tree.size[whole], scene.air_density, plate_kappa(scene));
+        const double scale = drag_area(tree, whole, kind, scene.air_density, plate_kappa(scene));
         lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(scene, before.com[i].y())) * u);
     }
     if (!(pushed > 0) || !(moved > 0) || !std::isfinite(moved)) return {}; // it buckles

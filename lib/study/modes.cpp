@@ -108,7 +108,7 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
         if (scene.wind) {
             const double y = (motion.joints()[i] + R * tree.com[i]).y();
             const Vec3 u = wind_profile(*scene.wind, y) * scene.wind->velocity;
-            const double area = drag_area(kind, tree.size[i], scene.air_density, plate_kappa(scene));
+            const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
             damping[i].drag += area * air_damping(kind, R, u);
             damping[i].spin += spin_rate(kind, area, tree.mass[i], u) * I;
         }
