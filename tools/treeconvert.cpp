@@ -297,7 +297,10 @@ void work(Options& o) {
     try {
         tree = segment(splines, material, segment_options(o), &report);
     } catch (const std::invalid_argument& error) {
-        throw UsageError((o.max_bodies ? "--max-bodies: " : "--segment-length: ") + std::string(error.what()));
+        const std::string what = error.what(), most = "max_bodies: ";
+        if (what.starts_with("bodies: ")) throw InputError(name, "/" + what);
+        throw UsageError(what.starts_with(most) ? "--max-bodies: " + what.substr(most.size())
+                                                : "--segment-length: " + what);
     }
     for (std::string& line : repairs(report)) notes.push_back(std::move(line));
     if (o.strict && !notes.empty()) throw InputError(name, notes.front() + " (--strict)");

@@ -29,7 +29,7 @@
 
 namespace bough {
 
-// At most `bodies` bodies, and no fewer than the tree has steps for: within a tenth from some 50 on. Throws std::invalid_argument, beginning with how many, where
+// At most `bodies` bodies, and no fewer than the tree has steps for: within a tenth from some 50 on. Throws std::invalid_argument ("is 2, but ...") where
 // the tree has at least more than that.
 Tree resolve(const Tree& whole, std::int64_t bodies);
 

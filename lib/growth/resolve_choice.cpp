@@ -197,7 +197,8 @@ Resolution choose_bodies(const Tree& whole, const Flexibility& give, std::int64_
     double low = std::log(chooser.least() * 0.99), high = std::log(chooser.most() * 4.1);
     const std::int64_t least = chooser.count(std::exp(high));
     if (least > bodies)
-        throw std::invalid_argument(std::to_string(bodies) + ", but this tree has at least " + std::to_string(least) +
+        throw std::invalid_argument("is " + std::to_string(bodies) + ", but this tree has at least " +
+                                    std::to_string(least) +
                                     " bodies (the way to its top, and a clump on each for the leaves)");
     std::int64_t held = least;
     const std::int64_t enough = bodies - bodies / 100;

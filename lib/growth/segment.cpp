@@ -99,7 +99,14 @@ Tree segment(const Splines& splines, const Material& material, const SegmentOpti
     const Curves curves = make_curves(splines, options.merge);
     Tree tree = whole_tree(splines, curves, material, options);
     const std::int64_t budget = budget_of(splines, options).bodies;
-    if (budget > 0 && budget < std::int64_t(tree.size_bodies())) tree = resolve(tree, budget);
+    if (budget > 0 && budget < std::int64_t(tree.size_bodies())) {
+        try {
+            tree = resolve(tree, budget);
+        } catch (const std::invalid_argument& error) {
+            throw std::invalid_argument((options.max_bodies > 0 ? "max_bodies: " : "bodies: ") +
+                                        std::string(error.what()));
+        }
+    }
     if (report) {
         *report = {curves.merged_points, curves.dropped_branches, curves.thin_points, 0};
         for (std::size_t i = 0; i < tree.size_bodies(); ++i)

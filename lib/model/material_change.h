@@ -5,7 +5,7 @@
 //   mass, inertia of branches   times density / density_0
 //   damping of branches   times (zeta / zeta_0) (omega_0 / omega), omega the first bending frequency of the joint's branch (branch_mode.h)
 //                         before and after: it keeps its ratio, so that wood four times as stiff has half the beta
-// Leaves, petals and fruit stay as they are; what was edited in a tree keeps its proportion. Tree::material says that it is changed, so that a
+// Leaves, petals and fruit stay as they are, and so do clumps with the wood in them (growth/resolve.h); what was edited in a tree keeps its proportion. Tree::material says that it is changed, so that a
 // tree that is saved is not taken for the preset's. O(bodies).
 #pragma once
 #include "tree.h"

@@ -9,7 +9,9 @@ bad_input "$maple" treeconvert
 refused 1 "INPUT" treeconvert --strict
 refused 1 "--segment-length" treeconvert splines.json --segment-length -1
 refused 1 "--segment-length" treeconvert splines.json --segment-length nan
-refused 1 "--max-bodies" treeconvert splines.json --max-bodies 2
+refused 1 "--max-bodies" treeconvert splines.json --max-bodies 1
+sed 's/"bodies": *400/"bodies": 1/' splines.json >one.json
+refused 2 "/bodies: is 1, but this tree has at least" treeconvert one.json
 refused 1 "--sides" treeconvert splines.json --sides 8
 refused 1 "--sides" treeconvert splines.json --mesh x.obj --sides 2
 refused 1 "--mesh" treeconvert splines.json --mesh x.stl
@@ -35,7 +37,8 @@ treeconvert "$maple" -q --no-source >b.json
 same a.json b.json
 
 # Options that change the tree do change it.
-bodies() { treeconvert splines.json -q --stats "$@" 2>&1 >/dev/null | sed -n 's/^bodies *\([0-9]*\):.*/\1/p'; }
+treegen --seed 3 --leaves --no-source -o whole.json
+bodies() { treeconvert whole.json -q --stats "$@" 2>&1 >/dev/null | sed -n 's/^bodies *\([0-9]*\):.*/\1/p'; }
 [[ $(bodies --segment-length 0.02) -gt $(bodies) ]] || fail "--segment-length changed nothing"
 [[ $(bodies --max-bend 2) -gt $(bodies --max-bend 80) ]] || fail "--max-bend changed nothing"
 [[ $(bodies --max-bodies 300) -le 300 ]] || fail "--max-bodies was passed over"
