@@ -1,5 +1,5 @@
 // live_runs.cpp: scenes and runs, with numbers in place of structs.
-#include "lib/study/error_estimate.h"
+#include "lib/simulation/run_error.h"
 #include "live.h"
 
 using namespace bough;
