@@ -1,5 +1,6 @@
 #include "converted.h"
 #include "file_names.h"
+#include "lib/base/caches.h"
 #include "lib/lanes/operations.h"
 #include "lib/study/machine_limits.h"
 #include "profile.h"

@@ -1,5 +1,6 @@
 #include "scaling.h"
 #include "formats/files.h"
+#include "lib/base/caches.h"
 #include "lib/growth/segment.h"
 #include "lib/study/machine_limits.h"
 #include "lib/study/resident.h"

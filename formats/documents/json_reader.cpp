@@ -1,4 +1,5 @@
 #include "document_parts.h"
+#include "json_numbers.h"
 #include <limits>
 
 namespace bough {
@@ -111,6 +112,7 @@ public:
             block_ = block_entries * array_->components;
             set_range(array_->dtype);
             array_->start(array_->per.count ? array_->per.count() : 0);
+            read_numbers();
         }
         return true;
     }
@@ -127,8 +129,12 @@ public:
     }
 
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& e) override {
-        syntax_error(text_, file_, line_, position, e.what(), levels_.empty() ? "" : here());
+        syntax_error(text_, file_, line_, position + skipped_, e.what(), levels_.empty() ? "" : here());
     }
+
+    // nlohmann reads the text through these, so that read_numbers can go on in it.
+    TextCursor begin() { return {&next_}; }
+    TextCursor end() { return {&end_}; }
 
 private:
     static bool is_list(const Field& field) {
@@ -187,6 +193,16 @@ private:
                                       : 255;
     }
 
+    // All of an array but its last number, which nlohmann reads, and with it whatever is wrong.
+    void read_numbers() {
+        const char* const from = next_;
+        if (reals_)
+            next_ = each_number<double>(next_, end_, [&](double value) { push(value); });
+        else
+            next_ = each_number<std::int64_t>(next_, end_, [&](std::int64_t value) { push(value); });
+        skipped_ += std::size_t(next_ - from);
+    }
+
     // Numbers read so far go to where they belong.
     void hand_on() {
         levels_.back().field->numbers += numbers_.reals.size() + numbers_.integers.size();
@@ -212,6 +228,8 @@ private:
     }
 
     std::string_view text_;
+    const char *next_ = text_.data(), *end_ = text_.data() + text_.size();
+    std::size_t skipped_ = 0; // bytes that nlohmann has not seen
     std::string file_, name_;
     std::size_t line_;
     const DocumentType* type_;
@@ -267,7 +285,7 @@ void read_json(std::string_view text, const std::string& name, const DocumentTyp
     std::int64_t version = 0;
     if (type) fields.insert(fields.begin(), {Field{"format", &format}, Field{"version", &version}});
     Reader reader(text, name, type, fields, line);
-    json::sax_parse(text.begin(), text.end(), &reader);
+    json::sax_parse(reader.begin(), reader.end(), &reader);
     const std::string place = line == 0 ? name : name + ":" + std::to_string(line);
     for (const Field& field : fields)
         if (field.required && !field.seen) missing_field(place, "", field.name);

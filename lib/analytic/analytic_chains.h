@@ -23,7 +23,6 @@ template <class T, bool wind, bool pulls, bool gravity, bool field, class Own>
 struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     using Base = SweepParts<T, AnalyticRows<T>>;
     using Base::L;
-    using Base::prefetch;
     using Base::rows;
     using Base::vector;
     using typename Base::W;
@@ -148,13 +147,17 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
     template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane, T fold) const {
         const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
         const Rows<T> out = loaded_of(row, lane);
-        prefetch(constants_at(row + 1, lane), constant_count * L);
-        prefetch(y0.at + motion::count * L, motion::count * L);
+        const T *const next_row = constants_at(row + 1, lane), *const next_motion = y0.at + motion::count * L;
+        constexpr int most = constant_count;
         const V3<W> theta = y0.vector(motion::theta);
         const W q = dot(theta, theta);
+        prefetch<0, motion::count>(next_motion);
         const Turn<W> turn = turn_of(q);
+        prefetch<0, most / 6>(next_row);
         const M3<W> R = this->joint_rotation(k) * turn_form(theta, q, turn.s, turn.c1);
+        prefetch<most / 6, most / 3>(next_row);
         out.set(loaded::R_pb, R);
+        prefetch<most / 3, placed ? most / 2 : most>(next_row);
         if constexpr (!placed) return;
         const V3<W> r = k.vector(constant::joint_position);
         if constexpr (wind) {
@@ -167,6 +170,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             f.omega = transposed_times(R, f.omega) + own().joint_rate(row, lane, theta, turn);
         }
         f.R_bw = {transposed_times(R, f.R_bw.x), transposed_times(R, f.R_bw.y), transposed_times(R, f.R_bw.z)};
+        prefetch<most / 2, wind ? 2 * most / 3 : most>(next_row);
         if constexpr (gravity) out.set(loaded::g, f.R_bw * vector(rows.gravity));
         if constexpr (wind) {
             const V3<W> c = k.vector(constant::com);
@@ -176,10 +180,12 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             const W still2 = dot(still, still), still_speed = root(still2);
             W speed_0, speed_1;
             const V3<W> f0 = air_force<kind>(still, speed_0, fold), f1 = air_force<kind>(moving, speed_1, fold);
+            prefetch<2 * most / 3, 5 * most / 6>(next_row);
             const V3<W> force = scale * f0;
             out.set(loaded::f, force);
             out.set(loaded::tau, cross(c, force));
             out.set(loaded::drag_f, scale * (f1 - f0));
+            prefetch<5 * most / 6, most>(next_row);
             const W sway = scale * k.real(constant::sway);
             out.set(loaded::drag, W(sway * (speed_1 + speed_0)));
             const W pressing = kind == Kind::branch ? still_speed : speed_0;

@@ -22,7 +22,6 @@ template <class T> struct CoupledAccelerate : CoupledParts<T> {
     using Parts::now;
     using Parts::number;
     using Parts::Parts;
-    using Parts::prefetch;
     using Parts::rows;
     using Parts::solved_row;
     using Parts::still_finite2;
@@ -52,13 +51,33 @@ template <class T> struct CoupledAccelerate : CoupledParts<T> {
                   a = base.rows().complex_vector(accelerated::a);
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 const Rows<T> s = solved_row(row, lane);
-                prefetch(solved_row(row + 1, lane).at, solved::count * L);
-                prefetch(now(row + 1, lane).at, 2 * motion::theta_dot * L);
+                const T *const next_row = solved_row(row + 1, lane).at, *const next_motion = now(row + 1, lane).at;
                 a = a - cross(s.vector(solved::r), alpha);
-                const V3<C> gamma = s.complex_vector(solved::Eu) - s.complex_matrix(solved::EA) * alpha -
-                                    s.complex_matrix(solved::EB) * a;
+                // Column by column, with what the next row reads asked for in between.
+                const auto add = [&](const V3<C>& sum, int column, const C& by) {
+                    const V3<C> m = s.complex_vector(column);
+                    return V3<C>{plus(sum.x, m.x, by), plus(sum.y, m.y, by), plus(sum.z, m.z, by)};
+                };
+                prefetch<0, 6>(next_row);
+                const V3<C> EAx = s.complex_vector(solved::EA);
+                V3<C> of_alpha{EAx.x * alpha.x, EAx.y * alpha.x, EAx.z * alpha.x};
+                prefetch<6, 12>(next_row);
+                of_alpha = add(of_alpha, solved::EA + 6, alpha.y);
+                prefetch<12, 18>(next_row);
+                of_alpha = add(of_alpha, solved::EA + 12, alpha.z);
+                prefetch<18, 24>(next_row);
+                const V3<C> EBx = s.complex_vector(solved::EB);
+                V3<C> of_a{EBx.x * a.x, EBx.y * a.x, EBx.z * a.x};
+                prefetch<24, 30>(next_row);
+                of_a = add(of_a, solved::EB + 6, a.y);
+                prefetch<30, 36>(next_row);
+                of_a = add(of_a, solved::EB + 12, a.z);
+                prefetch<36, 42>(next_row);
+                const V3<C> gamma = s.complex_vector(solved::Eu) - of_alpha - of_a;
                 alpha = alpha + gamma;
+                prefetch<42, 48>(next_row);
                 const V3<C> x = s.matrix(solved::rates) * gamma;
+                prefetch<48, solved::count>(next_row);
                 const Rows<const T> y0 = now(row, lane);
                 const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
                 const auto weighed = [](const C& k, const V3<C>& v) {
@@ -71,6 +90,7 @@ template <class T> struct CoupledAccelerate : CoupledParts<T> {
                     rate_change = y1.vector(motion::theta_dot_change) + rate_change;
                     change = y1.vector(motion::theta_change) + change;
                 }
+                prefetch<0, 2 * motion::theta_dot>(next_motion);
                 const V3<W> theta = theta_0 + change, eta = eta_0 + rate_change;
                 y1.set(motion::theta, theta);
                 y1.set(motion::theta_dot, eta);

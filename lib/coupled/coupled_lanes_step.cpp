@@ -81,7 +81,7 @@ CoupledRows<T> rows_of(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Stat
     place_tables<T>(plan, own.lanes, state, work.lanes, time + h / 2, rows);
     rows.accelerated_records = data(lanes.accelerated);
     rows.watched = lanes.watched.data();
-    rows.stream = streams(layout);
+    rows.stream = own.lanes.target == Target::avx512 && streams(layout);
     rows.adds = k > 0;
     rows.ends = k + 1 == scheme_of(own.scheme).poles;
     put(rows.s1, h / pole.p);

@@ -3,7 +3,7 @@
 //
 // Reads   constants, now, records outward of the joints that chains begin on, the wind's profile, pulls
 // Writes  loaded; of solved rates and r, which then wait no longer in the cache than the row takes; records outward of forks
-// Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1800. Errors none; what turns fast is counted and marked.
+// Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1600. Errors none; what turns fast is counted and marked.
 #pragma once
 #include "../lanes/wide_leaf.h"
 #include "coupled_parts.h"
@@ -23,52 +23,11 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
     using Parts::now;
     using Parts::number;
     using Parts::Parts;
-    using Parts::prefetch;
     using Parts::rows;
     using Parts::solved_row;
     using Parts::vector;
     using typename Parts::C;
     using typename Parts::W;
-
-    struct Frame : FrameOverGround<W, field> { // of a body, at y*
-        M3<W> R;
-        W y;
-        V3<W> omega, v, ahead_omega, ahead_v, own, turn, alpha, a;
-    };
-
-    BOUGH_FORCE static Frame read_frame(Records<T, outward::count>& r) {
-        const Rows<T> q = r.rows();
-        FrameOverGround<W, field> over;
-        if constexpr (field) over = {q.real(outward::x), q.real(outward::z)};
-        return {over,
-                q.matrix(outward::R),
-                q.real(outward::y),
-                q.vector(outward::omega),
-                q.vector(outward::v),
-                q.vector(outward::ahead_omega),
-                q.vector(outward::ahead_v),
-                q.vector(outward::own),
-                q.vector(outward::turn),
-                q.vector(outward::alpha),
-                q.vector(outward::a)};
-    }
-    BOUGH_FORCE static void write_frame(Records<T, outward::count>& r, const Frame& f) {
-        const Rows<T> q = r.rows();
-        q.set(outward::R, f.R);
-        q.set(outward::y, f.y);
-        q.set(outward::omega, f.omega);
-        q.set(outward::v, f.v);
-        q.set(outward::ahead_omega, f.ahead_omega);
-        q.set(outward::ahead_v, f.ahead_v);
-        q.set(outward::own, f.own);
-        q.set(outward::turn, f.turn);
-        q.set(outward::alpha, f.alpha);
-        q.set(outward::a, f.a);
-        if constexpr (field) {
-            q.set(outward::x, f.x);
-            q.set(outward::z, f.z);
-        }
-    }
 
     // resolved_turn.h
     [[gnu::noinline]] static V3<W> bounded(V3<W> omega, W turn2, W mass, std::uint64_t& count) {
@@ -164,93 +123,118 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         out.set(loaded::H, out.symmetric(loaded::H) + H);
     }
 
-    // One row: the frame of its bodies from their parents'.
+    // One row: the frame of its bodies from their parents'. f: of the quantities of `outward`. It stays in memory, as what is loaded does, from
+    // which each part reads what it needs (coupled_in.h, step_in).
     template <bool wind, bool gravity, Kind kind>
-    BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
+    BOUGH_FORCE void step_out(const Rows<T>& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
                               W& fastest, SweepFlags& flags, T fold) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
-        prefetch(constants(row + 1, lane).at, constant::count * L);
-        prefetch(now(row + 1, lane).at, motion::count * L);
+        const T *const next_row = constants(row + 1, lane).at, *const next_motion = now(row + 1, lane).at;
         const T h = rows.h;
         const W mass = k.real(constant::mass);
-        const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
 
-        const M3<W> G = f.R * this->joint_rotation(k);
-        V3<W> half, half_rate;
-        this->halfway(y0, G, f.turn, half, half_rate);
-        const V3<W> theta = theta_0 + half, eta = eta_0 + half_rate;
-        const WideMaps<T> maps = wide_maps<T>(theta);
-        const M3<W> GJ = G * maps.J;
-        const M3<W> rates = maps.J_inverse * transposed(G);
-        const V3<W> r = f.R * k.vector(constant::joint_position);
-        const M3<W> R = G * maps.R;
-        const V3<W> c = R * k.vector(constant::com);
-        W wind_factor{};
-        if constexpr (wind) {
-            f.y = f.y + r.y;
-            wind_factor = this->profile(f.y + c.y);
+        V3<W> w_0, w_ahead, psi, bias; // of the joint, and beside them what has gone to memory
+        {
+            const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
+            const M3<W> G = f.matrix(outward::R) * this->joint_rotation(k);
+            V3<W> half, half_rate;
+            this->halfway(y0, G, f.vector(outward::turn), half, half_rate);
+            prefetch<0, 4>(next_motion);
+            const V3<W> eta = eta_0 + half_rate;
+            const WideMaps<T> maps = wide_maps<T>(V3<W>(theta_0 + half));
+            prefetch<4, 8>(next_motion);
+            {
+                const M3<W> GJ = G * maps.J();
+                w_0 = GJ * eta_0, w_ahead = GJ * half_rate, psi = GJ * half;
+            }
+            prefetch<8, 12>(next_motion);
+            bias = G * maps.rate_bias(resolved(eta, h, mass, flags.fast_turns));
+            const V3<W> r = f.matrix(outward::R) * k.vector(constant::joint_position);
+            out.set(loaded::r, r);
+            const M3<W> R = G * maps.R();
+            f.set(outward::R, R);
+            prefetch<0, 4>(next_row);
+            out.set(loaded::c, R * k.vector(constant::com));
+            const M3<W> rates = maps.J_inverse() * transposed(G);
+            const auto keep = [&](const auto& to) {
+                to.set(solved::rates, rates);
+                to.set(solved::r, r);
+            };
+            if (rows.stream)
+                keep(Rows<T, true>{solved_row(row, lane).at});
+            else
+                keep(solved_row(row, lane));
+            prefetch<4, 8>(next_row);
+            // The joint's spring and damper
+            const V3<W> K = k.vector(constant::K);
+            const M3<W> KT{{K.x * rates.x.x, K.y * rates.x.y, K.z * rates.x.z},
+                           {K.x * rates.y.x, K.y * rates.y.y, K.z * rates.y.z},
+                           {K.x * rates.z.x, K.y * rates.z.y, K.z * rates.z.z}};
+            const V3<W> bent = theta_0 + W(k.real(constant::beta) + rows.s1[0]) * eta_0;
+            out.set(loaded::torque, complex(-transposed_times(KT, bent), -(rows.s1[1] * transposed_times(KT, eta_0))));
+            out.set(loaded::K, symmetric_transposed_product(rates, KT));
+            prefetch<8, 12>(next_row);
         }
+        forget_memory();
         typename Parts::OverGround over{};
-        if constexpr (field) {
-            f.x = f.x + r.x;
-            f.z = f.z + r.z;
-            over = this->over_ground(row, lane, f.x + c.x, f.z + c.z);
-            wind_factor = this->sheltered(row, lane, wind_factor);
+        {
+            const V3<W> r = out.vector(loaded::r);
+            const V3<W> omega_p = f.vector(outward::omega), alpha_p = f.vector(outward::alpha), w = w_0 + w_ahead;
+            const V3<W> spin_p = resolved(omega_p, h, mass, flags.fast_turns),
+                        turning = resolved(w, h, mass, flags.fast_turns);
+            f.set(outward::alpha, V3<W>(alpha_p + cross(spin_p, turning) + bias));
+            f.set(outward::a, V3<W>(f.vector(outward::a) + cross(alpha_p, r) + cross(spin_p, cross(spin_p, r))));
+            prefetch<12, 15>(next_row);
+            f.set(outward::v, V3<W>(f.vector(outward::v) + cross(omega_p, r)));
+            const V3<W> ahead_p = f.vector(outward::ahead_omega);
+            f.set(outward::ahead_v, V3<W>(f.vector(outward::ahead_v) + cross(ahead_p, r)));
+            f.set(outward::ahead_omega, V3<W>(ahead_p + w_ahead));
+            const V3<W> omega = omega_p + w;
+            f.set(outward::omega, omega);
+            f.set(outward::own, V3<W>(f.vector(outward::own) + w_0));
+            f.set(outward::turn, V3<W>(f.vector(outward::turn) + psi));
+            prefetch<15, 18>(next_row);
+            const W omega2 = dot(omega, omega);
+            fastest = larger(omega2, fastest);
+            constexpr bool wood = kind == Kind::branch;
+            if (any_above(omega2, fast2(wood))) mark(row_base, lane, omega2, wood, flags);
+            if constexpr (wind) f.set(outward::y, W(f.real(outward::y) + r.y));
+            if constexpr (field) {
+                f.set(outward::x, W(f.real(outward::x) + r.x));
+                f.set(outward::z, W(f.real(outward::z) + r.z));
+            }
         }
-        const V3<W> w_0 = GJ * eta_0, w_ahead = GJ * half_rate, w = w_0 + w_ahead;
-
-        const V3<W> spin_p = resolved(f.omega, h, mass, flags.fast_turns),
-                    turning = resolved(w, h, mass, flags.fast_turns);
-        const V3<W> alpha =
-            f.alpha + cross(spin_p, turning) + G * maps.rate_bias(resolved(eta, h, mass, flags.fast_turns));
-        f.a = f.a + cross(f.alpha, r) + cross(spin_p, cross(spin_p, r));
-        f.alpha = alpha;
-        f.v = f.v + cross(f.omega, r);
-        f.ahead_v = f.ahead_v + cross(f.ahead_omega, r);
-        f.omega = f.omega + w;
-        f.ahead_omega = f.ahead_omega + w_ahead;
-        f.own = f.own + w_0;
-        f.turn = f.turn + GJ * half;
-        f.R = R;
-        const W omega2 = dot(f.omega, f.omega);
-        fastest = larger(omega2, fastest);
-        constexpr bool wood = kind == Kind::branch;
-        if (any_above(omega2, fast2(wood))) mark(row_base, lane, omega2, wood, flags);
-
+        forget_memory();
+        const V3<W> c = out.vector(loaded::c), omega = f.vector(outward::omega);
+        W wind_factor{};
         V3<W> u{};
         typename Parts::Speed speed{};
         if constexpr (wind) {
-            u = wind_factor * wind_here(over) - f.v - cross(f.omega, c);
-            speed = Parts::template air_speed<kind>(u, R);
+            wind_factor = this->profile(f.real(outward::y) + c.y);
+            if constexpr (field) {
+                over = this->over_ground(row, lane, f.real(outward::x) + c.x, f.real(outward::z) + c.z);
+                wind_factor = this->sheltered(row, lane, wind_factor);
+            }
+            u = wind_factor * wind_here(over) - f.vector(outward::v) - cross(omega, c);
+            speed = Parts::template air_speed<kind>(u, f.matrix(outward::R));
         }
-
-        // The joint's spring and damper, while the air's speed is on its way.
-        const V3<W> K = k.vector(constant::K);
-        const M3<W> KT{{K.x * rates.x.x, K.y * rates.x.y, K.z * rates.x.z},
-                       {K.x * rates.y.x, K.y * rates.y.y, K.z * rates.y.z},
-                       {K.x * rates.z.x, K.y * rates.z.y, K.z * rates.z.z}};
-        const V3<W> bent = theta_0 + W(k.real(constant::beta) + rows.s1[0]) * eta_0;
-        out.set(loaded::torque, complex(-transposed_times(KT, bent), -(rows.s1[1] * transposed_times(KT, eta_0))));
-        out.set(loaded::K, symmetric_transposed_product(rates, KT));
-        out.set(loaded::c, c);
-        out.set(loaded::r, r);
-        const auto keep = [&](const auto& to) {
-            to.set(solved::rates, rates);
-            to.set(solved::r, r);
-        };
-        if (rows.stream)
-            keep(Rows<T, true>{solved_row(row, lane).at});
-        else
-            keep(solved_row(row, lane));
+        prefetch<18, 21>(next_row);
 
         // body_load.h
         std::uint64_t seen = 0; // counted at the next body's turn about it
-        const V3<W> spin = resolved(f.omega, h, mass, seen);
+        const V3<W> spin = resolved(omega, h, mass, seen);
         const V3<W> g = vector(rows.gravity);
-        Symmetric<W> J = turned(R, k.symmetric(constant::inertia_joint));
-        out.set(loaded::J, J);
+        const M3<W> R = f.matrix(outward::R);
+        V3<W> turning_N;
+        {
+            const Symmetric<W> J = turned(R, k.symmetric(constant::inertia_joint));
+            out.set(loaded::J, J);
+            const V3<W> alpha = f.vector(outward::alpha);
+            turning_N = J * alpha + cross(spin, J * spin);
+        }
+        prefetch<21, 24>(next_row);
         Symmetric<W> H{};
-        V3<W> a0 = f.a;
+        V3<W> a0 = f.vector(outward::a);
         if constexpr (gravity) {
             const V3<W> P = R * k.vector(constant::carried_moment);
             const W Pg = dot(P, g);
@@ -258,11 +242,10 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
                  Pg - P.y * g.y, T(-0.5) * (P.y * g.z + P.z * g.y), Pg - P.z * g.z};
             a0 = a0 - g;
         }
-        const V3<W> turning_N = J * alpha + cross(spin, J * spin);
-        const V3<W> turning_F = mass * (cross(alpha, c) + cross(spin, cross(spin, c)));
+        const V3<W> turning_F = mass * (cross(f.vector(outward::alpha), c) + cross(spin, cross(spin, c)));
         V3<W> at_com = mass * a0, slope{}; // [N] what is to be turned about the joint: all but the body's own turning
         if constexpr (wind) {
-            const V3<W> ahead = f.ahead_v + cross(f.ahead_omega, c);
+            const V3<W> ahead = f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c);
             const V3<W> com = k.vector(constant::com);
             const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
             const auto air_on =
@@ -278,10 +261,12 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
             at_com = at_com - air_on.force - rows.slope[0] * slope_F;
             slope = -(rows.slope[1] * slope_F);
         }
+        prefetch<24, constant::count>(next_row);
         V3<C> F = complex(turning_F + at_com, slope), N = complex(turning_N + cross(c, at_com), cross(c, slope));
         if constexpr (gravity || wind) {
-            const V3<W> bent_by = f.turn - rows.s1[0] * f.own, back = H * bent_by,
-                        ahead_back = rows.s1[1] * (H * f.own);
+            const V3<W> own = f.vector(outward::own);
+            const V3<W> bent_by = f.vector(outward::turn) - rows.s1[0] * own, back = H * bent_by,
+                        ahead_back = rows.s1[1] * (H * own);
             N = complex(V3<W>{N.x.re - back.x, N.y.re - back.y, N.z.re - back.z},
                         V3<W>{N.x.im + ahead_back.x, N.y.im + ahead_back.y, N.z.im + ahead_back.z});
         }
@@ -291,7 +276,8 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
                 W rate = k_spin * k.real(constant::drag_area) / larger(mass, all(T(1e-30))) *
                          (Parts::unfolded(fold, speed.speed) * speed.speed);
                 if (kind == Kind::leaf && rows.leaf.on) rate = rate + rows.leaf.across;
-                damp_spin(out, rate, mass, c, V3<W>(f.omega - f.ahead_omega), J, H, N);
+                Symmetric<W> J = out.symmetric(loaded::J);
+                damp_spin(out, rate, mass, c, V3<W>(omega - f.vector(outward::ahead_omega)), J, H, N);
             }
         if constexpr (gravity || wind) out.set(loaded::H, H);
         if (rows.pulls && rows.pull_of_row[row] >= 0) {
@@ -303,9 +289,9 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         out.set(loaded::F, F);
         if constexpr (wind && kind == Kind::leaf)
             if (rows.leaf.on)
-                add_leaf(
-                    k, out,
-                    {R, u, f.ahead_v + cross(f.ahead_omega, c), wind_factor * wind_change_here(over), f.turn, f.own});
+                add_leaf(k, out,
+                         {R, u, f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c),
+                          wind_factor * wind_change_here(over), f.vector(outward::turn), f.vector(outward::own)});
     }
 
     template <bool wind, bool gravity, Kind kind>
@@ -313,14 +299,13 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         for (int lane = 0; lane < L; lane += width<T>) {
             Records<T, outward::count> base;
             base.gather(rows.outward_records, &rows.base[g.first_base + std::size_t(lane)]);
-            Frame f = read_frame(base);
+            const Rows<T> f = base.rows();
             W fastest{};
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 step_out<wind, gravity, kind>(f, row, g.first_base, lane,
                                               {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane},
                                               fastest, flags, Parts::fold_of(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
-                write_frame(base, f);
                 base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
                              [&](std::uint32_t joint, int k, W w) {
                                  write(rows.outward_records + joint * record(outward::count, L) + std::size_t(k), w);

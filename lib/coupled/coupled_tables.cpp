@@ -1,4 +1,6 @@
 #include "coupled_tables.h"
+#include "../base/caches.h"
+#include <algorithm>
 
 namespace bough::fast {
 
@@ -62,9 +64,15 @@ template <class T> void put_pad(const Slot<T>& row) {
     row.put(constant::K, Vector3<T>(Vector3<T>::Ones()));
 }
 
-bool streams(const Layout& layout) {
+std::size_t usable_cache() {
+    static const std::size_t cache = std::clamp(last_cache(), std::size_t(32) << 20, std::size_t(64) << 20);
+    return cache;
+}
+
+bool streams(const Layout& layout, std::size_t cache) {
     constexpr std::uint64_t line = 64; // [bytes] of a row of one quantity
-    return waits(layout) && std::uint64_t(layout.rows) * solved::count * line > shared_cache;
+    const std::uint64_t quantities = std::uint64_t(coupled_columns(true, 1)) + constant::count;
+    return waits(layout) && layout.rows * quantities * line > cache;
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

@@ -30,11 +30,13 @@ template <class T> void scale_changes(const CoupledLanesPlan<T>&, CoupledLanesSt
 // Constants of a lane without a body (clear_lanes.h): no mass, no inertia, a spring never bent. All others of it are zero.
 template <class T> void put_pad(const Slot<T>&);
 
-// [bytes] of the cache that cores share on the machines of these years, at least: what is larger goes through memory in any case.
-constexpr std::size_t shared_cache = std::size_t(32) << 20;
+// [bytes] of the machine's last cache that a run can count on: what the machine says, but for 32 to 64 MB, as on large machines others take their
+// share of it, and small ones were not measured.
+std::size_t usable_cache();
 
-// Whether `solved` of a layout is more than shared_cache, and is written past the caches where the target can.
-// Measured (Xeon, 480 MB shared; coupled, float, gusty wind; streamed over not): 10k bodies, 2.8 MB: 1.24; 100k, 24 MB: 1.08; 1M, 230 MB: 0.69.
-bool streams(const Layout&);
+// Whether what a step goes through, table and constants, is more than `cache`: what is solved is then written past the caches, where the target can
+// (avx512 alone; the arithmetic stays the same). Measured, streamed over not, coupled, float, gusty wind: Xeon with 480 MB 10 000 bodies 1.24, 100 000
+// (42 MB) 1.08, 1 000 000 0.69; EPYC with 32 MB 10 000 1.34, 100 000 0.82.
+bool streams(const Layout&, std::size_t cache = usable_cache());
 
 } // namespace bough::fast

@@ -102,8 +102,8 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
         arm = p.R * d;
         p.x = p.x + arm;
         p.v = p.v + cross(p.omega, arm);
-        p.R = G * maps.R;
-        return G * (maps.J * eta);
+        p.R = G * maps.R();
+        return G * (maps.J() * eta);
     }
 
     [[gnu::noinline]] void book_pulls(std::uint32_t row, int lane, const Frame& f, W& gained) const {
@@ -155,9 +155,9 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             V3<W> half, half_rate;
             this->halfway(y0, G, f.turn, half, half_rate);
             const WideMaps<T> maps = wide_maps<T>(theta_0 + half);
-            const M3<W> GJ = G * maps.J;
+            const M3<W> GJ = G * maps.J();
             const V3<W> r = f.R * d;
-            f.R = G * maps.R;
+            f.R = G * maps.R();
             f.v = f.v + cross(f.omega, r);
             f.omega = f.omega + GJ * (eta_0 + half_rate);
             f.turn = f.turn + GJ * half;

@@ -12,6 +12,20 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
+// Lines [from, to) of what the next row will read; beyond the last one, nothing happens. A row asks for them few at a time among its
+// arithmetic: all at once fill the core's queue of misses, and what the row itself reads waits behind them. The barrier keeps the compiler
+// from gathering them.
+template <int from, int to, class T> BOUGH_FORCE void prefetch(const T* at) {
+#pragma GCC unroll 64
+    for (int k = from; k < to; ++k) __builtin_prefetch(at + k * lanes<T>);
+    __asm__ volatile("");
+}
+
+// What stands in memory is read from there again, where the compiler would rather keep it on its stack.
+BOUGH_FORCE void forget_memory() {
+    __asm__ volatile("" ::: "memory");
+}
+
 // Given: what the sweeps of one step read and write, a SweepRows and more.
 template <class T, class Given> struct SweepParts {
     using W = Wide<T>;
@@ -28,12 +42,6 @@ template <class T, class Given> struct SweepParts {
 
     static C number(const T (&z)[2]) { return {all(z[0]), all(z[1])}; }
     static V3<W> vector(const T (&v)[3]) { return {all(v[0]), all(v[1]), all(v[2])}; }
-
-    // What the next row will read; beyond the last one, nothing happens.
-    BOUGH_FORCE static void prefetch(const T* at, int reals) {
-#pragma GCC unroll 64
-        for (int k = 0; k < reals; k += L) __builtin_prefetch(at + k);
-    }
 
     // Where the constants of a row stand (shared_constants.h). It may be the row beyond the last, of which nothing is read.
     BOUGH_FORCE std::size_t constants_row(std::uint32_t row) const {
@@ -72,9 +80,7 @@ template <class T, class Given> struct SweepParts {
         return typename B::Wide(W(whole + B::rounder)) & 0x3fffff;
     }
     // Clamped; NaN: 0.
-    BOUGH_FORCE static W within(const W& place, std::int32_t most) {
-        return smaller(larger(place, W{}), all(T(most)));
-    }
+    BOUGH_FORCE static W within(const W& place, std::int32_t most) { return smaller(larger(place, W{}), all(T(most))); }
 
     // Where in the field's tables a place over the ground stands (WindField::at).
     struct OverGround {
@@ -137,13 +143,9 @@ template <class T, class Given> struct SweepParts {
     };
 
     // 1 / fold_speed for what folds (air.h), else 0: a clump is a fruit but for that.
-    static constexpr T fold_of(Kind kind) {
-        return is_foliage(kind) ? T(1 / fold_speed) : T(0);
-    }
+    static constexpr T fold_of(Kind kind) { return is_foliage(kind) ? T(1 / fold_speed) : T(0); }
     // g
-    BOUGH_FORCE static W unfolded(T fold, const W& speed) {
-        return 1 / (1 + fold * speed);
-    }
+    BOUGH_FORCE static W unfolded(T fold, const W& speed) { return 1 / (1 + fold * speed); }
 
     // air.h
     template <Kind kind>

@@ -12,18 +12,6 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
-template <class T> struct WideMaps {
-    using W = Wide<T>;
-    M3<W> R, J, J_inverse;
-    W c2, dc1, dc2;
-    V3<W> theta;
-
-    BOUGH_FORCE V3<W> rate_bias(const V3<W>& eta) const {
-        const V3<W> across = cross(theta, eta);
-        return dot(theta, eta) * (dc1 * across + dc2 * cross(theta, across)) + c2 * cross(eta, across);
-    }
-};
-
 // 1 + a theta* + b theta* theta*, with theta* theta* = theta theta^T - q.
 template <class W> BOUGH_FORCE M3<W> rotation_form(const V3<W>& t, W q, W a, W b) {
     const W d = 1 - b * q;
@@ -34,9 +22,24 @@ template <class W> BOUGH_FORCE M3<W> rotation_form(const V3<W>& t, W q, W a, W b
             {xz + s.y, yz - s.x, d + b * t.z * t.z}};
 }
 
+template <class T> struct WideMaps {
+    using W = Wide<T>;
+    V3<W> theta;
+    W q, c1, c2, dc1, dc2;
+
+    BOUGH_FORCE M3<W> R() const { return rotation_form(theta, q, W(1 - q * c2), c1); }
+    BOUGH_FORCE M3<W> J() const { return rotation_form(theta, q, c1, c2); }
+    BOUGH_FORCE M3<W> J_inverse() const { return rotation_form(theta, q, all<T>(T(-0.5)), W(dc1 / (-2 * c1))); }
+
+    BOUGH_FORCE V3<W> rate_bias(const V3<W>& eta) const {
+        const V3<W> across = cross(theta, eta);
+        return dot(theta, eta) * (dc1 * across + dc2 * cross(theta, across)) + c2 * cross(eta, across);
+    }
+};
+
 template <class T> BOUGH_FORCE WideMaps<T> wide_maps(const V3<Wide<T>>& theta) {
     using W = Wide<T>;
-    constexpr int terms = sizeof(T) == 4 ? 9 : 15;
+    constexpr int few = sizeof(T) == 4 ? 6 : 10, terms = sizeof(T) == 4 ? 9 : 15; // up to one radian, and beyond
     struct Series {
         T c1[terms], c2[terms], dc1[terms], dc2[terms];
         constexpr Series() : c1(), c2(), dc1(), dc2() {
@@ -53,23 +56,23 @@ template <class T> BOUGH_FORCE WideMaps<T> wide_maps(const V3<Wide<T>>& theta) {
     };
     static constexpr Series series;
     const W q = dot(theta, theta);
-    W c1 = all<T>(series.c1[terms - 1]), c2 = all<T>(series.c2[terms - 1]);
-    W dc1 = all<T>(series.dc1[terms - 1]), dc2 = all<T>(series.dc2[terms - 1]);
-    for (int k = terms - 2; k >= 0; --k) {
-        c1 = c1 * q + series.c1[k];
-        c2 = c2 * q + series.c2[k];
-        dc1 = dc1 * q + series.dc1[k];
-        dc2 = dc2 * q + series.dc2[k];
-    }
-    WideMaps<T> m;
-    m.theta = theta;
-    m.c2 = c2;
-    m.dc1 = dc1;
-    m.dc2 = dc2;
-    m.R = rotation_form(theta, q, W(1 - q * c2), c1);
-    m.J = rotation_form(theta, q, c1, c2);
-    m.J_inverse = rotation_form(theta, q, all<T>(T(-0.5)), W(dc1 / (-2 * c1)));
-    return m;
+    W c1, c2, dc1, dc2;
+    const auto sum = [&](int count) {
+        c1 = all<T>(series.c1[count - 1]), c2 = all<T>(series.c2[count - 1]);
+        dc1 = all<T>(series.dc1[count - 1]), dc2 = all<T>(series.dc2[count - 1]);
+#pragma GCC unroll 16
+        for (int k = count - 2; k >= 0; --k) {
+            c1 = c1 * q + series.c1[k];
+            c2 = c2 * q + series.c2[k];
+            dc1 = dc1 * q + series.dc1[k];
+            dc2 = dc2 * q + series.dc2[k];
+        }
+    };
+    if (any_above(q, all<T>(T(1)))) [[unlikely]]
+        sum(terms);
+    else
+        sum(few);
+    return {theta, q, c1, c2, dc1, dc2};
 }
 
 } // namespace BOUGH_TARGET

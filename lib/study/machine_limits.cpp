@@ -1,4 +1,5 @@
 #include "machine_limits.h"
+#include "../base/caches.h"
 #include "../lanes/row.h"
 #include "machine_kernels.h"
 #include <algorithm>
@@ -78,11 +79,6 @@ template <class T> double measure_peak(fast::Target target, int threads) {
     }
 }
 
-std::size_t cache_size(int name) {
-    const long size = ::sysconf(name);
-    return size > 0 ? std::size_t(size) : 0;
-}
-
 } // namespace
 
 MachineLimits measure_limits(fast::Target target, int threads, std::size_t array) {
@@ -93,24 +89,9 @@ MachineLimits measure_limits(fast::Target target, int threads, std::size_t array
     return limits;
 }
 
-std::size_t last_cache() {
-#ifdef _SC_LEVEL3_CACHE_SIZE
-    return std::max({cache_size(_SC_LEVEL4_CACHE_SIZE), cache_size(_SC_LEVEL3_CACHE_SIZE), core_cache()});
-#else
-    return 0;
-#endif
-}
-
-std::size_t core_cache() {
-#ifdef _SC_LEVEL2_CACHE_SIZE
-    return cache_size(_SC_LEVEL2_CACHE_SIZE);
-#else
-    return 0;
-#endif
-}
-
 std::size_t default_array() {
-    const std::size_t memory = cache_size(_SC_PHYS_PAGES) * cache_size(_SC_PAGESIZE);
+    const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+    const std::size_t memory = pages > 0 && page > 0 ? std::size_t(pages) * std::size_t(page) : 0;
     const std::size_t wanted = std::max(4 * last_cache(), std::size_t(256) << 20);
     return memory == 0 ? wanted : std::min(wanted, memory / 4);
 }

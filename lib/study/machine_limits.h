@@ -17,10 +17,7 @@ struct MachineLimits {
 // not what was written.
 MachineLimits measure_limits(fast::Target, int threads, std::size_t array);
 
-// [bytes], 0 where the system does not say.
-std::size_t last_cache();
-std::size_t core_cache(); // a core's own
-// Four times the last cache, at least 256 MB, at most a quarter of the machine's memory.
+// [bytes] Four times the last cache (caches.h), at least 256 MB, at most a quarter of the machine's memory.
 std::size_t default_array();
 
 } // namespace bough

@@ -10,6 +10,9 @@ Moved operator+(const Moved& a, const Moved& b) {
     return {a.in + b.in, a.out + b.out};
 }
 
+// [bytes] of constants that are shared and stay in a cache from block to block.
+constexpr std::uint64_t stays_in_cache = std::uint64_t(32) << 20;
+
 constexpr std::uint64_t index = sizeof(std::uint32_t);
 
 // Constants of a step, in rows: how many there are, how many come in if `visits` rows are worked at, and the table that says which.
@@ -18,7 +21,7 @@ struct Constants {
 };
 Constants constants_of(const Layout& layout, std::uint64_t visits, std::uint64_t quantities, std::uint64_t shared) {
     if (shared == 0) return {layout.rows, visits, 0};
-    const bool stay = shared * quantities * line <= shared_cache;
+    const bool stay = shared * quantities * line <= stays_in_cache;
     return {shared, stay ? shared : visits, index * (std::uint64_t(layout.rows) + 1)};
 }
 

@@ -5,7 +5,7 @@
 // alone works in (`loaded`, constants between its two sweeps, and `solved` of a block of whole trees) stays in the core's cache. A line that is
 // written through the caches is fetched first, so it moves in and out; one that is streamed past them moves out alone.
 //   constants   in once, but for what gravity and wind alone read. Where instances share them (shared_constants.h) in once for all rows, if they
-//               are together no more than shared_cache; else as if they were not shared
+//               are together no more than 32 MB; else as if they were not shared
 //   now         in once; theta and theta_dot a second time where the sweep outward has to wait for other blocks
 //   next        in and out; out alone where it takes the place of what a row of a waiting block was solved to
 //   solved      out (streamed), or in and out; in once more. None where the block is of whole trees

@@ -63,13 +63,15 @@ TEST_CASE("bytes of a layout made by hand") {
     Layout wide = layout; // in double 8 lanes: 34 -> 40, 54 -> 56, 12 -> 16 reals of 8 bytes
     wide.lanes = 8;
     CHECK(coupled_step_bytes(wide, true, true, 8, true).records.in == 4 * (40 + 56 + 16) * 8);
-    CHECK_FALSE(streams(layout)); // 20 kB
-    wide.rows = 9000;             // 31 MB
-    CHECK_FALSE(streams(wide));
-    wide.rows = 10000; // 35 MB
-    CHECK(streams(wide));
+    constexpr std::size_t cache = std::size_t(32) << 20;
+    CHECK_FALSE(streams(layout, cache)); // 36 kB
+    wide.rows = 5500;                    // 66 + 28 lines of 64 bytes each: 33.1 MB, less than 32 x 1024^2
+    CHECK_FALSE(streams(wide, cache));
+    wide.rows = 5600; // 33.7 MB
+    CHECK(streams(wide, cache));
+    CHECK_FALSE(streams(wide, 2 * cache));
     wide.blocks = {wide.blocks[2]};
-    CHECK_FALSE(streams(wide)); // nothing waits
+    CHECK_FALSE(streams(wide, cache)); // nothing waits
 }
 
 TEMPLATE_TEST_CASE("the tables that are counted are those that a run has allocated", "", float, double) {

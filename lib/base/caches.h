@@ -1,0 +1,11 @@
+// caches.h: how much the machine's caches hold.
+#pragma once
+#include <cstddef>
+
+namespace bough {
+
+// [bytes], 0 where the system does not say. O(1), a system call.
+std::size_t last_cache(); // the one that is asked last, which cores may share
+std::size_t core_cache(); // a core's own
+
+} // namespace bough
