@@ -43,7 +43,7 @@ export async function pulled_by_mouse({ browser, url }) {
         const from = place(parent[body]), to = place(body), length = Math.hypot(to[0] - from[0], to[1] - from[1]);
         return [-(to[1] - from[1]) / length, (to[0] - from[0]) / length];
     }, [hand.body, drawn]);
-    await page.mouse.move(branch.x + 40 * across, branch.y + 40 * up, { steps: 4 });
+    await page.mouse.move(branch.x + 24 * across, branch.y + 24 * up, { steps: 4 });
     const targets = await page.evaluate(() => bough.pointers.targets());
     expect(targets.length === 1, 'the hand has no target');
     const pulled = at(await steps(page, 120, targets), hand.body);
@@ -53,7 +53,7 @@ export async function pulled_by_mouse({ browser, url }) {
     const share = Math.min(1, far / norm(wanted)), to = hand.world.map((value, k) => value + share * wanted[k]);
     const off = norm(less(point, to)), drawnBy = share * norm(wanted);
     expect(drawnBy > 0.05, `the hand goes ${drawnBy} m of ${norm(wanted)} m`);
-    expect(off < 0.15 * drawnBy, `drawn by ${drawnBy} m, the branch is ${off} m from the hand`);
+    expect(off < 0.2 * drawnBy, `drawn by ${drawnBy} m, the branch is ${off} m from the hand`);
     expect(forces.length === 1 && forces[0][1] > 0, `forces are ${forces}`);
     console.log(`    a hand ${drawnBy.toFixed(2)} m away: the branch is ${(1000 * off).toFixed(1)} mm behind it, ${forces[0][1].toFixed(1)} N`);
     // A hand that is moved on is followed; it cannot be drawn beyond what the wood bears, however far the pointer goes.

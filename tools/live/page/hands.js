@@ -1,11 +1,11 @@
 // hands.js: hands that hold, in the Worker: each is an attachment (bough_c.h), a spring and a damper between the point that was taken and where the
 // pointer is. The spring is `firm` times as stiff as the wood at rest is there, compliance = sum over the joints that bear the point of lever^2 / K: the
-// point stays behind the hand by a fiftieth of the way, more where it bends far. However far the pointer goes, the hand goes no farther from where it took hold than what
-// turns joints by a radian and more: the wood is to bend, not to be wound up.
+// point stays behind the hand by a fiftieth of the way, more where it bends far. However far the pointer goes, the hand goes no farther from where it
+// took hold than what would turn a joint by a radian and a half: the wood is to bend, not to be wound up.
 
 const firm = 50; // [1]
 const slow = 0.05; // [s] the damper over the spring
-const far = 1.5; // [1] times the way at which the softest joint has turned by half a radian, or all of them by 2 (live_reach)
+const far = 3; // [1] times the way at which the softest joint has turned by half a radian, or all of them by 2 (live_reach)
 
 const less = (a, b) => a.map((value, k) => value - b[k]);
 const norm = (a) => Math.hypot(...a);
