@@ -90,6 +90,7 @@ export async function calm(page) {
     await page.evaluate(async () => {
         bough.change(({ wind }) => Object.assign(wind, { speed: 0, turbulence: 0, gustFactor: 1 }), true);
         await bough.apply(true);
+        for (let k = 0; k < 2; ++k) await new Promise((done) => requestAnimationFrame(done)); // the camera stands where the tree asks for it
     });
 }
 
