@@ -109,8 +109,8 @@ void write_state(const std::string& file, const SavedState& saved) {
 }
 
 struct MotionFile::Inside {
-    Inside(const std::string& file, const MotionHeader& header)
-        : fps(header.fps), fields(header.fields), output(file), writer(output, header, form_of(file)) {}
+    Inside(const std::string& file, const MotionHeader& header, const Digits& digits)
+        : fps(header.fps), fields(header.fields), output(file), writer(output, header, form_of(file), digits) {}
     double fps;
     MotionFields fields;
     Output output;
@@ -129,7 +129,7 @@ MotionFile::MotionFile(const std::string& file, const Simulation& simulation, do
     header.fields.torque = simulation.options().torques;
     header.name = simulation.tree().name;
     header.source = simulation.tree().source;
-    inside_ = std::make_unique<Inside>(file, header);
+    inside_ = std::make_unique<Inside>(file, header, Digits{simulation.options().precision == Precision::single, 0});
 }
 
 MotionFile::MotionFile(MotionFile&&) noexcept = default;

@@ -11,6 +11,12 @@
 
 namespace bough {
 
+// How many digits a real number is written with.
+struct Digits {
+    bool single = false; // as few as read back as the same float, which the number is
+    int most = 0;        // rounded to so many; 0: as few as read back as the same number
+};
+
 // Whoever adds to it without add() and end_line() calls room() after at most `margin` bytes, and hand_on() at the end.
 // add(), end_line(), room() and hand_on() throw OutputError.
 class Text {
@@ -33,16 +39,21 @@ public:
         used_ += std::size_t(std::to_chars(begin, buffer_.get() + size + margin, value).ptr - begin);
     }
     // The same as JSON, where "-0" would be read as an integer, which has no such zero.
-    void add_json(double value) {
+    void add_json(double value, Digits digits = {}) {
         if (value == 0) {
             if (std::signbit(value)) put('-');
             put('0');
             if (std::signbit(value)) put('.'), put('0');
             return;
         }
-        add_number(value);
+        if (digits.most > 0)
+            add_rounded(value, digits.most);
+        else if (digits.single)
+            add_number(float(value));
+        else
+            add_number(value);
     }
-    void add_json(std::int64_t value) { add_number(value); }
+    void add_json(std::int64_t value, Digits = {}) { add_number(value); }
     // A number of magnitude up to 1 with 4 decimals: normals need no more.
     void add_unit(double value) {
         const int scaled = int(std::lround(value * 10000));
@@ -68,6 +79,12 @@ public:
     }
 
 private:
+    void add_rounded(double value, int digits) {
+        char* const begin = buffer_.get() + used_;
+        used_ += std::size_t(
+            std::to_chars(begin, buffer_.get() + size + margin, value, std::chars_format::general, digits).ptr - begin);
+    }
+
     static constexpr std::size_t size = std::size_t(1) << 16, margin = 256;
     Output& output_;
     std::unique_ptr<char[]> buffer_;

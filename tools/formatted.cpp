@@ -16,4 +16,10 @@ std::string formatted(const char* format, ...) {
     return text;
 }
 
+std::string bytes_text(double bytes) {
+    if (bytes >= 1e9) return formatted("%.1f GB", bytes / 1e9);
+    if (bytes >= 1e6) return formatted("%.0f MB", bytes / 1e6);
+    return formatted("%.0f kB", bytes / 1e3);
+}
+
 } // namespace bough

@@ -7,4 +7,6 @@ namespace bough {
 // Any length; the compiler checks the arguments against the format.
 std::string formatted(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
+std::string bytes_text(double bytes); // "1.2 GB", "340 MB", "12 kB"
+
 } // namespace bough

@@ -30,6 +30,11 @@ FrameQueue::~FrameQueue() {
     close();
 }
 
+void FrameQueue::write(const MotionFrame& frame) {
+    sink_.write(frame);
+    bytes_ = sink_.bytes();
+}
+
 void FrameQueue::run() {
 #ifdef _OPENMP
     omp_set_num_threads(1);
@@ -42,7 +47,7 @@ void FrameQueue::run() {
         lock.unlock();
         std::exception_ptr error;
         try {
-            sink_.write(frame);
+            write(frame);
         } catch (...) {
             error = std::current_exception();
         }
@@ -62,7 +67,7 @@ MotionFrame& FrameQueue::next() {
 }
 
 void FrameQueue::push() {
-    if (!writer_.joinable()) return sink_.write(slot_.front());
+    if (!writer_.joinable()) return write(slot_.front());
     const std::lock_guard lock(mutex_);
     ++pushed_;
     changed_.notify_all();

@@ -7,6 +7,7 @@
 // on the slots. What it throws ends the writing (frames after it are dropped) and is thrown by next() or finish().
 #pragma once
 #include "frame_sink.h"
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -28,9 +29,11 @@ public:
     MotionFrame& next(); // a frame to fill, holding what an earlier one left there; waits until a slot is free
     void push();         // hands on the frame that next() gave
     void finish();       // waits for all frames, then finishes the sink; call once
+    std::uint64_t bytes() const { return bytes_; } // that the sink has made so far of whole frames
 
 private:
     void start();
+    void write(const MotionFrame&);
     void run();
     void close() noexcept;
 
@@ -41,6 +44,7 @@ private:
     std::size_t pushed_ = 0, written_ = 0; // frames so far
     bool closed_ = false;                  // no more will be pushed
     std::exception_ptr error_;
+    std::atomic<std::uint64_t> bytes_ = 0;
     std::thread writer_;
 };
 

@@ -10,8 +10,8 @@ namespace {
 
 class MotionSink : public FrameSink {
 public:
-    MotionSink(const std::string& file, MotionForm form, const MotionHeader& header)
-        : output_(file), writer_(output_, header, form) {}
+    MotionSink(const std::string& file, MotionForm form, const MotionHeader& header, const Digits& digits)
+        : output_(file), writer_(output_, header, form, digits) {}
     void write(const MotionFrame& frame) override { writer_.write(frame); }
     void finish() override {
         writer_.finish();
@@ -70,11 +70,12 @@ private:
 
 } // namespace
 
-std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::string& format, const MotionHeader& header) {
+std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::string& format, const MotionHeader& header,
+                                       const Digits& digits) {
     const MotionForm form = format == "json"          ? MotionForm::json
                             : format == "safetensors" ? MotionForm::safetensors
                                                       : MotionForm::jsonl;
-    return std::make_unique<MotionSink>(file, form, header);
+    return std::make_unique<MotionSink>(file, form, header, digits);
 }
 
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const RustleMaker& rustle,

@@ -2,6 +2,7 @@
 #pragma once
 #include "formats/exports/gltf.h"
 #include "formats/models/driven_model.h"
+#include "formats/text.h"
 #include "lib/growth/rustle.h"
 #include "lib/model/motion.h"
 #include "lib/model/tree.h"
@@ -21,7 +22,8 @@ public:
 };
 
 // `format`: jsonl, json or safetensors.
-std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::string& format, const MotionHeader&);
+std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::string& format, const MotionHeader&,
+                                       const Digits& = {});
 
 // What makes the leaves of a skin's clumps rustle, nothing where they do not; `together` as in rustle.h. Called once, when a sink is made.
 using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool together)>;

@@ -1,4 +1,5 @@
 #include "progress.h"
+#include "formatted.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -25,12 +26,13 @@ Progress::~Progress() {
     if (shown_) clear_progress();
 }
 
-void Progress::at(std::int64_t done) {
+void Progress::at(std::int64_t done, std::uint64_t bytes) {
     if (!wanted_ || now_ms() < last_ms_ + 100) return;
     last_ms_ = now_ms();
     const int filled = int(30 * done / std::max<std::int64_t>(total_, 1));
     const std::string text = "\r" + what_ + " [" + std::string(filled, '#') + std::string(30 - filled, '.') + "] " +
-                             std::to_string(done) + "/" + std::to_string(total_) + "\033[K";
+                             std::to_string(done) + "/" + std::to_string(total_) +
+                             (bytes > 0 ? ", " + bytes_text(double(bytes)) : "") + "\033[K";
     (void)!::write(STDERR_FILENO, text.data(), text.size());
     bar_on_screen = shown_ = true;
 }

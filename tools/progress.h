@@ -9,7 +9,7 @@ class Progress {
 public:
     Progress(const CommonOptions&, std::string what, std::int64_t total);
     ~Progress();
-    void at(std::int64_t done);
+    void at(std::int64_t done, std::uint64_t bytes = 0); // bytes written so far; 0: not shown
 
 private:
     std::string what_;

@@ -71,7 +71,7 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     if (setting.part.parts > 1) header.whole = hash_text(setting.part.whole);
     header.name = setting.tree.name;
     header.source = source;
-    return motion_sink(o.common.output, format, header);
+    return motion_sink(o.common.output, format, header, {o.run.precision == "float", o.digits.value_or(0)});
 }
 
 // A point cache is of a mesh that is written elsewhere, whole.

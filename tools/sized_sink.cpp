@@ -6,19 +6,12 @@ namespace {
 
 constexpr double large = 2e9; // [B]
 
-// "1.2 GB", "340 MB", "12 kB".
-std::string bytes_text(double bytes) {
-    if (bytes >= 1e9) return formatted("%.1f GB", bytes / 1e9);
-    if (bytes >= 1e6) return formatted("%.0f MB", bytes / 1e6);
-    return formatted("%.0f kB", bytes / 1e3);
-}
-
 // What holds the same motion in less.
 const char* smaller(const std::string& format) {
     if (format == "obj") return ".pc2 and .mdd hold a frame's vertices in 12 bytes each, .glb the joints' turns alone";
     if (format == "mdd" || format == "pc2") return ".glb holds the joints' turns alone";
     if (format == "safetensors") return "--fields names what is wanted";
-    return ".safetensors takes less than half; --fields names what is wanted";
+    return ".safetensors takes less than half, --digits 6 half; --fields names what is wanted";
 }
 
 class SizedSink : public FrameSink {

@@ -52,7 +52,7 @@ void run_frames(const TreesimOptions& o, Simulation& run, FrameSink* sink, Compa
                 queue->push();
             }
             range.done = f;
-            progress.at(f - range.first + 1);
+            progress.at(f - range.first + 1, queue ? queue->bytes() : 0);
         }
     } catch (const PromiseError&) {
         if (queue && !o.watch) queue->finish(); // who watches keeps the last that was whole

@@ -78,6 +78,11 @@ void declare_output(OptionList& list, TreesimOptions& o) {
         .suggests({"cost", "error", "guards", "hash", "plan", "rigid"});
     list.add("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
         .takes("LIST");
+    list.add("--digits", o.digits,
+             "Round the numbers of JSON frames to so many digits; 6 halve the file, and are a hundredth of a "
+             "millimetre in ten metres (as many as give back the same number)")
+        .takes("N")
+        .check(whole_number(1, 17));
     list.add_flag("--no-output", o.no_output, "Write no frames (for --report, --save-state)");
     list.add("--save-state", o.save_state, "Write the last frame's state, for --resume")
         .takes("FILE")
@@ -193,6 +198,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (o.common.output != "-") throw UsageError("--no-output: not with -o");
         if (!o.common.format.empty()) throw UsageError("--no-output: not with --format");
         if (!o.fields.empty()) throw UsageError("--no-output: not with --fields");
+        if (o.digits) throw UsageError("--no-output: not with --digits");
     }
     if (o.report.error && o.run.solver != solver_name(Solver::coupled))
         throw UsageError("--report error: only with --solver coupled, whose error is its step's alone");
@@ -203,6 +209,8 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.rustle && o.loop.blend) throw UsageError("--rustle: not with --loop-blend, whose end is its beginning");
     if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb, .mdd, .pc2)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
+    if (o.digits && format != "json" && format != "jsonl")
+        throw UsageError("--digits: only with frames as JSON, not with ." + format);
     if (!o.mesh.empty() && !mesh) throw UsageError("--mesh: only with a mesh (.obj, .glb, .mdd, .pc2)");
     if (!o.skin.empty()) {
         if (!mesh) throw UsageError("--skin: only with -o FILE.glb, of SpeedTree XML also .obj, .mdd, .pc2");

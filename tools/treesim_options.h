@@ -25,7 +25,7 @@ struct TreesimOptions {
     JoinOptions join;
     GltfChoice gltf;
     DressChoice dress;
-    std::optional<int> sides;
+    std::optional<int> sides, digits;
     bool rustle = false;
     LoopChoice loop;
     std::optional<double> settle;     // [s] --settle; none: as settle.h says

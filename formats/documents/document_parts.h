@@ -1,6 +1,7 @@
 // document_parts.h: the pieces behind document.h: fields as JSON, the safetensors layout, and the errors they share.
 #pragma once
 #include "document.h"
+#include "formats/text.h"
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -49,7 +50,7 @@ bool is_left_out(const Field&);                             // optional and empt
 void append_string(std::string& to, std::string_view text); // quoted and escaped
 void append_number(std::string& to, double value);          // shortest text that reads back the same; finite
 // {"a": ..., ...} on one line, without a line end; of a document if a type is given.
-void write_json_line(Output&, const DocumentType*, const std::vector<Field>&);
+void write_json_line(Output&, const DocumentType*, const std::vector<Field>&, const Digits& of_arrays = {});
 std::string value_text(const Field&); // a field that is no array of numbers and no list of objects, as JSON text
 
 // ---- safetensors.cpp ----

@@ -1,5 +1,4 @@
 #include "document_parts.h"
-#include "formats/text.h"
 #include <array>
 
 namespace bough {
@@ -14,7 +13,7 @@ template <class T> void append_digits(std::string& to, T value) {
 }
 
 // The array as flat numbers, a line end before each `numbers_a_line` of them where `lines` is set.
-void write_array(Output& output, const std::string& field, const Array& array, bool lines) {
+void write_array(Output& output, const std::string& field, const Array& array, bool lines, const Digits& digits) {
     Text text(output);
     Numbers numbers;
     std::size_t index = 0, in_line = 0;
@@ -25,7 +24,7 @@ void write_array(Output& output, const std::string& field, const Array& array, b
                 text.put('\n');
                 in_line = numbers_a_line - 1;
             }
-            text.add_json(value);
+            text.add_json(value, digits);
             text.room();
         }
     };
@@ -59,7 +58,7 @@ void write_objects(Output& output, const Objects& objects) {
 
 // "a": ..., "b": ... with `separator` between them.
 void write_fields(Output& output, const DocumentType* type, const std::vector<Field>& fields, const char* separator,
-                  bool lines) {
+                  bool lines, const Digits& digits) {
     const char* before = "";
     if (type) {
         output.write("\"format\": \"" + std::string(type->format) + "\"" + separator);
@@ -71,7 +70,7 @@ void write_fields(Output& output, const DocumentType* type, const std::vector<Fi
         output.write(std::exchange(before, separator));
         output.write("\"" + field.name + "\": ");
         if (const Array* array = std::get_if<Array>(&field.value))
-            write_array(output, field.name, *array, lines);
+            write_array(output, field.name, *array, lines, digits);
         else if (const Objects* objects = std::get_if<Objects>(&field.value))
             write_objects(output, *objects);
         else
@@ -119,13 +118,13 @@ std::string value_text(const Field& field) {
 
 void write_json(Output& output, const DocumentType& type, const std::vector<Field>& fields) {
     output.write("{\n");
-    write_fields(output, &type, fields, ",\n", true);
+    write_fields(output, &type, fields, ",\n", true, {});
     output.write("\n}\n");
 }
 
-void write_json_line(Output& output, const DocumentType* type, const std::vector<Field>& fields) {
+void write_json_line(Output& output, const DocumentType* type, const std::vector<Field>& fields, const Digits& digits) {
     output.write("{");
-    write_fields(output, type, fields, ", ", false);
+    write_fields(output, type, fields, ", ", false, digits);
     output.write("}");
 }
 

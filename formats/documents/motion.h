@@ -1,6 +1,7 @@
 // motion.h: the motion document, "bough-motion" (formats/documents/README.md), as JSON lines, JSON or safetensors.
 #pragma once
 #include "formats/open.h"
+#include "formats/text.h"
 #include "lib/model/motion.h"
 #include <memory>
 
@@ -12,7 +13,8 @@ enum class MotionForm { jsonl, json, safetensors };
 // finish(), because its header holds the number of frames. After finish() the output holds every frame written.
 class MotionWriter {
 public:
-    MotionWriter(Output&, const MotionHeader&, MotionForm);
+    // digits: of the numbers in JSON's frames; safetensors has them all.
+    MotionWriter(Output&, const MotionHeader&, MotionForm, const Digits& = {});
     ~MotionWriter();
     void write(const MotionFrame&);
     void finish();

@@ -82,6 +82,7 @@ struct MotionWriter::Implementation {
     Output& output;
     MotionHeader header;
     MotionForm form;
+    Digits digits;
     std::vector<const FrameArray*> arrays;
     std::size_t frames = 0;
     // safetensors: the arrays' frames, one after the other, and the small arrays.
@@ -115,7 +116,7 @@ struct MotionWriter::Implementation {
     void write_text(const MotionFrame& f) {
         MotionFrame& looked_at = const_cast<MotionFrame&>(f);
         if (form == MotionForm::json) output.write(frames == 0 ? "\n" : ",\n");
-        write_json_line(output, nullptr, frame_fields(looked_at));
+        write_json_line(output, nullptr, frame_fields(looked_at), digits);
         if (form == MotionForm::json) return;
         output.write("\n");
         output.flush();
@@ -174,8 +175,8 @@ struct MotionWriter::Implementation {
     }
 };
 
-MotionWriter::MotionWriter(Output& output, const MotionHeader& header, MotionForm form)
-    : implementation_(new Implementation{output, header, form, {}, 0, nullptr, {}, {}, {}, {}, {}, {}, {}}) {
+MotionWriter::MotionWriter(Output& output, const MotionHeader& header, MotionForm form, const Digits& digits)
+    : implementation_(new Implementation{output, header, form, digits, {}, 0, nullptr, {}, {}, {}, {}, {}, {}, {}}) {
     for (const FrameArray& array : frame_arrays)
         if (header.fields.*array.wanted) implementation_->arrays.push_back(&array);
     if (form == MotionForm::safetensors) {

@@ -54,6 +54,21 @@ echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "tree.json"}, {
 expect 0 treesim two.json --frames 2 -o two.pc2
 grep -q -- "--frames 1 -o rest_%d.obj" err || fail "nothing is said of the mesh that two trees need: $(cat err)"
 
+# Fewer digits: a smaller file, each number the nearest of so many digits; only where frames are JSON.
+"${run[@]}" -q -o whole.jsonl
+"${run[@]}" -q --digits 6 -o short.jsonl
+"${run[@]}" -q --digits 6 --precision float -o short_float.jsonl
+python3 - <<'END'
+import json
+whole, short = ([json.loads(line) for line in open(f)][1:] for f in ("whole.jsonl", "short.jsonl"))
+for a, b in zip(whole, short, strict=True):
+    for field in "position", "rotation":
+        assert [float(f"{x:.6g}") for x in a[field]] == b[field], field
+END
+(($(wc -c <short.jsonl) * 100 < $(wc -c <whole.jsonl) * 55)) || fail "six digits take $(wc -c <short.jsonl) of $(wc -c <whole.jsonl) bytes"
+refused 1 "--digits: only with frames as JSON" "${run[@]}" --digits 6 -o x.safetensors
+refused 1 "--digits" "${run[@]}" --digits 0 -o x.jsonl
+
 # Leaves as instances: smaller, fewer joints, said what is lost; the same in treeconvert.
 expect 0 "${run[@]}" -o skin.glb --max-joints all
 expect 0 "${run[@]}" -o leaves.glb --max-joints all --leaves-as instances

@@ -27,6 +27,7 @@ public:
         inside = false;
     }
     void finish() override { finished = true; }
+    std::uint64_t bytes() const override { return 7 * frames.size(); }
     void hold(bool on) {
         const std::lock_guard lock(mutex);
         held = on;
@@ -66,6 +67,7 @@ TEST_CASE("every frame arrives once, whole and in order, for any number of slots
         FrameQueue queue(sink, slots);
         for (std::int64_t f = 0; f < 2000; ++f) put(queue, f);
         queue.finish();
+        CHECK(queue.bytes() == 7 * 2000);
         CHECK(sink.frames == first(2000));
         CHECK(sink.whole);
         CHECK(sink.finished);

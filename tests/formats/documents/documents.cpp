@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 using namespace bough;
 using namespace bough::test;
@@ -568,4 +569,36 @@ TEST_CASE("the examples of the pages on documents and parameters are documents")
             CHECK_NOTHROW(read_wind(text, "README.md"));
     }
     CHECK(examples == 16);
+}
+
+TEST_CASE("a motion's JSON is written with the digits asked for") {
+    MotionHeader header;
+    header.bodies = 500;
+    MotionFrame frame;
+    std::mt19937_64 random(3);
+    for (int k = 0; k < header.bodies; ++k) {
+        const auto number = [&] { return std::ldexp(double(random() % 2000001) - 1e6, -int(random() % 60)); };
+        frame.position.push_back({number(), number(), number()});
+        frame.rotation.push_back(Quat(number(), number(), number(), number()).normalized());
+    }
+    const auto read_with = [&](const Digits& digits) {
+        const std::string text = written([&](Output& o) {
+            MotionWriter writer(o, header, MotionForm::jsonl, digits);
+            writer.write(frame);
+            writer.finish();
+        });
+        return read_motion(text, "f").frame.at(0);
+    };
+    const MotionFrame single = read_with({true, 0}), six = read_with({false, 6}), all = read_with({});
+    for (std::size_t k = 0; k < frame.position.size(); ++k)
+        for (int j = 0; j < 3; ++j) {
+            const double value = frame.position[k][j];
+            CHECK(all.position[k][j] == value);
+            CHECK(float(single.position[k][j]) == float(value)); // the same float, and the shortest text of it:
+            char text[40];
+            std::snprintf(text, sizeof text, "%.9g", value);
+            CHECK(std::abs(single.position[k][j] - value) <= std::abs(std::strtod(text, nullptr)) * 6e-8);
+            std::snprintf(text, sizeof text, "%.6g", value);
+            CHECK(six.position[k][j] == std::strtod(text, nullptr));
+        }
 }
