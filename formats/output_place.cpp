@@ -93,6 +93,11 @@ void require_output(const std::string& path) {
     try {
         const Temporary tried(place.path, place.mode);
     } catch (const std::system_error& error) {
+        const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+        std::error_code none;
+        if (!folder.empty() && !std::filesystem::exists(folder, none))
+            throw OutputError(path, "cannot be created: No such file or directory, as there is no folder '" +
+                                        folder.string() + "': make it first");
         fail(path, "cannot be created", error.code().value());
     }
 }

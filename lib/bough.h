@@ -5,6 +5,7 @@
 //   Scene       model/scene.h            what trees stand where and what acts on them
 //   Simulation  simulation/simulation.h  one run of it, step by step
 //   pick        simulation/pick.h        which body a ray meets
+//   RunError    simulation/run_error.h   how wrong it is
 // Species by name and documents by file name are bough/files.h, of a library beside this one (bough::files).
 #pragma once
 #include "growth/grow.h"
@@ -12,4 +13,5 @@
 #include "model/scene.h"
 #include "model/wood.h"
 #include "simulation/pick.h"
+#include "simulation/run_error.h"
 #include "simulation/simulation.h"

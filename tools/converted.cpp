@@ -29,9 +29,12 @@ TreeOfFile converted(const Splines& splines, ImportNotes found, const std::strin
     for (const std::string& line : found.lines) made.notes.push_back(name + ": " + line);
     for (const std::string& line : repairs(report)) made.notes.push_back(name + ": " + line);
     const std::string to = (file == "-" ? "tree" : stem_of(file)) + ".tree.json";
+    const bool meshed = found.format.find("SpeedTree") != std::string::npos;
     made.notes.push_back(
         name + ": " + found.format + ", converted to " + counted(made.tree.size_bodies(), "body", "bodies") +
-        " with the defaults of treeconvert; by hand: treeconvert " + in_shell(file) + " -o " + in_shell(to));
+        " with the defaults of treeconvert" +
+        (meshed ? " (treesim's --skin FILE shows its mesh where the tree was converted by hand)" : "") +
+        "; by hand: treeconvert " + in_shell(file) + " -o " + in_shell(to));
     made.imported = std::move(found);
     return made;
 }

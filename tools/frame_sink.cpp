@@ -1,6 +1,6 @@
 #include "frame_sink.h"
 #include "formats/documents/motion.h"
-#include "formats/exports/obj.h"
+#include "formats/exports/own_maps.h"
 #include "lib/base/counted.h"
 #include "skin_mover.h"
 #include <filesystem>
@@ -26,12 +26,14 @@ private:
 
 class ObjSink : public FrameSink {
 public:
-    ObjSink(const std::string& pattern, const Tree& tree, Skin skin, const RustleMaker& rustle,
+    ObjSink(const std::string& pattern, const Tree& tree, Skin skin, const OwnMesh* own, const RustleMaker& rustle,
             std::vector<std::string>& notes)
         : pattern_(pattern), notes_(notes), skin_(std::move(skin)), mover_(skin_, tree, rustle(skin_, false)),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
+        const OwnMaps maps = own ? maps_of(*own, mtl_) : OwnMaps{};
+        write_images(maps);
         Output output(sequence_mtl(pattern));
-        write_mtl(output, skin_);
+        write_mtl(output, skin_, maps.part);
         output.finish();
     }
     void write(const MotionFrame& frame) override {
@@ -58,6 +60,21 @@ public:
     std::uint64_t bytes() const override { return bytes_; }
 
 private:
+    // Into a folder of their own beside the .mtl, which is made.
+    void write_images(const OwnMaps& maps) {
+        const std::filesystem::path folder = std::filesystem::path(sequence_mtl(pattern_)).parent_path();
+        for (const ImageFile& image : maps.image) {
+            const std::filesystem::path file = folder / image.name;
+            std::error_code error;
+            std::filesystem::create_directories(file.parent_path(), error);
+            if (error) throw OutputError(file.parent_path().string(), "cannot be made: " + error.message());
+            Output output(file.string());
+            output.write(*image.bytes);
+            output.finish();
+            bytes_ += output.bytes();
+        }
+    }
+
     std::string pattern_;
     std::vector<std::string>& notes_;
     Skin skin_;
@@ -78,9 +95,9 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
     return std::make_unique<MotionSink>(file, form, header, digits);
 }
 
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const RustleMaker& rustle,
-                                    std::vector<std::string>& notes) {
-    return std::make_unique<ObjSink>(pattern, tree, std::move(skin), rustle, notes);
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const OwnMesh* own,
+                                    const RustleMaker& rustle, std::vector<std::string>& notes) {
+    return std::make_unique<ObjSink>(pattern, tree, std::move(skin), own, rustle, notes);
 }
 
 } // namespace bough

@@ -65,8 +65,8 @@ private:
         if (const std::string lost = leaves_note(tree_, choice_); !lost.empty()) notes_.push_back(lost);
         const std::size_t all = writer_->keys().joints() * writer_->keys().frames(), kept = writer_->keys().count();
         if (kept == all) return;
-        text << "keys that would not show are left out: " << kept << " of " << all
-             << " written (--key-tolerance 0 writes all)";
+        text << kept << " of " << all
+             << " animation keys are written, as the others would not show (--key-tolerance 0 writes all)";
         notes_.push_back(text.str());
     }
 

@@ -92,7 +92,7 @@ void refuse_contradictions(const LoopChoice& o, const RunOptions& run) {
     }
     if (run.seconds || run.frames)
         throw UsageError(std::string("--loop: not with ") + (run.seconds ? "--seconds" : "--frames") +
-                         ", it is the length itself");
+                         ", as --loop says how long the motion is; leave that out");
     loop_frames(o, run);
 }
 

@@ -122,7 +122,13 @@ void OptionList::first(const std::vector<std::string>& names) {
 }
 
 void OptionList::renamed(const std::string& old, const std::string& now) {
-    renamed_.emplace_back(old, now);
+    refused_.emplace_back(old, "is now " + now);
+}
+
+void OptionList::elsewhere(const std::string& name, const std::string& where) {
+    for (const OptionHelp& option : help_)
+        if (std::find(option.names.begin(), option.names.end(), name) != option.names.end()) return;
+    refused_.emplace_back(name, where);
 }
 
 HelpPage OptionList::page() const {
@@ -146,9 +152,9 @@ std::string OptionList::wrong_name(const std::string& given) const {
 
 OptionsRead OptionList::read(int argc, char** argv) {
     for (int k = 1; k < argc; ++k)
-        for (const auto& [old, now] : renamed_)
-            if (const std::string word = argv[k]; word.substr(0, word.find('=')) == old)
-                return {OptionsRead::End::wrong, old + ": is now " + now};
+        for (const auto& [name, why] : refused_)
+            if (const std::string word = argv[k]; word.substr(0, word.find('=')) == name)
+                return {OptionsRead::End::wrong, name + ": " + why};
     try {
         app_->parse(argc, argv);
         return {OptionsRead::End::work, {}};

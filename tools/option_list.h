@@ -56,6 +56,8 @@ public:
     group(const std::string& name); // of what is added from here on; pages show them in the order of Input ... General
     void first(const std::vector<std::string>& names);            // --help shows no others; all unless called
     void renamed(const std::string& old, const std::string& now); // the old name is refused, with what it is called now
+    void elsewhere(const std::string& name,
+                   const std::string& where); // likewise what this tool has not, with where it is
 
     HelpPage page() const;
     // Once, after all are declared. Throws what when_given does.
@@ -69,8 +71,8 @@ private:
     std::unique_ptr<CLI::App> app_;
     HelpPage head_;
     std::string group_ = "General";
-    std::deque<OptionHelp> help_; // entries point to them
-    std::vector<std::pair<std::string, std::string>> renamed_;
+    std::deque<OptionHelp> help_;                              // entries point to them
+    std::vector<std::pair<std::string, std::string>> refused_; // a name, and what is said of it
 };
 
 } // namespace bough

@@ -33,7 +33,8 @@ void settle(Simulation& run, std::int64_t frames, const TreesimOptions& o) {
 std::string settled_note(std::int64_t frames, const TreesimOptions& o) {
     if (frames == 0) return {};
     return counted(std::uint64_t(frames), "frame", "frames") +
-           formatted(" (%.3g s) of this wind were run before frame 0, so that it stands in the sway (--settle)",
+           formatted(" (%.3g s) of this wind were run before frame 0, so that the tree sways from the start (--settle "
+                     "0: it begins at rest)",
                      double(frames) / o.run.fps);
 }
 

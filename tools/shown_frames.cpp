@@ -47,7 +47,8 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
                                  " does (--look)");
     if (is_point_cache(format) || format == "obj") {
         Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
-        if (format == "obj") return obj_sink(o.common.output, shown, std::move(skin), rustle, o.common.notes);
+        if (format == "obj")
+            return obj_sink(o.common.output, shown, std::move(skin), own ? &*own : nullptr, rustle, o.common.notes);
         return cache_sink(o.common.output, format, shown, std::move(skin), rustle, o.run.fps, first, last - first + 1,
                           o.common.notes);
     }

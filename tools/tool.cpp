@@ -147,7 +147,9 @@ int parse_and_work(const std::vector<Subcommand>& commands, std::size_t chosen, 
                    const std::string& command_line, CommonOptions& common) {
     const ToolInfo& info = commands[chosen].info;
     const std::unique_ptr<OptionList> list = declared(commands, chosen, common);
-    if (arguments.size() <= 1 && info.has_input) return refuse_usage(info, "no arguments");
+    const std::string usage = list->page().usage;
+    if (arguments.size() <= 1 && info.has_input)
+        return refuse_usage(info, "nothing to read; it is called as " + usage.substr(0, usage.find('\n')));
     const OptionsRead read = list->read(int(arguments.size()), arguments.data());
     switch (read.end) {
     case OptionsRead::End::help:

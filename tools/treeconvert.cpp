@@ -143,12 +143,21 @@ void refuse_contradictions(const Options& o) {
                      {"--wind-groups", o.wind_groups}});
 }
 
+// "northern-red-oak, white-oak; " of "oak".
+std::string woods_like(const std::string& word) {
+    std::string names;
+    for (const Material& wood : wood_presets())
+        if (wood.name.find(word) != std::string::npos) names += (names.empty() ? "" : ", ") + wood.name;
+    return names.empty() ? names : "there is " + names + "; ";
+}
+
 Material chosen_material(const Options& o, const Splines& splines) {
     if (o.material.empty()) return own_material(splines, input_name(o.input));
     if (const Material* preset = find_wood(o.material)) return *preset;
     std::error_code none;
     if (o.material.find_first_of("./") == std::string::npos && !std::filesystem::exists(o.material, none))
-        throw UsageError("--material is '" + o.material + "', neither a preset (see --list-materials) nor a file");
+        throw UsageError("--material is '" + o.material + "', neither a preset (" + woods_like(o.material) +
+                         "--list-materials has all) nor a file");
     return read_material(read_input(o.material), input_name(o.material));
 }
 

@@ -182,10 +182,16 @@ std::string chosen_format(const CommonOptions& common) {
                              " holds all frames, so its name takes no number");
         return kind.substr(1);
     }
+    const std::string written = "there are .jsonl, .json, .safetensors, .obj, .glb, .mdd, .pc2";
     for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
         if (kind == known)
-            throw UsageError("-o is '" + common.output + "', but " + known +
-                             " is not written; there are .jsonl, .json, .safetensors, .obj, .glb, .mdd, .pc2");
+            throw UsageError("-o is '" + common.output + "', but " + known + " is not written; " + written);
+    if (kind == ".csv")
+        throw UsageError("-o is '" + common.output + "', but a motion is not written as .csv; " + written +
+                         "; tools/README.md has a script that makes columns of a .jsonl");
+    if (kind == ".gif" || kind == ".webp" || kind == ".mp4" || kind == ".png")
+        throw UsageError("-o is '" + common.output + "', but " + kind +
+                         " is not written; write a .glb, of which tools/picture makes one");
     return "jsonl";
 }
 

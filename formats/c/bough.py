@@ -33,7 +33,7 @@ import weakref
 import numpy as np
 
 __all__ = ["Error", "UsageError", "InputError", "NonFiniteError", "OutputError", "Splines", "Tree", "Scene", "Simulation", "Wind", "Report", "Events",
-           "Hit", "species", "grow", "convert", "read_splines", "read_tree", "read_scene", "wind_preset", "__version__"]
+           "StepError", "Hit", "species", "grow", "convert", "read_splines", "read_tree", "read_scene", "wind_preset", "__version__"]
 
 _ABI = 1
 
@@ -107,12 +107,21 @@ class Wind(ctypes.Structure):
 class _Settings(ctypes.Structure):
     _fields_ = [("check", ctypes.c_uint64), ("step", ctypes.c_double), ("precision", ctypes.c_int32), ("method", ctypes.c_int32),
                 ("sleep", ctypes.c_double), ("threads", ctypes.c_int32), ("velocities", ctypes.c_int32), ("torques", ctypes.c_int32),
-                ("pulls", ctypes.c_int32), ("portable", ctypes.c_int32)]
+                ("pulls", ctypes.c_int32), ("grounds", ctypes.c_int32), ("portable", ctypes.c_int32)]
 
 
 class _Report(ctypes.Structure):
     _fields_ = [("steps", ctypes.c_int64), ("time", ctypes.c_double)] + [
         (name, ctypes.c_uint64) for name in ("fast_turns", "guarded", "limited", "broke", "hits", "landed")]
+
+
+class _Ground(ctypes.Structure):
+    _fields_ = [("check", ctypes.c_uint64), ("position", _double3), ("rotation", ctypes.c_double * 4), ("velocity", _double3),
+                ("angular_velocity", _double3)]
+
+
+class _StepError(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_double) for name in ("rms", "worst", "deflection")] + [("steps", ctypes.c_int64), ("known", ctypes.c_int32)]
 
 
 class _Array(ctypes.Structure):
@@ -153,6 +162,8 @@ if _c.bough_abi() != _ABI:
 for _name, _result, _arguments in (
         ("version", _string, []), ("error", _string, []), ("free", None, [_pointer]), ("species", _string, [_size]),
         ("default_growth", _Growth, []), ("default_conversion", _Conversion, []), ("default_settings", _Settings, []),
+        ("default_ground", _Ground, []), ("set_ground", int, [_pointer, _size, _pointer, ctypes.c_int32]),
+        ("set_step", int, [_pointer, ctypes.c_double]), ("watch_error", int, [_pointer, ctypes.c_int32]), ("read_error", int, [_pointer] * 2),
         ("grow", int, [_pointer] * 2), ("read_splines", int, [_string, _size, _string, _pointer]), ("convert", int, [_pointer] * 3),
         ("read_tree", int, [_string, _size, _string, _pointer]), ("write_tree", int, [_pointer, _pointer, _size, _pointer]),
         ("tree_bodies", int, [_pointer] * 2), ("read_scene", int, [_string, _size, _string, _pointer]), ("scene_file", _string, [_pointer, _size]),
@@ -444,6 +455,9 @@ def read_scene(file, outside=False):
 Report = collections.namedtuple("Report", [name for name, _ in _Report._fields_])
 Report.__doc__ = """What a step says: steps taken, time [s]; numbers of bodies that in this step turned by more than a radian (fast_turns), were kept from
 gaining energy (guarded), ended at a joint's limit (limited); events (broke, hits, landed)."""
+StepError = collections.namedtuple("StepError", [name for name, _ in _StepError._fields_])
+StepError.__doc__ = """How wrong a run is for the length of its steps, over the tips of its branches: rms, worst [m], 0.9 to 1.8 times the true error; deflection
+[m] RMS of how far the tips are from where they were drawn; steps that were compared; known (False: the companion's own steps are too coarse to tell)."""
 Hit = collections.namedtuple("Hit", "body point world distance")
 Hit.__doc__ = "What a ray met: body, point (3) [m] in its frame, world (3) [m], distance [m]."
 Events = collections.namedtuple("Events", "what body on value")
@@ -464,10 +478,10 @@ class Simulation(_Handle, _HasBodies):
     """One run of a scene. len(run): bodies that positions has."""
 
     def __init__(self, scene, step=1 / 30, precision="double", method="coupled", sleep=0, threads=0, velocities=False, torques=False, pulls=False,
-                 portable=False, before=None):
+                 grounds=False, portable=False, before=None):
         """step [s] of one step(). precision "double" or "single" (twice as fast; arrays are doubles with both). method "coupled" or "analytic". sleep
         [rad/s]: slower than this for a while, trees are left out; 0: never. threads of a step at most; 0: as many as there are cores. velocities,
-        torques: are wanted; pulls: pull() will be called. portable: the same on every machine, several times slower. before: another Simulation, whose
+        torques: are wanted; pulls: pull() will be called; grounds: set_ground() will be. portable: the same on every machine, several times slower. before: another Simulation, whose
         trees' motion goes on where trees are connected alike."""
         if not isinstance(scene, Scene):
             raise UsageError(f"scene: is {type(scene).__name__}, expected Scene")
@@ -481,7 +495,7 @@ class Simulation(_Handle, _HasBodies):
             if value not in names:
                 raise UsageError(f"{field}: is {value!r}, expected {' or '.join(names)}")
             setattr(settings, field, names.index(value))
-        for field, value in (("velocities", velocities), ("torques", torques), ("pulls", pulls), ("portable", portable)):
+        for field, value in (("velocities", velocities), ("torques", torques), ("pulls", pulls), ("grounds", grounds), ("portable", portable)):
             setattr(settings, field, bool(value))
         super().__init__(_made(_c.bough_simulate, scene._handle, ctypes.byref(settings), None if before is None else before._handle))
 
@@ -616,6 +630,33 @@ class Simulation(_Handle, _HasBodies):
     def set_wood(self, stiffness=1, damping=1):
         """All joints' stiffness and damping over what they had when the run began."""
         _check(_c.bough_set_wood(self._handle, _number(stiffness, "stiffness"), _number(damping, "damping")))
+
+    def set_step(self, step):
+        """[s] of the steps from here on; the time goes on from what it is."""
+        _check(_c.bough_set_step(self._handle, _number(step, "step")))
+
+    def set_ground(self, tree, position=(0, 0, 0), rotation=(0, 0, 0, 1), velocity=(0, 0, 0), angular_velocity=(0, 0, 0), steps=1):
+        """The ground under a tree (its number from 0 on; Simulation(grounds=True)), its roots with it: `steps` steps from now its place has moved by position
+        (3) [m] and turned by rotation (4) x, y, z, w from where it was drawn, at velocity (3) [m/s] and angular_velocity (3) [rad/s]; 0: at once."""
+        ground = _c.bough_default_ground()
+        turned = np.asarray(rotation, float)
+        if turned.shape != (4,):
+            raise UsageError(f"rotation: has shape {turned.shape}, expected (4,)")
+        ground.rotation = type(ground.rotation)(*turned)
+        for name, value in (("position", position), ("velocity", velocity), ("angular_velocity", angular_velocity)):
+            setattr(ground, name, _vector(value, name))
+        _check(_c.bough_set_ground(self._handle, _whole(tree, "tree", 0, 2**63), ctypes.byref(ground), _whole(steps, "steps", -2**31, 2**31 - 1)))
+
+    def watch_error(self, on=True):
+        """From the next step on a companion at a quarter of the step goes beside, and a step costs five; error has what it finds."""
+        _check(_c.bough_watch_error(self._handle, bool(on)))
+
+    @property
+    def error(self):
+        """StepError, since watch_error()."""
+        found = _StepError()
+        _check(_c.bough_read_error(self._handle, ctypes.byref(found)))
+        return StepError(found.rms, found.worst, found.deflection, found.steps, bool(found.known))
 
     def save(self):
         """The state as bytes, as `treesim --save-state` writes it."""

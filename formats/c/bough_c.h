@@ -161,6 +161,7 @@ typedef struct bough_settings {
     int32_t velocities; /* BOUGH_VELOCITY and BOUGH_ANGULAR_VELOCITY are wanted; default 0, as those below */
     int32_t torques;    /* BOUGH_TORQUE is wanted */
     int32_t pulls;      /* bough_pull will be called */
+    int32_t grounds;    /* bough_set_ground will be called; nothing sleeps then */
     int32_t portable;   /* one number at a time, the same on every machine; several times slower */
 } bough_settings;
 bough_settings bough_default_settings(void);
@@ -249,6 +250,37 @@ bough_result bough_set_wind(bough_simulation* simulation, const bough_wind* wind
 bough_result bough_set_gravity(bough_simulation* simulation, const double gravity[3]);
 /* All joints' stiffness (above 0) and damping (0 or more) over what they had when the run began; coupled method, nothing thrown at the trees. */
 bough_result bough_set_wood(bough_simulation* simulation, double stiffness, double damping);
+
+/* [s] Above 0: of the steps from here on; the time goes on from what it is. Before the first step as if it had begun so. Coupled method. */
+bough_result bough_set_step(bough_simulation* simulation, double step);
+
+/* How a tree's ground has moved from where the tree was drawn, about the tree's own place. */
+typedef struct bough_ground {
+    uint64_t check;             /* leave as it is */
+    double position[3];         /* [m] by which its place has moved */
+    double rotation[4];         /* x y z w, world from drawn */
+    double velocity[3];         /* [m/s] of the place, world */
+    double angular_velocity[3]; /* [rad/s] world */
+} bough_ground;
+bough_ground bough_default_ground(void); /* at rest where the tree was drawn */
+/* The ground under tree `tree` (from 0 on), its roots with it, is there with that velocity in `steps` steps from now, on a smooth way, and then goes on as
+ * it moves by then; 0: is there at once, the tree on it as it stands, unmoved. A platform, a ship, a pot in a hand: to be called before each step for one
+ * that moves as it likes. Needs settings.grounds; not for a tree to which the scene's document gives keys of its own. */
+bough_result bough_set_ground(bough_simulation* simulation, size_t tree, const bough_ground* ground, int32_t steps);
+
+/* How wrong the run is for the length of its steps: the tips of its branches against those of a companion at a quarter of the step. */
+typedef struct bough_step_error {
+    double rms,
+        worst; /* [m] over all tips and steps so far; of the one farthest off. 0.9 to 1.8 times the true error */
+    double deflection; /* [m] RMS of how far the tips are from where they were drawn: what rms is to be seen against */
+    int64_t steps;     /* that were compared */
+    int32_t known; /* 0: the companion swings too fast for its own steps, or became non-finite: nothing can be said */
+} bough_step_error;
+/* on not 0: from the next step on the companion goes beside, with all that is changed meanwhile; a step then costs five. Begins anew where it goes already,
+ * and after bough_restore. 0: no more. Coupled method, nothing that is free. O(bodies). */
+bough_result bough_watch_error(bough_simulation* simulation, int32_t on);
+/* BOUGH_USAGE where it is not watched. */
+bough_result bough_read_error(const bough_simulation* simulation, bough_step_error* error);
 
 /* The state as `treesim --save-state` writes it (safetensors); buffer, capacity, size as with bough_write_tree. */
 bough_result bough_save(const bough_simulation* simulation, void* buffer, size_t capacity, size_t* size);

@@ -69,6 +69,6 @@ const Settings& marked(const Settings* settings, unsigned kind, const char* argu
         throw WrongCall(std::string(argument) + ": was not made by " + made_by + " of this version");
     return *settings;
 }
-enum : unsigned { growth_mark = 1, conversion_mark, wind_mark, settings_mark };
+enum : unsigned { growth_mark = 1, conversion_mark, wind_mark, settings_mark, ground_mark };
 
 } // namespace bough::c

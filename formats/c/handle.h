@@ -3,6 +3,7 @@
 #pragma once
 #include "call.h"
 #include "formats/documents/scene.h"
+#include "lib/simulation/run_error.h"
 #include "lib/simulation/simulation.h"
 #include <atomic>
 #include <memory>
@@ -40,6 +41,7 @@ struct SimulationObject final : Object {
     std::optional<Wind> wind; // as it is by now
     std::vector<std::size_t> first_body;
     std::vector<std::int32_t> events; // what they were, as numbers
+    std::optional<RunError> error;    // refers to the simulation
 };
 
 void* give(std::shared_ptr<Object>);

@@ -29,6 +29,7 @@ SimulationOptions options_of(const bough_settings& s) {
     o.velocities = s.velocities != 0;
     o.torques = s.torques != 0;
     o.pulls = s.pulls != 0;
+    o.grounds = s.grounds != 0;
     o.portable = s.portable != 0;
     return o;
 }
@@ -137,7 +138,9 @@ bough_result bough_step(bough_simulation* simulation, bough_report* report) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
         Simulation& own = use->simulation;
+        if (use->error) use->error->lead();
         const StepReport made = own.step();
+        if (use->error && made.finite()) use->error->follow();
         if (report)
             *report = {own.steps(),  own.time(), made.fast_turns, made.guarded,
                        made.limited, made.broke, made.hits,       made.landed};
@@ -253,6 +256,53 @@ bough_result bough_set_wood(bough_simulation* simulation, double stiffness, doub
     });
 }
 
+bough_result bough_set_step(bough_simulation* simulation, double step) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        use->simulation.set_step(step);
+    });
+}
+
+bough_ground bough_default_ground(void) {
+    bough_ground ground{};
+    ground.check = mark<bough_ground>(ground_mark);
+    ground.rotation[3] = 1;
+    return ground;
+}
+
+bough_result bough_set_ground(bough_simulation* simulation, size_t tree, const bough_ground* ground, int32_t steps) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        const bough_ground& to = marked(ground, ground_mark, "ground", "bough_default_ground()");
+        GroundMotion motion;
+        motion.position = Vec3(to.position);
+        motion.rotation = Quat(to.rotation);
+        motion.velocity = Vec3(to.velocity);
+        motion.angular_velocity = Vec3(to.angular_velocity);
+        use->simulation.set_ground(tree, motion, steps);
+    });
+}
+
+bough_result bough_watch_error(bough_simulation* simulation, int32_t on) {
+    return call_of_running([&] {
+        const Use<SimulationObject> use(simulation);
+        if (on)
+            use->error = RunError(use->simulation);
+        else
+            use->error.reset();
+    });
+}
+
+bough_result bough_read_error(const bough_simulation* simulation, bough_step_error* error) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        required(error, "error");
+        if (!use->error) throw WrongCall("error: is not watched; bough_watch_error() begins it");
+        const TipError found = use->error->result();
+        *error = {found.rms, found.worst, found.deflection, found.samples, found.known()};
+    });
+}
+
 bough_result bough_save(const bough_simulation* simulation, void* buffer, size_t capacity, size_t* size) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
@@ -268,6 +318,7 @@ bough_result bough_restore(bough_simulation* simulation, const void* bytes, size
         const SavedState state = read_state(content(bytes, size), place);
         try {
             use->simulation.restore(state);
+            if (use->error) use->error = RunError(use->simulation);
         } catch (const SceneError& error) {
             throw InputError(place, error.what());
         }

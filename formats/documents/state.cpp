@@ -1,6 +1,7 @@
 #include "document_parts.h"
 #include "motion.h"
 #include <charconv>
+#include <cmath>
 
 namespace bough {
 namespace {
@@ -41,7 +42,8 @@ std::vector<Field> fields_of(SavedState& state, std::string& fingerprint) {
             optional({"articulated_step", &state.articulated_step}),
             without_filling(optional(array("free_bodies", state.free_bodies, {}))),
             without_filling(optional(array("sleep", state.sleep, {}))),
-            without_filling(optional(array("attachments", state.attachments, {})))};
+            without_filling(optional(array("attachments", state.attachments, {}))),
+            without_filling(optional(array("step_change", state.step_change, {})))};
 }
 
 std::string hexadecimal(std::uint64_t value) {
@@ -71,6 +73,14 @@ void check_carried(const SavedState& state, const std::string& name) {
     check("spin_dot", !state.spin_dot.empty(), !state.spin_dot.empty() && state.solver == "analytic");
 }
 
+void check_step_change(const SavedState& state, const std::string& name) {
+    const std::vector<double>& change = state.step_change;
+    if (change.empty()) return;
+    const double steps = double(state.frame) * state.substeps;
+    if (change.size() != 2 || change[0] != std::floor(change[0]) || !(change[0] <= steps) || !(change[0] >= -1e15))
+        throw InputError(name + ": /step_change", "expected two numbers: steps, at most those of /frame, and seconds");
+}
+
 void check_state(const SavedState& state, const std::string& name) {
     const auto fail = [&](const char* field, const std::string& message) {
         throw InputError(name + ": /" + field, message);
@@ -84,6 +94,7 @@ void check_state(const SavedState& state, const std::string& name) {
     if (state.precision != "float" && state.precision != "double")
         fail("precision", "is \"" + state.precision.substr(0, 20) + "\", expected \"float\" or \"double\"");
     check_carried(state, name);
+    check_step_change(state, name);
     if (!(state.articulated_step >= 0)) fail("articulated_step", "is below 0, expected seconds");
 }
 
@@ -110,6 +121,8 @@ void write_state(Output& output, const SavedState& state, Form form) {
         std::erase_if(fields, [](const Field& field) { return field.name == "part" || field.name == "parts"; });
     if (state.attachments.empty())
         std::erase_if(fields, [](const Field& field) { return field.name == "attachments"; });
+    if (state.step_change.empty())
+        std::erase_if(fields, [](const Field& field) { return field.name == "step_change"; });
     write_document(output, form, state_document, fields);
 }
 

@@ -72,17 +72,23 @@ void write_obj(Output& output, const Skin& skin, const std::vector<Vec3>& positi
     text.hand_on();
 }
 
-void write_mtl(Output& output, const Skin& skin) {
-    for (const SkinPart& part : skin.part) {
+void write_mtl(Output& output, const Skin& skin, const std::vector<MtlMaps>& maps) {
+    for (std::size_t k = 0; k < skin.part.size(); ++k) {
+        const SkinPart& part = skin.part[k];
+        const MtlMaps images = maps.empty() ? MtlMaps{} : maps.at(k);
         Text text(output);
         text.add("newmtl ");
         text.add(part.name);
         text.add("\nKd");
         for (const double component : part.color) {
             text.put(' ');
-            text.add_number(component);
+            text.add_number(images.color.empty() ? component : 1.0);
         }
-        text.add("\nKs 0 0 0\nillum 1\n\n");
+        text.add("\nKs 0 0 0\nillum 1\n");
+        if (!images.color.empty()) text.add("map_Kd " + images.color + "\n");
+        if (images.cut) text.add("map_d -imfchan m " + images.color + "\n");
+        if (!images.normal.empty()) text.add("norm " + images.normal + "\nmap_Bump " + images.normal + "\n");
+        text.put('\n');
         text.hand_on();
     }
 }

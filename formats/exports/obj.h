@@ -16,7 +16,13 @@ namespace bough {
 // Throws OutputError.
 void write_obj(Output&, const Skin&, const std::vector<Vec3>& position, const std::vector<Vec3>& normal,
                const std::string& mtl);
-// Materials of the skin's parts (bark, leaf, fruit): a diffuse colour each.
-void write_mtl(Output&, const Skin&);
+
+// The images of a part's material, by their names from the folder of the .mtl; "" where there is none.
+struct MtlMaps {
+    std::string color, normal;
+    bool cut = false; // what the colour's alpha leaves out is not there
+};
+// Materials of the skin's parts (bark, leaf, fruit): a diffuse colour each, or, where maps has entries (one a part), white and the images.
+void write_mtl(Output&, const Skin&, const std::vector<MtlMaps>& maps = {});
 
 } // namespace bough

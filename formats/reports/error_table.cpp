@@ -24,11 +24,11 @@ std::string share_cell(double share) {
 std::string summary(const ErrorReport& r) {
     return "bodies " + std::to_string(r.bodies) + ", tips " + std::to_string(r.tips) + ", height " + figure(r.height) +
            " m, tip deflection " + figure(r.rms_deflection) + " m RMS, " + figure(r.peak_deflection) +
-           " m peak,\nfirst frequency " + known(figure(r.frequency) + " Hz", r.frequency) + ", decay " +
-           known(figure(r.decay) + " /s", r.decay) + ", held against " + r.truth + ",\nits own error " +
-           known(percent(r.reference_error), r.reference_error) + " rms, " +
-           known(percent(r.reference_error_max), r.reference_error_max) + " max, in " + figure(r.reference_seconds) +
-           " s/s; frames " + std::to_string(r.frames) + " at " + figure(r.fps) + "/s\n";
+           " m peak,\nin these " + figure(double(r.frames) / r.fps) + " s from rest: first frequency " +
+           known(figure(r.frequency) + " Hz", r.frequency) + ", decay " + known(figure(r.decay) + " /s", r.decay) +
+           ", held against " + r.truth + ",\nits own error " + known(percent(r.reference_error), r.reference_error) +
+           " rms, " + known(percent(r.reference_error_max), r.reference_error_max) + " max, in " +
+           figure(r.reference_seconds) + " s/s; frames " + std::to_string(r.frames) + " at " + figure(r.fps) + "/s\n";
 }
 
 // One of the table's blocks: the same runs with other figures.

@@ -24,7 +24,7 @@ template <class T>
 AnalyticRows<T> rows_of(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State<T>& state,
                         AnalyticLanesState<T>& work) {
     AnalyticRows<T> rows{};
-    place_tables<T>(plan, own.lanes, state, work.lanes, (double(state.step) + 0.5) * plan.dt, rows);
+    place_tables<T>(plan, own.lanes, state, work.lanes, time_of(plan, state, 0.5), rows);
     rows.motion = data(work.lanes.now);
     rows.shorten = shorten<T>;
     return rows;

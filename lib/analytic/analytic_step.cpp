@@ -15,7 +15,7 @@ template <class T>
 void analytic_step(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& state, AnalyticWork<T>& work,
                    StageClock* clock) {
     // Loads that depend on time are taken in the middle of the step, where their error is of second order.
-    const double time = double(state.step) * plan.dt, middle = (double(state.step) + 0.5) * plan.dt;
+    const double time = time_of(plan, state), middle = time_of(plan, state, 0.5);
     if (plan.wind)
         run_stage(Stage::wind_field, state, clock, [&] { evaluate_wind(*plan.scene.wind, middle, state.wind); });
     if (plan.forces)
@@ -26,7 +26,7 @@ void analytic_step(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& st
     if (own.fictitious) run_stage(Stage::fictitious, state, clock, [&] { fictitious_torques(plan, state, work); });
     run_stage(Stage::spring, state, clock, [&] { spring_update(plan, own, state, work); });
     run_stage(Stage::state_update, state, clock, [&] {
-        move_ground(plan, state, double(state.step + 1) * plan.dt);
+        move_ground(plan, state, time_of(plan, state, 1));
         state_update(plan, state);
         if (own.fictitious) accelerations(plan, state, work);
     });

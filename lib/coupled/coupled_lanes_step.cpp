@@ -262,7 +262,7 @@ void pack(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, 
 template <class T>
 void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state,
                         CoupledLanesState<T>& work, StageClock* clock) {
-    const double time = double(state.step) * plan.dt;
+    const double time = time_of(plan, state);
     wake_blocks(plan, own, state, work, time);
     if (all_asleep(work.lanes)) { // what present has made stays as it is
         ++state.step;

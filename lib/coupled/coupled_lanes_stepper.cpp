@@ -125,6 +125,15 @@ template <class T> void CoupledLanesStepper<T>::scale_wood(const Plan<T>&, T sti
     fast::scale_wood(own.lanes, stiffness, damping);
 }
 
+template <class T> void CoupledLanesStepper<T>::step_changed(const Plan<T>& plan, State<T>& state, T ratio) {
+    CoupledLanesState<T>& work = coupled_work(state);
+    fast::scale_changes(own, work, ratio);
+    if (work.lanes.presented) bough::scale_changes(state, ratio);
+    if (!own.lanes.sleep.on) return;
+    own.lanes.sleep.steps = steps_to_settle(plan.dt);
+    wake_all(own, work);
+}
+
 template <class T> void CoupledLanesStepper<T>::wake(const Plan<T>&, State<T>& state) const {
     wake_all(own, coupled_work(state));
 }

@@ -29,6 +29,7 @@ public:
     void set_carried_moment(const Plan<T>&, std::size_t body, const Vec3&) override;
     void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
     void scale_wood(const Plan<T>&, T stiffness, T damping) override;
+    void step_changed(const Plan<T>&, State<T>&, T ratio) override;
     bool sleeps() const override { return own.lanes.sleep.on; }
     void wake(const Plan<T>&, State<T>&) const override;
     void attachments_changed(State<T>&) const override;

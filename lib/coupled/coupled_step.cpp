@@ -39,7 +39,7 @@ template <class T> void take(const Plan<T>& plan, State<T>& state, CoupledWork<T
 template <class T>
 void coupled_step(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, CoupledWork<T>& work,
                   StageClock* clock) {
-    const double time = double(state.step) * plan.dt, end = double(state.step + 1) * plan.dt;
+    const double time = time_of(plan, state), end = time_of(plan, state, 1);
     if (plan.wind) run_stage(Stage::wind_field, state, clock, [&] { wind_over_step(plan, state, work, time); });
     run_stage(Stage::midpoint, state, clock, [&] {
         ground_over_step(plan, own, work, time);

@@ -11,6 +11,12 @@ template <class T> std::vector<CarriedArray<T>> carried_by_coupled(State<T>& sta
     return {{"theta_change", &own.theta_change}, {"theta_dot_change", &own.theta_dot_change}};
 }
 
+template <class T> void scale_changes(State<T>& state, T ratio) {
+    CoupledState<T>& own = coupled_state(state);
+    for (auto* array : {&own.theta_change, &own.theta_dot_change})
+        for (Vector3<T>& change : *array) change *= ratio;
+}
+
 NonFinite non_finite_in_coupled(std::size_t body) {
     return {std::string(stage_name(Stage::resolvent)) + " (theta)", body};
 }
@@ -77,6 +83,8 @@ template class CoupledStepper<float>;
 template class CoupledStepper<double>;
 template std::vector<CarriedArray<float>> carried_by_coupled(State<float>&);
 template std::vector<CarriedArray<double>> carried_by_coupled(State<double>&);
+template void scale_changes(State<float>&, float);
+template void scale_changes(State<double>&, double);
 template void drop_from_coupled(Plan<float>&, State<float>&, std::size_t);
 template void drop_from_coupled(Plan<double>&, State<double>&, std::size_t);
 

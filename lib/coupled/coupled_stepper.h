@@ -5,6 +5,9 @@
 
 namespace bough {
 
+// The last step's changes, of arrays in document order, times ratio.
+template <class T> void scale_changes(State<T>&, T ratio);
+
 template <class T> class CoupledStepper final : public Cloned<CoupledStepper<T>, PlainStepper<T>, Stepper<T>> {
 public:
     // plainly: why it is not the one in lanes.
@@ -24,6 +27,7 @@ public:
         own.carried_moment[body] = moment.template cast<T>();
     }
     void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
+    void step_changed(const Plan<T>&, State<T>& state, T ratio) override { scale_changes(state, ratio); }
 
     CoupledPlan<T> own;
 };

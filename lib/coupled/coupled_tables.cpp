@@ -36,6 +36,18 @@ template <class T> void scale_wood(PlannedLanes<T>& planned, T stiffness, T damp
         }
 }
 
+template <class T> void scale_changes(const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work, T ratio) {
+    static_assert(motion::theta_dot_change == motion::theta_change + 3);
+    for (const Block& block : own.lanes.layout.blocks) {
+        const Run now = places_of(own, work, block).now;
+        for (std::uint32_t row = block.first_row; row < block.end_row; ++row) {
+            Row<T>* const change = &work.lanes.table[std::size_t(now.at(row - block.first_row))] + motion::theta_change;
+            for (int q = 0; q < 6; ++q)
+                for (T& x : change[q].lane) x *= ratio;
+        }
+    }
+}
+
 template <class T>
 void motion_of_rows(const CoupledLanesPlan<T>& own, const CoupledLanesState<T>& work, std::vector<std::size_t>& at) {
     const Layout& layout = own.lanes.layout;
@@ -68,6 +80,7 @@ bool streams(const Layout& layout, std::size_t cache) {
     template void place_block(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const Block&, CoupledRows<T>&);       \
     template void put_pad(const Slot<T>&);                                                                             \
     template void scale_wood(PlannedLanes<T>&, T, T);                                                                  \
+    template void scale_changes(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, T);                                 \
     template void motion_of_rows(const CoupledLanesPlan<T>&, const CoupledLanesState<T>&, std::vector<std::size_t>&);
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)

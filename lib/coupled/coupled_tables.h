@@ -24,6 +24,9 @@ template <class T> void place_field_change(const Plan<T>&, CoupledLanesState<T>&
 // Every row's stiffness and damping times these.
 template <class T> void scale_wood(PlannedLanes<T>&, T stiffness, T damping);
 
+// The last step's changes, of the motions as they stand, times ratio.
+template <class T> void scale_changes(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, T ratio);
+
 // Constants of a lane without a body (clear_lanes.h): no mass, no inertia, a spring never bent. All others of it are zero.
 template <class T> void put_pad(const Slot<T>&);
 

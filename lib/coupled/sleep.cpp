@@ -81,13 +81,17 @@ template <class T> void wake(const CoupledLanesPlan<T>& own, CoupledLanesState<T
 
 } // namespace
 
+std::uint32_t steps_to_settle(double dt) {
+    return std::uint32_t(std::max(settled_steps, std::ceil(settled_time / dt)));
+}
+
 template <class T> void plan_sleep(const Plan<T>& plan, CoupledLanesPlan<T>& own, double rate) {
     PlannedSleep& sleep = own.lanes.sleep;
     sleep.reason = rate > 0 ? reason_against(plan, own) : "not asked for";
     sleep.on = sleep.reason.empty();
     if (!sleep.on) return;
     sleep.rate = rate;
-    sleep.steps = std::uint32_t(std::max(settled_steps, std::ceil(settled_time / plan.dt)));
+    sleep.steps = steps_to_settle(plan.dt);
     const Layout& layout = own.lanes.layout;
     sleep.block_of_port.resize(layout.ports.size());
     std::vector<std::uint32_t> block_of_row(layout.rows);

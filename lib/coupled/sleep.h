@@ -24,6 +24,9 @@ namespace bough::fast {
 // Whether the plan's scene lets anything sleep, at a rate of `rate` [rad/s]; 0: not asked for. After plan_lanes.
 template <class T> void plan_sleep(const Plan<T>&, CoupledLanesPlan<T>&, double rate);
 
+// Steps of dt [s] that a block has to be slow for.
+std::uint32_t steps_to_settle(double dt);
+
 // At a step's start: who wakes, by its pulls or by who else is awake. Counts the bodies that sleep through the step.
 template <class T>
 void wake_blocks(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&, double time);

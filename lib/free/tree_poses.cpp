@@ -5,7 +5,7 @@ namespace bough {
 
 template <class T> void TreePoses<T>::begin(const Plan<T>& plan, const State<T>& state) {
     plan_ = &plan;
-    time_ = double(state.step) * plan.dt;
+    time_ = time_of(plan, state);
     if (place_.size() != plan.bodies) place_.assign(plan.bodies, 0);
     for (const std::size_t body : body_) place_[body] = 0;
     body_.clear();

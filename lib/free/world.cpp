@@ -10,7 +10,7 @@ namespace {
 
 // The walkers' loads of the step to come, and what they do in it.
 template <class T> void tread(const Plan<T>& plan, State<T>& state, World<T>& world) {
-    const double t = double(state.step) * plan.dt, end = double(state.step + 1) * plan.dt;
+    const double t = time_of(plan, state), end = time_of(plan, state, 1);
     const bool first = state.step == 0; // the start is in no step before it
     const auto within = [&](double time) { return (time > t || (first && time == t)) && time <= end; };
     for (std::size_t k = 0; k < world.walkers.size(); ++k) {
@@ -68,7 +68,7 @@ template <class T> World<T> make_world(const Plan<T>& plan, const Tree& tree, co
 
 template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world, StageClock* clock) {
     if (!world.on()) return advance(plan, state, clock);
-    const double middle = (double(state.step) + 0.5) * plan.dt;
+    const double middle = time_of(plan, state, 0.5);
     const bool moves = std::any_of(world.free.begin(), world.free.end(), [](const FreeBody& f) { return !f.at_rest; });
     world.many = plan.contact && many_fly(plan, world);
     if (moves && plan.contact)

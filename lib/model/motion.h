@@ -86,6 +86,8 @@ struct SavedState {
     std::vector<double> free_bodies; // saved_world of free/world.h; empty where nothing is free
     std::vector<double> sleep;       // saved_sleep of coupled/sleep.h; empty where nothing has settled
     std::vector<double> attachments; // saved_attachments of coupled/attachment.h; empty without
+    // Where the step was changed in the run: how many steps it had taken by then, and the time [s]; empty where it was not.
+    std::vector<double> step_change;
     std::string source;
 };
 

@@ -31,7 +31,9 @@ template <class T> struct Load {
 };
 
 template <class T> struct State {
-    std::int64_t step = 0; // steps taken; the time is step * dt
+    std::int64_t step = 0;       // steps taken
+    std::int64_t step_since = 0; // and those of the plan's dt: from the step on at which it was changed last,
+    double time_since = 0;       // [s] at this time (change.h)
 
     std::vector<Vector3<T>> theta, theta_dot; // [rad], [rad/s] joint frame: the state proper; hashed, saved
 
@@ -59,6 +61,11 @@ template <class T> struct State {
     // Allocated by all arrays over bodies, the solver's too; but what the threads of a step in lanes work in, and its energy guard once something has turned fast.
     std::size_t bytes() const;
 };
+
+// [s] Of the state, or so many steps on.
+template <class T> double time_of(const Plan<T>& plan, const State<T>& state, double ahead = 0) {
+    return state.time_since + (double(state.step - state.step_since) + ahead) * plan.dt;
+}
 
 // At the plan's start pose, at rest, kinematics up to date.
 template <class T> State<T> make_state(const Plan<T>&);

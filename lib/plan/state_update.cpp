@@ -52,7 +52,7 @@ template <class T> void state_update(const Plan<T>& plan, State<T>& s) {
 }
 
 template <class T> void update_kinematics(const Plan<T>& plan, State<T>& state) {
-    move_ground(plan, state, double(state.step) * plan.dt);
+    move_ground(plan, state, time_of(plan, state));
     if (!plan.pose) return;
     state_update(plan, state);
     if (plan.torque) spring_torque(plan, state);

@@ -113,6 +113,8 @@ public:
     // What is changed between two steps.
     virtual void scale_wood(const Plan<T>&, T, T) {
     } // all stiffness and damping times these; the plan's own are the caller's
+    // The plan's dt is another by now: changes that are carried from the last step times ratio, what counts in steps anew.
+    virtual void step_changed(const Plan<T>&, State<T>&, T ratio) { (void)ratio; }
     virtual bool sleeps() const { return false; } // trees may
     virtual void wake(const Plan<T>&, State<T>&) const {}
     virtual void attachments_changed(State<T>&) const {} // one came or went

@@ -5,6 +5,7 @@
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
 #include "../lanes/plan_lanes.h"
+#include "../plan/change.h"
 #include "../plan/expand.h"
 #include "../plan/posed_tree.h"
 #include "driven_ground.h"
@@ -32,12 +33,6 @@ StepChoice choice_of(const SimulationOptions& o) {
     if (!o.portable) choice.simd = fast::best_target();
     choice.sleep = o.sleep;
     return choice;
-}
-
-template <class T> void scale(Plan<T>& plan, double stiffness, double damping) {
-    for (Vector3<T>& K : plan.K) K *= T(stiffness);
-    for (T& beta : plan.beta) beta *= T(damping);
-    plan.stepper->scale_wood(plan, T(stiffness), T(damping));
 }
 
 template <class T> Vec3 end_of(const State<T>& state, const Tree& tree, std::size_t i) {
@@ -87,7 +82,7 @@ public:
     }
     void advance(StageClock* clock) override {
         shown_ = fresh_ = false;
-        for (const Driven& driven : driven_) keep_going(spline_of(run_, driven), now(), options().step);
+        for (const Driven& driven : driven_) keep_going(spline_of(run_, driven), time(), options().step);
         if (run_.state.step < 0) return settle_on(clock);
         bough::advance(run_.plan, run_.state, run_.world, clock);
         if (!run_.world.on()) run_.state.loads.clear();
@@ -118,6 +113,7 @@ public:
                run_.world.walkers.size();
     }
     std::int64_t steps() const override { return run_.state.step; }
+    double time() const override { return time_of(run_.plan, run_.state); }
     const MotionEvents& events() const override { return run_.world.events; }
     const std::vector<std::uint32_t>& broken() const override { return run_.world.broken; }
     std::vector<Ball> balls() const override {
@@ -130,7 +126,7 @@ public:
         if (shown_) return frame_;
         const ThreadLimit threads(options().threads);
         frame_.frame = run_.state.step;
-        frame_.time = double(run_.state.step) * options().step;
+        frame_.time = time();
         fill(fields_, frame_);
         shown_ = true;
         return frame_;
@@ -162,7 +158,11 @@ public:
     }
 
     void scale_wood(double stiffness_factor, double damping_factor) override {
-        scale(run_.plan, stiffness_factor, damping_factor);
+        bough::scale_wood(run_.plan, stiffness_factor, damping_factor);
+    }
+    void set_step(double seconds) override {
+        change_step(run_.plan, run_.state, seconds);
+        choice_.options.step = seconds;
     }
     bool pushed() const override { return run_.plan.contact; }
     bool sleeps() const override { return run_.plan.stepper->sleeps(); }
@@ -208,8 +208,8 @@ public:
         const std::int64_t step = saved.frame * saved.substeps;
         const auto stay = [&](Run<T>& run) { // grounds as they are by now
             for (const Driven& driven : driven_)
-                put_ground(spline_of(run, driven), double(step) * options().step,
-                           ground_at(spline_of(run_, driven), now()));
+                put_ground(spline_of(run, driven), saved_time(saved, step, options().step),
+                           ground_at(spline_of(run_, driven), time()));
         };
         if (fresh_ && !run_.world.on()) {
             stay(run_);
@@ -224,7 +224,7 @@ public:
         } else {
             Run<T> run = started(); // what broke stands again before the saved state says what did
             run.plan.scene = run_.plan.scene;
-            scale(run.plan, stiffness, damping);
+            bough::scale_wood(run.plan, stiffness, damping);
             stay(run);
             restore_run(saved, step, run);
             for (const Attached& hand : hands())
@@ -263,15 +263,15 @@ public:
     void set_ground(std::size_t tree, const GroundMotion& to, int steps) override {
         RootSpline& spline = spline_of(run_, driven(tree));
         const Ground there = ground_of(spline, to);
-        if (steps > 0) return lead_ground(spline, now(), steps * options().step, there);
-        put_ground(spline, now(), there);
+        if (steps > 0) return lead_ground(spline, time(), steps * options().step, there);
+        put_ground(spline, time(), there);
         present(run_.plan, run_.state);
         bough::restart(run_.plan, run_.state);
         shown_ = false;
     }
     GroundMotion ground(std::size_t tree) const override {
         const RootSpline& spline = run_.plan.splines[driven(tree).spline];
-        const Ground ground = ground_at(spline, now());
+        const Ground ground = ground_at(spline, time());
         const Vec3 arm = ground.R * spline.pivot;
         return {ground.x + arm - spline.pivot, Quat(ground.R), ground.v + ground.omega.cross(arm), ground.omega};
     }
@@ -302,6 +302,10 @@ public:
             own.theta_dot_change[i].setZero();
         }
         run_.state.step = std::llround(time / options().step);
+        if (std::abs(this->time() - time) > 1e-9 * options().step) { // steps of another length
+            run_.state.step_since = run_.state.step;
+            run_.state.time_since = time;
+        }
         restart(run_.plan, run_.state);
     }
 
@@ -345,7 +349,6 @@ private:
         return *std::find_if(driven_.begin(), driven_.end(), [tree](const Driven& d) { return d.tree == tree; });
     }
     static RootSpline& spline_of(Run<T>& run, const Driven& driven) { return run.plan.splines[driven.spline]; }
-    double now() const { return double(run_.state.step) * options().step; }
 
     Run<T> started() {
         Wishes wishes;

@@ -65,6 +65,7 @@ public:
 
     virtual std::size_t bodies() const = 0;
     virtual std::int64_t steps() const = 0;
+    virtual double time() const = 0;
     virtual const MotionFrame& frame() = 0;
     virtual std::optional<std::size_t> fill(const MotionFields&, MotionFrame&) = 0; // the first body that is non-finite
     virtual const MotionEvents& events() const = 0;
@@ -78,6 +79,7 @@ public:
     virtual Scene& scene() = 0;                                    // the plan's
     virtual bool coupled() const = 0;                              // by its method
     virtual void scale_wood(double stiffness, double damping) = 0; // factors on what they are now
+    virtual void set_step(double seconds) = 0;                     // of the coupled method
     virtual bool pushed() const = 0;                               // free bodies may push the trees
     virtual bool sleeps() const = 0;                               // trees may
     virtual void wake() = 0;

@@ -25,9 +25,16 @@ void visit_carried(const Plan<T>& plan, State<T>& state, Saved& saved, Visit&& v
 
 } // namespace
 
+double saved_time(const SavedState& saved, std::int64_t step, double dt) {
+    if (saved.step_change.empty()) return double(step) * dt;
+    return saved.step_change[1] + (double(step) - saved.step_change[0]) * dt;
+}
+
 template <class T> void save_run(Run<T>& run, std::int64_t frame, SavedState& saved) {
     present(run.plan, run.state);
     saved.frame = frame;
+    if (run.state.step_since != 0 || run.state.time_since != 0)
+        saved.step_change = {double(run.state.step_since), run.state.time_since};
     run.plan.stepper->save(run.plan, run.state, saved);
     saved.free_bodies = saved_world(run.state, run.world);
     visit_carried(run.plan, run.state, saved,
@@ -55,6 +62,8 @@ template <class T> void restore_run(const SavedState& saved, std::int64_t step, 
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i].template cast<T>();
     });
     state.step = step;
+    state.step_since = saved.step_change.empty() ? 0 : std::int64_t(saved.step_change[0]);
+    state.time_since = saved.step_change.empty() ? 0 : saved.step_change[1];
     restart(plan, state);
     try {
         plan.stepper->restore(plan, state, saved);

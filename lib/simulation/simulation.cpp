@@ -114,7 +114,7 @@ std::int64_t Simulation::steps() const {
     return run_->steps();
 }
 double Simulation::time() const {
-    return double(run_->steps()) * run_->options().step;
+    return run_->time();
 }
 const SimulationOptions& Simulation::options() const {
     return run_->options();
@@ -189,6 +189,13 @@ void Simulation::set_gravity(const Vec3& gravity) {
         throw SceneError("/gravity: the scene began without; begin with some, and set it to zero");
     own = gravity;
     run_->wake();
+}
+
+void Simulation::set_step(double seconds) {
+    if (!(seconds > 0) || !std::isfinite(seconds))
+        throw SceneError("set_step: is " + std::to_string(seconds) + " s, expected more than 0");
+    if (!run_->coupled()) throw SceneError("set_step: the step changes in a run of the coupled method alone");
+    run_->set_step(seconds);
 }
 
 void Simulation::set_wood(double stiffness, double damping) {

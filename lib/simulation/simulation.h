@@ -34,7 +34,7 @@ struct Assembly;
 struct RunChoice;
 
 struct SimulationOptions {
-    double step = 1.0 / 30; // [s] above 0: of one step
+    double step = 1.0 / 30; // [s] above 0: of one step; set_step() changes it
     Precision precision = Precision::double_;
     Method method = Method::coupled;
     double sleep =
@@ -121,6 +121,10 @@ public:
     void set_wind(const Wind&);
     // Of a scene that has some, with the coupled method. The drawn pose keeps the springs' rest that it had. Throws SceneError.
     void set_gravity(const Vec3&); // [m/s^2]
+    // [s] Above 0: of the steps from here on, time() going on from what it is. What the last step changed, from which the next one extrapolates, is
+    // taken in proportion, so that the motion stays of second order; hands and grounds that are on their way keep to their steps and their
+    // time. Before the first step as if it had begun so. The coupled method. Throws SceneError.
+    void set_step(double seconds);
     // [1] All joints' stiffness and damping over what they had when the run began; above 0, 0 or more. The coupled method, nothing that is thrown at
     // trees. Springs keep their rest: softer wood sags further. Each change rounds. Throws SceneError.
     void set_wood(double stiffness, double damping);

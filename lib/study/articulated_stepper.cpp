@@ -31,7 +31,7 @@ void euler(const Plan<double>& plan, const ArticulatedPlan& own, State<double>& 
 }
 
 void articulated(const Plan<double>& plan, const ArticulatedPlan& own, State<double>& state, ArticulatedState& work) {
-    const double time = double(state.step) * plan.dt;
+    const double time = time_of(plan, state);
     if (own.method == ArticulatedMethod::extrapolation)
         extrapolated_step(plan, own, state, work, time);
     else
@@ -108,7 +108,7 @@ void ArticulatedStepper::advance(const Plan<double>& plan, State<double>& state,
     for (ArticulatedPass& pass : work.pass) pass.attached_at = work.attached_at;
     run_stage(Stage::articulated, state, clock, [&] { articulated(plan, own, state, work); });
     run_stage(Stage::state_update, state, clock, [&] {
-        move_ground(plan, state, double(state.step + 1) * plan.dt);
+        move_ground(plan, state, time_of(plan, state, 1));
         state_update(plan, state);
     });
     if (plan.torque) spring_torque(plan, state);

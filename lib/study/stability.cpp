@@ -79,7 +79,7 @@ template <class T> struct Audit {
     void after_step(const State<T>& s) {
         const Energy e = energy(plan, s);
         if (plan.wind) {
-            std::vector<Vec3> now = air_moments(plan, s, double(s.step) * plan.dt);
+            std::vector<Vec3> now = air_moments(plan, s, time_of(plan, s));
             double before = 0, after = 0;
             for (std::size_t i = 0; i < plan.bodies; ++i) {
                 Vec3 turned = (s.theta[i] - theta[i]).template cast<double>();

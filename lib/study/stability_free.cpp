@@ -37,7 +37,7 @@ template <class T> struct WalkersWork {
     }
     WalkersWork(const Plan<T>& plan, const State<T>& state, const World<T>& world) {
         for (const Walk& walk : world.walkers)
-            if (const auto load = walker_load(walk, double(state.step) * plan.dt, plan.dt))
+            if (const auto load = walker_load(walk, time_of(plan, state), plan.dt))
                 pushes.push_back({*load, place(state, *load)});
     }
     double done(const State<T>& after) const { // [J]

@@ -77,16 +77,6 @@ Trajectory run(const Problem& problem, const Variant& how, bool all_bodies, int 
 
 } // namespace
 
-template <class T> Vec3 tip_position(const Plan<T>& plan, const State<T>& state, const Tree& tree, std::size_t body) {
-    const Vec3 x =
-        state.x_w[body].template cast<double>() + state.R_wb[body].template cast<double>().col(2) * tree.size[body][0];
-    const Ground* ground = plan.root_motion ? ground_of(plan, state, body) : nullptr;
-    return ground ? Vec3(ground->R.transpose() * (x - ground->x)) : x;
-}
-
-template Vec3 tip_position(const Plan<float>&, const State<float>&, const Tree&, std::size_t);
-template Vec3 tip_position(const Plan<double>&, const State<double>&, const Tree&, std::size_t);
-
 Trajectory run_trajectory(const Problem& problem, const Variant& how, bool all_bodies, int repeat,
                           const std::function<void()>& tick) {
     return how.single ? run<float>(problem, how, all_bodies, repeat, tick)

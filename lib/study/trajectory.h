@@ -4,6 +4,7 @@
 #include "../model/tips.h"
 #include "../plan/plan.h"
 #include "../plan/state.h"
+#include "../plan/tip_position.h"
 #include "motion_statistics.h"
 #include "solvers.h"
 #include <functional>
@@ -31,9 +32,6 @@ struct Variant {
     double tolerance = 1e-8;                     // articulated_reference alone
     Scheme scheme = Scheme::p12;                 // coupled alone
 };
-
-// [m] The far end of a body, as seen from its tree's ground: being carried is no deflection. O(log moved trees).
-template <class T> Vec3 tip_position(const Plan<T>&, const State<T>&, const Tree&, std::size_t body);
 
 struct Trajectory {
     std::int64_t stride = 1;            // frames between two samples

@@ -4,7 +4,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 pages=$(cd "$top" && find README.md tools lib formats tests data -name README.md | sort)
 draws=yes
-for program in f3d xvfb-run xauth mogrify; do command -v "$program" >/dev/null || draws=no; done
+for program in f3d Xvfb mogrify; do command -v "$program" >/dev/null || draws=no; done
 [[ $draws == yes ]] || echo "notice: nothing draws here, lines with picture are left out"
 tried=0
 for page in $pages; do

@@ -147,3 +147,32 @@ for bad in /dev/null half.png art/tree.xml; do
     cp good.png art/leaf.png
 done
 absent x.glb
+
+# OBJ frames: the .mtl names the file's images, which stand in a folder of their own, byte for byte what the .glb holds.
+expect 0 treesim art/tree.xml --frames 1 -o textured_%d.obj
+expect 0 treesim art/tree.xml --frames 1 -o textured.glb
+python3 - <<'P'
+import json, struct
+data = open("textured.glb", "rb").read()
+size = struct.unpack("<I", data[12:16])[0]
+glb, binary = json.loads(data[20:20 + size]), data[28 + size:]
+def bytes_of(texture):
+    view = glb["bufferViews"][glb["images"][glb["textures"][texture["index"]]["source"]]["bufferView"]]
+    return binary[view.get("byteOffset", 0):][:view["byteLength"]]
+lines, part = {}, None
+for word, *rest in (line.split() for line in open("textured.mtl") if line.strip()):
+    if word == "newmtl": part = lines.setdefault(rest[0], {})
+    else: part[word] = rest
+used = {line.split()[1] for line in open("textured_0.obj") if line.startswith("usemtl")}
+seen = 0
+for material in glb["materials"]:
+    if material["name"] not in used: continue
+    color = material["pbrMetallicRoughness"].get("baseColorTexture")
+    named = lines[material["name"]].get("map_Kd")
+    assert (color is None) == (named is None), material["name"]
+    if color is None: continue
+    seen += 1
+    assert open(named[0], "rb").read() == bytes_of(color), named
+    assert ("map_d" in lines[material["name"]]) == (material.get("alphaMode") == "MASK"), material["name"]
+assert seen >= 2, seen
+P

@@ -177,6 +177,40 @@ assert np.abs(run.rates).max() > 100 * still
 assert wind.velocity.tolist() == [0, 0, 15] and "gust_factor" in repr(wind)
 following = bough.Simulation((lambda s: (s.add(tree), s)[1])(bough.Scene()), before=run)
 assert np.abs(following.positions - run.positions).max() < 1e-3
+
+# Steps of another length; the time goes on. A run that begins so is the same.
+run, begun = of(tree, step=1 / 30), of(tree, step=1 / 60)
+run.set_step(1 / 60)
+for _ in range(4):
+    assert run.step().time == begun.step().time
+assert run.hash() == begun.hash()
+run.set_step(0.01)
+assert abs(run.step().time - 4 / 60 - 0.01) < 1e-12
+raises(bough.UsageError, "set_step: is 0", lambda: run.set_step(0))
+
+# A ground that is carried a metre takes the tree along; what is read is where it is.
+run = of(tree, wind=None, grounds=True)
+rest = run.positions.copy()
+run.set_ground(0, position=[1, 0, 0], steps=60)
+for _ in range(60):
+    run.step()
+assert np.allclose(run.positions[0] - rest[0], [1, 0, 0], atol=1e-9)
+assert np.abs(run.positions - rest - [1, 0, 0]).max() > 1e-4  # and it sways
+raises(bough.UsageError, "grounds is not set", lambda: of(tree).set_ground(0))
+raises(bough.UsageError, "rotation: has shape (3,)", lambda: run.set_ground(0, rotation=[0, 0, 1]))
+raises(bough.UsageError, "tree 1 is not there", lambda: run.set_ground(1))
+
+# The step's error: at half the step, less than half of it.
+def error_of(step, count):
+    run = of(bough.convert(bough.grow("pine", bodies=300, seed=1)), step=step)
+    raises(bough.UsageError, "is not watched", lambda: run.error)
+    run.watch_error()
+    for _ in range(count):
+        run.step()
+    assert run.error.steps == count and run.error.known is True and run.error.worst >= run.error.rms > 0
+    assert run.error.deflection > run.error.rms
+    return run.error.rms
+assert error_of(1 / 60, 60) < error_of(1 / 30, 30) / 2
 broken = bough.Scene(document=b'{"format": "bough-scene", "version": 1, "trees": [{"file": "t"}], "fracture": {"leaf": 1e-9}}')
 broken.put(0, tree)
 run = bough.Simulation(broken)

@@ -29,7 +29,7 @@ done
 # By default where a wind blows, and said; as long for any precision and number of threads. --settle 0 is the start at rest.
 treegen --bodies 300 --seed 3 -q | treeconvert - -o tree.json -q
 treesim tree.json --wind gusty --frames 20 -o settled.jsonl --no-source 2>note
-frames=$(sed -n 's/^treesim: \([0-9]*\) frames ([0-9.]* s) of this wind were run before frame 0, .*(--settle)$/\1/p' note)
+frames=$(sed -n 's/^treesim: \([0-9]*\) frames ([0-9.]* s) of this wind were run before frame 0, .*(--settle 0: it begins at rest)$/\1/p' note)
 [[ $frames -ge 60 && $frames -le 600 && $(wc -l <note) -eq 1 ]] || fail "note: $(cat note)"
 treesim tree.json --wind gusty --frames 20 -q --no-source --settle "$(python3 -c "print($frames / 30)")" >same.jsonl
 same settled.jsonl same.jsonl

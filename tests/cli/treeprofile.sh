@@ -6,7 +6,7 @@ wrong_use treeprofile tree.json --frames 5 --repeat 1
 bad_input tree.json treeprofile --frames 5
 refused 1 "--frames" treeprofile tree.json --frames 2
 refused 1 "compare" treeprofile compare a.json
-refused 1 "arguments" treeprofile stages
+refused 1 "nothing to read" treeprofile stages
 
 # The report is that of treesim's run: the same hash; stages and "other" make the whole.
 expect 0 treeprofile stages tree.json --wind gusty --frames 30 --report r.json

@@ -38,13 +38,29 @@ export async function pulled_by_mouse({ browser, url }) {
     await page.mouse.move(branch.x, branch.y);
     await page.mouse.down();
     const hand = await held(page), rest = at(drawn, hand.body); // which need not be the branch itself: twigs stand before it
-    await page.mouse.move(branch.x + 60, branch.y - 10, { steps: 4 });
+    const [across, up] = await page.evaluate(([body, drawn]) => { // to its side: what is drawn along itself is taut at once
+        const { parent } = bough.mesh, place = (i) => bough.view.screen(bough.view.point(drawn.slice(3 * i, 3 * i + 3)));
+        const from = place(parent[body]), to = place(body), length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+        return [-(to[1] - from[1]) / length, (to[0] - from[0]) / length];
+    }, [hand.body, drawn]);
+    await page.mouse.move(branch.x + 24 * across, branch.y + 24 * up, { steps: 4 });
     const targets = await page.evaluate(() => bough.pointers.targets());
     expect(targets.length === 1, 'the hand has no target');
     const pulled = at(await steps(page, 120, targets), hand.body);
     const wanted = less(targets[0][1], hand.world), way = less(pulled, rest);
-    const along = wanted.reduce((sum, value, k) => sum + value * way[k], 0) / norm(wanted);
-    expect(along > 0.02 * norm(wanted), `the branch went ${along} m of ${norm(wanted)} m towards the pointer`);
+    // What was taken is where the hand is, and the hand where the pointer is, or as far towards it as it goes.
+    const { point, far, forces } = await grip(page);
+    const share = Math.min(1, far / norm(wanted)), to = hand.world.map((value, k) => value + share * wanted[k]);
+    const off = norm(less(point, to)), drawnBy = share * norm(wanted);
+    expect(drawnBy > 0.05, `the hand goes ${drawnBy} m of ${norm(wanted)} m`);
+    expect(off < 0.2 * drawnBy, `drawn by ${drawnBy} m, the branch is ${off} m from the hand`);
+    expect(forces.length === 1 && forces[0][1] > 0, `forces are ${forces}`);
+    console.log(`    a hand ${drawnBy.toFixed(2)} m away: the branch is ${(1000 * off).toFixed(1)} mm behind it, ${forces[0][1].toFixed(1)} N`);
+    // A hand that is moved on is followed; it cannot be drawn beyond what the wood bears, however far the pointer goes.
+    await page.mouse.move(branch.x + 600, branch.y - 10, { steps: 4 });
+    const beyond = await page.evaluate(() => bough.pointers.targets());
+    const torn = await steps(page, 120, beyond);
+    expect(torn.every(Number.isFinite) && norm(less((await grip(page)).point, hand.world)) < 1.3 * far, 'it was drawn beyond its reach');
     expect(await page.evaluate(() => bough.view.arrows.size) === 1, 'no arrow is drawn');
     expect(await page.evaluate(() => bough.view.orbit.azimuth) === azimuth, 'the camera turned while a branch was held');
     await page.mouse.up();
@@ -61,10 +77,20 @@ export async function pulled_by_mouse({ browser, url }) {
     await closePage(page);
 }
 
+// Where the point is that the pointer holds, how far its hand goes, what hands pull with [N].
+async function grip(page) {
+    return page.evaluate(async () => {
+        const [pointer] = [...bough.pointers.all.values()];
+        const answer = await bough.client.ask('frame', { seconds: 0, buffer: new ArrayBuffer(0) });
+        return { point: bough.view.skinned.moved(pointer.body, pointer.drawn).toArray(), far: pointer.way, forces: answer.hands };
+    });
+}
+
 export async function calm(page) {
     await page.evaluate(async () => {
         bough.change(({ wind }) => Object.assign(wind, { speed: 0, turbulence: 0, gustFactor: 1 }), true);
         await bough.apply(true);
+        for (let k = 0; k < 2; ++k) await new Promise((done) => requestAnimationFrame(done)); // the camera stands where the tree asks for it
     });
 }
 
@@ -80,8 +106,10 @@ export async function pulled_by_touch({ browser, url }) {
     const hand = await held(page);
     await send('touchMove', [[branch.x + 50, branch.y + 30]]);
     const targets = await page.evaluate(() => bough.pointers.targets());
-    const before = at(await steps(page, 0), hand.body), way = norm(less(at(await steps(page, 90, targets), hand.body), before));
-    expect(way > 1e-3, `the finger moved it by ${way} m`);
+    await steps(page, 90, targets);
+    const { point, far: reach } = await grip(page), wanted = norm(less(targets[0][1], hand.world));
+    const way = norm(less(point, hand.world));
+    expect(way > 0.85 * Math.min(wanted, reach), `the finger moved it by ${way} m of ${Math.min(wanted, reach)} m`);
     await send('touchEnd', []);
     await page.waitForFunction(() => bough.pointers.all.size === 0);
     // Two fingers beside the tree come nearer.

@@ -91,7 +91,7 @@ export async function treesim_makes_the_same_motion({ browser, url, work, tools 
     fs.mkdirSync(folder);
     await saved(page, '#save-scene', path.join(folder, 'scene.zip'));
     execFileSync('python3', ['-m', 'zipfile', '-e', 'scene.zip', '.'], { cwd: folder });
-    execFileSync(path.join(tools, 'treesim'), ['scene.json', '--fps', '30', '--precision', 'double', '--frames', '61', '-q', '-o', 'motion.jsonl'], { cwd: folder });
+    execFileSync(path.join(tools, 'treesim'), ['scene.json', '--fps', '30', '--precision', 'double', '--settle', '0', '--frames', '61', '-q', '-o', 'motion.jsonl'], { cwd: folder });
     const frames = fs.readFileSync(path.join(folder, 'motion.jsonl'), 'utf8').trim().split('\n').slice(1).map((line) => JSON.parse(line));
     await restarted(page);
     let off = 0, moved = 0;

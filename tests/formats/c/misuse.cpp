@@ -36,7 +36,7 @@ struct Handles {
             REQUIRE(bough_read_scene(nullptr, 0, nullptr, &c) == BOUGH_OK);
             REQUIRE(bough_scene_add(c, t, nullptr, 0) == BOUGH_OK);
             bough_settings settings = bough_default_settings();
-            settings.pulls = 1;
+            settings.pulls = settings.grounds = 1;
             REQUIRE(bough_simulate(c, &settings, nullptr, &m) == BOUGH_OK);
         };
         one(splines, tree, scene, simulation);
@@ -151,6 +151,16 @@ TEST_CASE("handles that are none, of another kind or freed are refused by every 
         },
         [&](auto* s) { return bough_set_gravity(s, v); },
         [](auto* s) { return bough_set_wood(s, 1, 1); },
+        [](auto* s) { return bough_set_step(s, 0.01); },
+        [](auto* s) {
+            const bough_ground ground = bough_default_ground();
+            return bough_set_ground(s, 0, &ground, 1);
+        },
+        [](auto* s) { return bough_watch_error(s, 1); },
+        [](auto* s) {
+            bough_step_error error;
+            return bough_read_error(s, &error);
+        },
         [](auto* s) {
             std::size_t size;
             return bough_save(s, nullptr, 0, &size);
@@ -212,6 +222,8 @@ TEST_CASE("NULL for what must be there is refused by every function, and outputs
     refused(bough_pull(h.simulation, 0, v, nullptr), BOUGH_USAGE, "force: is NULL");
     refused(bough_set_wind(h.simulation, nullptr), BOUGH_USAGE, "wind: is NULL");
     refused(bough_set_gravity(h.simulation, nullptr), BOUGH_USAGE, "gravity: is NULL");
+    refused(bough_set_ground(h.simulation, 0, nullptr, 1), BOUGH_USAGE, "ground: is NULL");
+    refused(bough_read_error(h.simulation, nullptr), BOUGH_USAGE, "error: is NULL");
     refused(bough_save(h.simulation, nullptr, 0, nullptr), BOUGH_USAGE, "size: is NULL");
     refused(bough_save(h.simulation, nullptr, 4, &size), BOUGH_USAGE, "buffer: is NULL");
     refused(bough_restore(h.simulation, nullptr, 4, nullptr), BOUGH_USAGE, "bytes: is NULL");
@@ -234,6 +246,9 @@ TEST_CASE("settings that no default function made are refused") {
     refused(bough_scene_set_wind(h.scene, &wind), BOUGH_USAGE, "bough_wind_preset()");
     refused(bough_set_wind(h.simulation, &wind), BOUGH_USAGE, "bough_wind_preset()");
     refused(bough_simulate(h.scene, &settings, nullptr, &simulation), BOUGH_USAGE, "bough_default_settings()");
+    const auto ground = unmade<bough_ground>();
+    refused(bough_set_ground(h.simulation, 0, &ground, 1), BOUGH_USAGE,
+            "ground: was not made by bough_default_ground()");
     const bough_settings zero = {}; // one that was never filled
     refused(bough_simulate(h.scene, &zero, nullptr, &simulation), BOUGH_USAGE, "bough_default_settings()");
     bough_settings other = bough_default_settings();
@@ -342,6 +357,25 @@ TEST_CASE("numbers out of range are refused with the number") {
     refused(bough_set_wood(h.simulation, 0, 1), BOUGH_USAGE, "stiffness is 0");
     refused(bough_set_wood(h.simulation, not_a_number, 1), BOUGH_USAGE, "stiffness is nan");
     refused(bough_set_wood(h.simulation, 1, infinity), BOUGH_USAGE, "damping is inf");
+    for (const double step : {not_a_number, infinity, 0.0, -1.0})
+        refused(bough_set_step(h.simulation, step), BOUGH_USAGE, "set_step: is ");
+    const auto standing = [&](auto change, std::size_t tree = 0, std::int32_t steps = 1) {
+        bough_ground g = bough_default_ground();
+        change(g);
+        return bough_set_ground(h.simulation, tree, &g, steps);
+    };
+    refused(standing([](auto&) {}, 1), BOUGH_USAGE, "tree 1 is not there, the scene has 1");
+    refused(standing([](auto&) {}, 0, -1), BOUGH_USAGE, "steps is -1");
+    refused(standing([](auto& g) { g.position[0] = not_a_number; }), BOUGH_USAGE, "position: is not finite");
+    refused(standing([](auto& g) { g.velocity[2] = infinity; }), BOUGH_USAGE, "velocity: is not finite");
+    refused(standing([](auto& g) { g.angular_velocity[1] = not_a_number; }), BOUGH_USAGE,
+            "angular_velocity: is not finite");
+    refused(standing([](auto& g) { g.rotation[3] = 0; }), BOUGH_USAGE, "rotation is none");
+    refused(standing([](auto& g) { g.rotation[0] = not_a_number; }), BOUGH_USAGE, "rotation is none");
+    bough_step_error error;
+    error.rms = -5;
+    refused(bough_read_error(h.simulation, &error), BOUGH_USAGE, "is not watched");
+    CHECK(error.rms == -5);                               // as it was
     CHECK(bough_step(h.simulation, nullptr) == BOUGH_OK); // unharmed
 }
 

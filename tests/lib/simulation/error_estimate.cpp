@@ -1,5 +1,5 @@
 // The error that a run tells of itself, against the one it has.
-#include "lib/study/error_estimate.h"
+#include "lib/simulation/error_estimate.h"
 #include "lib/plan/state_update.h"
 #include "lib/study/solvers.h"
 #include "lib/study/trajectory_difference.h"

@@ -181,7 +181,7 @@ export class App {
     }
     async frame(now) {
         requestAnimationFrame((next) => this.frame(next));
-        const start = performance.now(), passed = this.last === undefined ? 0 : (now - this.last) / 1000;
+        const start = performance.now(), passed = this.last === undefined ? 1 / 60 : (now - this.last) / 1000; // it moves in its first picture
         this.last = now;
         this.unasked = (this.unasked ?? 0) + passed;
         if (!this.asking && this.bodies) this.#ask(now);

@@ -1,5 +1,5 @@
 // estimate.js: the step's error, in spare time: a copy of the run goes on for half a second beside a companion of steps a quarter as long
-// (lib/study/error_estimate.h), without hands; then another copy.
+// (lib/simulation/error_estimate.h), without hands; then another copy.
 
 const length = 0.5; // [s]
 

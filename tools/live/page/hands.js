@@ -1,9 +1,11 @@
-// hands.js: hands that pull, in the Worker. The force of a hand is that of a soft thread to the pointer as the wood at rest would answer it,
-//   F = (target - where the point was when it was taken) / compliance,  compliance = sum over the joints that bear it of lever^2 / K,
-// at most what turns no joint by half a radian, and it follows the pointer with a delay. It does not hang on where the point is now: a spring taken
-// explicitly to a light twig is unstable at any stiffness that is worth having.
+// hands.js: hands that hold, in the Worker: each is an attachment (bough_c.h), a spring and a damper between the point that was taken and where the
+// pointer is. The spring is `firm` times as stiff as the wood at rest is there, compliance = sum over the joints that bear the point of lever^2 / K: the
+// point stays behind the hand by a fiftieth of the way, more where it bends far. However far the pointer goes, the hand goes no farther from where it
+// took hold than what would turn a joint by a radian and a half: the wood is to bend, not to be wound up.
 
-const delay = 0.1; // [s]
+const firm = 50; // [1]
+const slow = 0.05; // [s] the damper over the spring
+const far = 3; // [1] times the way at which the softest joint has turned by half a radian, or all of them by 2 (live_reach)
 
 const less = (a, b) => a.map((value, k) => value - b[k]);
 const norm = (a) => Math.hypot(...a);
@@ -16,33 +18,47 @@ export class Hands {
     }
     grab(hand, body, point) {
         const { library, simulation, state } = this.run;
-        const reach = library.reach(simulation, body, point, state.stiffness);
-        this.all.set(hand, { body, point, ...reach, target: reach.at, force: [0, 0, 0] });
-        return reach;
+        const { compliance, most, at } = library.reach(simulation, body, point, state.stiffness);
+        const stiffness = firm / compliance;
+        const attachment = library.attach(simulation, body, point, stiffness, slow * stiffness);
+        this.all.set(hand, { attachment, at, way: far * most * compliance, target: at });
+        return { at, way: far * most * compliance };
     }
-    letGo(hand) { this.all.delete(hand); }
+    letGo(hand) {
+        const held = this.all.get(hand);
+        this.all.delete(hand);
+        if (held) this.#try(hand, () => this.run.library.call('let_go', this.run.simulation, held.attachment));
+    }
+    // A new run has them from the one before, but where it begins again.
     begin(restart) {
         if (restart) this.all.clear();
     }
-    aim(targets) {
-        for (const [hand, target] of targets ?? []) if (this.all.has(hand)) this.all.get(hand).target = target;
+    // Where pointers are by now: hands are there in so many steps.
+    aim(targets, steps) {
+        for (const [hand, to] of targets ?? []) {
+            const held = this.all.get(hand);
+            if (!held) continue;
+            const way = less(to, held.at), share = Math.min(1, held.way / norm(way));
+            held.target = held.at.map((value, k) => value + share * way[k]);
+        }
+        if (steps === 0) return;
+        for (const [hand, { attachment, target }] of this.all)
+            this.#try(hand, () => this.run.library.moveAttachment(this.run.simulation, attachment, target, steps));
     }
-    pull() {
-        const { library, simulation, clock } = this.run;
-        const share = 1 - Math.exp(-clock.step / delay);
-        for (const [id, hand] of this.all) {
-            const way = less(hand.target, hand.at), length = norm(way);
-            const size = hand.compliance > 0 ? Math.min(length / hand.compliance, hand.most) : 0;
-            const wanted = length > 0 ? way.map((value) => value / length * size) : [0, 0, 0];
-            hand.force = hand.force.map((value, k) => value + share * (wanted[k] - value));
-            try {
-                library.pulled(simulation, hand.body, hand.point, hand.force);
-            } catch (error) {
-                this.all.delete(id); // a branch that broke off is no longer the tree's
-                this.gone.push([id, error.message]);
-            }
+    forces() {
+        const all = [];
+        for (const [hand, { attachment }] of this.all)
+            this.#try(hand, () => all.push([hand, norm(this.run.library.attachmentForce(this.run.simulation, attachment))]));
+        return all;
+    }
+    lost() { return this.gone.splice(0); }
+    // A branch that broke off, or another tree's, has let go by itself.
+    #try(hand, work) {
+        try {
+            work();
+        } catch (error) {
+            this.all.delete(hand);
+            this.gone.push([hand, error.message]);
         }
     }
-    forces() { return Array.from(this.all, ([id, hand]) => [id, norm(hand.force)]); }
-    lost() { return this.gone.splice(0); }
 }

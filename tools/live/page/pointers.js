@@ -48,10 +48,11 @@ export class Pointers {
         pointer.drawn = view.skinned.drawn(hit.body, pointer.world);
         pointer.plane = view.depthPlane(pointer.world);
         view.canvas.classList.add('holds');
-        await client.ask('grab', { hand, body: hit.body, point: hit.point }).catch((error) => {
+        const reach = await client.ask('grab', { hand, body: hit.body, point: hit.point }).catch((error) => {
             pointer.does = 'nothing';
             this.page.problem(error.message);
         });
+        pointer.way = reach?.way; // [m] that the hand goes at most
         if (!this.all.has(hand)) client.ask('letGo', { hand });
     }
     move(event) {

@@ -67,7 +67,7 @@ export class Run {
             } else if (change === 'gravity') {
                 library.call('set_gravity', this.simulation, state.gravity);
             } else if (change === 'all') {
-                const simulation = library.handle('simulate', scene, 1 / state.rate, state.precision === 'double' ? 1 : 0, 1,
+                const simulation = library.handle('simulate', scene, 1 / state.rate, state.precision === 'double' ? 1 : 0,
                     restart ? 0 : this.simulation);
                 try {
                     if (state.gravity !== state.drawnGravity) library.call('set_gravity', simulation, state.gravity);
@@ -123,12 +123,11 @@ export class Run {
     frame({ seconds, single, buffer, targets }) {
         const { library, clock } = this;
         if (!this.simulation) return { poses: buffer, transfer: [buffer] };
-        this.hands.aim(targets);
         const said = { fast: 0, guarded: 0, broke: 0 };
         const steps = single ? clock.single() : clock.steps(seconds);
+        this.hands.aim(targets, steps);
         for (let k = 0; k < steps; ++k) {
             const start = performance.now();
-            this.hands.pull();
             const report = library.step(this.simulation);
             clock.took(performance.now() - start);
             for (const key in said) said[key] += report[key];

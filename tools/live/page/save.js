@@ -11,7 +11,7 @@ function download(name, blob) {
 
 const notes = (state) => `The scene of this folder, as the page began it (after "Restart"):
 
-    treesim scene.json --fps ${state.rate} --precision ${state.precision} --seconds 4 -o motion.glb
+    treesim scene.json --fps ${state.rate} --precision ${state.precision} --settle 0 --seconds 4 -o motion.glb
 
 scene.json        what stands where, wind, wood (bough-scene)
 trees/            the trees, as they are drawn (bough-tree, safetensors)

@@ -69,10 +69,17 @@ export class Library {
     }
     names(call) { return this.lines(this.module[`_live_${call}`]()); }
 
-    pulled(simulation, body, point, force) {
-        const at = this.scratch;
-        this.doubles(at, 6).set([...point, ...force]);
-        this.call('pull', simulation, body, at, at + 24);
+    attach(simulation, body, point, stiffness, damping) {
+        this.doubles(this.scratch, 3).set(point);
+        return this.handle('attach', simulation, body, this.scratch, stiffness, damping);
+    }
+    moveAttachment(simulation, attachment, target, steps) {
+        this.doubles(this.scratch, 3).set(target);
+        this.call('move', simulation, attachment, this.scratch, steps);
+    }
+    attachmentForce(simulation, attachment) {
+        this.call('attachment_force', simulation, attachment, this.scratch);
+        return Array.from(this.doubles(this.scratch, 3));
     }
     step(simulation) {
         const at = this.scratch;

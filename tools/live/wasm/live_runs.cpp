@@ -1,5 +1,5 @@
 // live_runs.cpp: scenes and runs, with numbers in place of structs.
-#include "lib/study/error_estimate.h"
+#include "lib/simulation/run_error.h"
 #include "live.h"
 
 using namespace bough;
@@ -25,12 +25,11 @@ LIVE bough_result live_put(bough_scene* scene, std::size_t place, const bough_tr
     return bough_scene_put(scene, place, tree);
 }
 
-LIVE bough_simulation* live_simulate(const bough_scene* scene, double step, int precision, int pulls,
+LIVE bough_simulation* live_simulate(const bough_scene* scene, double step, int precision,
                                      const bough_simulation* before) {
     bough_settings settings = bough_default_settings();
     settings.step = step;
     settings.precision = precision;
-    settings.pulls = pulls;
     settings.threads = 1;
     bough_simulation* simulation = nullptr;
     return bough_simulate(scene, &settings, before, &simulation) == BOUGH_OK ? simulation : nullptr;
@@ -96,7 +95,7 @@ LIVE int live_pick(bough_simulation* simulation, const double* ray, double apert
 }
 
 // What a hand at a point of a body, at rest, has to do with: reach[0] its compliance [m/N], sum over the joints that bear it of lever^2 / K;
-// reach[1] the force [N] that turns no joint by more than half a radian and all of them by no more than 2, reach[2..4] the point in the world.
+// reach[1] the force [N] that turns no joint by more than half a radian and all of them by no more than 2; reach[2..4] the point in the world.
 LIVE bough_result live_reach(bough_simulation* simulation, std::size_t body, const double* point, double stiffness,
                              double* reach) {
     return call([&] {
@@ -120,8 +119,21 @@ LIVE bough_result live_reach(bough_simulation* simulation, std::size_t body, con
         Eigen::Map<Vec3>(reach + 2) = p;
     });
 }
-LIVE bough_result live_pull(bough_simulation* simulation, std::size_t body, const double* point, const double* force) {
-    return bough_pull(simulation, body, point, force);
+// Attachments by numbers that a page has: exact up to 2^53. attach: 0 where it failed.
+LIVE double live_attach(bough_simulation* simulation, std::size_t body, const double* point, double stiffness,
+                        double damping) {
+    std::uint64_t attachment = 0;
+    bough_attach(simulation, body, point, stiffness, damping, &attachment);
+    return double(attachment);
+}
+LIVE bough_result live_move(bough_simulation* simulation, double attachment, const double* target, int steps) {
+    return bough_move_attachment(simulation, std::uint64_t(attachment), target, steps);
+}
+LIVE bough_result live_attachment_force(bough_simulation* simulation, double attachment, double* force) {
+    return bough_attachment_force(simulation, std::uint64_t(attachment), force);
+}
+LIVE bough_result live_let_go(bough_simulation* simulation, double attachment) {
+    return bough_release(simulation, std::uint64_t(attachment));
 }
 
 namespace {

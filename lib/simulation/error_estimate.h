@@ -31,48 +31,39 @@
 #pragma once
 #include "../plan/plan.h"
 #include "../plan/state.h"
-#include <algorithm>
-#include <optional>
+#include "run_error.h"
 #include <vector>
 
 namespace bough {
 
-class AnyRun;
-class Simulation;
-
-// Over tips and samples; tips and positions as in trajectory.h.
-struct TipError {
-    static constexpr int finer = 4; // the companion's steps to one of the run's
-
-    double rms = 0, worst = 0; // [m] of the run, estimated
-    double deflection = 0;     // [m] RMS of the run's tips from the plan's start pose
-    double rough = 0;          // [m] RMS of the companion's fourth differences
-    double rounding = 0;       // [m] the precision's epsilon at the tip farthest from the origin in the start pose
-    std::int64_t samples = 0;  // frames that were compared
-    std::size_t tips = 0;
-    bool finite = true; // the companion's state; ends the comparison where it is not
-    bool known() const { return finite && rough <= std::max(2 * rms, 100 * rounding); }
+// Of all joints, over what they had when the run began.
+struct WoodScale {
+    double stiffness = 1, damping = 1;
 };
 
 // Reads the run's states, never writes them. Cost: `finer` times the run's steps, and memory for a second plan and state.
 template <class T> class ErrorEstimate {
 public:
     // plan: the run's, coupled. start: its state at the beginning, at rest or resumed: the error counted is what comes
-    // from there on. Keeps a reference to the tree.
-    ErrorEstimate(const Tree&, const Plan<T>& plan, const State<T>& start);
+    // from there on. wood: what was made of it by then. Keeps a reference to the tree.
+    ErrorEstimate(const Tree&, const Plan<T>& plan, const State<T>& start, const WoodScale& wood = {});
 
+    // Before a step of the run: what was changed of its plan and state since the last one.
+    void lead(const Plan<T>&, const State<T>&, const WoodScale& wood);
     // To be called after each frame of the run. Takes the companion's steps up to there, and compares. Allocates nothing.
     void follow(const State<T>& run);
 
     TipError result() const;
 
 private:
+    void lead_hands(const State<T>& run);
     void note_roughness();
     void compare(const State<T>& run);
 
     const Tree& tree_;
     Plan<T> plan_;
     State<T> state_;
+    WoodScale wood_;
     std::vector<std::size_t> tips_;
     std::vector<Vec3> start_tips_;                            // [m]
     std::vector<Vec3> past_;                                  // [m] the companion's tips, last four steps x tips
@@ -80,19 +71,6 @@ private:
     double squares_ = 0, worst_ = 0, deflection_squares_ = 0; // [m^2]
     double rough_squares_ = 0;                                // [m^2]
     TipError found_;
-};
-
-// The same of a simulation, of the coupled method, in its precision.
-class RunError {
-public:
-    explicit RunError(Simulation&); // as it stands: at its start, or resumed. Keeps a reference to the run
-    void follow();
-    TipError result() const;
-
-private:
-    AnyRun& run_;
-    std::optional<ErrorEstimate<float>> single_;
-    std::optional<ErrorEstimate<double>> double_;
 };
 
 } // namespace bough

@@ -1,9 +1,12 @@
 #include "error_estimate.h"
+#include "../coupled/attachment.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
 #include "../lanes/plan_lanes.h"
-#include "../simulation/any_run.h"
-#include "trajectory.h"
+#include "../model/tips.h"
+#include "../plan/change.h"
+#include "../plan/tip_position.h"
+#include "any_run.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -39,8 +42,8 @@ double rms(double squares, double count) {
 } // namespace
 
 template <class T>
-ErrorEstimate<T>::ErrorEstimate(const Tree& tree, const Plan<T>& plan, const State<T>& start)
-    : tree_(tree), plan_(at_finer_steps(plan)), state_(make_state(plan_)), tips_(tip_bodies(tree)) {
+ErrorEstimate<T>::ErrorEstimate(const Tree& tree, const Plan<T>& plan, const State<T>& start, const WoodScale& wood)
+    : tree_(tree), plan_(at_finer_steps(plan)), state_(make_state(plan_)), wood_(wood), tips_(tip_bodies(tree)) {
     found_.tips = tips_.size();
     double extent = 0;
     for (const std::size_t i : tips_) {
@@ -55,9 +58,53 @@ ErrorEstimate<T>::ErrorEstimate(const Tree& tree, const Plan<T>& plan, const Sta
     own.theta_change = in_finer_steps(from.theta_change); // of the last step: they stand for the motion's rates
     own.theta_dot_change = in_finer_steps(from.theta_dot_change);
     state_.step = finer * start.step;
+    state_.step_since = finer * start.step_since;
+    state_.time_since = start.time_since;
+    own.attachments = from.attachments;
+    for (Attached& held : own.attachments.all) held.steps *= finer;
+    plan_.stepper->attachments_changed(state_);
     restart(plan_, state_);
     past_.resize(4 * tips_.size());
     note_roughness();
+}
+
+// Those that a program holds by hand (Simulation::attach); the scene's own go by their times.
+template <class T> void ErrorEstimate<T>::lead_hands(const State<T>& run) {
+    CoupledState<T>& own = coupled_state(state_);
+    const std::vector<Attached>& there = coupled_state(run).attachments.all;
+    bool came_or_went = false;
+    for (std::size_t k = own.attachments.all.size(); k-- > 0;) {
+        const Attached& held = own.attachments.all[k];
+        if (held.planned >= 0 ||
+            std::any_of(there.begin(), there.end(), [&](const Attached& other) { return other.number == held.number; }))
+            continue;
+        release(plan_, own, held.number);
+        came_or_went = true;
+    }
+    for (const Attached& led : there) {
+        if (led.planned >= 0) continue;
+        if (!attached(own.attachments, led.number)) {
+            adopt(plan_, own, led, led.body);
+            came_or_went = true;
+        }
+        Attached& held = *attached(own.attachments, led.number);
+        held.target = led.target;
+        held.goal = led.goal;
+        held.steps = finer * led.steps;
+    }
+    if (came_or_went) plan_.stepper->attachments_changed(state_);
+}
+
+template <class T> void ErrorEstimate<T>::lead(const Plan<T>& plan, const State<T>& run, const WoodScale& wood) {
+    if (plan.wind) plan_.scene.wind = plan.scene.wind;
+    plan_.scene.gravity = plan.scene.gravity;
+    if (plan.root_motion) plan_.splines = plan.splines;
+    if (wood.stiffness != wood_.stiffness || wood.damping != wood_.damping)
+        scale_wood(plan_, wood.stiffness / wood_.stiffness, wood_.damping > 0 ? wood.damping / wood_.damping : 1);
+    wood_ = wood;
+    if (plan.dt / finer != plan_.dt) change_step(plan_, state_, plan.dt / finer);
+    state_.loads = run.loads;
+    lead_hands(run);
 }
 
 template <class T> void ErrorEstimate<T>::follow(const State<T>& run) {
@@ -67,6 +114,7 @@ template <class T> void ErrorEstimate<T>::follow(const State<T>& run) {
         found_.finite = !first_non_finite(state_);
         if (found_.finite) note_roughness();
     }
+    state_.loads.clear(); // of that step alone
     if (found_.finite) compare(run);
 }
 
@@ -108,28 +156,43 @@ template <class T> TipError ErrorEstimate<T>::result() const {
     return result;
 }
 
-RunError::RunError(Simulation& simulation) : run_(run_of(simulation)) {
-    visit_run(run_,
-              [](auto& run) { present(run.plan, run.state); }); // what has run already may have its state in lanes
-    const Tree& tree = run_.assembly().tree;
-    if (const Run<float>* const run = run_.single())
-        single_.emplace(tree, run->plan, run->state);
-    else
-        double_.emplace(tree, run_.double_()->plan, run_.double_()->state);
+struct RunError::Own {
+    explicit Own(AnyRun& of) : run(of) {
+        if (!run.coupled()) throw SceneError("error: is estimated with the coupled method alone");
+        if (const char* const free = free_part(run.scene()))
+            throw SceneError(std::string(free) + ": no error is estimated where something is free");
+        visit_run(run, [this](auto& r) {
+            present(r.plan, r.state); // what has run already may have its state in lanes
+            estimate(r).emplace(run.assembly().tree, r.plan, r.state, wood());
+        });
+    }
+    std::optional<ErrorEstimate<float>>& estimate(Run<float>&) { return single; }
+    std::optional<ErrorEstimate<double>>& estimate(Run<double>&) { return double_; }
+    WoodScale wood() const { return {run.stiffness, run.damping}; }
+
+    AnyRun& run;
+    std::optional<ErrorEstimate<float>> single;
+    std::optional<ErrorEstimate<double>> double_;
+};
+
+RunError::RunError(Simulation& simulation) : own_(std::make_unique<Own>(run_of(simulation))) {}
+RunError::RunError(RunError&&) noexcept = default;
+RunError& RunError::operator=(RunError&&) noexcept = default;
+RunError::~RunError() = default;
+
+void RunError::lead() {
+    visit_run(own_->run, [this](auto& run) { own_->estimate(run)->lead(run.plan, run.state, own_->wood()); });
 }
 
 void RunError::follow() {
-    visit_run(run_, [this](auto& run) {
+    visit_run(own_->run, [this](auto& run) {
         present(run.plan, run.state);
-        if constexpr (std::is_same_v<decltype(run), Run<float>&>)
-            single_->follow(run.state);
-        else
-            double_->follow(run.state);
+        own_->estimate(run)->follow(run.state);
     });
 }
 
 TipError RunError::result() const {
-    return single_ ? single_->result() : double_->result();
+    return own_->single ? own_->single->result() : own_->double_->result();
 }
 
 template class ErrorEstimate<float>;

@@ -1,0 +1,48 @@
+// run_error.h: how wrong a run is at its step, seen while it goes on: beside it goes a companion at a quarter of the step, and the tips of the branches
+// of both are compared. What the estimate is worth, and where it is unknown: error_estimate.h; it is 0.9 to 1.8 times the true error.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+namespace bough {
+
+class Simulation;
+
+// Over tips and samples.
+struct TipError {
+    static constexpr int finer = 4; // the companion's steps to one of the run's
+
+    double rms = 0, worst = 0; // [m] of the run, estimated
+    double deflection = 0;     // [m] RMS of the run's tips from its start pose
+    double rough = 0;          // [m] RMS of the companion's fourth differences
+    double rounding = 0;       // [m] the precision's epsilon at the tip farthest from the origin in the start pose
+    std::int64_t samples = 0;  // steps, or frames, that were compared
+    std::size_t tips = 0;
+    bool finite = true; // the companion's state; ends the comparison where it is not
+    bool known() const { return finite && rough <= (2 * rms > 100 * rounding ? 2 * rms : 100 * rounding); }
+};
+
+// Of a simulation of the coupled method in which nothing is free. Reads the run, never changes it. A step costs four more, and memory is that of a second
+// run.
+class RunError {
+public:
+    // As it stands, at its start or on its way: the error that counts is what comes from there on. Throws SceneError. Keeps a reference to the run
+    // (no longer than it may be moved from).
+    explicit RunError(Simulation&);
+    RunError(RunError&&) noexcept;
+    RunError& operator=(RunError&&) noexcept;
+    ~RunError();
+
+    // Before a step, where something was changed since the last one: the companion's next steps have it too, wind, gravity, wood, ground, pulls,
+    // hands, the step.
+    void lead();
+    // After each step, or frame of several. Allocates nothing, but where hands came or went.
+    void follow();
+    TipError result() const;
+
+private:
+    struct Own;
+    std::unique_ptr<Own> own_;
+};
+
+} // namespace bough
