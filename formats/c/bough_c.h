@@ -61,11 +61,10 @@ bough_result bough_free(void* handle); /* of any kind; NULL: nothing */
 
 /* As `treegen --species SPECIES --bodies BODIES --seed SEED ...`. */
 typedef struct bough_growth {
-    uint64_t check;      /* leave as it is */
-    const char* species; /* bough_species(); default "broadleaf" */
-    int64_t bodies;      /* that bough_convert will make of the tree, the same whatever their number, within 10 %;
-                                    * 0: as many as come (default) */
-    uint64_t seed;       /* default 0 */
+    uint64_t check;                /* leave as it is */
+    const char* species;           /* bough_species(); default "broadleaf" */
+    int64_t bodies;                /* that bough_convert will make, within 10 %; 0: the species' own (default) */
+    uint64_t seed;                 /* default 0 */
     int32_t leaves, petals, fruit; /* wanted where not 0 (default 0) */
 } bough_growth;
 bough_growth bough_default_growth(void);

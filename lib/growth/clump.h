@@ -1,9 +1,11 @@
 // clump.h: the leaves that a clump (is_clump in tree.h) is drawn as.
 //
-// A body that stands for n leaves is drawn as min(n, drawn_most) of them, each of the body's proportions and of its area (where the tree says a leaf's size, of its proportions and of all
+// A body that stands for n leaves is drawn as min(n, drawn_most) of them, each of the body's proportions and of its area (where the tree says a
+// leaf's size, of its proportions and of all
 // their area) over their number, so that what is drawn has the clump's area. Where a tree has so many clumps that this would come to
 // more than 200 000 leaves, each is drawn as so many fewer.
-// They fill the ellipsoid of axes (width, 0.6 width, twice from there to the length's end) about the body's centre of mass, evenly: the middle of leaf k
+// They fill the ellipsoid of axes (width, 0.6 width, twice from there to the length's end) about the body's centre of mass, evenly: the middle
+// of leaf k
 // is point k of a sequence of low discrepancy (the additive recurrence of three irrationals). They point away from the
 // clump's joint and middle and droop a little; their upper faces look up and outward. All of it is drawn from the body's
 // index, so that the same tree looks the same whoever draws it.

@@ -6,7 +6,8 @@
 // and is the least for given phi_p, from the tips inward, with A, b the sums of what the children pass:
 //   W = K + G + A,   C = B + A,   T = H* + b (a column for each axis of f),   turn = W^-1 T
 //   passed to the parent: A - C^T turn_C, b - C^T turn,   give = tr(T^T W^-1 T)     [kg^2 m^2 rad/(N m)]
-// A subtree's sum of give is what it yields to, held at its base: with m its mass, what bears it feels of a slow motion of frequency omega the mass m +
+// A subtree's sum of give is what it yields to, held at its base: with m its mass, what bears it feels of a slow motion of frequency omega the
+// mass m +
 // omega^2 give / 3, but for the fourth power of omega over the subtree's own frequency, whose square is about 3 m / give. A joint's loss is
 // damping tr(turn^T K turn).
 // Reads a checked Tree as drawn. O(bodies). A joint that would topple by itself gives as its spring alone does.

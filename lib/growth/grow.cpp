@@ -42,13 +42,4 @@ Splines grow(const GrowthParameters& parameters, std::uint64_t seed, const Items
     return result;
 }
 
-Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t bodies) {
-    constexpr std::int64_t most = 20'000'000;
-    if (bodies < 1 || bodies > most)
-        throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " + std::to_string(most));
-    Splines result = grow(parameters, seed, items);
-    result.bodies = bodies;
-    return result;
-}
-
 } // namespace bough

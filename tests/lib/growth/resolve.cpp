@@ -58,6 +58,13 @@ double mean_damping(const std::vector<NaturalMode>& modes) {
     return sum;
 }
 
+// The whole tree, resolved by so many bodies.
+Tree resolved(const GrowthParameters& parameters, const Items& items, std::int64_t bodies, const Material& wood) {
+    Splines splines = grow(parameters, 1, items);
+    splines.bodies = bodies;
+    return segment(splines, wood, {});
+}
+
 const Material& wood_for(const Species& species) {
     const Material* const wood = find_wood(species.material);
     return wood ? *wood : wood_presets().front();
@@ -72,7 +79,7 @@ TEST_CASE("All eight species are one tree from 300 bodies on: height, masses, le
         const Items in_leaf{true, false, false};
         const Measured whole = measured(segment(grow(species.growth, 1, in_leaf), wood, {}), wood);
         for (const std::int64_t bodies : cases<std::int64_t>(1, {300, 1000, 10000, 100000})) {
-            const Tree tree = segment(grow_bodies(species.growth, 1, in_leaf, bodies), wood, {});
+            const Tree tree = resolved(species.growth, in_leaf, bodies, wood);
             const Measured now = measured(tree, wood);
             INFO(species.name << ", " << tree.size_bodies() << " bodies");
             CHECK_FALSE(check(tree));
@@ -97,7 +104,7 @@ TEST_CASE("All eight species sway as the whole tree does: three frequencies, and
         const Items in_leaf{true, false, false};
         const std::vector<NaturalMode> whole = three_modes(segment(grow(young, 1, in_leaf), wood, {}));
         for (const std::int64_t bodies : cases<std::int64_t>(1, {300, 1000, 3000})) {
-            const std::vector<NaturalMode> now = three_modes(segment(grow_bodies(young, 1, in_leaf, bodies), wood, {}));
+            const std::vector<NaturalMode> now = three_modes(resolved(young, in_leaf, bodies, wood));
             INFO(species.name << ", " << bodies << " bodies");
             for (std::size_t k = 0; k < whole.size(); ++k)
                 CHECK(now[k].frequency == Approx(whole[k].frequency).epsilon(within));

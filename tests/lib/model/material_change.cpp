@@ -2,7 +2,6 @@
 #include "lib/model/material_change.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
-#include "lib/growth/species.h"
 #include <catch2/catch.hpp>
 #include <cstring>
 
@@ -11,7 +10,7 @@ using namespace bough;
 namespace {
 
 Splines apple() {
-    static const Splines splines = grow(at_age(default_species(), 6), 5, {true, false, true});
+    static const Splines splines = grow_bodies(default_growth(), 5, {true, false, true}, 400);
     return splines;
 }
 
