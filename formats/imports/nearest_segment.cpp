@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_beside = 256; // bases passed over for one end
 constexpr double rounding = 1e-6;        // relative, of a difference of floats, and more
 constexpr std::int32_t no_box = std::numeric_limits<std::int32_t>::max();
-constexpr std::ptrdiff_t few_for_threads = 10000;
+[[maybe_unused]] constexpr std::ptrdiff_t few_for_threads = 10000; // without OpenMP there is one
 constexpr double too_thin = 10; // cost for each unit of radius that the place is thinner than what begins there
 
 double cost_of(double distance, double radius) {
