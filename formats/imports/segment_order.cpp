@@ -5,7 +5,7 @@
 namespace bough {
 namespace {
 
-constexpr std::ptrdiff_t few_for_threads = 10000;
+[[maybe_unused]] constexpr std::ptrdiff_t few_for_threads = 10000; // without OpenMP there is one
 constexpr std::int32_t size_class = 15; // powers of two: very long ones would blow up the boxes of small ones
 
 // Every third bit of 63 from the 21 of v.
