@@ -16,7 +16,6 @@ std::vector<Field> fields_of(Splines& s) {
     return {optional({"name", &s.name}),
             optional({"source", &s.source}),
             optional({"material", &s.material}),
-            optional({"bodies", &s.bodies}),
             optional(array("color", s.color, {})),
             array("parent", s.parent, {}),
             array("parent_at", s.parent_at, branch),

@@ -64,7 +64,8 @@ std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Ma
     const RandomKey clump = random_key(RandomKey{0}, ClumpDraw::clump, std::uint64_t(body));
     const Vec3 up = R_wb.transpose() * Vec3::UnitY();
     const double length = tree.size[body].x(), width = tree.size[body].y();
-    const Vec3 half(width / 2, 0.3 * width, length - tree.com[body].z());
+    const bool said = !tree.leaf_length.empty() && tree.leaf_length[body] > 0;
+    const Vec3 half(width / 2, 0.3 * width, said ? length - tree.com[body].z() : length / 2);
     const double blade = clump_leaf_size(tree, body, count).x();
     std::vector<ClumpLeaf> leaves;
     for (std::int32_t k = 0; k < count; ++k) {

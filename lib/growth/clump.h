@@ -4,7 +4,8 @@
 // leaf's size, of its proportions and of all
 // their area) over their number, so that what is drawn has the clump's area. Where a tree has so many clumps that this would come to
 // more than 200 000 leaves, each is drawn as so many fewer.
-// They fill the ellipsoid of axes (width, 0.6 width, twice from there to the length's end) about the body's centre of mass, evenly: the middle
+// They fill the ellipsoid of axes (width, 0.6 width, length; where the tree says a leaf's size, twice the way from there to the
+// length's end) about the body's centre of mass, evenly: the middle
 // of leaf k
 // is point k of a sequence of low discrepancy (the additive recurrence of three irrationals). They point away from the
 // clump's joint and middle and droop a little; their upper faces look up and outward. All of it is drawn from the body's
