@@ -155,7 +155,7 @@ void write_dynamic_wind(Output& output, const Tree& tree, const JointGroups& joi
     text.add("],\n\"SimulationGroups\": [\n");
     const auto add = [&text](const char* name, double value) {
         text.add(name);
-        text.add_number(std::round(1e4 * value) / 1e4);
+        text.add_json(value, {false, 4});
     };
     for (std::size_t g = 0; g < fit.group.size(); ++g) {
         const WindInfluence& of = fit.group[g];

@@ -142,7 +142,9 @@ ReducedSkin reduced_skin(const Skin& skin, const Tree& tree, std::size_t most) {
                 part_of[std::size_t(v)] = std::int32_t(m);
     }
     std::sort(rest.begin(), rest.end());
-    const Simplified wood = simplified(skin.position, picked(skin.triangle, rest), (all - loose) * most / all);
+    // Leaves can be fewer at little loss: half of the vertices, or their share, is the wood's.
+    const std::size_t wished = std::max((all - loose) * most / all, most / 2);
+    const Simplified wood = simplified(skin.position, picked(skin.triangle, rest), wished);
     made.error = wood.error;
     std::vector<std::vector<Triangle>> triangle(skin.part.size());
     for (const Triangle& t : wood.triangle) triangle[std::size_t(part_of[std::size_t(t[0])])].push_back(t);

@@ -2,8 +2,8 @@
 //
 // A piece is what hangs together (also by places alone), of at most 64 vertices, moved by one leaf or petal: a leaf's two faces, a card. The
 // simplifier would take leaves away until none are left; so of the pieces of a part some are left out, evenly in their order, and the others grow about
-// where they are attached, up to twofold in length, so that their area together stays. All else is simplified (simplified.h), and keeps the same share of its
-// vertices where it can. Vertices keep their UV, normals, and what moves them.
+// where they are attached, up to twofold in length, so that their area together stays. All else is simplified (simplified.h), to half of the vertices or the share
+// that it had. Vertices keep their UV, normals, and what moves them.
 #pragma once
 #include "lib/growth/skin.h"
 
