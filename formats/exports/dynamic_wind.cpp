@@ -70,6 +70,7 @@ WindInfluence fitted(const std::vector<Turn>& turns) {
     for (const Turn& t : turns) mean += t.angle / double(turns.size());
     best.influence = mean;
     double left = 0.95 * squares_left(turns, best);
+    if (left <= 1e-12 * mean * mean * double(turns.size())) return best; // they turn alike
     for (int k = 0; k < 20; ++k) {
         WindInfluence tried = best;
         tried.dual = true;

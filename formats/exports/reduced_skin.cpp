@@ -32,12 +32,19 @@ std::vector<Piece> pieces_of(const Skin& skin, const SkinPart& part, const Tree&
     const std::size_t end = part.first_index + part.index_count;
     DisjointSets sets(skin.position.size());
     std::map<std::array<double, 3>, std::int32_t> at;
+    std::map<std::int32_t, std::int32_t> of_leaf; // of a body that is one leaf, its first vertex
     for (std::size_t t = part.first_index; t < end; ++t)
         for (const std::int32_t v : skin.triangle[t]) {
             sets.join(skin.triangle[t][0], v);
             const Vec3& p = skin.position[std::size_t(v)];
             sets.join(at.try_emplace({p.x(), p.y(), p.z()}, v).first->second, v);
+            const std::int32_t body = skin.joint[std::size_t(v)][0];
+            if (is_flat(tree.kind[std::size_t(body)]) && !is_clump(tree, std::size_t(body)))
+                sets.join(of_leaf.try_emplace(body, v).first->second, v);
         }
+    // A kite's two faces lie a leaf's thickness apart.
+    for (const std::int32_t first : skin.clump_leaf)
+        for (std::int32_t k = 1; k < std::int32_t(leaf_vertices); ++k) sets.join(first, first + k);
     std::map<std::int32_t, Piece> found; // by the first vertex
     for (std::size_t t = part.first_index; t < end; ++t) {
         Piece& piece = found[sets.find(skin.triangle[t][0])];

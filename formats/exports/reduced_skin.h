@@ -1,6 +1,6 @@
 // reduced_skin.h: a skin with fewer vertices: wood simplified, leaves thinned out.
 //
-// A piece is what hangs together (also by places alone), of at most 64 vertices, moved by one leaf or petal: a leaf's two faces, a card. The
+// A piece is a leaf or petal, of a clump one of its leaves or sprays, as far as its triangles hang together, of at most 64 vertices. The
 // simplifier would take leaves away until none are left; so of the pieces of a part some are left out, evenly in their order, and the others grow about
 // where they are attached, up to twofold in length, so that their area together stays. All else is simplified (simplified.h), to half of the vertices or the share
 // that it had. Vertices keep their UV, normals, and what moves them.

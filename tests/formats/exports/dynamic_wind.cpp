@@ -19,7 +19,7 @@ std::vector<Quat> turned(const Tree& tree, const std::function<double(std::size_
     std::vector<Quat> world;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const Quat own = tree.joint_rotation[i] * Quat(Eigen::AngleAxisd(angle(i), Vec3::UnitX()));
-        world.push_back(tree.parent[i] < 0 ? own : world[std::size_t(tree.parent[i])] * own);
+        world.push_back(tree.parent[i] < 0 ? own : Quat(world[std::size_t(tree.parent[i])] * own));
     }
     return world;
 }

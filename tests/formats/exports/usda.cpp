@@ -92,7 +92,7 @@ struct Written {
     std::string root;
 };
 
-MotionFrame as_frame(const Pose& pose, std::size_t number, const Vec3& moved = Vec3::Zero()) {
+MotionFrame as_frame(const skin_checks::Pose& pose, std::size_t number, const Vec3& moved = Vec3::Zero()) {
     MotionFrame frame;
     frame.frame = std::int64_t(number);
     for (const Vec3& x : pose.x_w) frame.position.push_back(x + moved);
@@ -100,7 +100,7 @@ MotionFrame as_frame(const Pose& pose, std::size_t number, const Vec3& moved = V
     return frame;
 }
 
-Written written(const Tree& tree, const std::vector<Pose>& poses, const Vec3& step = Vec3::Zero()) {
+Written written(const Tree& tree, const std::vector<skin_checks::Pose>& poses, const Vec3& step = Vec3::Zero()) {
     Written w{tree, build_skin(tree, {}), {}, "/" + tree.name};
     const JointGroups groups = merge_joints(tree, 100000);
     std::vector<OwnLook> look;
@@ -183,7 +183,7 @@ double off(const Written& w, int frame, const std::vector<Vec3>& wanted) {
 
 TEST_CASE("joints, weights and time samples move the meshes as the deformer does") {
     for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(150, 3)}) {
-        std::vector<Pose> poses;
+        std::vector<skin_checks::Pose> poses;
         for (unsigned f = 0; f < 4; ++f) poses.push_back(bent(tree, 0.2 * f, f));
         for (const Vec3& step : {Vec3(0, 0, 0), Vec3(0.1, 0, -0.2)}) {
             const Written w = written(tree, poses, step);
