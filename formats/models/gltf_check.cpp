@@ -85,8 +85,10 @@ void check_skin(const GltfDocument& document, std::size_t number) {
 
 } // namespace
 
-void check_arrays(const GltfDocument& document, bool quantized) {
+void check_arrays(const GltfDocument& document) {
     const Json& json = document.json;
+    const Json used = json.value("extensionsUsed", Json::array());
+    const bool quantized = std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
     const std::size_t meshes = entries_of(json, "meshes"), skins = entries_of(json, "skins");
     std::vector<HighestJoint> highest;
     for (std::size_t m = 0; m < meshes; ++m) highest.push_back(check_mesh(document, m, quantized));

@@ -20,6 +20,15 @@ expect 0 treegen --import a.glb --no-source -o after.json
 same <(sed 1,4d before.json | grep -v '"name"\|"source"') <(sed 1,4d after.json | grep -v '"name"\|"source"')
 cat a.glb | treesim twig.json --frames 3 --skin - -q -o e.glb || fail "a .glb from a pipe"
 
+# Arrays that were quantized and compressed (gltfpack) move the same bones and stay as they are.
+small=$top/data/fixtures/twig_meshopt.glb
+expect 0 treesim "$small" --frames 3 -o small.glb
+grep -q "4 bones of the model moved" err || fail "a compressed model: $(cat err)"
+grep -aq '"extensionsRequired":\["KHR_mesh_quantization","EXT_meshopt_compression"\]' small.glb || fail "the model is compressed no more"
+expect 0 treegen --import "$small" --no-source -o before.json
+expect 0 treegen --import small.glb --no-source -o after.json
+same <(sed 1,4d before.json | grep -v '"name"\|"source"') <(sed 1,4d after.json | grep -v '"name"\|"source"')
+
 # In a scene the model stays at its own origin.
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig.json", "position": [30, 0, 5], "yaw": 40}], "wind": "storm"}' >one.json
 expect 0 treesim one.json --frames 5 --skin "$twig" -o scene.glb
