@@ -39,6 +39,7 @@ GltfJoints joints_of(GltfDocument& document) {
     }
     decode_meshopt(document);
     check_arrays(document);
+    check_materials(document);
     add_missing_matrices(document);
     return found;
 }

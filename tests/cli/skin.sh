@@ -49,4 +49,17 @@ refused 2 "cut off" "${run[@]}" --skin cut.glb -o x.glb
 refused 2 "cut off" treegen --import cut.glb
 treegen --bodies 300 -q | treeconvert - -q -o other.json
 refused 2 "expected the model that the tree was made from" treesim other.json --frames 3 --skin "$twig" -o x.glb
+# A texture beside the model that is no image.
+python3 - "$twig" <<'END'
+import json, sys
+model = json.load(open(sys.argv[1]))
+model["images"], model["textures"] = [{"uri": "bark.png"}], [{"source": 0}]
+model["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+json.dump(model, open("painted.gltf", "w"))
+END
+cp "$(dirname "$twig")/twig_bark.bin" .
+expect 0 treesim painted.gltf --frames 2 -o painted.glb
+grep -q 'image "bark.png" not put into the file' err || fail "a missing texture is not named: $(cat err)"
+echo hello >bark.png
+refused 2 'image "bark.png" is no image that can be read' treesim painted.gltf --frames 2 -o x.glb
 absent x.glb x.jsonl two.glb strict.json

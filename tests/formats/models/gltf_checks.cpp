@@ -325,6 +325,40 @@ TEST_CASE("a mesh in Draco's form is left out, its joints stay") {
     CHECK(std::count(scene.role.begin(), scene.role.end(), NodeRole::joint) == 2);
 }
 
+TEST_CASE("places, materials, textures and images are there and are what they are called") {
+    const std::string nan = "0000C07F ";
+    refuses(
+        [&](Json& j) {
+            put(j, position, 5126, zero + zero + zero + one + nan + zero + one + one + one + one + one + one);
+        },
+        "mesh 0, primitive 0: POSITION: vertex 1 is not finite, expected numbers");
+    refuses(
+        [](Json& j) {
+            for (const std::size_t a : {position, joints, weights, indices}) accessor(j, a)["count"] = 0;
+        },
+        "mesh 0, primitive 0: POSITION has no vertices, expected one or more");
+    const auto with_image = [](const char* key, Json value, const std::string& uri) {
+        return [=](Json& j) {
+            j["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+            j["textures"] = {{{"source", 0}}};
+            j["images"] = {{{"uri", uri}}};
+            j["meshes"][0]["primitives"][0]["material"] = 0;
+            if (key) j[Json::json_pointer(key)] = value;
+        };
+    };
+    const std::string png = "data:image/png;base64,iVBORw0KGgo="; // a PNG's first bytes
+    reads(with_image(nullptr, {}, png));
+    refuses(with_image("/meshes/0/primitives/0/material", 1, png),
+            "mesh 0, primitive 0: material is 1, expected less than 1");
+    refuses(with_image("/materials/0/pbrMetallicRoughness/baseColorTexture/index", 3, png),
+            "material 0, baseColorTexture: index is 3, expected less than 1");
+    refuses(with_image("/textures/0/source", 1, png), "texture 0: source is 1, expected less than 1");
+    refuses(with_image(nullptr, {}, "data:image/png;base64,AAAA"),
+            "image 0 is no image that can be read, expected image/png");
+    refuses(with_image(nullptr, {}, "data:image/jpeg;base64,iVBO"),
+            "image 0 is no image that can be read, expected image/jpeg");
+}
+
 TEST_CASE("whole numbers are positions where the file says that it quantizes") {
     // 0, 1/2, 1 and 2 as shorts of which the largest stands for 1, in a mesh that its skin's matrices make 2 units long.
     const auto shorts = [](bool stated) {
