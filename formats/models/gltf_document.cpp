@@ -155,7 +155,7 @@ std::size_t add_view(GltfDocument& document, std::string_view bytes) {
     return views.size() - 1;
 }
 
-void embed_images(GltfDocument& document, const std::string& folder, ImportNotes& notes) {
+void embed_images(GltfDocument& document, const std::string& name, const std::string& folder, ImportNotes& notes) {
     if (!document.json.contains("images")) return;
     for (std::size_t i = 0; i < document.json["images"].size(); ++i) {
         const Json image = document.json["images"][i];
@@ -169,6 +169,10 @@ void embed_images(GltfDocument& document, const std::string& folder, ImportNotes
             why = error.what();
         }
         const char* const type = image_type(bytes);
+        const std::string file = lower_case(uri);
+        if (!type && !bytes.empty() && (file.ends_with(".png") || file.ends_with(".jpg") || file.ends_with(".jpeg")))
+            throw ImageError(name, "image " + bough::in_ascii_quotes(uri) +
+                                       " is no image that can be read, expected PNG or JPEG");
         if (!type) {
             notes.lines.push_back("image " + bough::in_ascii_quotes(uri) +
                                   " not put into the file, its name stays: " + why);
@@ -225,9 +229,11 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
         const std::string version = document.json.at("asset").at("version").get<std::string>();
         if (!version.starts_with("2.")) throw std::out_of_range("asset version is " + bough::in_ascii_quotes(version));
         move_views(document.json, merge_buffers(document, chunks, folder));
-        if (images == GltfImages::embed) embed_images(document, folder, notes);
+        if (images == GltfImages::embed) embed_images(document, name, folder, notes);
     } catch (const std::bad_alloc&) {
         throw; // not the file's fault
+    } catch (const ImageError&) {
+        throw;
     } catch (const Json::exception& error) {
         throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
     } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 // and the views' places moved with them; nothing in them is decoded. Buffers without bytes (the fallbacks of
 // EXT_meshopt_compression) stay as they are. All other JSON, extensions and extras too, keeps its order and its numbers.
 #pragma once
+#include "formats/error.h"
 #include "formats/imports/import.h"
 #include <nlohmann/json.hpp>
 
@@ -17,10 +18,15 @@ struct GltfDocument {
 
 enum class GltfImages { leave, embed };
 
+// An image beside a model that calls itself PNG or JPEG and is neither.
+struct ImageError : InputError {
+    using InputError::InputError;
+};
+
 // `folder`: where files that the JSON names stand, "": none are found. `embed`: images beside the file come into the
 // binary chunk; one that cannot be read keeps its name, with a note. O(size of all files).
 // Throws InputError (place `name`): no glTF 2.0, JSON that is broken or nested deeper than 200, a chunk, buffer or view
-// that is cut off, a buffer that cannot be found. Memory that runs out is std::bad_alloc.
+// that is cut off, a buffer that cannot be found; ImageError. Memory that runs out is std::bad_alloc.
 GltfDocument read_gltf(std::string_view content, const std::string& name, const std::string& folder, GltfImages,
                        ImportNotes&);
 
