@@ -122,7 +122,7 @@ void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<
 
 } // namespace
 
-void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
+std::size_t thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
     const std::vector<double> drawn = s.radius;
     std::vector<std::vector<HungLoad>> loads(s.branches());
     hang_items(s, wood, loads);
@@ -133,6 +133,12 @@ void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
         loads[b] = {};
     }
     seat_on_bark(s, drawn);
+    std::size_t thicker = 0;
+    for (std::size_t b = 0; b < s.branches(); ++b) {
+        const auto from = std::ptrdiff_t(s.first_point[b]), to = std::ptrdiff_t(s.first_point[b + 1]);
+        thicker += !std::equal(drawn.begin() + from, drawn.begin() + to, s.radius.begin() + from);
+    }
+    return thicker;
 }
 
 } // namespace bough

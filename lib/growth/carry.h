@@ -20,6 +20,10 @@
 
 namespace bough {
 
-void thicken_to_carry(Splines&, const Material&, double most_sag);
+// most_sag [rad] for trees of other programs, which drew them for pictures.
+constexpr double foreign_sag = 0.5;
+
+// Returns how many branches were made thicker.
+std::size_t thicken_to_carry(Splines&, const Material&, double most_sag);
 
 } // namespace bough
