@@ -17,7 +17,7 @@ std::string what_would_carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     std::ostringstream text;
     text.precision(3);
     text << "it bears " << tau.norm() << " N m on a spring of " << K << " N m/rad; ";
-    if (tree.kind[i] == Kind::branch)
+    if (i >= tree.kind.size() || tree.kind[i] == Kind::branch) // of what only settles the kind is not known
         text << "wood " << std::pow(std::max(1.0, tau.norm() / (sag * K)), 0.25)
              << " times as thick would carry it: treeconvert --radii carry makes it so";
     else
@@ -119,7 +119,7 @@ std::vector<RootTree> each_root_of(const Tree& tree) {
         place[i] = std::int32_t(own.body.size());
         own.body.push_back(i);
         own.tree.parent.push_back(is_root ? -1 : place[p]);
-        own.tree.kind.push_back(tree.kind[i]);
+        if (!tree.kind.empty()) own.tree.kind.push_back(tree.kind[i]);
         own.tree.mass.push_back(tree.mass[i]);
         own.tree.com.push_back(tree.com[i]);
         own.tree.joint_position.push_back(tree.joint_position[i]);

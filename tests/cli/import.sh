@@ -59,7 +59,7 @@ treeprofile modes rigid.json --modes 3 -q --set material.root_stiffness=2000 >sc
 cmp -s soft.txt scene.txt || fail "root_stiffness of a scene is another than treeconvert's"
 ! cmp -s soft.txt rigid.txt || fail "--root-stiffness was passed over"
 refused 1 "--root-stiffness" treeconvert "$fixtures/archi_small.csv" --root-stiffness 0 -o none.json
-refused 1 "material/root_stiffness" treeprofile modes rigid.json --set material.root_stiffness=-1
+refused 2 "material/root_stiffness" treeprofile modes rigid.json --set material.root_stiffness=-1
 
 # Wood that cannot carry what it is drawn with says what would, and --radii carry does.
 cat >soft.swc <<'END'
