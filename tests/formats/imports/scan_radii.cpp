@@ -40,7 +40,7 @@ TEST_CASE("what a scan sees stays, what it does not is bounded by the wood beyon
     // A trunk, seen up to 6 m; a bough, seen at its foot; a twig on the bough; a twig on the trunk's thin end.
     add_branch(s, -1, 0, {{0, 0, 0}, {0, 3, 0}, {0, 6, 0}, {0, 8, 0}}, {0.2, 0.1, 0.04, 0.02});
     add_branch(s, 0, 0.375, {{0, 3, 0}, {1, 3, 0}, {3, 3, 0}}, {0.05, 0.024, 0.03});
-    add_branch(s, 1, 1.0 / 3, {{1, 3, 0}, {1, 4, 0}}, {0.02, 0.001});
+    add_branch(s, 1, 1.0 / 3, {{1, 3, 0}, {1, 3.25, 0}}, {0.02, 0.001});
     add_branch(s, 0, 0.875, {{0, 7, 0}, {1, 7, 0}}, {0.02, 0.02});
     const Splines drawn = s;
     ImportNotes notes;
@@ -48,17 +48,17 @@ TEST_CASE("what a scan sees stays, what it does not is bounded by the wood beyon
     const auto share = [&](std::size_t b, std::size_t k, double R, std::size_t b0, std::size_t k0) {
         return R * std::pow(beyond(drawn, b, k) / beyond(drawn, b0, k0), 1 / 2.25);
     };
-    CHECK(beyond(drawn, 0, 0) == Approx(8 + 3 + 1 + 1));
+    CHECK(beyond(drawn, 0, 0) == Approx(8 + 3 + 0.25 + 1));
     for (const std::size_t seen : {0, 1, 2, 4}) CHECK(s.radius[seen] == drawn.radius[seen]);
     CHECK(s.radius[3] == Approx(0.0015));                                   // the trunk's tip: nothing beyond
-    CHECK(s.radius[5] == Approx(std::min(0.024, share(1, 1, 0.05, 1, 0)))); // 3 of 4 m
-    CHECK(s.radius[6] == Approx(0.0015)); // 30 mm thick beyond what is not seen: an error of the scan
-    CHECK(s.radius[7] == Approx(share(2, 0, 0.05, 1, 0)));
-    CHECK(s.radius[8] == 0.001); // nothing is made thicker
-    CHECK(s.radius[9] == Approx(share(3, 0, 0.04, 0, 2)));
+    CHECK(s.radius[5] == Approx(std::min(0.024, share(1, 1, 0.05, 1, 0)))); // 2.25 of 3.25 m
+    CHECK(s.radius[6] == Approx(0.0015));                  // 30 mm thick beyond what is not seen: an error of the scan
+    CHECK(s.radius[7] == Approx(share(2, 0, 0.05, 1, 0))); // 0.25 of 3.25 m
+    CHECK(s.radius[8] == 0.001);                           // nothing is made thicker
+    CHECK(s.radius[9] == Approx(std::min(0.02, share(3, 0, 0.04, 0, 2))));
     CHECK(s.radius[10] == Approx(0.0015));
     REQUIRE(notes.lines.size() == 1);
-    CHECK(notes.lines[0].starts_with("--scan-radii: 5 of 11 radii"));
+    CHECK(notes.lines[0].starts_with("--scan-radii: 4 of 11 radii"));
 }
 
 TEST_CASE("a tree that is thin throughout is bounded from its foot") {
