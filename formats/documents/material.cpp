@@ -19,6 +19,7 @@ constexpr Number number_fields[] = {
     {"youngs_modulus", &Material::youngs_modulus},
     {"shear_modulus", &Material::shear_modulus},
     {"damping_ratio", &Material::damping_ratio},
+    {"strength", &Material::strength},
     {"leaf_density", &Material::leaf_density},
     {"leaf_thickness", &Material::leaf_thickness},
     {"petal_thickness", &Material::petal_thickness},
