@@ -232,10 +232,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                     q.set(outward::x, f.x);
                     q.set(outward::z, f.z);
                 }
-                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
-                             [&](std::uint32_t joint, int k, W w) {
-                                 write(rows.outward_records + joint * record(outward_count, L) + std::size_t(k), w);
-                             });
+                base.template scatter<false>(rows.outward_records,
+                                             &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0);
             }
         }
     }
@@ -363,11 +361,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             Records<T, inward_count> base;
             keep(q, base.rows());
             for (int k = inward_count; k < base.quantities; ++k) base.rows().set(k, W{});
-            base.scatter(&rows.landing[g.first_base + std::size_t(lane)], nothing,
-                         [&](std::uint32_t joint, int k, W w) {
-                             T* at = rows.inward_records + joint * record(inward_count, L) + std::size_t(k);
-                             write(at, read(at) + w);
-                         });
+            base.template scatter<true>(rows.inward_records, &rows.landing[g.first_base + std::size_t(lane)], nothing);
         }
     }
 

@@ -306,10 +306,8 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
                                               {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane},
                                               fastest, flags, Parts::fold_of(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
-                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
-                             [&](std::uint32_t joint, int k, W w) {
-                                 write(rows.outward_records + joint * record(outward::count, L) + std::size_t(k), w);
-                             });
+                base.template scatter<false>(rows.outward_records,
+                                             &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0);
             }
             for (int l = 0; l < width<T>; ++l) flags.omega2 = std::max(flags.omega2, double(fastest[l]));
         }

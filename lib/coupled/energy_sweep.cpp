@@ -275,10 +275,8 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
                 step<wind, kind>(f, sums, ground, row, lane, Parts::fold_of(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
-                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
-                             [&](std::uint32_t joint, int k, W w) {
-                                 write(out.records + joint * record(energy::count, L) + std::size_t(k), w);
-                             });
+                base.template scatter<false>(out.records,
+                                             &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0);
             }
             for (int k = 0; k < energy::sums; ++k)
                 write(out.sums + g.first_base * std::size_t(energy::sums) + std::size_t(k * L + lane),
