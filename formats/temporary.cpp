@@ -63,9 +63,29 @@ bool is_temporary_name(std::string_view name) {
     return dash != std::string_view::npos && is_number(name.substr(0, dash)) && is_number(name.substr(dash + 1));
 }
 
+// What is in an open folder: files alone, as no folder of ours holds others.
+void remove_content(int folder) {
+    const int copy = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC); // which closedir() closes
+    if (copy < 0) return;
+    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(copy), ::closedir);
+    while (const dirent* entry = entries ? ::readdir(entries.get()) : nullptr) ::unlinkat(folder, entry->d_name, 0);
+}
+
+void remove_folder_if_left(int folder, const char* name) {
+    const int left = ::openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (left < 0) return;
+    struct stat opened {};
+    if (::fstat(left, &opened) == 0 && opened.st_uid == ::geteuid() && ::flock(left, LOCK_EX | LOCK_NB) == 0) {
+        remove_content(left);
+        ::unlinkat(folder, name, AT_REMOVEDIR);
+    }
+    ::close(left);
+}
+
 // Whoever writes a file holds its lock, on any machine that sees it.
 void remove_if_left(int folder, const char* name) {
     const int file = ::openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0 && errno == EISDIR) return remove_folder_if_left(folder, name);
     if (file < 0) return;
     struct stat opened {
     }, named{};
@@ -97,11 +117,23 @@ std::string link_to(int file) {
     return "/proc/self/fd/" + std::to_string(file);
 }
 
+// Where a path's file stands, with a slash behind; "." for a bare name.
+std::string folder_before(const std::string& path) {
+    const std::size_t slash = path.find_last_of('/');
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+// A name that no other of this process has.
+std::string temporary_name(const std::string& folder) {
+    static std::atomic<unsigned> count{0};
+    const std::string leaf = ".bough-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp";
+    return folder == "." ? leaf : folder + leaf;
+}
+
 } // namespace
 
 Temporary::Temporary(const std::string& path, unsigned mode, bool nameless) : path_(path) {
-    const std::size_t slash = path.find_last_of('/');
-    folder_ = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    folder_ = folder_before(path);
     remove_what_is_left(folder_);
     if (!nameless || !open_nameless()) open_named();
     if (mode != 0) (void)!::fchmod(file_, mode); // another owner's file: the umask's permissions are what we may give
@@ -118,15 +150,9 @@ bool Temporary::open_nameless() {
     return false;
 }
 
-std::string Temporary::next_name() const {
-    static std::atomic<unsigned> count{0};
-    const std::string leaf = ".bough-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp";
-    return folder_ == "." ? leaf : folder_ + leaf;
-}
-
 void Temporary::open_named() {
     for (;;) {
-        name_ = next_name();
+        name_ = temporary_name(folder_);
         file_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0 && errno == EEXIST) continue;
         if (file_ < 0) {
@@ -146,7 +172,7 @@ void Temporary::open_named() {
 void Temporary::give_name() {
     const std::string link = link_to(file_);
     do {
-        name_ = next_name();
+        name_ = temporary_name(folder_);
         if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) == 0) {
             registered_ = register_unfinished(name_);
             return;
@@ -174,9 +200,52 @@ Temporary::~Temporary() {
     if (file_ >= 0) ::close(file_);
 }
 
+TemporaryFolder::TemporaryFolder(const std::string& path) : path_(path) {
+    const std::string beside = folder_before(path);
+    remove_what_is_left(beside);
+    for (;;) {
+        name_ = temporary_name(beside);
+        if (::mkdir(name_.c_str(), 0777) != 0) {
+            if (errno == EEXIST) continue;
+            fail(errno);
+        }
+        folder_ = ::open(name_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        if (const int error = errno; folder_ < 0 && error != ENOENT) {
+            ::rmdir(name_.c_str());
+            name_.clear();
+            fail(error);
+        }
+        // Another process may take it for one that is left over until it is locked.
+        const bool taken = folder_ >= 0 && ::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        struct stat status {};
+        if (folder_ >= 0 && !taken && ::stat(name_.c_str(), &status) == 0) break;
+        if (folder_ >= 0) ::close(std::exchange(folder_, -1));
+    }
+    registered_ = register_unfinished(name_);
+}
+
+void TemporaryFolder::finish() {
+    if (::rename(name_.c_str(), path_.c_str()) != 0) fail(errno);
+    name_.clear();
+    release_unfinished(std::exchange(registered_, nullptr));
+    ::close(std::exchange(folder_, -1));
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    if (!name_.empty()) {
+        remove_content(folder_);
+        ::rmdir(name_.c_str());
+    }
+    release_unfinished(registered_);
+    if (folder_ >= 0) ::close(folder_);
+}
+
 void remove_unfinished_outputs() noexcept {
+    // Files first, which may stand in one of the folders.
     for (Unfinished* u = unfinished.load(); u; u = u->next)
-        if (const char* path = u->path.exchange(nullptr)) ::unlink(path);
+        if (char* path = u->path.exchange(nullptr); path && ::unlink(path) != 0 && errno == EISDIR) u->path = path;
+    for (Unfinished* u = unfinished.load(); u; u = u->next)
+        if (const char* path = u->path.exchange(nullptr)) ::rmdir(path);
 }
 
 } // namespace bough

@@ -24,12 +24,28 @@ private:
     bool open_nameless();
     void open_named();
     void give_name();
-    std::string next_name() const;
 
     std::string path_, folder_;
     std::string name_; // of its own; "": it has none
     int file_ = -1;
     void* registered_ = nullptr; // name_'s entry in the list of remove_unfinished_outputs()
+};
+
+// A folder that is being filled beside the name that it is to have, `.bough-PID-N.tmp`, locked and cleared away as temporary files are. Errors are
+// std::system_error.
+class TemporaryFolder {
+public:
+    explicit TemporaryFolder(const std::string& path); // path: its name to be, without a slash behind
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder(); // gone with what is in it, unless finish() has been called
+    const std::string& name() const { return name_; }
+    void finish(); // gets the name, which nothing, or an empty folder, may have
+
+private:
+    std::string path_, name_;
+    int folder_ = -1; // holds the lock
+    void* registered_ = nullptr;
 };
 
 // Removes the temporary files of this process that have names. For a signal handler that is about to end the process (async-signal-safe);

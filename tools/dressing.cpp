@@ -24,11 +24,13 @@ void add_dress_options(OptionList& list, DressChoice& o) {
         .takes("NAME|FILE");
     list.add("--leaf-detail", o.leaf_detail,
              "How its leaves are drawn: mesh, each by its outline, folded and curled; card, a rectangle whose picture "
-             "cuts it out, clumps as sprays of six (in a .glb the default); kite (else the default)")
+             "cuts it out, clumps as sprays of six (the default where there are textures); kite (else)")
         .takes("NAME")
         .one_of({"kite", "card", "mesh"});
     list.add("--textures", o.textures,
-             "Sides of the pictures of leaves and bark in a .glb [pixels]: 256, 512 (default), 1024; or none")
+             "Sides of the pictures of leaves and bark in a .glb, .usda or NAME_vat/ [pixels]: 256, 512 (default), "
+             "1024; or "
+             "none")
         .takes("N|none")
         .one_of({"none", "256", "512", "1024"});
 }
@@ -39,7 +41,7 @@ void refuse_contradictions(const DressChoice& o, const std::string& format, bool
     if (mesh && o.look == "none" && o.leaf_detail.empty() && o.textures.empty()) return; // asks for nothing
     if (!mesh) throw UsageError(std::string(given) + ": only with a mesh");
     if (plain) throw UsageError(std::string(given) + ": not with " + plain);
-    if (format == "glb") {
+    if (has_textures(format)) {
         if (!o.look.empty() && o.look != "none" && o.textures == "none" && o.leaf_detail != "mesh")
             throw UsageError("--look: not with --textures none, but with --leaf-detail mesh, as nothing would show it");
         if (o.leaf_detail == "card" && o.textures == "none")
@@ -48,20 +50,21 @@ void refuse_contradictions(const DressChoice& o, const std::string& format, bool
         return;
     }
     if (!o.look.empty() && o.look != "none" && o.leaf_detail != "mesh")
-        throw UsageError("--look: without --leaf-detail mesh only with .glb, whose textures show it");
-    if (!o.textures.empty() && o.textures != "none") throw UsageError("--textures: only with .glb");
+        throw UsageError("--look: without --leaf-detail mesh only with .glb, .usda, NAME_vat/, whose textures show it");
+    if (!o.textures.empty() && o.textures != "none") throw UsageError("--textures: only with .glb, .usda, NAME_vat/");
     if (o.leaf_detail == "card")
-        throw UsageError("--leaf-detail card: only with .glb, whose textures cut the leaves out");
+        throw UsageError("--leaf-detail card: only with .glb, .usda, NAME_vat/, whose textures cut the leaves out");
 }
 
 std::optional<OwnMesh> dressed(const Tree& tree, std::optional<int> sides, const DressChoice& o,
                                const std::string& format, const char* plain) {
     if (plain) return std::nullopt;
-    const bool glb = format == "glb";
+    const bool glb = has_textures(format);
     DressOptions options;
     const std::string detail = !o.leaf_detail.empty() ? o.leaf_detail : glb && o.textures != "none" ? "card" : "kite";
     if (sides) options.sides = *sides;
-    if (!sides && !glb) options.sides = SkinOptions().sides; // as treeconvert --mesh and point caches have it
+    if (!sides && (!glb || format == "vat"))
+        options.sides = SkinOptions().sides; // as treeconvert --mesh and point caches have it
     options.textures = !glb || o.textures == "none" ? 0 : o.textures.empty() ? 512 : std::stoi(o.textures);
     options.detail = detail == "card" ? LeafDetail::card : detail == "mesh" ? LeafDetail::mesh : LeafDetail::kite;
     if (options.detail == LeafDetail::kite && options.textures == 0) return std::nullopt;

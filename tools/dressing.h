@@ -8,8 +8,8 @@ namespace bough {
 
 struct DressChoice {
     std::string look;        // a species, a species document, "none"; empty: the species that the tree is called after
-    std::string leaf_detail; // "kite", "card", "mesh"; empty: card in a .glb, else kite
-    std::string textures;    // "none" or a number; empty: 512 in a .glb, else none
+    std::string leaf_detail; // "kite", "card", "mesh"; empty: card where there are textures, else kite
+    std::string textures;    // "none" or a number; empty: 512 where a format has them, else none
     const char* given() const {
         return !look.empty()          ? "--look"
                : !leaf_detail.empty() ? "--leaf-detail"
@@ -17,9 +17,13 @@ struct DressChoice {
                                       : nullptr;
     }
 };
+// Whether a mesh of that format has textures.
+inline bool has_textures(const std::string& format) {
+    return format == "glb" || format == "usda" || format == "vat";
+}
 void add_dress_options(OptionList&, DressChoice&);
 
-// Throws UsageError where an option is given for a mesh of that format (glb, obj, mdd, pc2) that cannot have it, or for none. plain: an option that asks for
+// Throws UsageError where an option is given for a mesh of that format (glb, usda, vat, obj, mdd, pc2) that cannot have it, or for none. plain: an option that asks for
 // leaves as they are without species, by name; null: none.
 void refuse_contradictions(const DressChoice&, const std::string& format, bool mesh, const char* plain);
 

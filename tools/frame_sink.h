@@ -65,6 +65,9 @@ Skin chosen_skin(const Tree&, int sides, const GltfChoice&);
 // What --leaves-as instances loses, "" without it.
 std::string leaves_note(const Tree&, const GltfChoice&);
 
+// What merging joints cost, beside the height of what is shown.
+std::string merge_note(const Tree&, const JointGroups&, const MergeError&, double height, bool instances = false);
+
 // One .glb, written by finish(), which also notes what merging joints and leaving out keys cost. Keeps a reference to
 // the tree and the notes.
 std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int sides, const RustleMaker&, double fps,

@@ -52,16 +52,7 @@ private:
     void reach(double y) { low_ = std::min(low_, y), high_ = std::max(high_, y); }
     void note() {
         std::ostringstream text;
-        text.precision(3);
-        if (error_) {
-            text << tree_.size_bodies() << " bodies merged to " << groups_.size() << " joints ("
-                 << (choice_.instances() ? "--max-joints, --leaves-as instances" : "--max-joints") << "): ends of "
-                 << "bodies are off by " << error_->rms() << " m RMS, " << error_->largest() << " m at most ("
-                 << 100 * error_->rms() / (high_ - low_) << " and " << 100 * error_->largest() / (high_ - low_)
-                 << " % of the height); more joints move truer, where the viewer takes them";
-            notes_.push_back(text.str());
-            text.str("");
-        }
+        if (error_) notes_.push_back(merge_note(tree_, groups_, *error_, high_ - low_, choice_.instances()));
         if (const std::string lost = leaves_note(tree_, choice_); !lost.empty()) notes_.push_back(lost);
         const std::size_t all = writer_->keys().joints() * writer_->keys().frames(), kept = writer_->keys().count();
         if (kept == all) return;
@@ -146,6 +137,17 @@ GltfOptions gltf_options(const GltfChoice& choice, const std::string& source) {
     options.source = source;
     options.leaf_instances = choice.instances();
     return options;
+}
+
+std::string merge_note(const Tree& tree, const JointGroups& groups, const MergeError& error, double height,
+                       bool instances) {
+    std::ostringstream text;
+    text.precision(3);
+    text << tree.size_bodies() << " bodies merged to " << groups.size() << " joints ("
+         << (instances ? "--max-joints, --leaves-as instances" : "--max-joints") << "): ends of bodies are off by "
+         << error.rms() << " m RMS, " << error.largest() << " m at most (" << 100 * error.rms() / height << " and "
+         << 100 * error.largest() / height << " % of the height); more joints move truer, where the viewer takes them";
+    return text.str();
 }
 
 Skin chosen_skin(const Tree& tree, int sides, const GltfChoice& choice) {

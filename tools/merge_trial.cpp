@@ -20,15 +20,24 @@ void add_merge_options(OptionList& list, MergeChoice& choice) {
              "ERROR [m] of where the whole tree has them, in every frame of that run (treesim then runs the rest)")
         .takes("ERROR")
         .check(positive_number());
-    list.add("--wind", choice.wind, "With --merge-below: its wind, as of treesim (gusty)").takes("NAME|FILE");
-    list.add("--seconds", choice.seconds, "With --merge-below: its length [s] (10)")
+    list.add("--wind", choice.wind, "With --merge-below or --wind-groups: the trial run's wind, as of treesim (gusty)")
+        .takes("NAME|FILE");
+    list.add("--seconds", choice.seconds, "With --merge-below or --wind-groups: the trial run's length [s] (10)")
         .takes("S")
         .check(positive_number());
 }
 
-void refuse_merge_contradictions(const MergeChoice& choice) {
-    if (!choice.below && !choice.wind.empty()) throw UsageError("--wind: only with --merge-below");
-    if (!choice.below && choice.seconds) throw UsageError("--seconds: only with --merge-below");
+std::string trial_wind_of(const MergeChoice& choice) {
+    return choice.wind.empty() ? trial_wind : choice.wind;
+}
+double trial_seconds_of(const MergeChoice& choice) {
+    return choice.seconds.value_or(trial_seconds);
+}
+
+void refuse_merge_contradictions(const MergeChoice& choice, bool wind_groups) {
+    const bool trial = choice.below || wind_groups;
+    if (!trial && !choice.wind.empty()) throw UsageError("--wind: only with --merge-below or --wind-groups");
+    if (!trial && choice.seconds) throw UsageError("--seconds: only with --merge-below or --wind-groups");
     const MergeBelow how;
     if (choice.seconds && !(std::round(*choice.seconds * how.fps) >= 1 && *choice.seconds < 1e6))
         throw UsageError("--seconds: a trial of at least one frame is needed, of at most a million seconds");
@@ -37,11 +46,11 @@ void refuse_merge_contradictions(const MergeChoice& choice) {
 std::string merge_by_trial(Tree& tree, const MergeChoice& choice, const CommonOptions& common,
                            const std::string& input) {
     RunOptions run;
-    run.wind = choice.wind.empty() ? trial_wind : choice.wind;
+    run.wind = trial_wind_of(choice);
     MergeBelow how;
     how.error = *choice.below;
     how.scene = chosen_scene(run);
-    how.seconds = choice.seconds.value_or(trial_seconds);
+    how.seconds = trial_seconds_of(choice);
     how.simd = chosen_simd(run);
     MergedBelow merged;
     {

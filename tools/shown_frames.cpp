@@ -1,4 +1,5 @@
 #include "shown_frames.h"
+#include "baked_sinks.h"
 #include "formats/documents/motion.h"
 #include "lib/base/counted.h"
 #include "lib/free/shown_tree.h"
@@ -45,10 +46,17 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         o.common.notes.push_back("the trees of " + std::to_string(setting.tree_files.size()) + " files all look as " +
                                  (o.dress.look.empty() ? "the first one's species, " + shown.name : o.dress.look) +
                                  " does (--look)");
-    if (is_point_cache(format) || format == "obj") {
+    if (is_mesh(format) && format != "glb") {
         Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
         if (format == "obj")
             return obj_sink(o.common.output, shown, std::move(skin), own ? &*own : nullptr, rustle, o.common.notes);
+        if (format == "vat")
+            return vat_sink(o.common.output, shown, std::move(skin), std::move(own), rustle,
+                            {o.run.fps, last - first + 1, o.loop.seconds.has_value()}, o.vat,
+                            with_command_line(setting.source, o.common), o.common.notes);
+        if (format == "usda")
+            return usda_sink(o.common.output, shown, std::move(skin), std::move(own), o.run.fps, o.gltf,
+                             with_command_line(setting.source, o.common), o.common.notes);
         return cache_sink(o.common.output, format, shown, std::move(skin), rustle, o.run.fps, first, last - first + 1,
                           o.common.notes);
     }

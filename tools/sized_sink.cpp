@@ -10,6 +10,7 @@ constexpr double large = 2e9; // [B]
 const char* smaller(const std::string& format) {
     if (format == "obj") return ".pc2 and .mdd hold a frame's vertices in 12 bytes each, .glb the joints' turns alone";
     if (format == "mdd" || format == "pc2") return ".glb holds the joints' turns alone";
+    if (format == "vat" || format == "usda") return ".glb holds the joints' turns alone";
     if (format == "safetensors") return "--fields names what is wanted";
     return ".safetensors takes less than half, --digits 6 half; --fields names what is wanted";
 }

@@ -5,7 +5,6 @@
 #include "formats/documents/material.h"
 #include "formats/documents/splines.h"
 #include "formats/documents/tree.h"
-#include "formats/exports/dynamic_wind.h"
 #include "formats/exports/obj.h"
 #include "frame_sink.h"
 #include "import_file.h"
@@ -21,6 +20,7 @@
 #include "merge_trial.h"
 #include "run_options.h"
 #include "tool.h"
+#include "wind_trial.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -91,7 +91,9 @@ void declare(OptionList& list, Options& o) {
     add_dress_options(list, o.dress);
     list.add("--wind-groups", o.wind_groups,
              "With --mesh FILE.glb: also write its joints' groups for Unreal's Dynamic Wind (JSON), by how many "
-             "branches they are from the trunk; the joints' x axes then lie along the branches, as it wants them")
+             "branches they are from the trunk, with influences fitted to a trial run; the joints' x axes then lie "
+             "along "
+             "the branches, as it wants them")
         .takes("FILE")
         .check(file_name());
     list.group("Wood");
@@ -136,7 +138,7 @@ const char* plain_leaves(const Options& o) {
 
 void refuse_contradictions(const Options& o) {
     if (o.input.empty()) throw UsageError("INPUT: missing");
-    refuse_merge_contradictions(o.merge);
+    refuse_merge_contradictions(o.merge, !o.wind_groups.empty());
     if (o.sides && o.mesh.empty()) throw UsageError("--sides: only with --mesh");
     if (o.mesh == "-") throw UsageError("--mesh is '-', expected a file name");
     if (!o.mesh.empty() && ending(o.mesh) != ".obj" && ending(o.mesh) != ".glb")
@@ -249,14 +251,22 @@ void write_mesh(Outputs& outputs, const Tree& tree, Options& o, const std::strin
         const JointGroups groups = chosen_joints(tree, o.gltf);
         GltfOptions options = gltf_options(o.gltf, tree.source);
         options.x_along = !wind.empty();
+        if (!wind.empty()) options.tilted = vertical_joints(tree, groups);
+        if (!options.tilted.empty())
+            o.common.notes.push_back(
+                mesh + ": " +
+                counted(options.tilted.size(), "joint of a vertical branch is", "joints of vertical branches are") +
+                " turned by 1e-3 rad, as Unreal's wind knows no direction for them");
         outputs.push_back(std::make_unique<Output>(mesh));
         if (own)
             GltfWriter(*outputs.back(), *own, tree, groups, options).finish();
         else
             GltfWriter(*outputs.back(), skin, tree, groups, options).finish();
         if (!wind.empty()) {
+            const WindFit fit = wind_by_trial(tree, groups, o.merge, o.common, o.input);
             outputs.push_back(std::make_unique<Output>(wind));
-            write_dynamic_wind(*outputs.back(), tree, groups);
+            write_dynamic_wind(*outputs.back(), tree, groups, fit);
+            o.common.notes.push_back(wind_note(fit, o.merge));
         }
         if (const std::string lost = leaves_note(tree, o.gltf); !lost.empty())
             o.common.notes.push_back(mesh + ": " + lost);

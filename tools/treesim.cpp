@@ -156,7 +156,8 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
     LoopStart loop;
     if (loops) {
         loop = close_loop(run, o.loop, o.run, o.common);
-        if (shown.sink) shown.sink = loop_sink(std::move(shown.sink), format == "glb", loop, o.loop, o.run);
+        if (shown.sink)
+            shown.sink = loop_sink(std::move(shown.sink), format == "glb" || format == "usda", loop, o.loop, o.run);
     }
     run_frames(o, run, shown.sink.get(), beside, range);
     if (loops) measure_seam(run, loop, o.loop, o.run, o.common.notes);
@@ -176,7 +177,8 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
     const auto read = std::make_shared<Setting>(read_setting(o.run));
     Setting& setting = *read;
     o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
-    std::vector<NamedFile> written{{"-o", o.common.output}, {"--save-state", o.save_state}};
+    std::vector<NamedFile> written = output_files(o, format);
+    written.push_back({"--save-state", o.save_state});
     // A scene's only tree may be saved in its own place, as INPUT may; one of several is not all that its file holds.
     if (setting.part.parts > 1) written.push_back({"--save-tree", o.save_tree});
     refuse_overwriting_trees(setting, written);

@@ -1,8 +1,10 @@
 #include "treesim_options.h"
 #include "file_names.h"
 #include "formats/exports/obj.h"
+#include "formats/output_folder.h"
 #include "shown_model.h"
 #include <algorithm>
+#include <filesystem>
 
 namespace bough {
 
@@ -15,15 +17,16 @@ const ToolInfo treesim_info = {
         "Frames go to stdout as JSON lines: a header line, then a frame a line. -o frames/oak_%04d.obj writes a mesh a "
         "frame and frames/oak.mtl, -o oak.glb one skinned and animated mesh, -o oak.mdd or oak.pc2 where the vertices "
         "of the mesh are that treeconvert --mesh oak.obj writes (Blender: import oak.obj, add the modifier Mesh "
-        "Cache, leave its axes: Forward +Y, Up +Z).\n"
+        "Cache, leave its axes: Forward +Y, Up +Z), -o oak_vat/ a vertex animation texture and its mesh (OpenVAT), -o "
+        "oak.usda USD text with a skeleton.\n"
         "--resume goes on after the saved frame with the same tree and scene; --seconds and --frames then say how many "
         "frames are added.",
     .examples = "treesim oak.xml --wind gusty --seconds 6 -o oak.glb\n"
                 "treesim tree.json --wind gusty --seconds 10 > motion.jsonl\n"
                 "treesim tree.json --wind breeze --set material.E=9e9 -o soft.glb",
-    .formats = {"jsonl", "json", "safetensors", "obj", "glb", "mdd", "pc2"},
+    .formats = {"jsonl", "json", "safetensors", "obj", "glb", "mdd", "pc2", "usda", "vat"},
     .first = {"INPUT", "--set", "--wind", "--seed", "--gravity", "--seconds", "--frames", "--fps", "--loop",
-              "--loop-blend", "--max-joints", "--leaves-as", "--substeps", "--solver", "--report"}};
+              "--loop-blend", "--max-joints", "--leaves-as", "--vat-vertices", "--substeps", "--solver", "--report"}};
 
 const ToolInfo join_info = {
     .name = "treesim",
@@ -54,7 +57,8 @@ void declare_mesh(OptionList& list, TreesimOptions& o) {
     list.add("--skin", o.skin,
              "With -o FILE.glb: write this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: "
              "its own meshes, skins and materials, with the motion as an animation of its bones; or, for any mesh "
-             "(.glb, .obj, .mdd, .pc2), a SpeedTree XML with mesh. The tree must have been made from it, or stand "
+             "(.glb, .obj, .mdd, .pc2, .usda, NAME_vat/), a SpeedTree XML with mesh. The tree must have been made from "
+             "it, or stand "
              "where its bones do")
         .takes("FILE")
         .check(file_name());
@@ -63,6 +67,7 @@ void declare_mesh(OptionList& list, TreesimOptions& o) {
         .check(whole_number(3, 256));
     add_key_tolerance(list, o.gltf);
     add_dress_options(list, o.dress);
+    add_vat_options(list, o.vat);
     list.add_flag("--rustle", o.rustle, "In a mesh, clumps' drawn leaves rustle with the wind");
 }
 
@@ -174,16 +179,20 @@ MotionFields chosen_fields(const TreesimOptions& o) {
 
 std::string chosen_format(const CommonOptions& common) {
     if (!common.format.empty()) return common.format;
+    const std::string folder = without_slash(common.output),
+                      written = "there are .jsonl, .json, .safetensors, .obj, .glb, .mdd, .pc2, .usda, NAME_vat/";
+    if (folder.ends_with("_vat")) return "vat";
+    if (folder != common.output)
+        throw UsageError("-o is '" + common.output + "', a folder, which is only written as NAME_vat/; " + written);
     const std::string kind = ending(common.output);
     if (kind == ".json" || kind == ".safetensors" || kind == ".obj") return kind.substr(1);
-    if (kind == ".glb" || kind == ".mdd" || kind == ".pc2") {
+    if (kind == ".glb" || kind == ".mdd" || kind == ".pc2" || kind == ".usda") {
         if (common.output.find('%') != std::string::npos)
             throw UsageError("-o is '" + common.output + "', but a " + kind +
                              " holds all frames, so its name takes no number");
         return kind.substr(1);
     }
-    const std::string written = "there are .jsonl, .json, .safetensors, .obj, .glb, .mdd, .pc2";
-    for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usda", ".usdc", ".dae", ".ply", ".stl"})
+    for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usdc", ".usdz", ".dae", ".ply", ".stl"})
         if (kind == known)
             throw UsageError("-o is '" + common.output + "', but " + known + " is not written; " + written);
     if (kind == ".csv")
@@ -195,9 +204,37 @@ std::string chosen_format(const CommonOptions& common) {
     return "jsonl";
 }
 
+std::vector<NamedFile> output_files(const TreesimOptions& o, const std::string& format) {
+    if (o.no_output) return {};
+    if (format != "vat")
+        return {{"-o", o.common.output}, {"the .mtl of -o", format == "obj" ? sequence_mtl(o.common.output) : ""}};
+    std::vector<NamedFile> files;
+    for (const std::string& file : vat_outputs(o.common.output, o.vat)) files.push_back({"-o", file});
+    return files;
+}
+
 const char* plain_leaves(const TreesimOptions& o) {
     return !o.skin.empty() ? "--skin" : o.rustle ? "--rustle" : o.gltf.instances() ? "--leaves-as instances" : nullptr;
 }
+
+namespace {
+
+// Options of one kind of mesh with another.
+void refuse_choices(const TreesimOptions& o, const std::string& format) {
+    const char* const given = o.gltf.given();
+    const bool joints = given && given == std::string("--max-joints");
+    if (given && format != "glb" && !(joints && format == "usda"))
+        throw UsageError(std::string(given) + (joints ? ": only with .glb and .usda" : ": only with .glb"));
+    if (format == "usda" && (!o.gltf.leaves_as.empty() || o.gltf.key_tolerance))
+        throw UsageError(std::string(o.gltf.leaves_as.empty() ? "--key-tolerance" : "--leaves-as") +
+                         ": only with .glb");
+    if (o.vat.given() && format != "vat") throw UsageError(std::string(o.vat.given()) + ": only with -o NAME_vat/");
+    if (format == "vat" && o.common.output == "-") throw UsageError("-o is '-', but an OpenVAT is a folder, NAME_vat/");
+    if (format == "usda" && o.rustle)
+        throw UsageError("--rustle: not with .usda, whose leaves move with their joints alone");
+}
+
+} // namespace
 
 void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.no_output) {
@@ -211,15 +248,16 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (o.report.rigid && !o.resume.empty())
         throw UsageError("--report rigid: not with --resume, which says nothing of the joints that are held");
     const bool mesh = is_mesh(format);
-    if (o.rustle && !mesh) throw UsageError("--rustle: only with a mesh (.obj, .glb, .mdd, .pc2)");
+    if (o.rustle && !mesh) throw UsageError("--rustle: only with a mesh (.obj, .glb, .mdd, .pc2, .usda, NAME_vat/)");
     if (o.rustle && o.loop.blend) throw UsageError("--rustle: not with --loop-blend, whose end is its beginning");
-    if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb, .mdd, .pc2)");
+    if (o.sides && !mesh) throw UsageError("--sides: only with a mesh (.obj, .glb, .mdd, .pc2, .usda, NAME_vat/)");
     if (!o.fields.empty() && mesh) throw UsageError("--fields: not with ." + format + ", which holds a mesh");
     if (o.digits && format != "json" && format != "jsonl")
         throw UsageError("--digits: only with frames as JSON, not with ." + format);
-    if (!o.mesh.empty() && !mesh) throw UsageError("--mesh: only with a mesh (.obj, .glb, .mdd, .pc2)");
+    if (!o.mesh.empty() && !mesh)
+        throw UsageError("--mesh: only with a mesh (.obj, .glb, .mdd, .pc2, .usda, NAME_vat/)");
     if (!o.skin.empty()) {
-        if (!mesh) throw UsageError("--skin: only with -o FILE.glb, of SpeedTree XML also .obj, .mdd, .pc2");
+        if (!mesh) throw UsageError("--skin: only with -o FILE.glb, of SpeedTree XML also the other meshes");
         if (!o.mesh.empty()) throw UsageError("--mesh: not with --skin, which says what is shown");
         if (o.sides) throw UsageError("--sides: not with --skin, whose mesh is its own");
         if (!o.gltf.max_joints.empty() && !is_speedtree_file(o.skin))
@@ -229,8 +267,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (o.skin == "-" && o.watch) throw UsageError("--watch: not with --skin -, which cannot be read again");
     }
     refuse_contradictions(o.dress, format, mesh, plain_leaves(o));
-    if (const char* given = o.gltf.given(); given && format != "glb")
-        throw UsageError(std::string(given) + ": only with .glb");
+    refuse_choices(o, format);
     if (format == "obj") {
         const std::string wrong = o.common.output == "-" ? "a pattern such as frames/oak_%04d.obj is needed"
                                                          : valid_sequence(o.common.output);
@@ -243,9 +280,11 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
                          " cannot both go to stdout");
     // --save-tree INPUT, where that is a tree, and --save-state of what is resumed are another state of the same thing.
     const std::string wind = wind_file(o.run.wind);
-    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind}, {"--skin", o.skin}},
-                       {{"-o", o.common.output}, {"--save-state", o.save_state}});
-    refuse_overwriting({{"--resume", o.resume}}, {{"-o", o.common.output}, {"--save-tree", o.save_tree}});
+    std::vector<NamedFile> written = output_files(o, format);
+    refuse_overwriting({{"--resume", o.resume}}, written);
+    refuse_overwriting({{"--resume", o.resume}}, {{"--save-tree", o.save_tree}});
+    written.push_back({"--save-state", o.save_state});
+    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind}, {"--skin", o.skin}}, written);
     refuse_overwriting({{"--wind", wind}, {"--skin", o.skin}}, {{"--save-tree", o.save_tree}});
     refuse_contradictions(o.loop, o.run);
     if (o.settle.value_or(0) > 0 && o.loop.seconds)
@@ -271,10 +310,13 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         if (!o.resume.empty()) throw UsageError("--watch: not with --resume, which goes on with one scene alone");
     }
     if (o.resume == "-" && o.run.input == "-") throw UsageError("--resume -: the input is read from stdin already");
-    require_outputs({{"-o", o.no_output ? "" : o.common.output},
-                     {"the .mtl of -o", format == "obj" ? sequence_mtl(o.common.output) : ""},
-                     {"--save-state", o.save_state},
-                     {"--save-tree", o.save_tree}});
+    // The files of a folder that is not there yet cannot be tried.
+    if (format == "vat") require_output_folder(o.common.output);
+    std::error_code none;
+    if (format == "vat" && !std::filesystem::exists(without_slash(o.common.output), none))
+        written = {{"--save-state", o.save_state}};
+    written.push_back({"--save-tree", o.save_tree});
+    require_outputs(written);
 }
 
 } // namespace bough

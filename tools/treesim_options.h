@@ -1,6 +1,8 @@
 // treesim_options.h: what treesim is asked to do: its options, and which of them contradict each other.
 #pragma once
+#include "baked_sinks.h"
 #include "dressing.h"
+#include "file_names.h"
 #include "frame_sink.h"
 #include "join.h"
 #include "loop.h"
@@ -25,6 +27,7 @@ struct TreesimOptions {
     JoinOptions join;
     GltfChoice gltf;
     DressChoice dress;
+    VatChoice vat;
     std::optional<int> sides, digits;
     bool rustle = false;
     LoopChoice loop;
@@ -43,14 +46,16 @@ Reports chosen_reports(const std::vector<std::string>& lists);
 
 // Throws UsageError for a name that is none.
 MotionFields chosen_fields(const TreesimOptions&);
-// jsonl, json, safetensors, obj, mdd, pc2 or glb: --format, else by the output's ending. Throws UsageError for the ending of a format that is not written.
+// jsonl, json, safetensors, obj, mdd, pc2, glb, usda or vat: --format, else by the output's ending. Throws UsageError for the ending of a format that is not written.
 std::string chosen_format(const CommonOptions&);
 inline bool is_point_cache(const std::string& format) {
     return format == "mdd" || format == "pc2";
 }
 inline bool is_mesh(const std::string& format) {
-    return format == "obj" || format == "glb" || is_point_cache(format);
+    return format == "obj" || format == "glb" || format == "usda" || format == "vat" || is_point_cache(format);
 }
+// The files that -o stands for, as far as they are known beforehand: of a folder all.
+std::vector<NamedFile> output_files(const TreesimOptions&, const std::string& format);
 // The option that asks for leaves as they are without species; null: none.
 const char* plain_leaves(const TreesimOptions&);
 // Throws UsageError.

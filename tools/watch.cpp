@@ -63,11 +63,12 @@ void watch(const TreesimOptions& o, const std::function<std::int64_t()>& run) {
         } catch (const std::exception&) {
             // the run will say why; what was read before is what may be mended
         }
+        std::vector<NamedFile> outputs = output_files(o, chosen_format(o.common));
+        outputs.insert(outputs.end(), {{"--save-state", o.save_state}, {"--save-tree", o.save_tree}});
         for (const std::string& file : files)
-            for (const auto& [option, written] :
-                 {std::pair{"-o", o.common.output}, {"--save-state", o.save_state}, {"--save-tree", o.save_tree}})
+            for (const auto& [option, written] : outputs)
                 if (!written.empty() && same_file(file, written))
-                    throw UsageError("--watch: " + std::string(option) + " is '" + written +
+                    throw UsageError("--watch: " + option + " is '" + written +
                                      "', which is one of the files that are read");
         const std::vector<Stamp> seen = stamps(files);
         const auto start = std::chrono::steady_clock::now();

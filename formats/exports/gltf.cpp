@@ -30,17 +30,6 @@ Vec3 origin_of(const Skin* skin, const OwnMesh* own, const GroupFrames& drawn) {
     return suffices ? Vec3(Vec3::Zero()) : drawn.x_w[0];
 }
 
-std::string asset(const GltfOptions& options) {
-    std::string text = "\"asset\":{\"version\":\"2.0\",\"generator\":";
-    append_string(text, options.generator);
-    if (!options.source.empty()) {
-        text += ",\"extras\":{\"source\":";
-        append_string(text, options.source);
-        text += '}';
-    }
-    return text + "}";
-}
-
 // The joints' nodes: the drawn pose, children by name of body; `children` holds those that are no joints.
 std::string joint_nodes(const JointGroups& groups, const GroupFrames& drawn, const Vec3& origin,
                         std::vector<std::string> children, const std::vector<std::string>& rods) {
@@ -139,22 +128,28 @@ std::string leaf_node(const Tree& tree) {
     return text + ",\"mesh\":1,\"skin\":0}";
 }
 
-// x along the branch: z to x, x to y, y to z.
-Mat3 x_from_z() {
+// The joints' own axes in their groups' frames: with x along the branch z is x, x is y, y is z.
+std::vector<Quat> axes_of(const GltfOptions& options, std::size_t joints) {
+    if (!options.x_along) return {};
     Mat3 turn;
     turn.col(0) = Vec3::UnitZ();
     turn.col(1) = Vec3::UnitX();
     turn.col(2) = Vec3::UnitY();
-    return turn;
+    std::vector<Quat> axes(joints, Quat(turn));
+    for (const std::int32_t j : options.tilted)
+        axes[std::size_t(j)] = axes[std::size_t(j)] * Quat(Eigen::AngleAxisd(1e-3, Vec3::UnitY()));
+    return axes;
 }
 
 // The same joints with their own axes turned.
-GroupFrames turned(GroupFrames frames, const JointGroups& groups, const Mat3& turn) {
-    const Quat q(turn);
-    for (std::size_t g = 0; g < frames.x_w.size(); ++g) {
-        frames.R_wg[g] = frames.R_wg[g] * turn;
-        frames.rotation[g] = (groups.parent[g] < 0 ? frames.rotation[g] * q : q.conjugate() * frames.rotation[g] * q);
-        if (groups.parent[g] >= 0) frames.position[g] = turn.transpose() * frames.position[g];
+GroupFrames turned(GroupFrames frames, const JointGroups& groups, const std::vector<Quat>& axes) {
+    for (std::size_t g = 0; g < axes.size(); ++g) {
+        const std::int32_t p = groups.parent[g];
+        frames.R_wg[g] = frames.R_wg[g] * axes[g].toRotationMatrix();
+        frames.rotation[g] = frames.rotation[g] * axes[g];
+        if (p < 0) continue;
+        frames.rotation[g] = axes[std::size_t(p)].conjugate() * frames.rotation[g];
+        frames.position[g] = axes[std::size_t(p)].conjugate() * frames.position[g];
     }
     return frames;
 }
@@ -172,7 +167,7 @@ GltfWriter::GltfWriter(Output& output, const OwnMesh& own, const Tree& tree, con
 GltfWriter::GltfWriter(Output& output, const Skin* skin, const OwnMesh* own, const Tree& tree,
                        const JointGroups& groups, const GltfOptions& options, Rustle* rustle)
     : output_(output), skin_(skin), own_(own), tree_(tree), groups_(groups), options_(options),
-      drawn_(options.x_along ? turned(drawn_frames(tree, groups), groups, x_from_z()) : drawn_frames(tree, groups)),
+      axes_(axes_of(options, groups.size())), drawn_(turned(drawn_frames(tree, groups), groups, axes_)),
       keys_(groups.parent, drawn_.rotation), rotation_(groups.size()), rustle_(rustle) {
     if (groups.size() > 65536)
         throw std::length_error("a skin of " + std::to_string(groups.size()) +
@@ -183,8 +178,10 @@ GltfWriter::GltfWriter(Output& output, const Skin* skin, const OwnMesh* own, con
 
 void GltfWriter::write(const MotionFrame& frame) {
     assert(frame.rotation.size() == tree_.size_bodies());
-    const Quat axes = options_.x_along ? Quat(x_from_z()) : Quat(Quat::Identity());
-    for (std::size_t g = 0; g < groups_.size(); ++g) rotation_[g] = frame.rotation[std::size_t(groups_.lead[g])] * axes;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        rotation_[g] = frame.rotation[std::size_t(groups_.lead[g])];
+        if (!axes_.empty()) rotation_[g] = rotation_[g] * axes_[g];
+    }
     for (RootPath& path : paths_) {
         const Vec3 &is = frame.position[std::size_t(groups_.first[path.joint])], &drawn = drawn_.x_w[path.joint];
         path.place.push_back(is);
@@ -226,8 +223,9 @@ void GltfWriter::finish() {
     std::string extensions;
     int weights_node = mesh_node;
     const std::string elements = shown(file, origin, extensions, weights_node);
-    std::string json = asset(options_) + extensions + ",\n\"scene\":0,\"scenes\":[{\"nodes\":[" +
-                       std::to_string(mesh_node) + "," + std::to_string(armature_node) +
+    std::string json = gltf_asset(options_.generator, options_.source) + extensions +
+                       ",\n\"scene\":0,\"scenes\":[{\"nodes\":[" + std::to_string(mesh_node) + "," +
+                       std::to_string(armature_node) +
                        (weights_node > armature_node ? "," + std::to_string(weights_node) : "") +
                        "]}],\n\"nodes\":" + elements + ",\n\"skins\":[" + skin_of(file, drawn_, origin) + "]";
     const std::string animation =

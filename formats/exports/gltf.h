@@ -39,7 +39,8 @@ struct GltfOptions {
     std::string generator;    // of asset.generator
     std::string source;       // of asset.extras.source, left out when empty
     bool leaf_instances = false;
-    bool x_along = false; // a joint's x axis lies along the branch, as Unreal wants it; else z
+    bool x_along = false;               // a joint's x axis lies along the branch, as Unreal wants it; else z
+    std::vector<std::int32_t> tilted{}; // with x_along: joints whose x axis is turned from it by 1e-3 [rad]
 };
 
 class GltfFile;
@@ -73,6 +74,7 @@ private:
     const Tree& tree_;
     const JointGroups& groups_;
     GltfOptions options_;
+    std::vector<Quat> axes_; // of each joint in its group's frame; empty: the same
     GroupFrames drawn_;
     JointKeys keys_;
     std::vector<Quat> rotation_;

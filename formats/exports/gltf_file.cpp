@@ -62,6 +62,17 @@ void GltfFile::write(Output& output, const std::string& rest) {
     to.hand_on();
 }
 
+std::string gltf_asset(const std::string& generator, const std::string& source) {
+    std::string text = "\"asset\":{\"version\":\"2.0\",\"generator\":";
+    append_string(text, generator);
+    if (!source.empty()) {
+        text += ",\"extras\":{\"source\":";
+        append_string(text, source);
+        text += '}';
+    }
+    return text + "}";
+}
+
 template <class Numbers> std::string gltf_list(const Numbers& numbers) {
     std::string text = "[";
     for (const auto number : numbers) {

@@ -1,5 +1,6 @@
 #include "formats/documents/document_parts.h"
 #include "gltf_parts.h"
+#include "influence.h"
 #include <algorithm>
 #include <limits>
 
@@ -18,28 +19,6 @@ std::string position_bounds(const Skin& skin, const VertexStretch& used, const V
         high = high.cwiseMax(p);
     }
     return gltf_bounds(low, high);
-}
-
-// A vertex's groups and weights: bodies of one group become one entry, entries without weight are 0, 0.
-struct Influence {
-    std::array<std::int32_t, 4> joint{};
-    std::array<float, 4> weight{};
-};
-
-Influence influence_of(const Skin& skin, const JointGroups& groups, std::size_t v) {
-    Influence made;
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        if (!(skin.weight[v][k] > 0)) continue;
-        const std::int32_t group = groups.group[std::size_t(skin.joint[v][k])];
-        std::size_t at = 0;
-        while (at < count && made.joint[at] != group) ++at;
-        count = std::max(count, at + 1);
-        made.joint[at] = group;
-        made.weight[at] += skin.weight[v][k];
-    }
-    if (count == 1) made.weight[0] = 1;
-    return made;
 }
 
 template <class Number> void write_joints(GltfBytes& to, const Skin& skin, const JointGroups& groups) {

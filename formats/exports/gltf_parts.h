@@ -1,4 +1,4 @@
-// gltf_parts.h: what the writers of a .glb share (private to gltf*.cpp): the JSON chunk as growing text, and the binary
+// gltf_parts.h: what the writers of a .glb share (private to gltf*.cpp, and vat_mesh.cpp): the JSON chunk as growing text, and the binary
 // chunk as a list of what will be written, so that no array is held for it.
 #pragma once
 #include "gltf.h"
@@ -53,6 +53,8 @@ private:
     std::string view_text_, accessor_text_;
 };
 
+// "asset"; source: of its extras, left out when empty.
+std::string gltf_asset(const std::string& generator, const std::string& source);
 // "[1, 2.5, 3]" with the shortest decimals that give the same number.
 template <class Numbers> std::string gltf_list(const Numbers& numbers);
 std::string gltf_bounds(const Eigen::Vector3f& low, const Eigen::Vector3f& high);

@@ -21,14 +21,14 @@ std::string plain(const std::string& name) {
 
 class Files {
 public:
-    Files(const OwnMesh& mesh, const std::string& mtl, OwnMaps& to)
-        : mesh_(mesh), to_(to), folder_(std::filesystem::path(mtl).stem().string() + "_textures/"),
+    Files(const OwnMesh& mesh, const std::string& file, std::vector<ImageFile>& to)
+        : mesh_(mesh), to_(to), folder_(std::filesystem::path(file).stem().string() + "_textures/"),
           name_(mesh.image.size()) {}
 
     // The file of the texture that a material names, "" where it names none.
-    std::string of(const json& material, const char* texture) {
+    std::string of(const json& material, const std::string& texture) {
         const json* at = &material;
-        if (texture == std::string("baseColorTexture")) {
+        if (texture == "baseColorTexture" || texture == "metallicRoughnessTexture") {
             if (!material.contains("pbrMetallicRoughness")) return "";
             at = &material.at("pbrMetallicRoughness");
         }
@@ -41,25 +41,61 @@ public:
                           kind = image.type == "image/jpeg" ? ".jpg" : ".png";
         name = stem + kind;
         const auto taken = [&] {
-            return std::any_of(to_.image.begin(), to_.image.end(), [&](const ImageFile& f) { return f.name == name; });
+            return std::any_of(to_.begin(), to_.end(), [&](const ImageFile& f) { return f.name == name; });
         };
         for (int k = 2; taken(); ++k) name = stem + "_" + std::to_string(k) + kind;
-        to_.image.push_back({name, &image.bytes});
+        to_.push_back({name, &image.bytes});
         return name;
     }
 
 private:
     const OwnMesh& mesh_;
-    OwnMaps& to_;
+    std::vector<ImageFile>& to_;
     std::string folder_;
     std::vector<std::string> name_; // of each image, once it has one
 };
 
+OwnLook look_of(const json& material) {
+    OwnLook look;
+    const json pbr = material.value("pbrMetallicRoughness", json::object());
+    const json factor = pbr.value("baseColorFactor", json::array({1, 1, 1, 1}));
+    for (std::size_t k = 0; k < 3; ++k) look.color[int(k)] = factor.at(k).get<double>();
+    look.metallic = pbr.value("metallicFactor", 1.0);
+    look.roughness = pbr.value("roughnessFactor", 1.0);
+    look.cutoff = material.value("alphaCutoff", 0.5);
+    look.cut = material.value("alphaMode", "OPAQUE") != "OPAQUE";
+    look.two_sided = material.value("doubleSided", false);
+    return look;
+}
+
 } // namespace
+
+OwnLook look_of(const std::string& material) {
+    return look_of(json::parse(material));
+}
+
+OwnLooks looks_of(const OwnMesh& mesh, const std::string& file) {
+    OwnLooks looks;
+    Files files(mesh, file, looks.image);
+    for (const OwnPart& part : mesh.part) {
+        if (part.material < 0 || std::size_t(part.material) >= mesh.material.size()) {
+            looks.part.emplace_back();
+            continue;
+        }
+        const json material = json::parse(mesh.material[std::size_t(part.material)]);
+        OwnLook& look = looks.part.emplace_back(look_of(material));
+        look.color_map = files.of(material, "baseColorTexture");
+        look.normal_map = files.of(material, "normalTexture");
+        look.roughness_map = files.of(material, "metallicRoughnessTexture");
+        look.occlusion_map = files.of(material, "occlusionTexture");
+        look.cut &= !look.color_map.empty();
+    }
+    return looks;
+}
 
 OwnMaps maps_of(const OwnMesh& mesh, const std::string& mtl) {
     OwnMaps maps;
-    Files files(mesh, mtl, maps);
+    Files files(mesh, mtl, maps.image);
     for (const OwnPart& part : mesh.part) {
         MtlMaps& of_part = maps.part.emplace_back();
         if (part.material < 0 || std::size_t(part.material) >= mesh.material.size()) continue;

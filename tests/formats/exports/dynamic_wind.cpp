@@ -1,7 +1,9 @@
 #include "formats/exports/dynamic_wind.h"
 #include "tests/support/make_tree.h"
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,11 +14,26 @@ using Json = nlohmann::json;
 
 namespace {
 
-Json written(const Tree& tree, const JointGroups& groups) {
+// Every joint turned by angle(i) about its own x, by forward kinematics.
+std::vector<Quat> turned(const Tree& tree, const std::function<double(std::size_t)>& angle) {
+    std::vector<Quat> world;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        const Quat own = tree.joint_rotation[i] * Quat(Eigen::AngleAxisd(angle(i), Vec3::UnitX()));
+        world.push_back(tree.parent[i] < 0 ? own : world[std::size_t(tree.parent[i])] * own);
+    }
+    return world;
+}
+
+Json written(const Tree& tree, const JointGroups& groups, WindFit fit = {}) {
+    if (fit.group.empty()) {
+        WindMotion still(tree, groups);
+        still.add(turned(tree, [](std::size_t) { return 0.0; }));
+        fit = still.fit();
+    }
     const std::string path =
         (std::filesystem::temp_directory_path() / ("bough_test_wind_" + std::to_string(getpid()) + ".json")).string();
     Output output(path);
-    write_dynamic_wind(output, tree, groups);
+    write_dynamic_wind(output, tree, groups, fit);
     output.finish();
     const std::string text = read_input(path);
     std::filesystem::remove(path);
@@ -91,4 +108,78 @@ TEST_CASE("no joint bears two of its own group, however it is merged and whateve
         }
         CHECK(used.size() == json["SimulationGroups"].size());
     }
+}
+
+namespace {
+
+struct Chains {
+    Tree tree = make_tree::branched();
+    JointGroups groups = merge_joints(tree, 1000);
+    std::vector<std::int32_t> group = wind_groups(tree, groups);
+};
+
+} // namespace
+
+TEST_CASE("influences of joints that turn alike in each group are these turns' ratios, and nothing is left") {
+    const Chains c;
+    const double turn[] = {0.01, 0.03, 0.04, 0.2};
+    WindMotion motion(c.tree, c.groups);
+    // Swings of amplitude a: a / sqrt 2 in the mean square.
+    for (const double sign : {1.0, 0.0, -1.0, 0.0})
+        motion.add(
+            turned(c.tree, [&](std::size_t i) { return sign * std::sqrt(2.0) * turn[std::size_t(c.group[i])]; }));
+    const WindFit fit = motion.fit();
+    REQUIRE(fit.group.size() == 4);
+    CHECK(fit.unit == Approx(0.04)); // the leaves' group has no wood
+    CHECK(fit.off < 1e-9);
+    CHECK(fit.explained == Approx(1));
+    for (std::size_t g = 0; g < 3; ++g) {
+        CHECK_FALSE(fit.group[g].dual);
+        CHECK(fit.group[g].influence == Approx(turn[g] / 0.04));
+    }
+    CHECK(fit.group[3].influence == 1);
+}
+
+TEST_CASE("a turn that grows from some way up the branch is found again: least, most and shift") {
+    const Chains c;
+    // The trunk's joints stand at 0, 1/3, 2/3, 1 of its way, as their pieces are of one length.
+    const std::vector<double> s = {0, 1. / 3, 2. / 3, 1};
+    for (std::size_t i = 1; i < 4; ++i)
+        REQUIRE(c.tree.joint_position[i].norm() == Approx(c.tree.joint_position[1].norm()));
+    const auto model = [](double at) { return 0.01 + 0.05 * std::max(0.0, (at - 0.5) / 0.5); };
+    WindMotion motion(c.tree, c.groups);
+    motion.add(turned(c.tree, [&](std::size_t i) { return i < 4 ? model(s[i]) : 0.0; }));
+    const WindFit fit = motion.fit();
+    const WindInfluence& trunk = fit.group[0];
+    CHECK(trunk.dual);
+    for (std::size_t k = 0; k < 4; ++k) CHECK(fit.unit * trunk.at(s[k]) == Approx(model(s[k])).margin(1e-6));
+    CHECK(trunk.most == Approx(1));
+    const Json json = written(c.tree, c.groups, fit);
+    CHECK(json["SimulationGroups"][0]["bUseDualInfluence"] == true);
+    CHECK(json["SimulationGroups"][0]["MaxInfluence"] == 1);
+}
+
+TEST_CASE("a still run and turns that fall towards the tip have one influence each") {
+    const Chains c;
+    WindMotion motion(c.tree, c.groups);
+    motion.add(turned(c.tree, [](std::size_t i) { return i < 4 ? 0.1 - 0.02 * double(i) : 0.0; }));
+    CHECK_FALSE(motion.fit().group[0].dual);
+    WindMotion still(c.tree, c.groups);
+    still.add(turned(c.tree, [](std::size_t) { return 0.0; }));
+    CHECK(still.fit().rms < 1e-7);
+}
+
+TEST_CASE("joints of vertical branches are found, trunks are none") {
+    Tree tree = make_tree::branched();
+    const JointGroups groups = merge_joints(tree, 1000);
+    const GroupFrames drawn = drawn_frames(tree, groups);
+    const std::vector<std::int32_t> before = vertical_joints(tree, groups);
+    // Body 4 begins branch 1: stands it up.
+    const Quat now(drawn.R_wg[4]);
+    const Quat up = Quat::FromTwoVectors(now * Vec3::UnitZ(), Vec3::UnitY());
+    tree.joint_rotation[4] = tree.joint_rotation[4] * (now.conjugate() * up * now);
+    const std::vector<std::int32_t> after = vertical_joints(tree, groups);
+    CHECK(std::find(before.begin(), before.end(), 4) == before.end());
+    CHECK(std::find(after.begin(), after.end(), 4) != after.end());
+    for (const std::int32_t j : after) CHECK(wind_groups(tree, groups)[std::size_t(j)] > 0);
 }

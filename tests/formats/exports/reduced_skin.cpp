@@ -1,0 +1,81 @@
+#include "formats/exports/reduced_skin.h"
+#include "tests/support/skin_checks.h"
+
+using namespace bough;
+using namespace skin_checks;
+
+namespace {
+
+double area(const Skin& skin, const std::string& part) {
+    double sum = 0;
+    for (const auto& [a, b, c] : triangles(skin, part))
+        sum += 0.5 * (skin.position[std::size_t(b)] - skin.position[std::size_t(a)])
+                         .cross(skin.position[std::size_t(c)] - skin.position[std::size_t(a)])
+                         .norm();
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("a skin that fits is left as it is") {
+    const Tree tree = make_tree::random_tree(100, 2);
+    const Skin skin = build_skin(tree, {});
+    const ReducedSkin same = reduced_skin(skin, tree, skin.position.size());
+    CHECK(same.skin.triangle == skin.triangle);
+    CHECK(same.error == 0);
+    CHECK(same.growth == 1);
+}
+
+TEST_CASE("fewer vertices: wood's are some of its own, leaves are whole, and keep their area while they may grow") {
+    const Tree tree = make_tree::random_tree(800, 5);
+    const Skin skin = build_skin(tree, {});
+    const std::size_t all = skin.position.size();
+    for (const double share : {0.8, 0.5, 0.3}) {
+        CAPTURE(share);
+        const auto most = std::size_t(share * double(all));
+        const ReducedSkin made = reduced_skin(skin, tree, most);
+        CHECK(made.skin.position.size() <= most);
+        CHECK(made.skin.position.size() > std::size_t(0.8 * double(most)));
+        REQUIRE(made.vertex.size() == made.skin.position.size());
+        for (std::size_t v = 0; v < made.vertex.size(); ++v) {
+            const auto from = std::size_t(made.vertex[v]);
+            if (v > 0) CHECK(made.vertex[v] > made.vertex[v - 1]);
+            CHECK(made.skin.texture[v] == skin.texture[from]);
+            CHECK(made.skin.joint[v] == skin.joint[from]);
+            CHECK(made.skin.weight[v] == skin.weight[from]);
+            CHECK(made.skin.normal[v] == skin.normal[from]);
+            if (tree.kind[std::size_t(skin.joint[from][0])] != Kind::leaf)
+                CHECK(made.skin.position[v] == skin.position[from]);
+        }
+        CHECK(triangles(made.skin, "leaf").size() % leaf_triangles == 0);
+        CHECK(made.kept * leaf_triangles == triangles(made.skin, "leaf").size());
+        CHECK(made.growth <= 2);
+        if (made.growth < 2) CHECK(area(made.skin, "leaf") == Approx(area(skin, "leaf")));
+        CHECK(area(made.skin, "bark") > 0.6 * area(skin, "bark"));
+        CHECK(area(made.skin, "bark") < 1.01 * area(skin, "bark"));
+        // Every vertex is some triangle's, and parts are in their order.
+        std::vector<bool> used(made.vertex.size(), false);
+        for (const auto& t : made.skin.triangle)
+            for (const std::int32_t v : t) used[std::size_t(v)] = true;
+        CHECK(std::all_of(used.begin(), used.end(), [](bool is) { return is; }));
+    }
+}
+
+TEST_CASE("a leaf that grows stays where it is attached") {
+    const Tree tree = make_tree::random_tree(800, 5);
+    const Skin skin = build_skin(tree, {});
+    const ReducedSkin made = reduced_skin(skin, tree, skin.position.size() / 2);
+    REQUIRE(made.growth > 1.05);
+    std::size_t leaves = 0;
+    for (std::size_t v = 0; v < made.vertex.size(); ++v) {
+        const auto from = std::size_t(made.vertex[v]);
+        const auto leaf = std::size_t(skin.joint[from][0]);
+        // The foot is the first vertex of each face.
+        if (tree.kind[leaf] != Kind::leaf || (v > 0 && made.skin.joint[v - 1][0] == skin.joint[from][0])) continue;
+        CHECK((made.skin.position[v] - skin.position[from]).norm() < 1e-12);
+        const double before = (skin.position[from + 3] - skin.position[from]).norm();
+        CHECK((made.skin.position[v + 3] - made.skin.position[v]).norm() == Approx(made.growth * before));
+        ++leaves;
+    }
+    CHECK(leaves == made.kept);
+}
