@@ -118,6 +118,8 @@ private:
         const std::string place = primitive_place(mesh, number);
         const bool skinned = node.contains("skin") && attributes.contains("JOINTS_0");
         if (skinned && !first_time) return;
+        const std::size_t mode = whole_number(primitive, "mode", place, 4);
+        if (!skinned && (mode == 0 || mode > 3)) return count_triangles(primitive, mode, place);
         const std::vector<double> numbers =
             values_of(document_, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::any});
         std::vector<Vec3> point;
@@ -131,7 +133,7 @@ private:
         } else {
             for (std::size_t k = 0; k < point.size(); ++k) index.push_back(std::int32_t(k));
         }
-        const Faces faces = faces_of(index, whole_number(primitive, "mode", place, 4));
+        const Faces faces = faces_of(index, mode);
         if (faces.each == 3) out_.triangles += std::int64_t(faces.corner.size() / 3);
         std::vector<Vec3> placed;
         for (const Vec3& p : point) placed.push_back(world(self) * p);
@@ -143,6 +145,17 @@ private:
             placed = moved;
         }
         if (faces.each == 2 && !faces.corner.empty()) add_lines(attributes, placed, self, place, faces);
+    }
+
+    // Of a mesh that no joint moves, of which nothing else is told.
+    void count_triangles(const Json& primitive, std::size_t mode, const std::string& place) {
+        const bool listed = primitive.contains("indices");
+        const std::size_t corners =
+            listed ? count_of(document_, primitive["indices"], {place + ": indices", "SCALAR", GltfNumbers::indices})
+                   : count_of(document_, primitive["attributes"]["POSITION"],
+                              {place + ": POSITION", "VEC3", GltfNumbers::any});
+        if (mode == 4) out_.triangles += std::int64_t(corners / 3);
+        if ((mode == 5 || mode == 6) && corners > 2) out_.triangles += std::int64_t(corners - 2);
     }
 
     // Vertices as the joints place them (linear blend), and which moves each most.
