@@ -3,6 +3,7 @@
 #include "formats/open.h"
 #include "formats/plain_text.h"
 #include "gltf_document.h"
+#include "jpeg_check.h"
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -125,6 +126,10 @@ bool decode_tiff(const std::string& content, Pixels& pixels, std::string& why) {
 bool decode(const std::string& content, Pixels& pixels, std::string& why) {
     if (content.starts_with(std::string("II*\0", 4)) || content.starts_with(std::string("MM\0*", 4)))
         return decode_tiff(content, pixels, why);
+    if (content.starts_with("\xFF\xD8") && !huffman_tables_fit(content)) {
+        why = "a Huffman table of it has more than 256 codes";
+        return false;
+    }
     const auto* const data = reinterpret_cast<const stbi_uc*>(content.data());
     why = "of no kind that is known";
     if (content.size() > std::size_t(std::numeric_limits<int>::max())) return false;
