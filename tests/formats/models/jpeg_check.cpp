@@ -50,7 +50,7 @@ TEST_CASE("a table of more is found wherever it stands") {
 }
 
 TEST_CASE("the file that was found is refused") {
-    const std::string path = std::string(BOUGH_DATA_DIR) + "/fixtures/bad_huffman.jpg";
+    const std::string path = std::string(BOUGH_DATA_DIR) + "/../tests/fuzzing/found/bad_huffman.jpg";
     CHECK_FALSE(huffman_tables_fit(read_input(path)));
     CHECK_THROWS_WITH(read_texture(path, "a test"), Catch::Contains("more than 256 codes"));
 }
