@@ -29,7 +29,7 @@ std::size_t memory_peak();
 
 // As the tools print it, bytes of the file that are no text replaced (tools/tool.cpp). content: what it may repeat.
 inline void check_message(const std::string& raw, std::string_view content) {
-    const std::string text = valid_utf8(raw);
+    const std::string text = valid_utf8(in_words(raw));
     if (text.empty() || raw.find('\n') != std::string::npos) fail("a message of no or several lines: " + text);
     for (const char* const words : {"json.exception", "std::"})
         if (text.find(words) != std::string::npos && content.find(words) == std::string_view::npos)
