@@ -14,8 +14,8 @@
 namespace bough::fuzzing {
 
 // [bytes] that reading a file of `size` bytes may take beside the file: what formats/README.md states.
-constexpr std::size_t most_memory(std::size_t size) {
-    return (std::size_t(4) << 20) + 1000 * size;
+constexpr std::size_t most_memory(std::size_t size, std::size_t for_each_byte) {
+    return (std::size_t(4) << 20) + for_each_byte * size;
 }
 
 // Memory that was asked for since begin() and not given back, at its most. Of all threads.
@@ -37,7 +37,7 @@ inline void check_message(const std::string& raw, std::string_view content) {
 }
 
 // Calls read(content): whether it was read.
-template <class Read> bool is_read(std::string_view content, Read read) {
+template <class Read> bool is_read(std::string_view content, Read read, std::size_t for_each_byte = 1000) {
     begin_memory();
     bool good = false;
     try {
@@ -46,7 +46,7 @@ template <class Read> bool is_read(std::string_view content, Read read) {
     } catch (const InputError& error) {
         check_message(error.what(), content);
     }
-    if (const std::size_t peak = memory_peak(); peak > most_memory(content.size()))
+    if (const std::size_t peak = memory_peak(); peak > most_memory(content.size(), for_each_byte))
         fail(std::to_string(peak) + " bytes of memory for a file of " + std::to_string(content.size()));
     return good;
 }
