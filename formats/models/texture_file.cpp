@@ -126,8 +126,8 @@ bool decode_tiff(const std::string& content, Pixels& pixels, std::string& why) {
 bool decode(const std::string& content, Pixels& pixels, std::string& why) {
     if (content.starts_with(std::string("II*\0", 4)) || content.starts_with(std::string("MM\0*", 4)))
         return decode_tiff(content, pixels, why);
-    if (content.starts_with("\xFF\xD8") && !huffman_tables_fit(content)) {
-        why = "a Huffman table of it has more than 256 codes";
+    if (content.starts_with("\xFF") && !jpeg_tables_fit(content)) {
+        why = "a table of its segments does not fit";
         return false;
     }
     const auto* const data = reinterpret_cast<const stbi_uc*>(content.data());
@@ -139,7 +139,7 @@ bool decode(const std::string& content, Pixels& pixels, std::string& why) {
         return false;
     stbi_uc* const read = stbi_load_from_memory(data, size, &pixels.width, &pixels.height, &pixels.channels, 4);
     if (!read) {
-        if (const char* reason = stbi_failure_reason()) why = reason;
+        if (const char* reason = stbi_failure_reason()) why = valid_utf8(reason); // it may repeat the file
         return false;
     }
     pixels.rgba.assign(read, read + 4 * std::size_t(pixels.width) * std::size_t(pixels.height));

@@ -33,24 +33,36 @@ const std::string comment =
 
 TEST_CASE("tables of at most 256 codes are let through, and what only looks like one") {
     const std::string good = segment({{0, 2}, {0, 0, 128, 128}});
-    CHECK(huffman_tables_fit(""));
-    CHECK(huffman_tables_fit(start));
-    CHECK(huffman_tables_fit(start + comment + good + scan + "abc" + end));
-    CHECK(huffman_tables_fit(start + scan + std::string("a\xFF\0\xC4", 4) + "b" + good + end));
-    CHECK(huffman_tables_fit(start + "\xFF\xC4")); // cut off: the decoder's to refuse
+    CHECK(jpeg_tables_fit(""));
+    CHECK(jpeg_tables_fit(start));
+    CHECK(jpeg_tables_fit(start + comment + good + scan + "abc" + end));
+    CHECK(jpeg_tables_fit(start + scan + std::string("a\xFF\0\xC4", 4) + "b" + good + end));
+    CHECK(jpeg_tables_fit(start + "\xFF\xC4")); // cut off: the decoder's to refuse
 }
 
 TEST_CASE("a table of more is found wherever it stands") {
     const std::string bad = segment({{0, 2}, {0, 0, 129, 128}});
-    CHECK_FALSE(huffman_tables_fit(start + bad));
-    CHECK_FALSE(huffman_tables_fit(start + comment + "\xFF\xFF" + bad + scan + end));
-    CHECK_FALSE(huffman_tables_fit(start + scan + "abc" + bad + scan + end));
-    CHECK_FALSE(huffman_tables_fit(start + end + bad)); // behind the end, where a decoder may still look
-    CHECK_FALSE(huffman_tables_fit((start + bad).substr(0, 50)));
+    CHECK_FALSE(jpeg_tables_fit(start + bad));
+    CHECK_FALSE(jpeg_tables_fit(start + comment + "\xFF\xFF" + bad + scan + end));
+    CHECK_FALSE(jpeg_tables_fit(start + scan + "abc" + bad + scan + end));
+    CHECK_FALSE(jpeg_tables_fit(start + end + bad)); // behind the end, where a decoder may still look
+    CHECK_FALSE(jpeg_tables_fit((start + bad).substr(0, 50)));
 }
 
-TEST_CASE("the file that was found is refused") {
-    const std::string path = std::string(BOUGH_DATA_DIR) + "/../tests/fuzzing/found/bad_huffman.jpg";
-    CHECK_FALSE(huffman_tables_fit(read_input(path)));
-    CHECK_THROWS_WITH(read_texture(path, "a test"), Catch::Contains("more than 256 codes"));
+TEST_CASE("quantization tables end where their segment does") {
+    const auto quantization = [](std::size_t length, std::size_t bytes) {
+        return std::string("\xFF\xDB") + char((length + 2) >> 8) + char((length + 2) & 255) + std::string(bytes, '\0');
+    };
+    CHECK(jpeg_tables_fit(start + quantization(65, 65) + quantization(130, 130) + scan + end));
+    CHECK_FALSE(
+        jpeg_tables_fit(start + quantization(64, 65) + scan + end)); // a decoder reads one byte more than we skip
+}
+
+TEST_CASE("the files that were found are refused") {
+    for (const char* const name :
+         {"bad_huffman.jpg", "bad_huffman_filled.jpg"}) { // the second with fill bytes before its start
+        const std::string path = std::string(BOUGH_DATA_DIR) + "/../tests/fuzzing/found/" + name;
+        CHECK_FALSE(jpeg_tables_fit(read_input(path)));
+        CHECK_THROWS_WITH(read_texture(path, "a test"), Catch::Contains("does not fit"));
+    }
 }
