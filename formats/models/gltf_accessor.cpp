@@ -181,6 +181,10 @@ std::size_t count_of(const GltfDocument& document, const Json& accessor, const G
 std::vector<double> values_of(const GltfDocument& document, const Json& accessor, const GltfUse& use) {
     const AccessorArray array = checked(document, accessor, use);
     const std::size_t count = array.all.count, width = array.all.width;
+    document.numbers_read += count * width;
+    if (document.numbers_read > most_numbers(document))
+        throw std::out_of_range(use.place + ": with it more than " + std::to_string(most_numbers(document)) +
+                                " numbers are read, as its arrays are named over and over; expected fewer copies");
     std::vector<double> values =
         array.all.component ? read(document, array.all) : std::vector<double>(count * width, 0);
     if (array.places.component) {

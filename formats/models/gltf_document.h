@@ -13,7 +13,9 @@ namespace bough {
 
 struct GltfDocument {
     nlohmann::ordered_json json;
-    std::string binary; // of buffer 0
+    std::string binary;                     // of buffer 0
+    std::size_t text = 0;                   // [bytes] of the JSON that was read
+    mutable std::uint64_t numbers_read = 0; // by values_of (gltf_accessor.h), which bounds them
 };
 
 enum class GltfImages { leave, embed };

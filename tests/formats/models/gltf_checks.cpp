@@ -8,6 +8,7 @@
 #include "formats/models/reader_limits.h"
 #include "tests/support/import_support.h"
 #include "tests/support/sanitized.h"
+#include <ctime>
 #include <functional>
 
 using namespace bough;
@@ -477,4 +478,44 @@ TEST_CASE("however little memory there is for a glTF file, its reader does not c
         CHECK_THAT(result.failure, !Catch::Contains("crashed"));
         if (megabytes < 100) CHECK_THAT(result.failure, Catch::Contains("needs more memory than"));
     }
+}
+
+// Twenty million points in 300 kB: one array of 10 000 points that 2 000 lines name, or 2 000 nodes whose mesh it is.
+TEST_CASE("arrays that are named over and over are refused before they take memory") {
+    const auto refused = [](int primitives, int nodes) {
+        Json json = Json::parse(
+            R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": []}], "nodes": [], "meshes": [{"primitives": []}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 10000, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 120000}]})");
+        json["buffers"] = Json::array({{{"byteLength", 120000}, {"uri", "data:," + std::string(120000, '0')}}});
+        for (int k = 0; k < primitives; ++k)
+            json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 3}});
+        for (int k = 0; k < nodes; ++k) json["nodes"].push_back({{"mesh", 0}}), json["scenes"][0]["nodes"].push_back(k);
+        ImportOptions options;
+        options.name = "many.gltf";
+        try {
+            scene_of_gltf(json.dump(), options);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(refused(2000, 1).find("named over and over") != std::string::npos);
+    CHECK(refused(1, 2000).find("named over and over") != std::string::npos);
+    CHECK(refused(100, 1).empty());
+    CHECK(refused(1, 100).empty());
+}
+
+TEST_CASE("reading many nodes takes time in proportion to their number") {
+    const auto seconds = [](int nodes) {
+        Json json = Json::parse(R"({"asset": {"version": "2.0"}, "nodes": []})");
+        for (int k = 0; k < nodes; ++k) json["nodes"].push_back({{"translation", {0, 1, 0}}});
+        const std::string text = json.dump();
+        ImportNotes notes;
+        const std::clock_t start = std::clock();
+        read_gltf(text, "nodes.gltf", "", GltfImages::leave, notes);
+        return double(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    if (sanitized) return;
+    CHECK(seconds(160000) < 12 * seconds(40000)); // 16 and more where it goes with the square
 }
