@@ -9,7 +9,6 @@ namespace bough {
 namespace {
 
 const std::vector<std::string> season_names = {"spring", "summer", "autumn", "winter"};
-constexpr double foreign_sag = 0.5; // [rad] of branches drawn by other programs' rules, which are for pictures
 
 // --species takes known names alone.
 Species chosen_species(const GrowthOptions& o) {
@@ -27,17 +26,6 @@ std::string raised(std::size_t branches, std::size_t all) {
            " branches made thicker than the file says, as wood must be to carry them (--radii file keeps its radii)";
 }
 
-std::size_t count_raised(const std::vector<double>& before, const Splines& after) {
-    std::size_t count = 0;
-    for (std::size_t b = 0; b < after.branches(); ++b) {
-        bool thicker = false;
-        for (auto i = std::size_t(after.first_point[b]); i < std::size_t(after.first_point[b + 1]); ++i)
-            thicker = thicker || after.radius[i] > before[i];
-        count += thicker;
-    }
-    return count;
-}
-
 Splines grow_preset(const GrowthOptions& o, const ImportChoice& choice, EzTreeParameters preset,
                     CommonOptions& common) {
     if (o.bodies) throw UsageError("--bodies: not with an ez-tree preset, whose numbers are its own");
@@ -50,9 +38,7 @@ Splines grow_preset(const GrowthOptions& o, const ImportChoice& choice, EzTreePa
     if (o.seed) preset.seed = std::int64_t(*o.seed);
     Splines splines = grow_eztree(preset, o.leaves);
     if (o.radii == "file") return splines;
-    const std::vector<double> drawn = splines.radius;
-    thicken_to_carry(splines, wood_presets().front(), foreign_sag);
-    if (const std::size_t count = count_raised(drawn, splines))
+    if (const std::size_t count = thicken_to_carry(splines, wood_presets().front(), foreign_sag))
         common.notes.push_back(raised(count, splines.branches()));
     return splines;
 }

@@ -1,6 +1,7 @@
 #include "import_file.h"
 #include "exits.h"
 #include "formats/documents/splines.h"
+#include "formats/imports/scan_radii.h"
 #include "formats/mapped.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
@@ -21,6 +22,9 @@ void add_import_options(OptionList& list, ImportChoice& choice) {
              "alike")
         .takes("M")
         .check(positive_number());
+    list.add_flag("--scan-radii", choice.scan_radii,
+                  "Of a laser scan: bound by the pipe rule what is thinner than 5 cm across, which a scanner takes for "
+                  "thicker than it is");
     list.add_flag(
         "--keep-place", choice.keep_place,
         "Leave the imported tree where its file has it; without, its foot is set on the ground at the origin");
@@ -55,12 +59,15 @@ Splines read_import(const std::string& name, const ImportChoice& choice, ImportN
                          " is a bough document, which is in metres and Y up");
     if (own && options.keep_place)
         throw UsageError("--keep-place: " + options.name + " is a bough document, which stays where it is");
+    if (own && choice.scan_radii)
+        throw UsageError("--scan-radii: " + options.name + " is a bough document, whose radii are its own");
     if (own && options.trunk_diameter)
         throw UsageError("--trunk-diameter: " + options.name + " is a bough document, whose radii are its own");
     if (before) before(own);
     try {
         Splines splines = import_splines(content, options, notes);
         file.check();
+        if (choice.scan_radii) bound_scan_radii(splines, notes);
         return splines;
     } catch (const InputError&) {
         file.check(); // half a file is no fault of its format

@@ -8,11 +8,11 @@
 
 namespace bough {
 
-// --units, --up, --trunk-diameter and --keep-place of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
+// --units, --up, --trunk-diameter, --scan-radii and --keep-place of tools that import. The unit in metres: "m", "cm", "mm", "ft", "in" or a number.
 struct ImportChoice {
     std::string units, up;
     std::optional<double> trunk_diameter; // [m]
-    bool keep_place = false;
+    bool scan_radii = false, keep_place = false;
 };
 void add_import_options(OptionList&, ImportChoice&);
 std::optional<double> unit_in_metres(const std::string& units);

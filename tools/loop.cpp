@@ -1,8 +1,10 @@
 #include "loop.h"
 #include "formatted.h"
+#include "long_run.h"
 #include "progress.h"
 #include "signals.h"
 #include <cmath>
+#include <iostream>
 
 namespace bough {
 namespace {
@@ -122,12 +124,23 @@ LoopStart close_loop(Simulation& run, const LoopChoice& o, const RunOptions& opt
     if (o.periods) loop.periods = *o.periods;
     const std::int64_t n = loop.frames;
     Progress progress(common, "frame (until it repeats)", n * most_periods(loop));
+    LongRun told(
+        n * most_periods(loop),
+        [&](double left) {
+            if (common.quiet) return;
+            clear_progress();
+            std::cerr << "treesim: --loop: the motion repeats after at most " << most_periods(loop) << " periods of "
+                      << n << " frames; those take up to " << formatted("%.0f min", left / 60)
+                      << " more; a shorter loop, or fewer --loop-periods, end sooner\n";
+        },
+        clock_seconds);
     LoopStart start = close_loop(run, loop, [&](Simulation& moved, std::int64_t f) {
         if (interrupted())
             throw Interrupted("interrupted in period " + std::to_string((f - 1) / n + 1) +
                               ", before the loop's first frame");
         advance_frame(moved, f, options.substeps);
         progress.at(f);
+        told.at(f);
     });
     if (start.closed || o.blend) return start;
     throw PromiseError(not_closed("the motion does not repeat after " + std::to_string(start.periods) +

@@ -110,11 +110,13 @@ void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
     list.renamed("--stiffness-scale", "--set stiffness_scale=X");
     list.renamed("--damping-scale", "--set damping_scale=X");
     list.renamed("--joint-limit", "--set joint_limit=DEG");
-    for (const char* name : {"--units", "--up", "--trunk-diameter", "--material", "--segment-length", "--radii"})
+    for (const char* name :
+         {"--units", "--up", "--trunk-diameter", "--scan-radii", "--material", "--segment-length", "--radii"})
         list.elsewhere(name,
                        std::string("is treeconvert's: treeconvert FILE ") + name +
                            " ... -o TREE.json, then this tool with TREE.json (treesim --skin FILE shows FILE's own "
                            "mesh)");
+    list.elsewhere("--root-stiffness", "there is --set material.root_stiffness=K, and treeconvert's --root-stiffness");
     list.elsewhere("--stiffness", "there is --set stiffness_scale=X");
     list.elsewhere("--damping", "there is --set damping_scale=X");
     list.elsewhere("--speed", "there is --set wind.velocity=[X,0,0], a steady wind in m/s");

@@ -95,6 +95,8 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
         throw InputError(input_name(o.run.input) + ": its own mesh",
                          std::string(error.what()).substr(input_name(o.run.input).size() + 2) +
                              "; --mesh made shows one that is made from the tree");
+    } catch (const ImageError&) {
+        throw; // the import looks at no image
     } catch (const InputError&) {
         return model; // no armature; and what is wrong with the file, its import says
     }

@@ -10,9 +10,11 @@
 #include "import_file.h"
 #include "import_stats.h"
 #include "lib/base/counted.h"
+#include "lib/growth/carry.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
 #include "lib/model/drawn_pose.h"
+#include "lib/model/root_stiffness.h"
 #include "lib/model/split.h"
 #include "lib/study/modes.h"
 #include "merge_trial.h"
@@ -32,11 +34,11 @@ using namespace bough;
 struct Options {
     CommonOptions common;
     ImportChoice choice;
-    std::string input, mesh, wind_groups, material;
+    std::string input, mesh, wind_groups, material, radii;
     GltfChoice gltf;
     DressChoice dress;
     MergeChoice merge;
-    std::optional<double> segment_length, max_bend;
+    std::optional<double> segment_length, max_bend, root_stiffness;
     std::optional<std::int64_t> max_bodies;
     std::optional<int> sides;
     bool strict = false, stats = false, split = false, list_materials = false;
@@ -67,6 +69,14 @@ void declare(OptionList& list, Options& o) {
              "At most N bodies: what is left out stays as mass, drag and damping on what carries it,\nleaves in clumps")
         .takes("N")
         .check(whole_number(1));
+    list.add("--root-stiffness", o.root_stiffness,
+             "A spring between the ground and each trunk [N m/rad]; rigid unless given. Old trees: 1e6 to 1e7")
+        .takes("K")
+        .check(positive_number());
+    list.add("--radii", o.radii,
+             "file (default), as the input says; or carry: thicker where wood of --material must be to carry the tree")
+        .takes("carry|file")
+        .one_of({"carry", "file"});
     list.group("Mesh");
     list.add(
             "--mesh", o.mesh,
@@ -164,10 +174,10 @@ Material chosen_material(const Options& o, const Splines& splines) {
 }
 
 void list_materials() {
-    std::cout << "name\tdensity[kg/m3]\tE[Pa]\tG[Pa]\tdamping ratio\tsource\n";
+    std::cout << "name\tdensity[kg/m3]\tE[Pa]\tG[Pa]\tdamping ratio\tstrength[Pa]\tsource\n";
     for (const Material& m : wood_presets())
         std::cout << m.name << "\t" << m.density << "\t" << m.youngs_modulus << "\t" << m.shear_modulus << "\t"
-                  << m.damping_ratio << "\t" << m.source << "\n";
+                  << m.damping_ratio << "\t" << m.strength << "\t" << m.source << "\n";
 }
 
 SegmentOptions segment_options(const Options& o) {
@@ -311,6 +321,11 @@ void work(Options& o) {
     const std::size_t guesses = notes.size();
     const Material material = chosen_material(o, splines);
     splines.source = with_command_line(splines.source, o.common);
+    if (o.radii == "carry")
+        if (const std::size_t thicker = thicken_to_carry(splines, material, foreign_sag))
+            notes.push_back("--radii carry: " + std::to_string(thicker) + " of " +
+                            counted(splines.branches(), "branch", "branches") + " made thicker, as " + material.name +
+                            " must be to carry them");
     SegmentReport report;
     Tree tree;
     try {
@@ -321,6 +336,7 @@ void work(Options& o) {
         throw UsageError(what.starts_with(most) ? "--max-bodies: " + what.substr(most.size())
                                                 : "--segment-length: " + what);
     }
+    if (o.root_stiffness) stand_on_springs(tree, *o.root_stiffness);
     for (std::string& line : repairs(report)) notes.push_back(std::move(line));
     if (o.strict && !notes.empty()) throw InputError(name, notes.front() + " (--strict)");
     require_bodies(tree, name);

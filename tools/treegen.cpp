@@ -56,6 +56,7 @@ void refuse_contradictions(const Options& o) {
     if (o.strict && o.import.empty()) throw UsageError("--strict: only with --import");
     if (o.stats && o.import.empty()) throw UsageError("--stats: only with --import");
     if (o.choice.trunk_diameter && o.import.empty()) throw UsageError("--trunk-diameter: only with --import");
+    if (o.choice.scan_radii && o.import.empty()) throw UsageError("--scan-radii: only with --import");
     if (o.choice.keep_place && o.import.empty()) throw UsageError("--keep-place: only with --import");
     refuse_overwriting({{"--params", o.growth.params}, {"--envelope", o.growth.envelope.envelope}},
                        {{"-o", o.common.output}});

@@ -1,5 +1,6 @@
 #include "call.h"
 #include "formats/error.h"
+#include "formats/plain_text.h"
 #include <cstring>
 #include <new>
 
@@ -8,10 +9,19 @@ namespace {
 
 thread_local char last_message[2048]; // of fixed size, so that it is there when memory has ended
 
-bough_result keep(bough_result result, const char* message) noexcept {
+void put(const char* message) noexcept {
     const std::size_t length = std::min(std::strlen(message), sizeof last_message - 1);
     std::memcpy(last_message, message, length);
     last_message[length] = 0;
+}
+
+// As the tools print it: in one line of valid UTF-8, whatever bytes of a document it repeats.
+bough_result keep(bough_result result, const char* message) noexcept {
+    put(message);
+    try {
+        put(valid_utf8(in_words(last_message)).c_str());
+    } catch (const std::bad_alloc&) { // as it is
+    }
     for (char& c : last_message) c = c == '\n' ? ' ' : c;
     return result;
 }

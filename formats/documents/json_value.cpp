@@ -1,4 +1,5 @@
 #include "document_parts.h"
+#include "formats/json_shape.h"
 #include <algorithm>
 
 namespace bough {
@@ -65,6 +66,7 @@ private:
     }
 
     bool open(json&& value) {
+        if (open_.size() >= deepest_json) throw InputError(name_, nested_too_deep);
         open_.push_back(add(std::move(value)));
         keys_.emplace_back();
         return true;

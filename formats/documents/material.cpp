@@ -1,4 +1,5 @@
 #include "material.h"
+#include "formats/json_shape.h"
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -19,6 +20,7 @@ constexpr Number number_fields[] = {
     {"youngs_modulus", &Material::youngs_modulus},
     {"shear_modulus", &Material::shear_modulus},
     {"damping_ratio", &Material::damping_ratio},
+    {"strength", &Material::strength},
     {"leaf_density", &Material::leaf_density},
     {"leaf_thickness", &Material::leaf_thickness},
     {"petal_thickness", &Material::petal_thickness},
@@ -33,6 +35,9 @@ std::string at(const std::string& file, const std::string& field) {
 }
 
 Json parse(std::string_view content, const std::string& file) {
+    // A value of these is a number or text; a callback costs the square of what stands side by side.
+    if (json_shape(content).depth > 2)
+        throw InputError(file, "holds lists within lists, expected numbers and text alone");
     std::set<std::string> seen;
     const auto no_field_twice = [&](int depth, Json::parse_event_t event, Json& key) {
         if (event == Json::parse_event_t::key && depth == 1 && !seen.insert(key.get<std::string>()).second)

@@ -125,11 +125,7 @@ ordered_json value_of(const Scene& scene, const MaterialChange& material) {
     for (const Ball& ball : scene.balls) fields["balls"].push_back(value_of(ball));
     for (const Walker& walker : scene.walkers) fields["walkers"].push_back(value_of(walker));
     if (scene.contact) fields["contact"] = value_of(*scene.contact);
-    if (scene.leaves)
-        fields["leaves"] = {{"kappa", scene.leaves->kappa},
-                            {"air_resistance", scene.leaves->air_resistance},
-                            {"drag_ratio", scene.leaves->drag_ratio},
-                            {"offset", scene.leaves->offset}};
+    if (scene.leaves) fields["leaves"] = value_of(*scene.leaves);
     if (scene.wood) fields["wood"] = value_of(*scene.wood);
     if (scene.load) fields["load"] = value_of(*scene.load);
     if (scene.fictitious) fields["fictitious"] = value_of(*scene.fictitious);

@@ -115,4 +115,11 @@ ordered_json value_of(const Contact& contact) {
             {"ground_height", contact.ground_height}};
 }
 
+ordered_json value_of(const LeafAir& leaves) {
+    return {{"kappa", leaves.kappa},
+            {"air_resistance", leaves.air_resistance},
+            {"drag_ratio", leaves.drag_ratio},
+            {"offset", leaves.offset}};
+}
+
 } // namespace bough

@@ -11,7 +11,8 @@ MaterialChange read_material_change(const json& value, const std::string& name) 
     for (const auto& [key, number] : {std::pair{"E", &change.youngs_modulus},
                                       {"G", &change.shear_modulus},
                                       {"density", &change.density},
-                                      {"damping_ratio", &change.damping_ratio}})
+                                      {"damping_ratio", &change.damping_ratio},
+                                      {"root_stiffness", &change.root_stiffness}})
         if (object.has(key)) object.read(key, number->emplace());
     object.finish();
     return change;
@@ -23,6 +24,7 @@ ordered_json value_of(const MaterialChange& change) {
     if (change.shear_modulus) fields["G"] = *change.shear_modulus;
     if (change.density) fields["density"] = *change.density;
     if (change.damping_ratio) fields["damping_ratio"] = *change.damping_ratio;
+    if (change.root_stiffness) fields["root_stiffness"] = *change.root_stiffness;
     return fields;
 }
 

@@ -1,3 +1,4 @@
+#include "formats/plain_text.h"
 #include "scene_parts.h"
 #include <algorithm>
 #include <stdexcept>
@@ -55,6 +56,12 @@ SceneOverride parse_override(const std::string& option, const std::string& text)
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
         throw std::invalid_argument("is '" + text + "', expected PATH=VALUE, such as wind.velocity=[8,0,0]");
+    std::string shown = text;
+    for (std::size_t k = equals; k < shown.size(); ++k)
+        if (is_blank(shown[k])) shown[k] = ' ';
+    if (valid_utf8(shown) != shown)
+        throw std::invalid_argument("is '" + valid_utf8(shown) +
+                                    "', which holds bytes that are no text; expected UTF-8");
     SceneOverride change{option + " " + text, {""}, text.substr(equals + 1)};
     for (const char c : text.substr(0, equals)) {
         if (c == '.')

@@ -36,6 +36,7 @@ LeafAir read_leaves(const nlohmann::json&, const std::string& name);
 nlohmann::ordered_json value_of(const Fracture&);
 nlohmann::ordered_json value_of(const Ball&);
 nlohmann::ordered_json value_of(const Contact&);
+nlohmann::ordered_json value_of(const LeafAir&);
 
 // ---- scene_material.cpp ----
 MaterialChange read_material_change(const nlohmann::json&, const std::string& name);

@@ -33,8 +33,11 @@ struct MortonBox {
     // So many bits of each axis of a place within, one after another.
     std::uint64_t morton(const Vec3& p, int bits) const {
         const double size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
-        const Vec3 at = (p - low) / size * double((std::uint64_t(1) << bits) - 1);
-        return spread(std::uint64_t(at.x())) | spread(std::uint64_t(at.y())) << 1 | spread(std::uint64_t(at.z())) << 2;
+        const double most = double((std::uint64_t(1) << bits) - 1);
+        const Vec3 at = (p - low) / size * most;
+        // Coordinates near the largest double are refused once the tree is made: until then they may differ by more than there is.
+        const auto cell = [most](double x) { return spread(x > 0 ? std::uint64_t(std::min(x, most)) : 0); };
+        return cell(at.x()) | cell(at.y()) << 1 | cell(at.z()) << 2;
     }
 };
 

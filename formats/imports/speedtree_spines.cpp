@@ -2,6 +2,7 @@
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
 #include "pipe_rule.h"
+#include "polyline_search.h"
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -86,22 +87,25 @@ void add_ratio(std::vector<double>& ratios, double found, double spine) {
 
 std::vector<double> bone_ratios(const File& file, const SpineBranches& spines) {
     std::vector<double> ratios;
+    BranchSearch search(spines.branches);
     for (std::size_t i = 0; i < file.bones.size(); ++i) {
         if (spines.branch_of_bone[i] < 0) continue;
-        const ImportedBranch& b = spines.branches[spines.branch_of_bone[i]];
-        add_ratio(ratios, file.bones[i].radius, radius_at(b, nearest_on(b.point, file.bones[i].start)));
+        const auto k = std::size_t(spines.branch_of_bone[i]);
+        add_ratio(ratios, file.bones[i].radius, radius_at(spines.branches[k], search.nearest(k, file.bones[i].start)));
     }
     return ratios;
 }
 
 std::vector<double> bark_ratios(const File& file, const SpineBranches& spines) {
     std::vector<double> ratios;
+    BranchSearch search(spines.branches);
     for (std::size_t i = 0; i < file.objects.size(); ++i) {
         if (file.objects[i].surface.empty()) continue; // read for objects with a spine alone
-        const ImportedBranch& b = spines.branches[spines.branch_of_object[i]];
+        const auto k = std::size_t(spines.branch_of_object[i]);
+        const ImportedBranch& b = spines.branches[k];
         if (b.point.size() < 2) continue;
         for (const Vec3& p : file.objects[i].surface) {
-            const OnPolyline place = nearest_on(b.point, p);
+            const OnPolyline place = search.nearest(k, p);
             add_ratio(ratios, place.distance, radius_at(b, place));
         }
     }
@@ -148,11 +152,12 @@ void take_radii_of_bones(const File& file, const BoneBranches& bones, SpineBranc
     std::vector<char> wanting;
     for (const ImportedBranch& b : spines.branches) wanting.push_back(!has_radii(b));
     std::size_t taken = 0;
+    BranchSearch search(spines.branches);
     for (std::size_t i = 0; i < file.bones.size(); ++i) {
         const std::int32_t k = spines.branch_of_bone[i];
         if (k < 0 || !wanting[k] || !(file.bones[i].radius > 0)) continue;
         ImportedBranch& b = spines.branches[k];
-        const OnPolyline place = nearest_on(b.point, file.bones[i].start);
+        const OnPolyline place = search.nearest(std::size_t(k), file.bones[i].start);
         const std::size_t point = std::min(place.segment + (place.t > 0.5), b.point.size() - 1);
         taken += !(b.radius[point] > 0);
         b.radius[point] = file.bones[i].radius;
@@ -191,6 +196,8 @@ SpineBranches branches_of_spines(File& file, const BoneBranches& bones, std::opt
     std::vector<std::int32_t> parent;
     for (const Object& o : file.objects) parent.push_back(o.parent);
     result.branch_of_object.assign(file.objects.size(), -1);
+    result.branches.reserve(file.objects.size()); // the search below keeps where they are
+    BranchSearch search(result.branches);
     for (const std::int32_t i : parents_first(parent).order) {
         Object& o = file.objects[i];
         const std::int32_t above = o.parent < 0 ? -1 : result.branch_of_object[o.parent];
@@ -200,7 +207,7 @@ SpineBranches branches_of_spines(File& file, const BoneBranches& bones, std::opt
         }
         ImportedBranch b;
         b.parent = above;
-        if (above >= 0) b.parent_at = nearest_on(result.branches[above].point, o.spine.front()).fraction;
+        if (above >= 0) b.parent_at = search.nearest(std::size_t(above), o.spine.front()).fraction;
         b.point = std::move(o.spine);
         b.radius = std::move(o.spine_radius);
         result.branch_of_object[i] = std::int32_t(result.branches.size());

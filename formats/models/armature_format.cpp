@@ -81,7 +81,8 @@ Splines read(std::string_view content, const ImportOptions& options, ImportNotes
         notes.lines.push_back(counted(scene.other_scenes, "scene", "scenes") + " beside the default one not read");
     if (!bones && scene.line.empty()) refuse(scene, kind, options.name);
     if (bones && scene.mesh_encoded)
-        notes.lines.push_back("the mesh is compressed or quantized and was not read: radii come from the bones alone");
+        notes.lines.push_back("the mesh is in Draco's form and was not read: radii come from the bones alone; save it "
+                              "without compression");
     if (bones && scene.skinned_meshes == 0 && !scene.line.empty())
         notes.lines.push_back(counted(scene.line.size(), "line", "lines") + " not read beside the bones");
     for (speedtree::Bone& bone : armature.bones) {

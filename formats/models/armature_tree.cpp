@@ -1,6 +1,7 @@
 #include "armature.h"
 #include "formats/imports/nearest_segment.h"
 #include "formats/imports/pipe_rule.h"
+#include "formats/imports/polyline_search.h"
 #include "formats/imports/speedtree_bones.h"
 
 namespace bough {
@@ -28,17 +29,17 @@ void add_twigs(std::vector<ImportedBranch>& branches, const std::vector<Twig>& t
         }
     }
     const SegmentSearch search(point, radius, base, std::move(segment), branches.size());
+    BranchSearch on(branches);
     const auto grow_on = [&](ImportedBranch& branch, std::int32_t parent) {
         branch.parent = parent;
-        if (parent >= 0)
-            branch.parent_at = nearest_on(branches[std::size_t(parent)].point, branch.point.front()).fraction;
+        if (parent >= 0) branch.parent_at = on.nearest(std::size_t(parent), branch.point.front()).fraction;
     };
     // The nearest branch of bones that is as thick there.
     const auto bone_wood = [&](const ImportedBranch& branch) {
         std::int32_t best = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t c = 0; c < bones; ++c) {
-            const OnPolyline at = nearest_on(branches[c].point, branch.point.front());
+            const OnPolyline at = on.nearest(c, branch.point.front());
             const double* r = &branches[c].radius[at.segment];
             const double lacks = std::max(0.0, branch.radius.front() - (1 - at.t) * r[0] - at.t * r[1]);
             if (at.distance + 100 * lacks < least) least = at.distance + 100 * lacks, best = std::int32_t(c);

@@ -147,7 +147,7 @@ void keep_faces(aiScene& scene, const std::string& file) {
 
 std::string convert(std::string_view content, AssimpKind kind, const std::string& file) {
     Assimp::Importer importer;
-    load_by_assimp(importer, content, "", kind, false);
+    load_by_assimp(importer, content, kind, false);
     const aiScene* scene = importer.ApplyPostProcessing(aiProcess_JoinIdenticalVertices | aiProcess_LimitBoneWeights |
                                                         aiProcess_SortByPType);
     if (!scene) throw std::runtime_error(importer.GetErrorString());

@@ -29,11 +29,9 @@ void add_mesh(const aiMesh& mesh, const aiMatrix4x4& to_world, AssimpMesh& out) 
 
 } // namespace
 
-AssimpMesh read_by_assimp(std::string_view content, const std::string& path, AssimpKind kind, bool up_given) {
+AssimpMesh read_by_assimp(std::string_view content, AssimpKind kind, bool up_given) {
     Assimp::Importer importer;
-    // Buffers of a .gltf stand beside it; the rest is whole in memory, whatever its name.
-    const bool beside = kind == AssimpKind::gltf && path != "-" && path.ends_with(".gltf");
-    const aiScene* scene = load_by_assimp(importer, content, beside ? path : "", kind, up_given);
+    const aiScene* scene = load_by_assimp(importer, content, kind, up_given);
     AssimpMesh out;
     std::vector<std::pair<const aiNode*, aiMatrix4x4>> stack{{scene->mRootNode, aiMatrix4x4()}};
     while (!stack.empty()) {

@@ -16,7 +16,7 @@ struct AssimpMesh {
 
 // assimp applies COLLADA's unit by itself, and its axis too unless `up_given`. Throws std::runtime_error with assimp's
 // message. May crash on a damaged file.
-AssimpMesh read_by_assimp(std::string_view content, const std::string& path, AssimpKind, bool up_given);
+AssimpMesh read_by_assimp(std::string_view content, AssimpKind, bool up_given);
 
 // As bytes, and back.
 std::string packed(const AssimpMesh&);

@@ -17,10 +17,6 @@ const char* ending(AssimpKind kind) {
         return "obj";
     case AssimpKind::fbx:
         return "fbx";
-    case AssimpKind::gltf:
-        return "gltf";
-    case AssimpKind::glb:
-        return "glb";
     default:
         return "dae";
     }
@@ -64,17 +60,14 @@ ModelFrame fbx_frame(const aiScene& scene) {
 
 } // namespace
 
-const aiScene* load_by_assimp(Assimp::Importer& importer, std::string_view content, const std::string& path,
-                              AssimpKind kind, bool up_given) {
+const aiScene* load_by_assimp(Assimp::Importer& importer, std::string_view content, AssimpKind kind, bool up_given) {
     const std::string wanted = ending(kind);
     keep_reader(importer, wanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_given);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     const unsigned flags = aiProcess_Triangulate;
-    const aiScene* scene = path.empty()
-                               ? importer.ReadFileFromMemory(content.data(), content.size(), flags, wanted.c_str())
-                               : importer.ReadFile(path, flags);
+    const aiScene* scene = importer.ReadFileFromMemory(content.data(), content.size(), flags, wanted.c_str());
     if (!scene || !scene->mRootNode) {
         std::string why = importer.GetErrorString();
         std::replace_if(

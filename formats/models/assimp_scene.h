@@ -15,10 +15,9 @@ namespace bough {
 
 // Only the reader of this kind sees the file. Polygons are triangulated, lines stay; no mesh is made up for joints that
 // move none; FBX pivots become part of their nodes. assimp applies COLLADA's unit by itself, and its up axis too unless
-// `up_given`. `path`: read from there, for a .gltf whose buffers stand beside it; "": `content` is all.
+// `up_given`.
 // The scene is the importer's. Throws std::runtime_error with assimp's message.
-const aiScene* load_by_assimp(Assimp::Importer&, std::string_view content, const std::string& path, AssimpKind,
-                              bool up_given);
+const aiScene* load_by_assimp(Assimp::Importer&, std::string_view content, AssimpKind, bool up_given);
 
 // What the file says of its coordinates and assimp has not applied.
 struct ModelFrame {

@@ -69,17 +69,30 @@ double guessed_unit(const EnvelopeMesh& mesh, ImportNotes& notes) {
     return unit;
 }
 
+// By assimp, in a child.
+AssimpMesh read_in_child(std::string_view content, AssimpKind kind, const ImportOptions& options) {
+    const ChildResult child = run_forked([&] { return packed(read_by_assimp(content, kind, options.up != 0)); },
+                                         reader_limits(content.size()));
+    if (!child.failure.empty())
+        throw InputError(options.name, "assimp could not read it: " + valid_utf8(child.failure) + "; " + readable);
+    return unpacked(child.bytes);
+}
+
 } // namespace
 
 EnvelopeMesh read_envelope_mesh(std::string_view content, const std::string& path, const ImportOptions& options,
                                 ImportNotes& notes) {
     const AssimpKind kind = kind_of(content, options.name);
-    const ChildResult child = run_forked([&] { return packed(read_by_assimp(content, path, kind, options.up != 0)); },
-                                         reader_limits(content.size()));
-    if (!child.failure.empty())
-        throw InputError(options.name, "assimp could not read it: " + valid_utf8(child.failure) + "; " + readable);
-    AssimpMesh found = unpacked(child.bytes);
-    EnvelopeMesh mesh{std::move(found.vertex), std::move(found.triangle)};
+    const bool gltf = kind == AssimpKind::gltf || kind == AssimpKind::glb;
+    AssimpMesh found;
+    EnvelopeMesh mesh;
+    if (gltf) {
+        mesh = triangles_of_gltf(content, folder_of(path), options.name);
+        found.unit = 1;
+    } else {
+        found = read_in_child(content, kind, options);
+        mesh = {std::move(found.vertex), std::move(found.triangle)};
+    }
     if (mesh.triangle.empty()) throw InputError(options.name, std::string("has no faces, ") + readable);
     for (const Vec3& p : mesh.vertex)
         if (!p.allFinite())

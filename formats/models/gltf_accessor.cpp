@@ -128,18 +128,18 @@ std::vector<double> read(const GltfDocument& document, const Elements& elements)
     return values;
 }
 
-struct Array {
+struct AccessorArray {
     Elements all;             // without a view: no component
     Elements places, changes; // of a sparse one
     const Component* component = nullptr;
     bool normalized = false;
 };
 
-Array checked(const GltfDocument& document, const Json& named, const GltfUse& use) {
+AccessorArray checked(const GltfDocument& document, const Json& named, const GltfUse& use) {
     const std::size_t index = checked_index(named, use.place, entries_of(document.json, "accessors"));
     const Json& accessor = document.json["accessors"][index];
     const std::string place = use.place + " (accessor " + std::to_string(index) + ")";
-    Array array;
+    AccessorArray array;
     array.component = &component_of(accessor, place);
     array.normalized = accessor.value("normalized", false);
     const std::string type = accessor.at("type").get<std::string>();
@@ -179,8 +179,12 @@ std::size_t count_of(const GltfDocument& document, const Json& accessor, const G
 }
 
 std::vector<double> values_of(const GltfDocument& document, const Json& accessor, const GltfUse& use) {
-    const Array array = checked(document, accessor, use);
+    const AccessorArray array = checked(document, accessor, use);
     const std::size_t count = array.all.count, width = array.all.width;
+    document.numbers_read += count * width;
+    if (document.numbers_read > most_numbers(document))
+        throw std::out_of_range(use.place + ": with it more than " + std::to_string(most_numbers(document)) +
+                                " numbers are read, as its arrays are named over and over; expected fewer copies");
     std::vector<double> values =
         array.all.component ? read(document, array.all) : std::vector<double>(count * width, 0);
     if (array.places.component) {

@@ -31,9 +31,14 @@ std::string primitive_place(std::size_t mesh, std::size_t primitive);
 // no number.
 std::size_t count_of(const GltfDocument&, const nlohmann::ordered_json& accessor, const GltfUse&);
 
+// How many numbers values_of reads of a document in all: a file may name one array as often as it likes, and each time takes memory.
+constexpr std::uint64_t most_numbers(const GltfDocument& document) {
+    return 1000000 + 32 * (std::uint64_t(document.text) + document.binary.size());
+}
+
 // Its numbers, an element after another (of a matrix a column after another): normalized ones from -1 or 0 to 1, sparse
 // ones put in their places, all 0 where it has no view. O(count). Throws as count_of does, and std::out_of_range for a
-// sparse element that is not there.
+// sparse element that is not there, and beyond most_numbers().
 std::vector<double> values_of(const GltfDocument&, const nlohmann::ordered_json& accessor, const GltfUse&);
 
 } // namespace bough

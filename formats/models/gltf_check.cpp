@@ -1,7 +1,9 @@
 #include "gltf_check.h"
 #include "gltf_accessor.h"
+#include "gltf_uri.h"
 #include "lib/base/counted.h"
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace bough {
@@ -56,6 +58,15 @@ void check_joints(const GltfDocument& document, const Json& attributes, std::siz
     }
 }
 
+void check_finite(const GltfDocument& document, const Json& accessor, const GltfUse& use, const char* element,
+                  std::size_t width) {
+    const std::vector<double> values = values_of(document, accessor, use);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (!std::isfinite(values[k]))
+            throw std::out_of_range(use.place + ": " + element + " " + std::to_string(k / width) +
+                                    " is not finite, expected numbers");
+}
+
 HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh, bool quantized) {
     HighestJoint highest;
     const Json& primitives = document.json["meshes"][mesh].at("primitives");
@@ -66,6 +77,8 @@ HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh, bool qua
         const std::size_t vertices =
             count_of(document, attributes["POSITION"],
                      {place + ": POSITION", "VEC3", quantized ? GltfNumbers::any : GltfNumbers::floats});
+        if (vertices == 0) throw std::out_of_range(place + ": POSITION has no vertices, expected one or more");
+        check_finite(document, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::any}, "vertex", 3);
         check_indices(document, primitives[p], vertices, place);
         check_joints(document, attributes, vertices, place, highest);
     }
@@ -81,12 +94,60 @@ void check_skin(const GltfDocument& document, std::size_t number) {
     if (count < joints)
         throw std::out_of_range(place + " has " + counted(count, "matrix", "matrices") + ", expected one for each of " +
                                 counted(joints, "joint", "joints"));
+    check_finite(document, skin["inverseBindMatrices"], {place, "MAT4", GltfNumbers::floats}, "matrix", 16);
+}
+
+void check_texture(const Json& of, const char* key, const std::string& place, std::size_t textures) {
+    if (of.contains(key)) index_of(of[key], "index", place + ", " + key, textures);
+}
+
+void check_image(const GltfDocument& document, const Json& image, const std::string& place) {
+    std::string bytes, type = image.value("mimeType", std::string());
+    if (image.contains("bufferView")) {
+        const Json& view =
+            document
+                .json["bufferViews"][index_of(image, "bufferView", place, entries_of(document.json, "bufferViews"))];
+        bytes = document.binary.substr(std::min(whole_number(view, "byteOffset", place, 0), document.binary.size()),
+                                       32); // enough to know it by
+    } else if (const std::string uri = image.value("uri", std::string()); uri.starts_with("data:")) {
+        bytes = bytes_of_uri(uri, "");
+        if (type.empty()) type = uri.substr(5, uri.find_first_of(";,") - 5);
+    } else {
+        return;
+    }
+    if ((type == "image/png" || type == "image/jpeg") && !image_type(bytes))
+        throw std::out_of_range(place + " is no image that can be read, expected " + type);
 }
 
 } // namespace
 
-void check_arrays(const GltfDocument& document, bool quantized) {
+void check_materials(const GltfDocument& document) {
     const Json& json = document.json;
+    const std::size_t textures = entries_of(json, "textures"), materials = entries_of(json, "materials");
+    for (std::size_t m = 0; m < entries_of(json, "meshes"); ++m)
+        for (std::size_t p = 0; p < json["meshes"][m].at("primitives").size(); ++p)
+            if (const Json& primitive = json["meshes"][m]["primitives"][p]; primitive.contains("material"))
+                index_of(primitive, "material", primitive_place(m, p), materials);
+    for (std::size_t k = 0; k < materials; ++k) {
+        const Json& material = json["materials"][k];
+        const std::string place = "material " + std::to_string(k);
+        for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
+            check_texture(material, key, place, textures);
+        if (!material.contains("pbrMetallicRoughness")) continue;
+        for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"})
+            check_texture(material["pbrMetallicRoughness"], key, place, textures);
+    }
+    for (std::size_t k = 0; k < textures; ++k)
+        if (json["textures"][k].contains("source"))
+            index_of(json["textures"][k], "source", "texture " + std::to_string(k), entries_of(json, "images"));
+    for (std::size_t k = 0; k < entries_of(json, "images"); ++k)
+        check_image(document, json["images"][k], "image " + std::to_string(k));
+}
+
+void check_arrays(const GltfDocument& document) {
+    const Json& json = document.json;
+    const Json used = json.value("extensionsUsed", Json::array());
+    const bool quantized = std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
     const std::size_t meshes = entries_of(json, "meshes"), skins = entries_of(json, "skins");
     std::vector<HighestJoint> highest;
     for (std::size_t m = 0; m < meshes; ++m) highest.push_back(check_mesh(document, m, quantized));

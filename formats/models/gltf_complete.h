@@ -1,5 +1,5 @@
-// gltf_complete.h: what a glTF 2.0 file may leave out or say in several ways, and assimp wants said in one: put into the
-// document (private to this folder).
+// gltf_complete.h: what a glTF 2.0 file may leave out or say in several ways, put into the document (private to this
+// folder).
 #pragma once
 #include "gltf_document.h"
 
@@ -10,12 +10,8 @@ namespace bough {
 // exceptions for types that are wrong.
 void add_missing_scene(nlohmann::ordered_json& document);
 
-// A skin may leave its matrices out, which then are identities; assimp crashes without them. Appends them to the document
+// A skin may leave its matrices out, which then are identities. Appends them to the document
 // of the skins that do. O(joints). Throws Json exceptions for types that are wrong.
 void add_missing_matrices(GltfDocument&);
-
-// Weights may be bytes or shorts of which the largest stands for 1; assimp takes their bits for floats. Appends floats,
-// and has the primitives name those. O(weights). Throws as values_of (gltf_accessor.h).
-void weights_as_floats(GltfDocument&);
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "gltf_document.h"
 #include "formats/error.h"
+#include "formats/json_shape.h"
 #include "formats/plain_text.h"
 #include "gltf_uri.h"
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace bough {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int deepest = 200;
+constexpr std::size_t most_names = 4096;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
 std::uint32_t word(std::string_view content, std::size_t at) {
@@ -55,19 +56,19 @@ constexpr std::size_t most_of_byte = 64;
 Json parsed(std::string_view text, const std::string& name) {
     // Json's destructor takes memory of its own, and ends the program where there is none: so it is asked for beforehand. Untouched, it costs nothing.
     ::operator delete(::operator new(most_of_byte* text.size()));
-    const auto shallow = [](int depth, Json::parse_event_t, const Json&) {
-        if (depth > deepest) throw std::runtime_error("nested deeper than 200");
-        return true;
-    };
+    const JsonShape shape = json_shape(text);
+    if (shape.depth > deepest_json)
+        throw InputError(name, std::string("JSON ") + nested_too_deep + ", expected glTF 2.0");
+    if (shape.names > most_names) // an ordered object looks each new one up among all before
+        throw InputError(name,
+                         "JSON has an object of " + std::to_string(shape.names) + " names, expected at most 4096");
     try {
-        return Json::parse(text.begin(), text.end(), shallow);
+        return Json::parse(text.begin(), text.end());
     } catch (const Json::parse_error& error) {
         const std::size_t at = std::min(error.byte, text.size());
         throw InputError(file_line(name, line_of(text, at)), "JSON is broken, expected glTF 2.0");
     } catch (const Json::out_of_range&) {
         throw InputError(name, "JSON holds a number too large for double precision, expected glTF 2.0");
-    } catch (const std::runtime_error& error) {
-        throw InputError(name, std::string("JSON is ") + error.what() + ", expected glTF 2.0");
     }
 }
 
@@ -155,7 +156,7 @@ std::size_t add_view(GltfDocument& document, std::string_view bytes) {
     return views.size() - 1;
 }
 
-void embed_images(GltfDocument& document, const std::string& folder, ImportNotes& notes) {
+void embed_images(GltfDocument& document, const std::string& name, const std::string& folder, ImportNotes& notes) {
     if (!document.json.contains("images")) return;
     for (std::size_t i = 0; i < document.json["images"].size(); ++i) {
         const Json image = document.json["images"][i];
@@ -169,6 +170,10 @@ void embed_images(GltfDocument& document, const std::string& folder, ImportNotes
             why = error.what();
         }
         const char* const type = image_type(bytes);
+        const std::string file = lower_case(uri);
+        if (!type && !bytes.empty() && (file.ends_with(".png") || file.ends_with(".jpg") || file.ends_with(".jpeg")))
+            throw ImageError(name, "image " + bough::in_ascii_quotes(uri) +
+                                       " is no image that can be read, expected PNG or JPEG");
         if (!type) {
             notes.lines.push_back("image " + bough::in_ascii_quotes(uri) +
                                   " not put into the file, its name stays: " + why);
@@ -221,13 +226,16 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
     const Chunks chunks = chunks_of(content, name);
     GltfDocument document;
     document.json = parsed(chunks.json, name);
+    document.text = chunks.json.size();
     try {
         const std::string version = document.json.at("asset").at("version").get<std::string>();
         if (!version.starts_with("2.")) throw std::out_of_range("asset version is " + bough::in_ascii_quotes(version));
         move_views(document.json, merge_buffers(document, chunks, folder));
-        if (images == GltfImages::embed) embed_images(document, folder, notes);
+        if (images == GltfImages::embed) embed_images(document, name, folder, notes);
     } catch (const std::bad_alloc&) {
         throw; // not the file's fault
+    } catch (const ImageError&) {
+        throw;
     } catch (const Json::exception& error) {
         throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
     } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 // and the views' places moved with them; nothing in them is decoded. Buffers without bytes (the fallbacks of
 // EXT_meshopt_compression) stay as they are. All other JSON, extensions and extras too, keeps its order and its numbers.
 #pragma once
+#include "formats/error.h"
 #include "formats/imports/import.h"
 #include <nlohmann/json.hpp>
 
@@ -12,15 +13,22 @@ namespace bough {
 
 struct GltfDocument {
     nlohmann::ordered_json json;
-    std::string binary; // of buffer 0
+    std::string binary;                     // of buffer 0
+    std::size_t text = 0;                   // [bytes] of the JSON that was read
+    mutable std::uint64_t numbers_read = 0; // by values_of (gltf_accessor.h), which bounds them
 };
 
 enum class GltfImages { leave, embed };
 
+// An image beside a model that calls itself PNG or JPEG and is neither.
+struct ImageError : InputError {
+    using InputError::InputError;
+};
+
 // `folder`: where files that the JSON names stand, "": none are found. `embed`: images beside the file come into the
 // binary chunk; one that cannot be read keeps its name, with a note. O(size of all files).
 // Throws InputError (place `name`): no glTF 2.0, JSON that is broken or nested deeper than 200, a chunk, buffer or view
-// that is cut off, a buffer that cannot be found. Memory that runs out is std::bad_alloc.
+// that is cut off, a buffer that cannot be found; ImageError. Memory that runs out is std::bad_alloc.
 GltfDocument read_gltf(std::string_view content, const std::string& name, const std::string& folder, GltfImages,
                        ImportNotes&);
 

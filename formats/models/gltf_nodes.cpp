@@ -101,4 +101,24 @@ GltfNodes nodes_of(const Json& json, const std::string& name) {
     return result;
 }
 
+std::vector<std::size_t> nodes_in_scene(const Json& json) {
+    const Json& scenes = json.at("scenes");
+    const Json& scene = scenes[checked_index(json.value("scene", Json(0)), "scene", scenes.size())];
+    std::vector<char> seen(json.at("nodes").size(), false);
+    std::vector<std::size_t> stack, found;
+    const auto push = [&](const Json& list, const char* what) { // so that they come in their order
+        for (std::size_t k = list.size(); k-- > 0;) stack.push_back(checked_index(list[k], what, seen.size()));
+    };
+    push(scene.value("nodes", Json::array()), "a node of the scene");
+    while (!stack.empty()) {
+        const std::size_t n = stack.back();
+        stack.pop_back();
+        if (seen[n]) throw std::out_of_range("node " + std::to_string(n) + " stands in the scene twice");
+        seen[n] = true;
+        found.push_back(n);
+        push(json["nodes"][n].value("children", Json::array()), "a child");
+    }
+    return found;
+}
+
 } // namespace bough

@@ -16,6 +16,10 @@ struct GltfNodes {
 // O(nodes). Throws InputError: a node that is its own ancestor or has two parents, numbers that are wrong.
 GltfNodes nodes_of(const nlohmann::ordered_json&, const std::string& name);
 
+// Numbers of the nodes in the default scene, depth first, parents first, each list in its order. O(nodes). Throws
+// std::out_of_range for a node that is not there or stands in the scene twice; Json exceptions for types that are wrong.
+std::vector<std::size_t> nodes_in_scene(const nlohmann::ordered_json&);
+
 // The nearest rotation, and what it leaves along its own axes (negative for a mirror); identity for a singular matrix.
 void part(const Mat3& linear, Quat& rotation, Vec3& scale);
 

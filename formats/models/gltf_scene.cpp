@@ -1,7 +1,9 @@
 #include "formats/error.h"
 #include "formats/plain_text.h"
 #include "gltf_accessor.h"
+#include "gltf_faces.h"
 #include "gltf_nodes.h"
+#include "lib/base/counted.h"
 #include "model_gltf.h"
 #include "model_scene.h"
 #include <algorithm>
@@ -13,31 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Corners, three a triangle or two a line, of a primitive's indices by its mode; `each` of them: 3, 2 or, for points, 0.
-struct Faces {
-    std::vector<std::int32_t> corner;
-    std::size_t each = 0;
-};
-
-Faces faces_of(const std::vector<std::int32_t>& index, std::size_t mode) {
-    Faces faces;
-    faces.each = mode == 0 ? 0 : mode <= 3 ? 2 : 3;
-    const std::size_t n = index.size();
-    const auto add = [&](std::initializer_list<std::size_t> places) {
-        for (const std::size_t k : places) faces.corner.push_back(index[k]);
-    };
-    if (mode == 1)
-        for (std::size_t k = 0; k + 1 < n; k += 2) add({k, k + 1});
-    if (mode == 2 || mode == 3)
-        for (std::size_t k = 0; k + 1 < n; ++k) add({k, k + 1});
-    if (mode == 2 && n > 2) add({n - 1, 0});
-    if (mode == 4)
-        for (std::size_t k = 0; k + 2 < n; k += 3) add({k, k + 1, k + 2});
-    if (mode == 5)
-        for (std::size_t k = 0; k + 2 < n; ++k) k % 2 == 0 ? add({k, k + 1, k + 2}) : add({k + 1, k, k + 2});
-    if (mode == 6)
-        for (std::size_t k = 1; k + 1 < n; ++k) add({0, k, k + 1});
-    return faces;
+// What times a custom attribute of lines is a radius; 0: it is none.
+double radius_factor(std::string_view attribute) {
+    const std::string name = lower_case(attribute);
+    if (name == "_radius") return 1;
+    return name == "_diameter" || name == "_width" || name == "_thickness" ? 0.5 : 0;
 }
 
 class SceneReader {
@@ -69,21 +51,7 @@ private:
 
     void read_nodes() {
         self_.assign(nodes_.parent.size(), -1);
-        const Json& scenes = json_.at("scenes");
-        const Json& scene = scenes[checked_index(json_.value("scene", Json(0)), "scene", scenes.size())];
-        std::vector<std::size_t> stack;
-        const auto push = [&](const Json& list, const char* what) { // so that they come in their order
-            for (std::size_t k = list.size(); k-- > 0;)
-                stack.push_back(checked_index(list[k], what, nodes_.parent.size()));
-        };
-        push(scene.value("nodes", Json::array()), "a node of the scene");
-        while (!stack.empty()) {
-            const std::size_t n = stack.back();
-            stack.pop_back();
-            if (self_[n] >= 0) throw std::out_of_range("node " + std::to_string(n) + " stands in the scene twice");
-            add_node(n);
-            push(json_["nodes"][n].value("children", Json::array()), "a child");
-        }
+        for (const std::size_t n : nodes_in_scene(json_)) add_node(n);
     }
 
     void add_node(std::size_t n) {
@@ -118,20 +86,8 @@ private:
         const std::string place = primitive_place(mesh, number);
         const bool skinned = node.contains("skin") && attributes.contains("JOINTS_0");
         if (skinned && !first_time) return;
-        const std::vector<double> numbers =
-            values_of(document_, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::any});
-        std::vector<Vec3> point;
-        for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
-            point.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
-        std::vector<std::int32_t> index;
-        if (primitive.contains("indices")) {
-            for (const double i :
-                 values_of(document_, primitive["indices"], {place + ": indices", "SCALAR", GltfNumbers::indices}))
-                index.push_back(std::int32_t(i));
-        } else {
-            for (std::size_t k = 0; k < point.size(); ++k) index.push_back(std::int32_t(k));
-        }
-        const Faces faces = faces_of(index, whole_number(primitive, "mode", place, 4));
+        const std::vector<Vec3> point = points_of(document_, primitive, place);
+        const GltfFaces faces = faces_of(document_, primitive, place, point.size());
         if (faces.each == 3) out_.triangles += std::int64_t(faces.corner.size() / 3);
         std::vector<Vec3> placed;
         for (const Vec3& p : point) placed.push_back(world(self) * p);
@@ -185,7 +141,7 @@ private:
     }
 
     void add_skinned(const std::vector<Vec3>& moved, const std::vector<Vec3>& placed,
-                     const std::vector<std::int32_t>& most, const Faces& faces) {
+                     const std::vector<std::int32_t>& most, const GltfFaces& faces) {
         std::vector<std::int32_t> taken(moved.size(), -1);
         for (std::size_t v = 0; v < moved.size(); ++v) {
             if (most[v] < 0 || !moved[v].allFinite()) continue;
@@ -202,14 +158,20 @@ private:
     }
 
     void add_lines(const Json& attributes, const std::vector<Vec3>& placed, std::int32_t self, const std::string& place,
-                   const Faces& faces) {
+                   const GltfFaces& faces) {
         const auto first = std::int32_t(out_.line_point.size());
         out_.line_point.insert(out_.line_point.end(), placed.begin(), placed.end());
         std::vector<double> radius(placed.size(), 0);
-        if (attributes.contains("TEXCOORD_0")) { // put there by cut_down
-            radius = values_of(document_, attributes["TEXCOORD_0"], {place + ": radii", "SCALAR", GltfNumbers::any});
-            const double scale = std::cbrt(std::abs(world(self).linear().determinant()));
+        for (const auto& [name, accessor] : attributes.items()) {
+            const double factor = radius_factor(name);
+            if (factor == 0) continue;
+            radius = values_of(document_, accessor, {place + ": " + name, "SCALAR", GltfNumbers::any});
+            if (radius.size() != placed.size())
+                throw std::out_of_range(place + ": " + name + " has " + counted(radius.size(), "number", "numbers") +
+                                        ", expected one for each of " + counted(placed.size(), "vertex", "vertices"));
+            const double scale = factor * std::cbrt(std::abs(world(self).linear().determinant()));
             for (double& r : radius) r *= scale;
+            break;
         }
         out_.line_radius.insert(out_.line_radius.end(), radius.begin(), radius.end());
         for (std::size_t k = 0; k + 1 < faces.corner.size(); k += 2)
@@ -232,7 +194,7 @@ ModelScene scene_of_gltf(std::string_view content, const ImportOptions& options)
     GltfDocument document = read_gltf(content, options.name, options.folder, GltfImages::leave, none);
     try {
         out.animations = std::int64_t(entries_of(document.json, "animations"));
-        const GltfJoints joints = cut_down(document);
+        const GltfJoints joints = joints_of(document);
         out.mesh_encoded = joints.mesh_encoded;
         out.other_scenes = std::int64_t(joints.other_scenes);
         out.own_others = joints.own.others;

@@ -1,4 +1,4 @@
-// model_gltf.h: a glTF document cut down to what an armature is read from (private to this folder).
+// model_gltf.h: what a glTF document says of joints, and its arrays made ready to be read (private to this folder).
 #pragma once
 #include "gltf_document.h"
 #include "own_rods.h"
@@ -7,20 +7,15 @@ namespace bough {
 
 struct GltfJoints {
     std::vector<char> joint;       // of each node: whether a skin names it
-    std::vector<std::string> name; // of each node: its own
+    std::vector<std::string> name; // of each node
     OwnRods own;                   // what our own files say of them
-    bool any = false;
-    bool mesh_encoded = false;
-    std::size_t other_scenes = 0; // beside the default one, which is what is read
+    bool mesh_encoded = false;     // a mesh in Draco's form: meshes and skins were left out
+    std::size_t other_scenes = 0;  // beside the default one, which is what is read
 };
 
-// Leaves nodes, meshes, skins and their arrays; names each node "#" and its index, because assimp knows joints by name
-// and names need not differ. Meshes in a form that assimp does not decode (Draco, meshopt, quantized positions) go too.
-// Radii of lines (a custom attribute _RADIUS, or _DIAMETER, _WIDTH, _THICKNESS of twice that, in upper or lower case),
-// which assimp does not know, become x of TEXCOORD_0. What stays is looked at (gltf_check.h), and what the file leaves out
-// is put in (gltf_complete.h). O(JSON + numbers of the arrays that stay).
-// Throws Json exceptions for types that are wrong; std::out_of_range for indices, for what check_arrays refuses, and for
-// radii that are not one for each vertex.
-GltfJoints cut_down(GltfDocument&);
+// Decodes what meshoptimizer compressed (meshopt.h), puts in what the file leaves out (gltf_complete.h), leaves meshes out
+// of a file that has one in Draco's form, and looks at what stays (gltf_check.h). O(JSON + numbers of the arrays that stay).
+// Throws Json exceptions for types that are wrong; std::out_of_range for indices, and as decode_meshopt and check_arrays do.
+GltfJoints joints_of(GltfDocument&);
 
 } // namespace bough

@@ -50,7 +50,7 @@ bool is_null(const aiNode& node) {
 bool made_up(const aiNode& root, AssimpKind kind) {
     const std::string_view name = root.mName.C_Str();
     if (root.mNumMeshes > 0) return false;
-    return kind == AssimpKind::fbx ? name == "RootNode" : kind == AssimpKind::dae || !name.starts_with('#');
+    return kind != AssimpKind::fbx || name == "RootNode";
 }
 
 void read_nodes(Reading& r, AssimpKind kind) {
@@ -202,7 +202,7 @@ void mark_collada(Reading& r) {
 ModelScene read_in_child(std::string_view content, AssimpKind kind, const ImportOptions& options) {
     ModelScene out;
     Assimp::Importer importer;
-    const aiScene& scene = *load_by_assimp(importer, content, "", kind, options.up != 0);
+    const aiScene& scene = *load_by_assimp(importer, content, kind, options.up != 0);
     const auto collada =
         kind == AssimpKind::dae ? collada_joints(content) : std::unordered_map<std::string, ColladaJoint>();
     Reading reading{scene, out, {}, {}, {}, collada};

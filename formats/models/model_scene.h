@@ -49,14 +49,16 @@ struct ModelScene {
     double unit = 0; // [m] 0: the file states none
 };
 
-// O(size of the file). Throws InputError: what assimp says, that it crashed or took too much, what read_gltf and cut_down
+// O(size of the file). Throws InputError: what assimp says, that it crashed or took too much, what read_gltf and joints_of
 // (model_gltf.h) throw, what is read needs more memory than there is.
 ModelScene read_model(std::string_view content, AssimpKind, const ImportOptions&);
 
 // ---- gltf_scene.cpp ---- a glTF file, read here from first to last.
 // The default scene's nodes, depth first, as its file names them; triangles and lines of any mode. Normalized and integer positions
-// (KHR_mesh_quantization) count as what they stand for; meshes in Draco's form or meshopt's are left out (mesh_encoded). O(JSON + numbers of the
-// arrays that are read). Throws InputError as read_gltf, cut_down (model_gltf.h) and nodes_of do; memory that runs out is std::bad_alloc.
+// (KHR_mesh_quantization) count as what they stand for, and what meshoptimizer compressed is decoded; meshes in Draco's form are left out
+// (mesh_encoded). A line's radii are a custom attribute _RADIUS, or _DIAMETER, _WIDTH, _THICKNESS of twice that, in upper or lower case. O(JSON +
+// numbers of the arrays that are read). Throws InputError as read_gltf, joints_of (model_gltf.h) and nodes_of do, and for radii that are not one for
+// each vertex; memory that runs out is std::bad_alloc.
 ModelScene scene_of_gltf(std::string_view content, const ImportOptions&);
 
 // ---- model_scene_bytes.cpp ---- as bytes, and back.

@@ -1,4 +1,5 @@
 #include "own_rods.h"
+#include "formats/imports/polyline_search.h"
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -77,9 +78,10 @@ std::vector<ImportedBranch> branches_of(const std::vector<OwnRod>& rods) {
         branch.point.emplace_back(rod[6], rod[7], rod[8]);
         branch.radius.push_back(rod[9]);
     }
+    BranchSearch search(branches);
     for (ImportedBranch& branch : branches)
         if (branch.parent >= 0)
-            branch.parent_at = nearest_on(branches[std::size_t(branch.parent)].point, branch.point.front()).fraction;
+            branch.parent_at = search.nearest(std::size_t(branch.parent), branch.point.front()).fraction;
     return branches;
 }
 

@@ -3,6 +3,7 @@
 #include "formats/open.h"
 #include "formats/plain_text.h"
 #include "gltf_document.h"
+#include "jpeg_check.h"
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -77,7 +78,21 @@ toff_t tiff_seek(thandle_t handle, toff_t offset, int whence) {
     return bytes.at;
 }
 
-constexpr std::uint64_t most_pixels = std::uint64_t(1) << 29; // what 2 GB hold
+constexpr std::uint64_t most_pixels = std::uint64_t(1) << 29, // what 2 GB hold
+    most_of_byte = 8256;                                      // as many as PNG packs into one
+
+// Whether an image that says that it is so large may be one of a file of `bytes`: memory is asked for only then.
+bool may_hold(std::uint64_t width, std::uint64_t height, std::size_t bytes, std::string& why) {
+    const std::uint64_t pixels = width * height;
+    if (pixels > most_pixels)
+        why = "it is too large";
+    else if (pixels / most_of_byte > bytes)
+        why = "it says that it is " + std::to_string(width) + " x " + std::to_string(height) +
+              " pixels, more than its " + std::to_string(bytes) + " bytes can hold";
+    else
+        return true;
+    return false;
+}
 
 bool decode_tiff(const std::string& content, Pixels& pixels, std::string& why) {
     TIFFSetErrorHandler(nullptr);
@@ -95,7 +110,7 @@ bool decode_tiff(const std::string& content, Pixels& pixels, std::string& why) {
     TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
     TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
-    bool good = width > 0 && height > 0 && std::uint64_t(width) * height <= most_pixels;
+    bool good = width > 0 && height > 0 && may_hold(width, height, content.size(), why);
     if (good) {
         pixels.width = int(width), pixels.height = int(height), pixels.channels = std::clamp<int>(samples, 1, 4);
         std::vector<std::uint32_t> raster(std::size_t(width) * height);
@@ -111,18 +126,20 @@ bool decode_tiff(const std::string& content, Pixels& pixels, std::string& why) {
 bool decode(const std::string& content, Pixels& pixels, std::string& why) {
     if (content.starts_with(std::string("II*\0", 4)) || content.starts_with(std::string("MM\0*", 4)))
         return decode_tiff(content, pixels, why);
+    if (content.starts_with("\xFF") && !jpeg_tables_fit(content)) {
+        why = "a table of its segments does not fit";
+        return false;
+    }
     const auto* const data = reinterpret_cast<const stbi_uc*>(content.data());
     why = "of no kind that is known";
     if (content.size() > std::size_t(std::numeric_limits<int>::max())) return false;
     const int size = int(content.size());
     if (stbi_info_from_memory(data, size, &pixels.width, &pixels.height, &pixels.channels) &&
-        std::uint64_t(pixels.width) * std::uint64_t(pixels.height) > most_pixels) {
-        why = "it is too large";
+        !may_hold(std::uint64_t(pixels.width), std::uint64_t(pixels.height), content.size(), why))
         return false;
-    }
     stbi_uc* const read = stbi_load_from_memory(data, size, &pixels.width, &pixels.height, &pixels.channels, 4);
     if (!read) {
-        if (const char* reason = stbi_failure_reason()) why = reason;
+        if (const char* reason = stbi_failure_reason()) why = valid_utf8(reason); // it may repeat the file
         return false;
     }
     pixels.rgba.assign(read, read + 4 * std::size_t(pixels.width) * std::size_t(pixels.height));

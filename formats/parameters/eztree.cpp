@@ -1,4 +1,5 @@
 #include "eztree.h"
+#include "formats/json_shape.h"
 #include "lib/growth/eztree_check.h"
 #include <algorithm>
 #include <limits>
@@ -157,6 +158,7 @@ EzTreeParameters defaults() {
 } // namespace
 
 bool is_eztree(std::string_view content) {
+    if (json_shape(content).depth > deepest_json) return false;
     const Json file = Json::parse(content, nullptr, false);
     if (!file.is_object()) return false;
     const auto branch = file.find("branch");
@@ -168,6 +170,7 @@ bool is_eztree(std::string_view content) {
 }
 
 EzTreeParameters read_eztree(std::string_view content, const std::string& name, std::vector<std::string>& notes) {
+    if (json_shape(content).depth > deepest_json) throw InputError(name, nested_too_deep);
     Json file;
     try {
         file = Json::parse(content);

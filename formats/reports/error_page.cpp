@@ -13,7 +13,7 @@ PageCell figure_cell(double value) {
     return {known(figure(value), value)};
 }
 
-PageCell degrees(double angle) {
+PageCell degrees_cell(double angle) {
     return figure_cell(angle * 180 / M_PI);
 }
 
@@ -22,7 +22,7 @@ std::vector<PageCell> cells_of(const ErrorRun& r) {
     for (const double value :
          {r.error_rms, r.error_max, r.error_rms_peak, r.error_max_peak, r.error_rms_height, r.error_max_height})
         row.push_back(r.finite ? share(value) : PageCell{"non-finite"});
-    row.push_back(degrees(r.error_angle));
+    row.push_back(degrees_cell(r.error_angle));
     for (const double value : {r.error_frequency, r.error_decay, r.error_step, r.error_step_max, r.error_model,
                                r.error_model_max, r.error_arithmetic, r.error_arithmetic_max})
         row.push_back(share(value));
@@ -43,8 +43,8 @@ std::vector<PageCell> motion_row(const MotionSummary& m) {
     std::vector<PageCell> row = {
         figure_cell(m.top.lean), figure_cell(m.top.spread), figure_cell(m.top.peak), {std::to_string(m.still)}};
     for (const double spread : m.level_spread) row.push_back(figure_cell(spread));
-    for (int axis = 0; axis < 3; ++axis) row.push_back(degrees(m.leaves.spread[axis]));
-    row.push_back(degrees(m.leaves.turn));
+    for (int axis = 0; axis < 3; ++axis) row.push_back(degrees_cell(m.leaves.spread[axis]));
+    row.push_back(degrees_cell(m.leaves.turn));
     row.push_back(share(m.leaves.fast));
     return row;
 }

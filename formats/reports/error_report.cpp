@@ -109,7 +109,7 @@ void write_error_json(Output& output, const ErrorReport& report, const ReportMet
 }
 
 void write_error_csv(Output& output, const ErrorReport& report) {
-    write_rows_csv(output, row_of({}, columns_of(report)), rows_of(report));
+    write_rows_csv(output, row_of(ErrorRun(), columns_of(report)), rows_of(report));
 }
 
 std::vector<ErrorSeries> error_series(const ErrorReport& report) {

@@ -1,4 +1,5 @@
 #include "report.h"
+#include "formats/json_shape.h"
 #include "lib/base/shortest_text.h"
 #include <charconv>
 #include <cmath>
@@ -78,6 +79,7 @@ void write_report_csv(Output& output, const Report& report) {
 }
 
 Report read_report(std::string_view content, const std::string& name) {
+    if (json_shape(content).depth > deepest_json) throw InputError(name, nested_too_deep);
     Json j;
     try {
         j = Json::parse(content);

@@ -76,7 +76,7 @@ void write_stability_json(Output& output, const StabilityReport& report, const R
 }
 
 void write_stability_csv(Output& output, const StabilityReport& report) {
-    write_rows_csv(output, row_of({}), rows_of(report));
+    write_rows_csv(output, row_of(StabilityCell()), rows_of(report));
 }
 
 std::vector<std::string> stability_groups(const StabilityReport& report) {

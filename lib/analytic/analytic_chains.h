@@ -5,7 +5,6 @@
 // as soon as the composite of the register's bodies is there, outermost first; and joints_done(), at the end of each visit to a block.
 #pragma once
 #include "../lanes/sweep_parts.h"
-#include "../lanes/wide_leaf.h"
 #include "../lanes/wide_turn.h"
 #include "analytic_sweeps.h"
 
@@ -62,20 +61,6 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         W x{}, z{}; // with a field alone
     };
 
-    // The air's force over kappa rho A, and its speed (air.h).
-    template <Kind kind> BOUGH_FORCE static V3<W> air_force(const V3<W>& u, W& speed, T fold) {
-        if constexpr (kind == Kind::branch) {
-            speed = root(W(u.x * u.x + u.y * u.y));
-            return {speed * u.x, speed * u.y, W{}};
-        } else {
-            speed = root(dot(u, u));
-            speed = Base::unfolded(fold, speed) * speed;
-            if constexpr (kind == Kind::fruit) return speed * u;
-            const W streams = T(streaming_drag) * speed;
-            return {streams * u.x, speed * u.y, streams * u.z};
-        }
-    }
-
     [[gnu::noinline]] void add_pulls(std::uint32_t row, int lane, const M3<W>& R_bw, const Rows<T>& out) const {
         for (auto k = std::size_t(rows.pull_of_row[row]); k < rows.pull_count && rows.pulls[k].row == row; ++k) {
             const PullOnLane<T>& pull = rows.pulls[k];
@@ -96,7 +81,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         return {scratch + (loads + (row - block.first_row) * std::size_t(analytic::leaf_torque_count)) * L + lane};
     }
 
-    // damp_spin of external_forces.cpp, onto what is loaded.
+    // The spin of parted_air.h, onto what is loaded.
     BOUGH_FORCE void damp_spin(const Rows<const T>& k, std::uint32_t row, int lane, const W& rate,
                                const V3<W>& omega) const {
         const Rows<T> out = loaded_of(row, lane);
@@ -109,38 +94,33 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         out.set(loaded::drag, W(out.real(loaded::drag) + k.real(constant::sway) * bound));
     }
 
-    // leaf_in_wind of external_forces.cpp, onto what is loaded.
+    // A leaf's share of parted_air.h, onto what is loaded.
     [[gnu::noinline]] void add_leaf(std::uint32_t row, int lane, V3<W> still, V3<W> moving) const {
         const Rows<const T> k = constants_of(row, lane);
         const Rows<T> out = loaded_of(row, lane);
-        const LeafTerms<T>& terms = rows.leaf;
-        const W mass = k.real(constant::mass), lever = leaf_lever(terms, k.real(constant::drag_area));
-        const V3<W> c = k.vector(constant::com), n{W{}, all(T(1)), W{}}, v = still - moving;
-        const W along = terms.along * mass, across = terms.across * mass;
-        const V3<W> f{along * still.x, across * still.y, along * still.z},
-            drag_f{along * v.x, across * v.y, along * v.z};
-        const V3<W> at_rest = leaf_torque(terms, lever, n, still);
-        out.set(loaded::f, out.vector(loaded::f) + f);
-        out.set(loaded::tau, out.vector(loaded::tau) + cross(c, f) + at_rest);
-        out.set(loaded::drag_f, out.vector(loaded::drag_f) - drag_f);
+        const V3<W> c = k.vector(constant::com);
+        const W per_arm = 1 / larger(k.real(constant::com_distance), all(T(1e-9)));
+        const PartedLeaf<W> leaf = parted_leaf(
+            rows.leaf, LeafBody<W>{k.real(constant::mass), k.real(constant::drag_area)}, per_arm, still, moving);
+        out.set(loaded::f, out.vector(loaded::f) + leaf.force);
+        out.set(loaded::tau, out.vector(loaded::tau) + cross(c, leaf.force) + leaf.at_rest);
+        out.set(loaded::drag_f, out.vector(loaded::drag_f) - leaf.taken);
         const Rows<T> torque = leaf_torque_of(row, lane);
-        torque.set(0, torque.vector(0) + leaf_torque(terms, lever, n, moving) - at_rest);
-        const W speed = root(dot(still, still)), per_arm = 1 / larger(k.real(constant::com_distance), all(T(1e-9)));
-        const W resisted = terms.most * mass, pressed = lever * per_arm;
-        const W bound = resisted + pressed * (root(dot(moving, moving)) + speed);
+        torque.set(0, torque.vector(0) + leaf.in_motion - leaf.at_rest);
         const W sway = k.real(constant::sway);
-        out.set(loaded::drag, W(out.real(loaded::drag) + sway * bound));
-        out.set(loaded::wind, W(out.real(loaded::wind) + sway * resisted));
-        out.set(loaded::turn, W(out.real(loaded::turn) + 2 * speed * (resisted + pressed * speed)));
+        out.set(loaded::drag, W(out.real(loaded::drag) + sway * leaf.drag));
+        out.set(loaded::wind, W(out.real(loaded::wind) + sway * leaf.wind));
+        out.set(loaded::turn, W(out.real(loaded::turn) + leaf.turn));
     }
 
-    // On the body at rest, in its axes. p: the profile's factor there.
-    BOUGH_FORCE V3<W> wind_on(const Frame& f, std::uint32_t row, int lane, const W& p, const V3<W>& c) const {
+    // On the body at rest, in its axes.
+    BOUGH_FORCE V3<W> wind_at_rest(const Frame& f, std::uint32_t row, int lane, const V3<W>& c) const {
+        const W y = f.y + dot(f.R_bw.y, c);
         if constexpr (field) {
-            const auto over = this->over_ground(row, lane, f.x + dot(f.R_bw.x, c), f.z + dot(f.R_bw.z, c));
-            return this->sheltered(row, lane, p) * (f.R_bw * this->field_at(over, rows.field.middle));
+            const auto on = this->wind_on(row, lane, f.x + dot(f.R_bw.x, c), y, f.z + dot(f.R_bw.z, c));
+            return on.factor * (f.R_bw * this->field_at(on.over, rows.field.middle));
         } else {
-            return p * (f.R_bw * vector(rows.wind));
+            return this->wind_on(y).factor * (f.R_bw * vector(rows.wind));
         }
     }
 
@@ -174,12 +154,12 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         if constexpr (gravity) out.set(loaded::g, f.R_bw * vector(rows.gravity));
         if constexpr (wind) {
             const V3<W> c = k.vector(constant::com);
-            const W p = this->profile(f.y + dot(f.R_bw.y, c));
-            const V3<W> still = wind_on(f, row, lane, p, c), moving = still - f.v - cross(f.omega, c);
+            const V3<W> still = wind_at_rest(f, row, lane, c), moving = still - f.v - cross(f.omega, c);
             const W scale = k.real(constant::drag_area);
             const W still2 = dot(still, still), still_speed = root(still2);
             W speed_0, speed_1;
-            const V3<W> f0 = air_force<kind>(still, speed_0, fold), f1 = air_force<kind>(moving, speed_1, fold);
+            const V3<W> f0 = air_in_body_axes<kind>(still, speed_0, fold),
+                        f1 = air_in_body_axes<kind>(moving, speed_1, fold);
             prefetch<2 * most / 3, 5 * most / 6>(next_row);
             const V3<W> force = scale * f0;
             out.set(loaded::f, force);
@@ -194,9 +174,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             out.set(loaded::turn, W(turns * scale * pressing * still_speed));
             if constexpr (kind != Kind::branch)
                 if (fold > 0) {
-                    W rate = T(kind == Kind::leaf ? blade_turning : clump_turning) * scale /
-                             larger(k.real(constant::mass), all(T(1e-30))) * speed_1;
-                    if (kind == Kind::leaf && rows.leaf.on) rate = rate + rows.leaf.across;
+                    W rate = spin_rate<kind>(scale, k.real(constant::mass), speed_1);
+                    if (kind == Kind::leaf && rows.leaf.on) rate = rate + leaf_spin(rows.leaf);
                     damp_spin(k, row, lane, rate, f.omega);
                 }
             if constexpr (kind == Kind::leaf)
@@ -222,7 +201,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                 }
             }
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step_out<kind>(f, row, lane, Base::fold_of(g.kind));
+                step_out<kind>(f, row, lane, fold_of<T>(g.kind));
                 if (!placed || rows.fork_of_row[row] < 0) continue;
                 q.set(outward::R_bw, f.R_bw);
                 q.set(outward::omega, f.omega);
@@ -232,10 +211,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                     q.set(outward::x, f.x);
                     q.set(outward::z, f.z);
                 }
-                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
-                             [&](std::uint32_t joint, int k, W w) {
-                                 write(rows.outward_records + joint * record(outward_count, L) + std::size_t(k), w);
-                             });
+                base.template scatter<false>(rows.outward_records,
+                                             &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0);
             }
         }
     }
@@ -363,11 +340,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             Records<T, inward_count> base;
             keep(q, base.rows());
             for (int k = inward_count; k < base.quantities; ++k) base.rows().set(k, W{});
-            base.scatter(&rows.landing[g.first_base + std::size_t(lane)], nothing,
-                         [&](std::uint32_t joint, int k, W w) {
-                             T* at = rows.inward_records + joint * record(inward_count, L) + std::size_t(k);
-                             write(at, read(at) + w);
-                         });
+            base.template scatter<true>(rows.inward_records, &rows.landing[g.first_base + std::size_t(lane)], nothing);
         }
     }
 

@@ -1,10 +1,9 @@
 #include "body_load.h"
 #include "../base/parallel.h"
 #include "../base/resolved_turn.h"
-#include "../laws/air.h"
-#include "../laws/leaf_air.h"
+#include "../laws/air_load.h"
+#include "../plan/body_air.h"
 #include "../plan/pushes.h"
-#include "../plan/shelter.h"
 #include "own_inertia.h"
 
 namespace bough {
@@ -24,46 +23,33 @@ template <class T> void wind_over_step(const Plan<T>& plan, State<T>& state, Cou
 
 namespace {
 
-// What the wind at a place changes by over the step.
+// What the wind on a body changes by over the step.
 template <class T>
-Vector3<T> wind_change(const State<T>& state, const CoupledState<T>& work, const Vector3<T>& place, std::size_t clock) {
+Vector3<T> wind_change(const Plan<T>& plan, const State<T>& state, const CoupledState<T>& work, std::size_t i,
+                       const Vector3<T>& place) {
     if (!work.wind_end.on()) return work.wind_change.at(place.y());
-    const Vector3<T> change =
-        work.wind_end.at(place.x(), place.z(), clock) - work.wind_start.at(place.x(), place.z(), clock);
-    return state.wind.factor(place.y()) * change;
-}
-
-// leaf_air.h.
-// Apart, so that scenes without it have none of it in their way.
-template <class T>
-[[gnu::noinline]] void add_leaf(const Plan<T>& plan, CoupledBody<T>& b, std::size_t i, const Vector3<T>& u) {
-    const T m = plan.mass[i], scale = plan.drag_area[i];
-    b.D += leaf_damping(plan.leaf, m, b.R);
-    b.air += leaf_resistance(plan.leaf, m, b.R, u);
-    b.spin += plan.leaf.across;
-    b.N -= leaf_torque(plan.leaf, scale, b.R, u);
-    b.H += leaf_turning(plan.leaf, scale, m, plan.com[i].norm(), b.R, u);
+    return wind_change_on_body_at(plan, i, state.wind, work.wind_start, work.wind_end, place);
 }
 
 template <class T>
 void add_air(const Plan<T>& plan, const CoupledPlan<T>& own, const State<T>& state, const CoupledWork<T>& work,
              CoupledBody<T>& b, std::size_t i) {
-    const T scale = plan.drag_area[i];
+    const AirBody<T> body = air_body<T>(plan, i);
     const Vector3<T> place = b.x + b.c;
     const Vector3<T> u = wind_on_body_at(plan, i, state.wind, place) - b.v - b.omega.cross(b.c);
-    b.D = scale * air_damping(plan.kind[i], b.R, u);
     const Vector3<T> ahead = b.v - b.v_0 + (b.omega - b.omega_0).cross(b.c);
-    b.air = scale * air_force(plan.kind[i], b.R, u).force;
-    b.spin = spin_rate(plan.kind[i], scale, plan.mass[i], u);
-    if (plan.leaf.on && is_flat(plan.kind[i])) add_leaf(plan, b, i, u);
-    if (b.spin > 0) b.N += b.spin * (central_inertia(plan.mass[i], b.J, b.c) * b.omega_0);
+    const AirLoad<T> air = air_load(body, plan.leaf, b.R, u);
+    b.air = air.force;
+    b.spin = air.spin;
+    b.D = air_load_damping(body, plan.leaf, b.R, u);
+    b.N -= air.torque;
+    if (b.spin > 0) b.N += b.spin * (central_inertia(body.mass, b.J, b.c) * b.omega_0);
     const Vector3<T> f = b.air + b.D * ahead;
     b.F -= f;
     b.N -= b.c.cross(f);
-    b.slope_F = -b.D * sheltered(plan, i, wind_change(state, work, place, clock_of(plan, i)));
+    b.slope_F = -b.D * wind_change(plan, state, work, i, place);
     b.slope_N = b.c.cross(b.slope_F);
-    b.H += streaming_stiffness(plan.foliage, Vector3<T>(b.R * own.carried_drag[i]), u);
-    if (is_flat(plan.kind[i])) b.H += scale * plan.com[i].norm() * air_turning(plan.kind[i], b.R, u);
+    add_air_turning(body, plan.leaf, b.R, u, {plan.foliage, b.R * own.carried_drag[i]}, T(1), b.H);
 }
 
 template <class T>

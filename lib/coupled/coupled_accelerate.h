@@ -110,11 +110,9 @@ template <class T> struct CoupledAccelerate : CoupledParts<T> {
                 for (int k = accelerated::count; k < forks.quantities; ++k) forks.rows().set(k, W{});
                 forks.rows().set(accelerated::alpha, alpha);
                 forks.rows().set(accelerated::a, a);
-                forks.scatter(
-                    &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
-                    [&](std::uint32_t joint, int k, W w) {
-                        write(rows.accelerated_records + joint * record(accelerated::count, L) + std::size_t(k), w);
-                    });
+                forks.template scatter<false>(rows.accelerated_records,
+                                              &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)],
+                                              0);
             }
             if (!(total(sizes) < still_finite2)) flags.finite = false; // NaN if any is
         }

@@ -226,11 +226,7 @@ template <class T> struct CoupledIn : CoupledParts<T> {
             }
             const Rows<T>& out = q;
             for (int k = inward::count; k < base.quantities; ++k) out.set(k, W{});
-            base.scatter(&rows.landing[g.first_base + std::size_t(lane)], nothing,
-                         [&](std::uint32_t joint, int k, W w) {
-                             T* at = rows.inward_records + joint * record(inward::count, L) + std::size_t(k);
-                             write(at, read(at) + w);
-                         });
+            base.template scatter<true>(rows.inward_records, &rows.landing[g.first_base + std::size_t(lane)], nothing);
         }
     }
 };

@@ -114,8 +114,10 @@ SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLan
     const std::vector<Block>& blocks = own.lanes.layout.blocks;
     Lanes<T>& lanes = work.lanes;
     const std::size_t most = largest_block(own.lanes.layout);
-    constexpr std::size_t count = std::size_t(loaded::count) + solved::count; // a row
-    share_scratch(own.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * count, most * count);
+    constexpr std::size_t count =
+        std::size_t(loaded::count) + solved::count; // a row; the top's solutions are in the table
+    share_scratch(own.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * std::size_t(loaded::count),
+                  most * count);
     std::vector<SweepFlags>& flags = lanes.flags;
     flags.assign(blocks.size(), SweepFlags{});
     SweepFlags& top = flags[0];
@@ -212,13 +214,13 @@ void unpack(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state
         array->resize(plan.bodies); // where they were left out
     std::vector<std::size_t>& motion_at = work.lanes.motion_at;
     motion_of_rows(own, work, motion_at);
-    for (std::size_t i = 0; i < plan.bodies; ++i) {
+    parallel_for(plan.bodies, 20, [&](std::size_t i) {
         const Slot<T> row = motion_of(work.lanes.table, motion_at, own.lanes.layout.slot[i]);
         state.theta[i] = row.vector(motion::theta);
         state.theta_dot[i] = row.vector(motion::theta_dot);
         work.theta_change[i] = row.vector(motion::theta_change);
         work.theta_dot_change[i] = row.vector(motion::theta_dot_change);
-    }
+    });
 }
 
 template <class T> void fill_coupled(const Plan<T>& plan, CoupledLanesPlan<T>& own) {

@@ -5,7 +5,6 @@
 // Writes  loaded; of solved rates and r, which then wait no longer in the cache than the row takes; records outward of forks
 // Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1600. Errors none; what turns fast is counted and marked.
 #pragma once
-#include "../lanes/wide_leaf.h"
 #include "coupled_parts.h"
 #include "frame_over_ground.h"
 #include <algorithm>
@@ -73,15 +72,15 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
     }
 
     // The wind where the profile is 1, and its change over the step.
-    BOUGH_FORCE V3<W> wind_here(const typename Parts::OverGround& over) const {
+    BOUGH_FORCE V3<W> wind_here(const typename Parts::WindOn& on) const {
         if constexpr (field)
-            return this->field_at(over, rows.field.middle);
+            return this->field_at(on.over, rows.field.middle);
         else
             return vector(rows.wind);
     }
-    BOUGH_FORCE V3<W> wind_change_here(const typename Parts::OverGround& over) const {
+    BOUGH_FORCE V3<W> wind_change_here(const typename Parts::WindOn& on) const {
         if constexpr (field)
-            return this->field_at(over, rows.field_end) - this->field_at(over, rows.field_start);
+            return this->field_at(on.over, rows.field_end) - this->field_at(on.over, rows.field_start);
         else
             return vector(rows.wind_change);
     }
@@ -106,16 +105,14 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
     // leaf_air.h, but for nu I w, onto what is loaded.
     [[gnu::noinline]] void add_leaf(const Rows<const T>& k, const Rows<T>& out, LeafIn in) const {
         const LeafTerms<T>& terms = rows.leaf;
-        const W mass = k.real(constant::mass), scale = k.real(constant::drag_area), lever = leaf_lever(terms, scale);
+        const LeafBody<W> body{k.real(constant::mass), k.real(constant::drag_area)};
         const V3<W> com = k.vector(constant::com), c = out.vector(loaded::c);
-        const W speed2 = dot(in.u, in.u);
-        const Symmetric<W> D = leaf_damping(terms, mass, in.R.y);
-        const Symmetric<W> H = across(W(2 * lever * speed2), in.R.y) +
-                               across(W(2 * terms.most * mass * root(dot(com, com)) * root(speed2)), in.R.z);
-        const V3<W> slope = D * in.change, f = D * (in.u + in.ahead) + rows.slope[0] * slope,
+        const Symmetric<W> D = leaf_damping(terms, body, in.R, in.u);
+        const Symmetric<W> H = leaf_turning(terms, body, root(dot(com, com)), in.R, in.u);
+        const V3<W> slope = D * in.change, f = leaf_force(terms, body, in.R, in.u, in.ahead, D) + rows.slope[0] * slope,
                     fi = rows.slope[1] * slope;
         const V3<W> bent_by = in.turn - rows.s1[0] * in.own;
-        const V3<W> N = -leaf_torque(terms, lever, in.R.y, in.u) - cross(c, f) - H * bent_by,
+        const V3<W> N = -leaf_torque(terms, body, in.R.y, in.u) - cross(c, f) - H * bent_by,
                     Ni = rows.s1[1] * (H * in.own) - cross(c, fi);
         out.set(loaded::N, out.complex_vector(loaded::N) + complex(N, Ni));
         out.set(loaded::F, out.complex_vector(loaded::F) + complex(-f, -fi));
@@ -176,7 +173,6 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
             prefetch<8, 12>(next_row);
         }
         forget_memory();
-        typename Parts::OverGround over{};
         {
             const V3<W> r = out.vector(loaded::r);
             const V3<W> omega_p = f.vector(outward::omega), alpha_p = f.vector(outward::alpha), w = w_0 + w_ahead;
@@ -206,17 +202,17 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         }
         forget_memory();
         const V3<W> c = out.vector(loaded::c), omega = f.vector(outward::omega);
-        W wind_factor{};
+        typename Parts::WindOn wind_on{};
         V3<W> u{};
-        typename Parts::Speed speed{};
+        AirSpeed<W> speed{};
         if constexpr (wind) {
-            wind_factor = this->profile(f.real(outward::y) + c.y);
-            if constexpr (field) {
-                over = this->over_ground(row, lane, f.real(outward::x) + c.x, f.real(outward::z) + c.z);
-                wind_factor = this->sheltered(row, lane, wind_factor);
-            }
-            u = wind_factor * wind_here(over) - f.vector(outward::v) - cross(omega, c);
-            speed = Parts::template air_speed<kind>(u, f.matrix(outward::R));
+            if constexpr (field)
+                wind_on = this->wind_on(row, lane, f.real(outward::x) + c.x, f.real(outward::y) + c.y,
+                                        f.real(outward::z) + c.z);
+            else
+                wind_on = this->wind_on(f.real(outward::y) + c.y);
+            u = wind_on.factor * wind_here(wind_on) - f.vector(outward::v) - cross(omega, c);
+            speed = air_speed<kind>(u, f.matrix(outward::R));
         }
         prefetch<18, 21>(next_row);
 
@@ -248,17 +244,12 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
             const V3<W> ahead = f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c);
             const V3<W> com = k.vector(constant::com);
             const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
-            const auto air_on =
-                Parts::template air<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, fold);
-            out.set(loaded::D, air_on.D);
-            const V3<W> P = R * k.vector(constant::carried_drag); // streaming_stiffness of air.h
-            const W past = kind == Kind::branch ? root(dot(u, u)) : speed.speed;
-            const W along = past * Parts::unfolded(rows.fold, past) * larger(dot(P, u), W{});
-            const V3<W> p = W(along / larger(dot(P, P), all(T(1e-30)))) * P;
-            H = H + Symmetric<W>{along - p.x * P.x, -(p.x * P.y), -(p.x * P.z),
-                                 along - p.y * P.y, -(p.y * P.z), along - p.z * P.z};
-            const V3<W> slope_F = air_on.D * (wind_factor * wind_change_here(over));
-            at_com = at_com - air_on.force - rows.slope[0] * slope_F;
+            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, fold);
+            out.set(loaded::D, air.D);
+            H = H + streaming_stiffness(rows.fold, V3<W>(R * k.vector(constant::carried_drag)), u,
+                                        kind == Kind::branch ? root(dot(u, u)) : speed.speed);
+            const V3<W> slope_F = air.D * (wind_on.factor * wind_change_here(wind_on));
+            at_com = at_com - air.force - rows.slope[0] * slope_F;
             slope = -(rows.slope[1] * slope_F);
         }
         prefetch<24, constant::count>(next_row);
@@ -272,10 +263,9 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         }
         if constexpr (wind && kind != Kind::branch)
             if (fold > 0) {
-                const T k_spin = T(kind == Kind::leaf ? blade_turning : clump_turning);
-                W rate = k_spin * k.real(constant::drag_area) / larger(mass, all(T(1e-30))) *
-                         (Parts::unfolded(fold, speed.speed) * speed.speed);
-                if (kind == Kind::leaf && rows.leaf.on) rate = rate + rows.leaf.across;
+                W rate =
+                    spin_rate<kind>(k.real(constant::drag_area), mass, W(unfolded(fold, speed.speed) * speed.speed));
+                if (kind == Kind::leaf && rows.leaf.on) rate = rate + leaf_spin(rows.leaf);
                 Symmetric<W> J = out.symmetric(loaded::J);
                 damp_spin(out, rate, mass, c, V3<W>(omega - f.vector(outward::ahead_omega)), J, H, N);
             }
@@ -291,7 +281,7 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
             if (rows.leaf.on)
                 add_leaf(k, out,
                          {R, u, f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c),
-                          wind_factor * wind_change_here(over), f.vector(outward::turn), f.vector(outward::own)});
+                          wind_on.factor * wind_change_here(wind_on), f.vector(outward::turn), f.vector(outward::own)});
     }
 
     template <bool wind, bool gravity, Kind kind>
@@ -304,12 +294,10 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 step_out<wind, gravity, kind>(f, row, g.first_base, lane,
                                               {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane},
-                                              fastest, flags, Parts::fold_of(g.kind));
+                                              fastest, flags, fold_of<T>(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
-                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
-                             [&](std::uint32_t joint, int k, W w) {
-                                 write(rows.outward_records + joint * record(outward::count, L) + std::size_t(k), w);
-                             });
+                base.template scatter<false>(rows.outward_records,
+                                             &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0);
             }
             for (int l = 0; l < width<T>; ++l) flags.omega2 = std::max(flags.omega2, double(fastest[l]));
         }

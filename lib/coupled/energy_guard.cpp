@@ -1,6 +1,7 @@
 #include "energy_guard.h"
+#include "../laws/air_load.h"
+#include "../plan/body_air.h"
 #include "../plan/pushes.h"
-#include "../plan/shelter.h"
 #include "midpoint.h"
 #include "turn_bounds.h"
 #include <algorithm>
@@ -100,10 +101,8 @@ template <class T> bool weigh_start(const Plan<T>& plan, State<T>& s, CoupledWor
 
 namespace {
 
-// Work [J] of the air on a body that moved so far, `own` of it as seen from what carries it. Whatever the body does, its power is at most
-// kappa rho A times 4/27 |U|^3 (branch, fruit, clump; at a third of the wind's speed U) or |u| U_n^2 / 4 (plate), and of a leaf's resistance
-// nu m |U|^2 / 4: what the linear model has beyond that is its error. The torque of leaf_air.h is not booked: what it puts into a leaf that
-// turns fast is taken again.
+// Work [J] of the air on a body that moved so far, `own` of it as seen from what carries it. What the linear model has beyond the most that the
+// air can do (air_work_bound) is its error.
 template <class T>
 double air_work(const Plan<T>& plan, const State<T>& s, const CoupledWork<T>& work, std::size_t i,
                 const Vector3<T>& moved, const Vector3<T>& own) {
@@ -111,12 +110,8 @@ double air_work(const Plan<T>& plan, const State<T>& s, const CoupledWork<T>& wo
     const Vector3<T> mean = moved / T(plan.dt), carried = (moved - own) / T(plan.dt);
     const Vector3<T> U = wind_on_body_at(plan, i, s.wind, Vector3<T>(y.x + y.c)) - carried;
     const Vector3<T> ahead = mean - y.v - y.omega.cross(y.c);
-    const T speed = U.norm();
-    const T most =
-        is_flat(plan.kind[i]) ? (U + carried - mean).norm() * speed * speed / 4 : T(4.0 / 27) * speed * speed * speed;
-    T limit = T(plan.dt) * plan.drag_area[i] * most;
-    if (plan.leaf.on && is_flat(plan.kind[i]))
-        limit += T(plan.dt) * plan.mass[i] * plan.leaf.most * (speed * speed / 4);
+    const T limit =
+        air_work_bound(air_body<T>(plan, i), plan.leaf, T(plan.dt), U, Vector3<T>(U + carried - mean).norm());
     return double(std::min((y.air - y.D * ahead).dot(own), limit));
 }
 

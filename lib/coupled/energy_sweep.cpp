@@ -1,6 +1,5 @@
 // Compiled once for each target (CMakeLists.txt), with BOUGH_TARGET its name.
 #include "energy_sweep.h"
-#include "../lanes/wide_leaf.h"
 #include "coupled_parts.h"
 #include "frame_over_ground.h"
 
@@ -167,10 +166,10 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             if constexpr (field) {
                 f.x = f.x + r.x;
                 f.z = f.z + r.z;
-                air_velocity = this->sheltered(row, lane, this->profile(f.y + c.y)) *
-                               this->field_at(this->over_ground(row, lane, f.x + c.x, f.z + c.z), rows.field.middle);
+                const auto on = this->wind_on(row, lane, f.x + c.x, f.y + c.y, f.z + c.z);
+                air_velocity = on.factor * this->field_at(on.over, rows.field.middle);
             } else {
-                air_velocity = this->profile(f.y + c.y) * vector(rows.wind);
+                air_velocity = this->wind_on(f.y + c.y).factor * vector(rows.wind);
             }
         }
 
@@ -208,25 +207,19 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             const V3<W> mean = (1 / rows.h) * (own + ground.carried), ahead = mean - rate_at_com;
             Symmetric<W> unused{};
             const V3<W> u = air_velocity - rate_at_com;
-            const auto air_on = Parts::template air<kind>(u, Parts::template air_speed<kind>(u, f.R), -ahead, f.R,
-                                                          scale, unused, W{}, fold);
-            force = air_on.force;
+            force = air_on<kind>(u, air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{}, fold).force;
+            const LeafBody<W> body{b.mass, scale};
             if constexpr (kind == Kind::leaf)
-                if (rows.leaf.on) force = force + leaf_damping(rows.leaf, b.mass, f.R.y) * (u - ahead);
+                if (rows.leaf.on)
+                    force = force + leaf_force(rows.leaf, body, f.R, u, -ahead, leaf_damping(rows.leaf, body, f.R, u));
             // On a body that moved by `way` as seen from what carries it.
             const auto work_along = [&](const V3<W>& way) {
                 const V3<W> U = air_velocity - (1 / rows.h) * (own + ground.carried - way);
                 const W speed2 = dot(U, U);
-                W most;
-                if constexpr (kind == Kind::leaf) {
-                    const V3<W> relative = air_velocity - mean;
-                    most = T(0.25) * root(dot(relative, relative)) * speed2;
-                } else {
-                    most = T(4.0 / 27) * root(speed2) * speed2;
-                }
-                W limit = rows.h * scale * most;
+                const V3<W> relative = air_velocity - mean;
+                W limit = air_work_bound<kind>(rows.h, scale, speed2, relative);
                 if constexpr (kind == Kind::leaf)
-                    if (rows.leaf.on) limit = limit + T(0.25) * rows.h * rows.leaf.most * b.mass * speed2;
+                    if (rows.leaf.on) limit = limit + leaf_work(rows.leaf, body, rows.h, speed2, relative);
                 return smaller(dot(force, way), limit);
             };
             work = work_along(own);
@@ -272,13 +265,11 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             }
             Sums sums;
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step<wind, kind>(f, sums, ground, row, lane, Parts::fold_of(g.kind));
+                step<wind, kind>(f, sums, ground, row, lane, fold_of<T>(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
-                base.scatter(&rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0,
-                             [&](std::uint32_t joint, int k, W w) {
-                                 write(out.records + joint * record(energy::count, L) + std::size_t(k), w);
-                             });
+                base.template scatter<false>(out.records,
+                                             &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0);
             }
             for (int k = 0; k < energy::sums; ++k)
                 write(out.sums + g.first_base * std::size_t(energy::sums) + std::size_t(k * L + lane),

@@ -1,6 +1,6 @@
 #include "resolvent.h"
 #include "../base/parallel.h"
-#include "../laws/leaf_air.h"
+#include "../laws/air_load.h"
 #include "articulated_algebra.h"
 #include "attachment.h"
 #include "midpoint.h"

@@ -1,6 +1,5 @@
 #include "leaf_flight.h"
 #include <algorithm>
-#include <numbers>
 
 namespace bough {
 namespace {
@@ -10,34 +9,19 @@ constexpr double resolved = 1; // [1] a part's rates times its length, up to whi
 
 struct Flight {
     Vec3 wind, gravity, inertia;
-    double drag;          // [1/m] kappa rho A / m
-    double across, along; // [1/s] nu, nu / xi
-    double torque;        // [kg m^2 / m^2] k
-    double cos_offset, sin_offset;
+    CardAir air;
 };
 
 struct Change {
     Vec3 v, omega; // [m/s^2], [rad/s^2]
 };
 
-// (23) over the mass, with gravity.
-Vec3 acceleration(const Flight& f, const Vec3& n, const Vec3& u) {
-    const double along = u.dot(n);
-    return f.gravity + along * (f.drag * u.norm() + f.across - f.along) * n + f.along * u;
-}
-
-// (24) without nu, world axes.
-Vec3 air_torque(const Flight& f, const Vec3& n, const Vec3& u) {
-    const Vec3 turning = n.cross(u);
-    return f.torque * u.dot(n) * (f.cos_offset * turning + f.sin_offset * n.cross(turning));
-}
-
 Change change(const Flight& f, const Quat& q, const Vec3& v, const Vec3& omega) {
     const Mat3 R = q.normalized().toRotationMatrix();
     const Vec3 n = R.col(1), u = f.wind - v;
-    const Vec3 w = R.transpose() * omega, turning = R.transpose() * air_torque(f, n, u);
+    const Vec3 w = R.transpose() * omega, turning = R.transpose() * card_torque(f.air, n, u);
     const Vec3 spin = (turning - w.cross(f.inertia.cwiseProduct(w))).cwiseQuotient(f.inertia);
-    return {acceleration(f, n, u), R * spin - f.across * omega};
+    return {card_acceleration(f.air, f.gravity, n, u), R * spin - card_spin(f.air) * omega};
 }
 
 Quat rate(const Quat& q, const Vec3& omega) {
@@ -85,17 +69,17 @@ Vec3 turned_freely(const Vec3& inertia, const Vec3& w, double h) {
 void implicit_part(const Flight& f, double h, FreeMotion& m) {
     const Mat3 R = m.q.toRotationMatrix();
     const Vec3 n = R.col(1), u = f.wind - m.v;
-    const double speed = u.norm(), through = u.dot(n);
-    Vec3 resistance = (1 + h * f.across) * f.inertia;
-    for (const int k : {0, 2}) resistance[k] += h * h * f.torque * speed * speed;
+    Vec3 resistance = (1 + h * card_spin(f.air)) * f.inertia;
+    for (const int k : {0, 2}) resistance[k] += card_turning(f.air, u.norm(), h * h);
     const Vec3 w = turned_freely(f.inertia, R.transpose() * m.omega, h);
-    const Vec3 turning = R.transpose() * air_torque(f, n, u);
+    const Vec3 turning = R.transpose() * card_torque(f.air, n, u);
     m.omega = R * (f.inertia.cwiseProduct(w) + h * turning).cwiseQuotient(resistance);
     m.q = (quaternion_from_vector(Vec3(h * m.omega)) * m.q).normalized();
 
-    const Vec3 a = acceleration(f, n, u);
-    const double a_n = a.dot(n), falls = speed > 0 ? speed + through * through / speed : 0;
-    m.v += h / (1 + h * f.along) * (a - a_n * n) + h / (1 + h * (f.across + f.drag * falls)) * a_n * n;
+    const Vec3 a = card_acceleration(f.air, f.gravity, n, u);
+    const CardDamping damping = card_damping(f.air, n, u);
+    const double a_n = a.dot(n);
+    m.v += h / (1 + h * damping.surface) * (a - a_n * n) + h / (1 + h * damping.normal) * a_n * n;
     m.x += h * m.v;
 }
 
@@ -103,25 +87,16 @@ void implicit_part(const Flight& f, double h, FreeMotion& m) {
 // the most the speed at which it falls.
 double fastest(const Flight& f, double h, const FreeMotion& m) {
     const double g = f.gravity.norm();
-    const double speed = (f.wind - m.v).norm() + std::min(g * h, std::sqrt(g / f.drag));
+    const double speed = (f.wind - m.v).norm() + std::min(g * h, std::sqrt(g / f.air.drag));
     const double lightest = std::min(f.inertia.x(), f.inertia.z());
-    return m.omega.norm() + (std::sqrt(f.torque / lightest) + 2 * f.drag) * speed + f.across;
+    return card_rates(f.air, m.omega.norm(), lightest, speed);
 }
 
 } // namespace
 
 void fly_leaf(const LeafAir& air, const LeafCard& card, const Vec3& wind, const Vec3& gravity, double air_density,
               double h, FreeMotion& m) {
-    const double pressed = air.kappa * air_density * card.area, offset = air.offset * std::numbers::pi / 180;
-    const Flight f{wind,
-                   gravity,
-                   card.inertia,
-                   pressed / card.mass,
-                   air.air_resistance,
-                   air.air_resistance / air.drag_ratio,
-                   pressed / 2 * std::sqrt(card.area / std::numbers::pi),
-                   std::cos(offset),
-                   std::sin(offset)};
+    const Flight f{wind, gravity, card.inertia, card_air(air, card, air_density)};
     double rest = h;
     for (int left = most_parts; left > 0; --left) {
         const double rates = fastest(f, rest, m), wanted = std::ceil(rates * rest / resolved);

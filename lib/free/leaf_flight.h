@@ -1,9 +1,6 @@
 // leaf_flight.h: how a leaf or petal flies that nothing holds: one rigid card in the air, forces (23) and (24).
 //
-// With u the wind's velocity less the card's, n its normal (either way), u_n = (u.n) n, u_t = u - u_n, A its area, I its inertia, and kappa, nu, xi,
-// phi of LeafAir (scene.h):
-//   m v'             = m g + kappa rho A |u| u_n + nu m (u_n + u_t / xi)                                (23)
-//   I w' + w x I w   = k (u.n) n x (u cos phi + n x u sin phi) - nu I w,   k = kappa rho A/2 sqrt(A/pi)  (24)
+// With the force f and the torque t of laws/leaf_card.h:   m v' = m g + f,   I w' + w x I w = t
 // The torque turns the card broadside to the air (phi = 0: it has the potential -k (u.n)^2 / 2), past which it swings: to and fro, over and
 // over, or, turned about the normal by phi, round and round. k |u_t|^2 / 2 goes into the swing without having been taken from the fall: what never
 // grows in still air without gravity (phi = 0) is m v^2/2 + w.I w/2 + k |v_t|^2/2. Slow spin about the normal is nu's alone to stop.
@@ -19,17 +16,10 @@
 // Both have the true terminal velocities as their fixed points: broadside m g = kappa rho A v^2 + nu m v.
 // Cost    O(1): 16 parts of 0.3 us at the most, a leaf of 5 cm that tumbles takes six. Errors none; non-finite in, non-finite out.
 #pragma once
-#include "../model/scene.h"
+#include "../laws/leaf_card.h"
 #include "free_motion.h"
 
 namespace bough {
-
-// Body axes: x along the width, y the normal, z along the length, as in body_shape.h; principal, about the centre of mass.
-struct LeafCard {
-    double mass = 0;             // [kg] above 0
-    Vec3 inertia = Vec3::Zero(); // [kg m^2] above 0
-    double area = 0;             // [m^2] A_t
-};
 
 // Advances the card by h [s] in a wind [m/s] and gravity [m/s^2] that do not change on the way; air_density [kg/m^3].
 void fly_leaf(const LeafAir&, const LeafCard&, const Vec3& wind, const Vec3& gravity, double air_density, double h,

@@ -1,4 +1,5 @@
 #include "near_pairs.h"
+#include "../base/parallel.h"
 #include "../plan/state.h"
 #include "shape.h"
 #include <algorithm>
@@ -10,6 +11,8 @@ namespace bough {
 namespace {
 
 constexpr int most_cells = 1 << 18;
+constexpr std::size_t bodies_a_block = 1024;
+constexpr double body_ns = 60; // to place it, and to look into its cells
 
 Vector3<float> in_float(const Vec3& v) {
     return v.cast<float>();
@@ -53,7 +56,8 @@ void NearPairs<T>::begin(const Plan<T>& plan, State<T>& state, const Tree& tree,
     }
     if (at_ == state.step) return;
     present(plan, state);
-    for (std::size_t rank = 0; rank < order_.size(); ++rank) ends_[rank] = ends_of(state, tree, order_[rank]);
+    parallel_for(order_.size(), body_ns / 3,
+                 [&](std::size_t rank) { ends_[rank] = ends_of(state, tree, order_[rank]); });
     at_ = state.step;
 }
 
@@ -67,13 +71,20 @@ const std::vector<NearPair>& NearPairs<T>::find(const Plan<T>& plan, State<T>& s
         if (!free[k].at_rest && (contact.leaves || !free[k].leaf())) add_parts(free[k], k, ends[k]);
     make_grid();
     present(plan, state);
-    for (std::uint32_t rank = 0; rank < order_.size(); ++rank) {
-        const std::size_t i = order_[rank];
-        const Ends now = ends_of(state, tree, i), before = std::exchange(ends_[rank], now);
-        if (plan.mass[i] == 0 || (is_flat(tree.kind[i]) && !contact.leaves)) continue;
-        const Capsule own = capsule_of(tree.kind[i], tree.size[i]);
-        look(rank, box_of(before, now, std::max(own.radius_a, own.radius_b)));
-    }
+    const std::size_t blocks = (order_.size() + bodies_a_block - 1) / bodies_a_block;
+    found_.resize(blocks);
+    parallel_blocks(blocks, body_ns * double(bodies_a_block), [&](std::size_t block, int) {
+        found_[block].clear();
+        const std::size_t end = std::min(order_.size(), (block + 1) * bodies_a_block);
+        for (std::size_t rank = block * bodies_a_block; rank < end; ++rank) {
+            const std::size_t i = order_[rank];
+            const Ends now = ends_of(state, tree, i), before = std::exchange(ends_[rank], now);
+            if (plan.mass[i] == 0 || (is_flat(tree.kind[i]) && !contact.leaves)) continue;
+            const Capsule own = capsule_of(tree.kind[i], tree.size[i]);
+            look(std::uint32_t(rank), box_of(before, now, std::max(own.radius_a, own.radius_b)), found_[block]);
+        }
+    });
+    for (const std::vector<NearPair>& found : found_) pairs_.insert(pairs_.end(), found.begin(), found.end());
     at_ = state.step;
     std::sort(pairs_.begin(), pairs_.end(), [](const NearPair& a, const NearPair& b) {
         return std::tie(a.free, a.rank, a.part) < std::tie(b.free, b.rank, b.part);
@@ -125,7 +136,7 @@ template <class T> template <class Visit> void NearPairs<T>::visit_cells(const B
             for (int x = low.x(); x <= high.x(); ++x) visit(std::size_t((z * count_.y() + y) * count_.x() + x));
 }
 
-template <class T> void NearPairs<T>::look(std::uint32_t rank, const Box& box) {
+template <class T> void NearPairs<T>::look(std::uint32_t rank, const Box& box, std::vector<NearPair>& found) const {
     const auto apart = [&box](const Box& other) {
         return (box.low.array() > other.high.array()).any() || (box.high.array() < other.low.array()).any();
     };
@@ -137,13 +148,15 @@ template <class T> void NearPairs<T>::look(std::uint32_t rank, const Box& box) {
             // Of the cells that both overlap, in one alone: where the lower corner of what they share is.
             const Cell own = cell_at(box.low.cwiseMax(part.box.low));
             if (std::size_t((own.z() * count_.y() + own.y()) * count_.x() + own.x()) == cell)
-                pairs_.push_back({part.free, rank, part.part});
+                found.push_back({part.free, rank, part.part});
         }
     });
 }
 
 template <class T> std::size_t NearPairs<T>::bytes() const {
-    return sizeof(std::uint32_t) * (order_.capacity() + first_.capacity() + in_cell_.capacity()) +
+    std::size_t found = 0;
+    for (const std::vector<NearPair>& some : found_) found += sizeof(NearPair) * some.capacity();
+    return found + sizeof(std::uint32_t) * (order_.capacity() + first_.capacity() + in_cell_.capacity()) +
            sizeof(Ends) * ends_.capacity() + sizeof(PartBox) * parts_.capacity() + sizeof(NearPair) * pairs_.capacity();
 }
 

@@ -5,6 +5,7 @@
 // other way round: the boxes that their parts pass through go into a grid of cells, and each body of the trees looks into the cells that its own
 // box passes through. Boxes hold what moves through them from the step's start to its end, and are wider by what angles in float may be off, so that
 // no meeting is lost: what is found is that of looking at every body.
+// Bodies look in blocks, which threads share out; the pairs are sorted, so that nothing hangs on who found them.
 // Cost: O(bodies + cells that boxes overlap) a step, however many free bodies there are; 28 bytes a body.
 #pragma once
 #include "../model/tree.h"
@@ -49,7 +50,7 @@ private:
     void make_grid();
     Cell cell_at(const Vector3<float>&) const;
     template <class Visit> void visit_cells(const Box&, Visit&&) const;
-    void look(std::uint32_t rank, const Box&);
+    void look(std::uint32_t rank, const Box&, std::vector<NearPair>&) const;
     Ends ends_of(const State<T>&, const Tree&, std::size_t body) const;
 
     std::vector<std::uint32_t> order_; // bodies by rank
@@ -60,6 +61,7 @@ private:
     float size_ = 1;                             // [m] of a cell
     Cell count_ = Cell::Ones();                  // of cells
     std::vector<std::uint32_t> first_, in_cell_; // parts of each cell
+    std::vector<std::vector<NearPair>> found_;   // of each block of bodies
     std::vector<NearPair> pairs_;
 };
 

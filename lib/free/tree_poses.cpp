@@ -1,4 +1,5 @@
 #include "tree_poses.h"
+#include "../base/parallel.h"
 #include "../base/rotation_maps.h"
 
 namespace bough {
@@ -17,10 +18,8 @@ template <class T> void TreePoses<T>::begin(const Plan<T>& plan, const State<T>&
 template <class T> void TreePoses<T>::begin_copy(const Plan<T>& plan, const State<T>& state) {
     copy_.clear();
     begin(plan, state);
-    copy_.reserve(plan.bodies);
-    std::vector<Vector3<T>> all;
-    all.reserve(plan.bodies);
-    for (std::size_t i = 0; i < plan.bodies; ++i) all.push_back(theta(i).template cast<T>());
+    std::vector<Vector3<T>> all(plan.bodies);
+    parallel_for(plan.bodies, 10, [&](std::size_t i) { all[i] = theta(i).template cast<T>(); });
     copy_ = std::move(all);
 }
 

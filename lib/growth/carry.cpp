@@ -2,6 +2,7 @@
 #include "../model/body_shape.h"
 #include "../model/polyline.h"
 #include "bark.h"
+#include "curves.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -120,10 +121,19 @@ void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<
     }
 }
 
+// What has none has the least that segmentation would give it, and a weight with it.
+void give_a_radius(Splines& s) {
+    const std::vector<double> extent = tree_extents(s);
+    for (std::size_t b = 0; b < s.branches(); ++b)
+        for (std::int32_t k = s.first_point[b]; k + 1 < s.first_point[b + 1]; ++k)
+            if (double& radius = s.radius[std::size_t(k)]; !(radius > 0)) radius = thin_radius * extent[b];
+}
+
 } // namespace
 
-void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
+std::size_t thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
     const std::vector<double> drawn = s.radius;
+    give_a_radius(s);
     std::vector<std::vector<HungLoad>> loads(s.branches());
     hang_items(s, wood, loads);
     for (std::size_t b = s.branches(); b-- > 0;) {
@@ -133,6 +143,12 @@ void thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
         loads[b] = {};
     }
     seat_on_bark(s, drawn);
+    std::size_t thicker = 0;
+    for (std::size_t b = 0; b < s.branches(); ++b) {
+        const auto from = std::ptrdiff_t(s.first_point[b]), to = std::ptrdiff_t(s.first_point[b + 1]);
+        thicker += !std::equal(drawn.begin() + from, drawn.begin() + to, s.radius.begin() + from);
+    }
+    return thicker;
 }
 
 } // namespace bough

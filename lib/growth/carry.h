@@ -12,6 +12,7 @@
 // at every point; between points radii are linear, so that few points leave up to a fifth more sag under a load at the tip.
 // A radius is also at least the next one out, where that was raised, and those of the branches that begin there.
 // Wood that has been raised is weighed as such: one sweep from the tips to the ground. Radii only grow.
+// A radius of 0 before a branch's last point is first made the least that segmentation would give it (curves.h).
 // Reads Splines whose branches stand parents before children; writes its radius; leaves and fruit stay on the bark (bark.h). most_sag [rad] > 0. Cost O(points +
 // items log items) a tree. Errors none.
 #pragma once
@@ -20,6 +21,10 @@
 
 namespace bough {
 
-void thicken_to_carry(Splines&, const Material&, double most_sag);
+// most_sag [rad] for trees of other programs, which drew them for pictures.
+constexpr double foreign_sag = 0.5;
+
+// Returns how many branches were made thicker.
+std::size_t thicken_to_carry(Splines&, const Material&, double most_sag);
 
 } // namespace bough

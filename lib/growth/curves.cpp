@@ -3,9 +3,6 @@
 
 namespace bough {
 
-namespace {
-
-// Longest side of the bounding box of each root's tree, given to each of its branches.
 std::vector<double> tree_extents(const Splines& splines) {
     const std::size_t n = splines.branches();
     std::vector<std::size_t> root(n);
@@ -19,6 +16,8 @@ std::vector<double> tree_extents(const Splines& splines) {
     for (std::size_t b = 0; b < n; ++b) extent[b] = box[root[b]].sizes().maxCoeff();
     return extent;
 }
+
+namespace {
 
 // Appends the points of branch b that are kept; returns false, with nothing appended, if they have no length.
 bool append_points(Curves& curves, const Splines& splines, std::size_t b, double nearest) {

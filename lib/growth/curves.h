@@ -14,6 +14,9 @@ namespace bough {
 
 constexpr double thin_radius = 1e-5; // times the tree's extent: 0.1 mm on a tree of 10 m
 
+// [m] Longest side of the bounding box of each root's tree, given to each of its branches. O(points).
+std::vector<double> tree_extents(const Splines&);
+
 struct CurvePlace {
     std::int32_t curve; // -1: the ground
     double at;          // fraction of its arc length

@@ -247,6 +247,41 @@ template <class W> [[gnu::always_inline]] inline W larger(W a, W b) {
     }
 #endif
 }
+
+#if BOUGH_WIDTH == 64
+typedef float FourFloats __attribute__((vector_size(16)));
+[[gnu::always_inline]] inline FourFloats read_four(const float* at) {
+    FourFloats four;
+    std::memcpy(&four, at, sizeof four);
+    return four;
+}
+[[gnu::always_inline]] inline void write_four(float* at, FourFloats four) {
+    std::memcpy(at, &four, sizeof four);
+}
+[[gnu::always_inline]] inline WideFloat side_by_side(FourFloats a, FourFloats b, FourFloats c, FourFloats d) {
+    return __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7),
+                                   __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9,
+                                   10, 11, 12, 13, 14, 15);
+}
+[[gnu::always_inline]] inline FourFloats quarter(WideFloat w, int q) {
+    FourFloats four;
+    std::memcpy(&four, reinterpret_cast<const char*>(&w) + 16 * q, sizeof four);
+    return four;
+}
+// Four numbers of each of 16 records: in the quarter q of m[k] those of record 4 q + k, or m[k] the k-th of all records. In place, from either to the
+// other.
+[[gnu::always_inline]] inline void transpose_quarters(WideFloat (&m)[4]) {
+    WideFloat t[4];
+    for (int i = 0; i < 4; i += 2) {
+        t[i] = __builtin_shufflevector(m[i], m[i + 1], 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
+        t[i + 1] = __builtin_shufflevector(m[i], m[i + 1], 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
+    }
+    for (int k = 0; k < 2; ++k) {
+        m[k] = __builtin_shufflevector(t[k], t[k + 2], 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29);
+        m[k + 2] = __builtin_shufflevector(t[k], t[k + 2], 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
+    }
+}
+#endif
 #endif // BOUGH_COUNTED
 
 } // namespace BOUGH_TARGET

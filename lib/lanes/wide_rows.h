@@ -59,30 +59,60 @@ template <class T, bool streamed = false> struct Rows {
 
 // Of `count` quantities, one record for each lane of a register, in memory one behind the other as in a row.
 template <class T, int count> struct Records {
-    static constexpr int quantities = (count + width<T> - 1) / width<T> * width<T>;
-    alignas(64) T row[quantities * lanes<T>];
+    static constexpr int left = count % width<T>;            // quantities that fill no register,
+    static constexpr bool few = width<T> == 16 && left <= 8; // of float's 16 so few that they are taken by four
+    static constexpr int parts = few ? count - left : (count + width<T> - 1) / width<T> * width<T>;
+    static constexpr int quantities = few ? (count + 3) / 4 * 4 : parts; // that are gathered and scattered
+    static constexpr std::size_t stride = record(count, lanes<T>);
+    alignas(64) T row[(count + width<T> - 1) / width<T> * width<T> * lanes<T>];
 
     BOUGH_FORCE Rows<T> rows() { return {row}; }
 
     // The quantities of joints[l] into lane l.
     [[gnu::noinline]] void gather(const T* records, const std::uint32_t* joints) {
-        constexpr std::size_t stride = record(count, lanes<T>);
-        for (int k = 0; k < quantities; k += width<T>) {
+        for (int k = 0; k < parts; k += width<T>) {
             Wide<T> m[width<T>];
             for (int l = 0; l < width<T>; ++l) m[l] = read(records + joints[l] * stride + std::size_t(k));
             transpose(m);
             for (int j = 0; j < width<T>; ++j) write(row + (k + j) * lanes<T>, m[j]);
         }
+#if BOUGH_WIDTH == 64 && !defined(BOUGH_COUNTED)
+        if constexpr (few)
+            for (int k = parts; k < quantities; k += 4) {
+                const auto four = [&](int l) { return read_four(records + joints[l] * stride + std::size_t(k)); };
+                Wide<T> m[4];
+                for (int l = 0; l < 4; ++l) m[l] = side_by_side(four(l), four(l + 4), four(l + 8), four(l + 12));
+                transpose_quarters(m);
+                for (int j = 0; j < 4; ++j) write(row + (k + j) * lanes<T>, m[j]);
+            }
+#endif
     }
     // Lane l into the record of joints[l], but for `skip`; added to what stands there, or set.
-    template <class Put> [[gnu::noinline]] void scatter(const std::uint32_t* joints, std::uint32_t skip, Put&& put) {
-        for (int k = 0; k < quantities; k += width<T>) {
+    template <bool added> [[gnu::noinline]] void scatter(T* records, const std::uint32_t* joints, std::uint32_t skip) {
+        for (int k = 0; k < parts; k += width<T>) {
             Wide<T> m[width<T>];
             for (int j = 0; j < width<T>; ++j) m[j] = read(row + (k + j) * lanes<T>);
             transpose(m);
-            for (int l = 0; l < width<T>; ++l)
-                if (joints[l] != skip) put(joints[l], k, m[l]);
+            for (int l = 0; l < width<T>; ++l) {
+                if (joints[l] == skip) continue;
+                T* at = records + joints[l] * stride + std::size_t(k);
+                write(at, added ? read(at) + m[l] : m[l]);
+            }
         }
+#if BOUGH_WIDTH == 64 && !defined(BOUGH_COUNTED)
+        if constexpr (few)
+            for (int k = parts; k < quantities; k += 4) {
+                Wide<T> m[4];
+                for (int j = 0; j < 4; ++j) m[j] = read(row + (k + j) * lanes<T>);
+                transpose_quarters(m);
+                for (int l = 0; l < width<T>; ++l) {
+                    if (joints[l] == skip) continue;
+                    T* at = records + joints[l] * stride + std::size_t(k);
+                    const FourFloats four = quarter(m[l % 4], l / 4);
+                    write_four(at, added ? read_four(at) + four : four);
+                }
+            }
+#endif
     }
 };
 

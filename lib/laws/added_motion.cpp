@@ -1,6 +1,5 @@
 #include "added_motion.h"
-#include "air.h"
-#include "leaf_air.h"
+#include "air_load.h"
 #include "wind.h"
 #include "wind_field.h"
 #include <algorithm>
@@ -36,7 +35,7 @@ Vec3 peak_wind(const Wind& wind, const Vec3& place, int turned) {
         const double a = turned * most * std::numbers::pi / 180;
         v = swirled<double>(v, std::cos(a), std::sin(a));
     }
-    return wind_profile(wind, place.y()) * v;
+    return wind_factor(wind, place) * v;
 }
 
 // Of the loads on bodies: force, and moment about the world's origin; of plates also what they may feel about their own joint.
@@ -56,14 +55,10 @@ void add_wind(const Tree& tree, const DrawnPose& drawn, const Scene& scene, int 
         const Vec3 at = drawn.x_w[i] + drawn.R_wb[i] * tree.com[i];
         const Vec3 u = peak_wind(*scene.wind, at, turned);
         const double drag = drag_area(tree, i, tree.kind[i], scene.air_density, plate_kappa(scene));
-        if (!is_flat(tree.kind[i])) {
-            loads.add(i, at, drag * air_force(tree.kind[i], drawn.R_wb[i], u).force);
-            continue;
-        }
-        const double speed = u.norm();
-        const Vec3 f = (drag * speed + (leaf.on ? tree.mass[i] * leaf.most : 0)) * u;
-        loads.add(i, at, f);
-        loads.own[i] = f.norm() * tree.com[i].norm() + (leaf.on ? leaf_lever(leaf, drag) * speed * speed : 0);
+        const AirBody<double> body{tree.kind[i], drag, tree.mass[i], tree.com[i]};
+        const AirPeak<double> peak = air_peak(body, leaf, drawn.R_wb[i], u);
+        loads.add(i, at, peak.force);
+        loads.own[i] = peak.own;
     }
 }
 

@@ -54,6 +54,14 @@ inline double drag_area(const Tree& tree, std::size_t i, Kind kind, double air_d
     return (tree.drag.empty() ? 1 : tree.drag[i]) * drag_area(kind, tree.size[i], air_density, plate_kappa);
 }
 
+// What the laws take of a body.
+template <class T> struct AirBody {
+    Kind kind;
+    T drag_area;    // [kg/m] kappa rho A
+    T mass;         // [kg]
+    Vector3<T> com; // [m] centre of mass from the joint, body frame
+};
+
 template <class T> struct AirForce {
     Vector3<T> force; // [m^2/s^2] over kappa rho A
     T speed;          // [m/s] that scales it: |u_n| or g |u|

@@ -1,4 +1,5 @@
 // leaf_air.h: what the air does to a leaf or petal beyond air.h, where the scene has /leaves: (23)'s second term and the torque (24).
+// air_load.h and parted_air.h sum it with air.h's; what flies has its own (leaf_card.h), lanes theirs (lanes/wide_leaf.h).
 //
 // With u the wind's velocity less the body's at its centre of mass, n the normal (y), u_n = (u.n) n, u_t = u - u_n, I the inertia about the
 // centre of mass, s = kappa rho A (Plan::drag_area), m the mass, all in one frame, world or the body's:
@@ -39,6 +40,11 @@ template <class T> LeafTerms<T> leaf_terms(const Scene& scene) {
     return terms;
 }
 
+// Whether it acts on a body.
+template <class T> bool has_leaf_air(const LeafTerms<T>& terms, Kind kind) {
+    return terms.on && is_flat(kind);
+}
+
 // k [kg] of a body with s = drag_area [kg/m].
 template <class T> T leaf_lever(const LeafTerms<T>& terms, T drag_area) {
     return terms.torque * drag_area * std::sqrt(drag_area);
@@ -46,37 +52,67 @@ template <class T> T leaf_lever(const LeafTerms<T>& terms, T drag_area) {
 
 // [N]
 template <class T>
-Vector3<T> leaf_resistance(const LeafTerms<T>& terms, T mass, const Matrix3<T>& R, const Vector3<T>& u) {
+Vector3<T> leaf_force(const LeafTerms<T>& terms, const AirBody<T>& body, const Matrix3<T>& R, const Vector3<T>& u) {
     const Vector3<T> n = R.col(1);
-    return mass * (terms.along * u + (terms.across - terms.along) * u.dot(n) * n);
+    return body.mass * (terms.along * u + (terms.across - terms.along) * u.dot(n) * n);
+}
+
+// [N] What going on `moving` instead of `still` past the body changes of it.
+template <class T>
+Vector3<T> leaf_drag(const LeafTerms<T>& terms, const AirBody<T>& body, const Matrix3<T>& R, const Vector3<T>& still,
+                     const Vector3<T>& moving) {
+    return leaf_force(terms, body, R, Vector3<T>(moving - still)); // it is linear
 }
 
 // Minus its derivative with the body's velocity [N s/m].
-template <class T> Matrix3<T> leaf_damping(const LeafTerms<T>& terms, T mass, const Matrix3<T>& R) {
+template <class T>
+Matrix3<T> leaf_damping(const LeafTerms<T>& terms, const AirBody<T>& body, const Matrix3<T>& R,
+                        const Vector3<T>& /*u*/) {
     const Vector3<T> n = R.col(1);
-    return mass * (terms.along * Matrix3<T>::Identity() + (terms.across - terms.along) * n * n.transpose());
+    return body.mass * (terms.along * Matrix3<T>::Identity() + (terms.across - terms.along) * n * n.transpose());
 }
 
 // [N m] The torque but for nu I w.
 template <class T>
-Vector3<T> leaf_torque(const LeafTerms<T>& terms, T drag_area, const Matrix3<T>& R, const Vector3<T>& u) {
+Vector3<T> leaf_torque(const LeafTerms<T>& terms, const AirBody<T>& body, const Matrix3<T>& R, const Vector3<T>& u) {
     const Vector3<T> n = R.col(1), turning = n.cross(u);
-    return leaf_lever(terms, drag_area) * u.dot(n) * (terms.cos_offset * turning + terms.sin_offset * n.cross(turning));
+    return leaf_lever(terms, body.drag_area) * u.dot(n) *
+           (terms.cos_offset * turning + terms.sin_offset * n.cross(turning));
 }
 
-// I [kg m^2]; J: inertia about the joint, c: the centre of mass from there.
-template <class T> Matrix3<T> central_inertia(T mass, const Matrix3<T>& J, const Vector3<T>& c) {
-    return J + mass * (c * c.transpose() - c.squaredNorm() * Matrix3<T>::Identity());
+// [1/s] nu
+template <class T> T leaf_spin(const LeafTerms<T>& terms) {
+    return terms.across;
 }
 
-// How fast both moments about the joint may change with rotation [N m/rad]: symmetric, positive semidefinite. arm: |c|.
+// How fast both moments about the joint may change with rotation [N m/rad]: symmetric, positive semidefinite.
 template <class T>
-Matrix3<T> leaf_turning(const LeafTerms<T>& terms, T drag_area, T mass, T arm, const Matrix3<T>& R,
-                        const Vector3<T>& u) {
+Matrix3<T> leaf_turning(const LeafTerms<T>& terms, const AirBody<T>& body, const Matrix3<T>& R, const Vector3<T>& u) {
     const Vector3<T> n = R.col(1), axis = R.col(2);
     const Matrix3<T> one = Matrix3<T>::Identity();
-    return 2 * leaf_lever(terms, drag_area) * u.squaredNorm() * (one - n * n.transpose()) +
-           2 * mass * terms.most * arm * u.norm() * (one - axis * axis.transpose());
+    return 2 * leaf_lever(terms, body.drag_area) * u.squaredNorm() * (one - n * n.transpose()) +
+           2 * body.mass * terms.most * body.com.norm() * u.norm() * (one - axis * axis.transpose());
+}
+
+// [J] What the force can do in a time h at most, whatever the body does: nu m |U|^2 / 4, U the wind's velocity, past: |u|. The torque's work is not in it: what it
+// puts into a leaf that turns fast is taken again (energy_guard.h).
+template <class T> T leaf_work(const LeafTerms<T>& terms, const AirBody<T>& body, T h, T speed, T /*past*/) {
+    return h * body.mass * terms.most * (speed * speed / 4);
+}
+
+// Bounds of parted_air.h.
+template <class T> struct LeafBounds { T drag, wind, turn; };
+// arm: [m] that torques are taken at; speeds past the body as it stands and as it goes.
+template <class T>
+LeafBounds<T> leaf_bounds(const LeafTerms<T>& terms, const AirBody<T>& body, T arm, T still, T moving) {
+    const T resisted = body.mass * terms.most, pressed = leaf_lever(terms, body.drag_area) / arm;
+    return {resisted + pressed * (moving + still), resisted, 2 * still * (resisted + pressed * still)};
+}
+
+// What a wind of this speed can do at most, however the leaf is turned: force over the speed [N s/m], torque [N m].
+template <class T> struct LeafPeak { T force, torque; };
+template <class T> LeafPeak<T> leaf_peak(const LeafTerms<T>& terms, const AirBody<T>& body, T speed) {
+    return {body.mass * terms.most, leaf_lever(terms, body.drag_area) * speed * speed};
 }
 
 } // namespace bough

@@ -106,8 +106,12 @@ double wind_profile(const Wind& wind, double y) {
     return y > 0 ? std::pow(y / wind.reference_height, wind.profile) : 0;
 }
 
+double wind_factor(const Wind& wind, const Vec3& place) {
+    return wind_profile(wind, place.y());
+}
+
 Vec3 wind_at(const Wind& wind, const Vec3& place, double t) {
-    const double factor = wind_profile(wind, place.y());
+    const double factor = wind_factor(wind, place);
     if (!varies_over_ground(wind)) return factor * wind_velocity(wind, t);
     return factor * field_velocity(wind, wind_weather(wind, t), place.x(), place.z(), t);
 }

@@ -25,6 +25,9 @@ double octave_phase(std::uint64_t seed, int octave);
 
 // Factor over height, (y / reference_height)^profile, 0 at and below the ground (1 everywhere for profile 0).
 double wind_profile(const Wind&, double y);
+// Factor on the wind's velocity at a place [m] where it blows as the scene says: all that varies in space by a factor. WindTable::factor is the same
+// looked up, WideWind (lanes/wide_wind.h) in lanes.
+double wind_factor(const Wind&, const Vec3& place);
 
 // The wind's velocity [m/s] at a place [m] and time [s], evaluated directly: the definition, for bodies that are few and for tests;
 // what steps look up is the table below. Undisturbed: no shelter. O(1); 72 cosines with turbulence.
@@ -46,7 +49,8 @@ template <class T> struct WindTable {
         const T w = place - T(k);
         return velocity[k] + w * (velocity[k + 1] - velocity[k]);
     }
-    T factor(T y) const {
+    T factor(const Vector3<T>& at) const { return profile_at(at.y()); } // wind_factor
+    T profile_at(T y) const {
         const T place = std::min(std::max(T(0), y * per_metre), T(profile.size() - 1));
         if (profile.size() == 1) return profile[0];
         const auto k = std::min(std::size_t(place), profile.size() - 2);
@@ -55,7 +59,7 @@ template <class T> struct WindTable {
     // clock: which of the field's.
     Vector3<T> at(const Vector3<T>& place, std::size_t clock = 0) const {
         if (!field.on()) return at(place.y());
-        return factor(place.y()) * field.at(place.x(), place.z(), clock);
+        return factor(place) * field.at(place.x(), place.z(), clock);
     }
 };
 

@@ -1,6 +1,7 @@
 #include "material_change.h"
 #include "branch_mode.h"
 #include "check_parts.h"
+#include "root_stiffness.h"
 #include "wood.h"
 #include <cmath>
 #include <stdexcept>
@@ -16,20 +17,7 @@ const Material& own_material(const Tree& tree) {
     throw std::domain_error(is + ", so that its numbers are not known and cannot be changed; expected one of " + names);
 }
 
-} // namespace
-
-std::optional<Defect> check(const MaterialChange& change) {
-    for (const auto& [field, value] : {std::pair{"material/E", change.youngs_modulus},
-                                       {"material/G", change.shear_modulus},
-                                       {"material/density", change.density}})
-        if (value)
-            if (auto defect = above_zero(field, *value)) return defect;
-    if (change.damping_ratio) return at_least("material/damping_ratio", *change.damping_ratio, 0);
-    return std::nullopt;
-}
-
-void change_material(Tree& tree, const MaterialChange& change) {
-    if (!change.any()) return;
+void change_wood(Tree& tree, const MaterialChange& change) {
     const Material& own = own_material(tree);
     const double bend = change.youngs_modulus.value_or(own.youngs_modulus) / own.youngs_modulus;
     const double twist = change.shear_modulus ? *change.shear_modulus / own.shear_modulus : bend;
@@ -52,6 +40,24 @@ void change_material(Tree& tree, const MaterialChange& change) {
         if (frequencies && after[i] > 0) tree.damping[i] *= before[i] / after[i];
     }
     tree.material += " (changed)";
+}
+
+} // namespace
+
+std::optional<Defect> check(const MaterialChange& change) {
+    for (const auto& [field, value] : {std::pair{"material/E", change.youngs_modulus},
+                                       {"material/G", change.shear_modulus},
+                                       {"material/density", change.density},
+                                       {"material/root_stiffness", change.root_stiffness}})
+        if (value)
+            if (auto defect = above_zero(field, *value)) return defect;
+    if (change.damping_ratio) return at_least("material/damping_ratio", *change.damping_ratio, 0);
+    return std::nullopt;
+}
+
+void change_material(Tree& tree, const MaterialChange& change) {
+    if (change.wood()) change_wood(tree, change);
+    if (change.root_stiffness) stand_on_springs(tree, *change.root_stiffness);
 }
 
 } // namespace bough

@@ -18,14 +18,17 @@ struct MaterialChange {
     std::optional<double> shear_modulus;  // [Pa] G
     std::optional<double> density;        // [kg/m^3]
     std::optional<double> damping_ratio;  // [1]
+    std::optional<double>
+        root_stiffness; // [N m/rad] of a spring between the ground and each trunk (root_stiffness.h), after the others
 
-    bool any() const { return youngs_modulus || shear_modulus || density || damping_ratio; }
+    bool wood() const { return youngs_modulus || shear_modulus || density || damping_ratio; }
+    bool any() const { return wood() || root_stiffness; }
 };
 
 // The first broken rule, or none: finite, above 0; the damping ratio 0 or more.
 std::optional<Defect> check(const MaterialChange&);
 
-// Throws std::domain_error where the tree names no preset: what its wood has been is not known then.
+// Throws std::domain_error where wood is to change and the tree names no preset: what its wood has been is not known then.
 void change_material(Tree&, const MaterialChange&);
 
 } // namespace bough

@@ -7,7 +7,9 @@ namespace bough {
 namespace {
 
 // Green density from basic density (oven-dry mass over green volume, in units of water's): cell walls weigh 1530 kg/m^3,
-// and 60 % of the space they leave is water, as in living sapwood. Gives 800 to 950 kg/m^3 for the species below.
+// and 60 % of the space they leave is water, as in living sapwood. Gives 800 to 970 kg/m^3 for the species below. Beside basic density and the mean of
+// heartwood's and sapwood's water in the Wood Handbook's table of green woods that is within 4 % for sugar maple, paper birch, red oak, Douglas fir
+// and loblolly pine, 7 % heavier for black cherry (of its heartwood's), 14 % for aspen, and 10 % lighter for apple.
 double green_density(double basic) {
     return 1000 * (basic + 0.6 * (1 - basic / 1.53));
 }
@@ -16,16 +18,18 @@ constexpr double needle = 0.6e-3; // [m] as thick as it is wide
 
 const char* const handbook =
     "basic density and E green: USDA Forest Service, Wood Handbook, mechanical properties of woods grown in the United "
-    "States; density with water: 60 % of the space left by cell walls filled; G = E/15; damping, leaf and fruit "
-    "figures: typical orders of magnitude";
+    "States, and so the modulus of rupture, green; density with water: 60 % of the space left by cell walls filled; "
+    "G = E/15; damping, leaf and fruit figures: typical orders of magnitude";
 
-Material wood(const char* name, double basic, double youngs_gpa, const char* source = handbook,
+// strength_mpa: green modulus of rupture.
+Material wood(const char* name, double basic, double youngs_gpa, double strength_mpa, const char* source = handbook,
               double leaf_thickness = 0.25e-3) {
     Material m;
     m.name = name;
     m.density = std::round(green_density(basic));
     m.youngs_modulus = youngs_gpa * 1e9;
     m.shear_modulus = m.youngs_modulus / 15;
+    m.strength = strength_mpa * 1e6;
     m.damping_ratio = 0.03; // within the wood, without leaves or air: Moore & Maguire (2004) found less than 0.05
     m.leaf_density = 800;
     m.leaf_thickness = leaf_thickness;
@@ -35,6 +39,18 @@ Material wood(const char* name, double basic, double youngs_gpa, const char* sou
     m.fruit_density = 850;
     m.fruit_damping_ratio = 0.05;
     m.source = source;
+    return m;
+}
+
+// A living ash is drier than other broadleaved trees: by the handbook, water of 45 % of the dry wood in white ash.
+Material european_ash() {
+    constexpr double basic = 0.55, water = 0.45;
+    Material m =
+        wood("european-ash", basic, 9.5, 66,
+             "E and modulus of rupture green: Lavers, The strength properties of timber (1983), Fraxinus excelsior; "
+             "density: basic 0.55 with water of 45 % of the dry wood, as white ash's in the USDA Wood Handbook's "
+             "table of green woods; G = E/15; damping, leaf and fruit figures: typical orders of magnitude");
+    m.density = std::round(1000 * basic * (1 + water));
     return m;
 }
 
@@ -48,27 +64,30 @@ struct Range {
 
 const std::vector<Material>& wood_presets() {
     static const std::vector<Material> presets = {
-        wood("red-maple", 0.49, 9.6),
-        wood("sugar-maple", 0.56, 10.7),
-        wood("black-cherry", 0.47, 9.0),
-        wood("black-willow", 0.36, 5.4),
-        wood("quaking-aspen", 0.35, 5.9),
-        wood("paper-birch", 0.48, 8.1),
-        wood("northern-red-oak", 0.56, 9.3),
-        wood("apple", 0.61, 7.4,
+        wood("red-maple", 0.49, 9.6, 53),
+        wood("sugar-maple", 0.56, 10.7, 65),
+        wood("black-cherry", 0.47, 9.0, 55),
+        wood("black-willow", 0.36, 5.4, 33),
+        wood("quaking-aspen", 0.35, 5.9, 35),
+        wood("paper-birch", 0.48, 8.1, 44),
+        wood("northern-red-oak", 0.56, 9.3, 57),
+        wood("apple", 0.61, 7.4, 51,
              "basic density 0.61, E dry 8.76 GPa: common wood tables; E green taken as 0.85 of it, as in cherry and "
-             "maple; the rest as the other presets: 60 % of the space left by cell walls filled with water; G = E/15; "
+             "maple; modulus of rupture 88 MPa dry, 0.58 of it green, as in these; the rest as the other presets: 60 % "
+             "of the space left by cell walls filled with water; G = E/15; "
              "damping, leaf and fruit figures: typical orders of magnitude"),
-        wood("douglas-fir", 0.45, 10.8, handbook, needle),
-        wood("eastern-white-pine", 0.34, 6.8, handbook, needle),
-        wood("loblolly-pine", 0.47, 9.7, handbook, needle),
+        wood("douglas-fir", 0.45, 10.8, 53, handbook, needle),
+        wood("eastern-white-pine", 0.34, 6.8, 34, handbook, needle),
+        wood("loblolly-pine", 0.47, 9.7, 50, handbook, needle),
         wood(
-            "coconut-palm", 0.50, 6.0,
+            "coconut-palm", 0.50, 6.0, 50,
             "basic density 0.5, E 6 GPa: the stem as a whole, denser and stiffer at its rim (0.6 and 8 to 11 GPa) than "
-            "in its middle, after common figures for coconut wood; the rest as the other presets: 60 % of the space "
+            "in its middle, modulus of rupture 50 MPa, after common figures for coconut wood; the rest as the other "
+            "presets: 60 % of the space "
             "left "
             "by cell walls filled with water; G = E/15; damping, leaf and fruit figures: typical orders of magnitude",
             0.4e-3),
+        european_ash(),
     };
     return presets;
 }
@@ -85,6 +104,7 @@ std::optional<Defect> check(const Material& m) {
         {"youngs_modulus", m.youngs_modulus, false},
         {"shear_modulus", m.shear_modulus, false},
         {"damping_ratio", m.damping_ratio, true},
+        {"strength", m.strength, false},
         {"leaf_density", m.leaf_density, false},
         {"leaf_thickness", m.leaf_thickness, false},
         {"petal_thickness", m.petal_thickness, false},

@@ -13,6 +13,7 @@ struct Material {
     double youngs_modulus = 0;      // [Pa] E along the grain, green
     double shear_modulus = 0;       // [Pa] G for torsion about the grain (about E/15 in wood)
     double damping_ratio = 0;       // [1] zeta of the branch's first bending mode, structural (no air)
+    double strength = 0;            // [Pa] bending stress at which green wood breaks (modulus of rupture)
     double leaf_density = 0;        // [kg/m^3] of fresh leaf tissue
     double leaf_thickness = 0;      // [m]
     double petal_thickness = 0;     // [m]; all else of a petal is a leaf's

@@ -1,6 +1,7 @@
 #include "make_plan.h"
 #include "../base/shortest_text.h"
 #include "../laws/leaf_air.h"
+#include "../laws/wind_field.h"
 #include "carried.h"
 #include "plan_reach.h"
 #include "pose.h"

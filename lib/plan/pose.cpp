@@ -2,11 +2,28 @@
 #include "sag.h"
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 namespace bough {
 namespace {
+
+// How much thicker wood would carry its moment: stiffness goes with the fourth power.
+std::string what_would_carry(const Tree& tree, std::size_t i, const Vec3& tau) {
+    constexpr double sag = 0.5; // [rad]
+    const double K = tree.stiffness[i].minCoeff();
+    std::ostringstream text;
+    text.precision(3);
+    text << "it bears " << tau.norm() << " N m on a spring of " << K << " N m/rad; ";
+    if (i >= tree.kind.size() || tree.kind[i] == Kind::branch) // of what only settles the kind is not known
+        text << "wood " << std::pow(std::max(1.0, tau.norm() / (sag * K)), 0.25)
+             << " times as thick would carry it: treeconvert --radii carry makes it so";
+    else
+        text << "a stiffer one would carry it: leaf_modulus of a --material FILE";
+    return text.str();
+}
 
 // theta with K theta = J^T tau, the moment given in the body's frame, J the body rates' Jacobian at theta. The slope of
 // J^T tau is left out of Newton's matrix but for its first term: what remains is small and converges in a few rounds.
@@ -28,7 +45,8 @@ Vec3 carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     }
     // Rounding can keep the last digit moving; what is left must be rounding.
     const Vec3 left = body_rate_jacobian(theta).transpose() * tau - K.cwiseProduct(theta);
-    if (left.norm() > 1e-12 * tau.norm()) throw NoPose{i, " is too soft to carry its weight in the drawn pose"};
+    if (left.norm() > 1e-12 * tau.norm())
+        throw NoPose{i, " is too soft to carry its weight in the drawn pose: " + what_would_carry(tree, i, tau)};
     return theta;
 }
 
@@ -55,9 +73,9 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
         const Vec3 tau_b = R[i].transpose() * pose.theta[i];
         pose.theta[i] = carry(tree, i, tau_b);
         if (!(pose.theta[i].norm() <= 3.14159265358979323846)) // the step would take it the other way round (spring.h)
-            throw NoPose{i,
-                         " is too soft to carry its weight in the drawn pose: its spring would be wound by more than "
-                         "half a turn"};
+            throw NoPose{i, " is too soft to carry its weight in the drawn pose, its spring wound by more than half a "
+                            "turn: " +
+                                what_would_carry(tree, i, tau_b)};
         pose.joint_rotation[i] =
             (tree.joint_rotation[i] * quaternion_from_vector<double>(pose.theta[i]).conjugate()).normalized();
     }
@@ -101,6 +119,7 @@ std::vector<RootTree> each_root_of(const Tree& tree) {
         place[i] = std::int32_t(own.body.size());
         own.body.push_back(i);
         own.tree.parent.push_back(is_root ? -1 : place[p]);
+        if (!tree.kind.empty()) own.tree.kind.push_back(tree.kind[i]);
         own.tree.mass.push_back(tree.mass[i]);
         own.tree.com.push_back(tree.com[i]);
         own.tree.joint_position.push_back(tree.joint_position[i]);

@@ -53,8 +53,8 @@ Standing stand(const Tree& tree, const StartPose& pose) {
     return there;
 }
 
-Vec3 mean_wind(const Scene& scene, double height) {
-    return wind_profile(*scene.wind, height) * scene.wind->velocity;
+Vec3 mean_wind(const Scene& scene, const Vec3& place) {
+    return wind_factor(*scene.wind, place) * scene.wind->velocity;
 }
 
 } // namespace
@@ -92,7 +92,7 @@ FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scen
         if (!scene.wind) continue;
         const Kind kind = kind_in_air(tree, whole);
         const double scale = drag_area(tree, whole, kind, scene.air_density, plate_kappa(scene));
-        lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(scene, before.com[i].y())) * u);
+        lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(scene, before.com[i])) * u);
     }
     if (!(pushed > 0) || !(moved > 0) || !std::isfinite(moved)) return {}; // it buckles
     const double omega = std::sqrt(a * pushed / moved);

@@ -8,7 +8,6 @@
 // no constant of its own. A body counts in the column of its centre of mass, in the pose at the start; what is beside the columns does not mix in.
 // The factor u_b over the undisturbed u multiplies all of the wind at the body, over all of the run.
 #pragma once
-#include "../laws/wind.h"
 #include "plan.h"
 
 namespace bough {
@@ -16,22 +15,5 @@ namespace bough {
 // Of each body [1]. Reads the plan's constants of bodies, theta_start and drag_area. O(n log n).
 // Throws std::domain_error for a body whose drag is more than what a column has: the cell is too small.
 template <class T> std::vector<T> shelter_factors(const Plan<T>&);
-
-template <class T, class Real>
-Vector3<Real> sheltered(const Plan<T>& plan, std::size_t body, const Vector3<Real>& wind) {
-    return plan.shelter.empty() ? wind : Vector3<Real>(Real(plan.shelter[body]) * wind);
-}
-
-// Which of the wind's clocks a body's tree goes by.
-template <class T> std::size_t clock_of(const Plan<T>& plan, std::size_t body) {
-    return plan.clock.empty() ? 0 : plan.clock[body];
-}
-
-// The wind at a body whose centre of mass is at `place`.
-template <class T, class Real>
-Vector3<Real> wind_on_body_at(const Plan<T>& plan, std::size_t body, const WindTable<Real>& wind,
-                              const Vector3<Real>& place) {
-    return sheltered(plan, body, wind.at(place, clock_of(plan, body)));
-}
 
 } // namespace bough

@@ -1,9 +1,8 @@
 #include "articulated.h"
 #include "../base/resolved_turn.h"
-#include "../laws/air.h"
-#include "../laws/leaf_air.h"
+#include "../laws/air_load.h"
+#include "../plan/body_air.h"
 #include "../plan/pushes.h"
-#include "../plan/shelter.h"
 #include <limits>
 
 namespace bough {
@@ -61,28 +60,10 @@ void place(const Plan<double>& plan, const ArticulatedBody& parent, ArticulatedB
     b.a_bias = b.R_pb.transpose() * spin.cross(spin.cross(r));
 }
 
-// leaf_air.h, before the force is taken to the joint.
-void add_leaf(const Plan<double>& plan, ArticulatedBody& b, std::size_t i, const Vec3& u, const Vec3& a_own, double h,
-              Vec3& f) {
-    static const Mat3 own_axes = Mat3::Identity();
-    const Vec3& c = plan.com[i];
-    const double m = plan.mass[i], scale = plan.drag_area[i];
-    const Mat3 spin = plan.leaf.across * central_inertia(m, plan.inertia_joint[i], c);
-    f += leaf_resistance(plan.leaf, m, own_axes, u);
-    b.N += spin * b.omega - leaf_torque(plan.leaf, scale, own_axes, u);
-    if (!(h > 0)) return;
-    const Mat3 D = h * leaf_damping(plan.leaf, m, own_axes), cD = cross_left(c, D);
-    const Mat3 turning = h * leaf_turning(plan.leaf, scale, m, c.norm(), own_axes, u);
-    b.M += D;
-    b.B += cD;
-    b.A += cross_left(c, cD.transpose()) + h * spin + h * turning;
-    b.N += turning * b.omega;
-    f -= D * a_own;
-}
-
 void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i,
              const Vec3& a_own, double h) {
     static const Mat3 own_axes = Mat3::Identity();
+    const AirBody<double> body = air_body<double>(plan, i);
     const Vec3& c = plan.com[i];
     Vec3 place = b.x_w;
     if (plan.field)
@@ -90,28 +71,27 @@ void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedB
     else
         place.y() += b.R_wb.row(1).dot(c);
     const Vec3 u = b.R_wb.transpose() * wind_on_body_at(plan, i, pass.wind, place) - b.v - b.omega.cross(c);
-    Vec3 f = plan.drag_area[i] * air_force(plan.kind[i], own_axes, u).force;
-    if (is_foliage(plan.kind[i])) {
-        const Mat3 spin = spin_rate(plan.kind[i], plan.drag_area[i], plan.mass[i], u) *
-                          central_inertia(plan.mass[i], plan.inertia_joint[i], c);
+    const AirLoad<double> air = air_load(body, plan.leaf, own_axes, u);
+    Vec3 f = air.force;
+    if (air.spin > 0) {
+        const Mat3 spin = air.spin * central_inertia(body.mass, plan.inertia_joint[i], c);
         b.N += spin * b.omega;
         b.A += h * spin;
     }
+    b.N -= air.torque;
     if (h > 0) {
-        const Mat3 D = h * plan.drag_area[i] * air_damping(plan.kind[i], own_axes, u);
-        const Mat3 cD = cross_left(c, D);
+        const Mat3 D = air_load_damping(body, plan.leaf, own_axes, u, h), cD = cross_left(c, D);
         b.M += D;
         b.B += cD;
         b.A += cross_left(c, cD.transpose()); // [c] D [c]^T
         f -= D * a_own;
-        Mat3 turning =
-            Mat3::Zero(); // of streaming in that solver alone: where it begins is a kink, which extrapolation feels
-        if (!pass.carried_drag.empty()) turning = h * streaming_stiffness(plan.foliage, pass.carried_drag[i], u);
-        if (is_flat(plan.kind[i])) turning += h * plan.drag_area[i] * c.norm() * air_turning(plan.kind[i], own_axes, u);
+        // Of streaming in that solver alone: where it begins is a kink, which extrapolation feels.
+        const Vec3 carried = pass.carried_drag.empty() ? Vec3(Vec3::Zero()) : pass.carried_drag[i];
+        Mat3 turning = Mat3::Zero();
+        add_air_turning(body, plan.leaf, own_axes, u, {plan.foliage, carried}, h, turning);
         b.A += h * turning;
         b.N += turning * b.omega;
     }
-    if (plan.leaf.on && is_flat(plan.kind[i])) add_leaf(plan, b, i, u, a_own, h, f);
     b.F -= f;
     b.N -= c.cross(f);
 }

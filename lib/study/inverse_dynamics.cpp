@@ -1,8 +1,7 @@
 #include "inverse_dynamics.h"
-#include "../laws/air.h"
-#include "../laws/leaf_air.h"
+#include "../laws/air_load.h"
+#include "../plan/body_air.h"
 #include "../plan/pushes.h"
-#include "../plan/shelter.h"
 
 namespace bough {
 namespace {
@@ -65,14 +64,9 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
         Vec3 f = Vec3::Zero(), torque = Vec3::Zero();
         if (plan.wind) {
             const Vec3 u = wind_on_body_at(plan, i, wind, Vec3(b.x + c)) - b.v - b.omega.cross(c);
-            double spin = spin_rate(plan.kind[i], plan.drag_area[i], plan.mass[i], u);
-            f = plan.drag_area[i] * air_force(plan.kind[i], b.R, u).force;
-            if (plan.leaf.on && is_flat(plan.kind[i])) {
-                f += leaf_resistance(plan.leaf, plan.mass[i], b.R, u);
-                torque = leaf_torque(plan.leaf, plan.drag_area[i], b.R, u);
-                spin += plan.leaf.across;
-            }
-            torque -= spin * (central_inertia(plan.mass[i], J, c) * b.omega);
+            const AirLoad<double> air = air_load(air_body<double>(plan, i), plan.leaf, b.R, u);
+            f = air.force;
+            torque = air.torque - air.spin * (central_inertia(plan.mass[i], J, c) * b.omega);
         }
         b.F = plan.mass[i] * a_com - weight - f;
         b.N = inertial - c.cross(weight + f) - torque;

@@ -1,6 +1,5 @@
 #include "modes.h"
-#include "../laws/air.h"
-#include "../laws/leaf_air.h"
+#include "../laws/air_load.h"
 #include "../laws/wind.h"
 #include "../plan/reduce.h"
 #include <Eigen/Eigenvalues>
@@ -105,17 +104,12 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
         const Kind kind = kind_in_air(tree, i);
         const Mat3& R = motion.rotations()[i];
         const Mat3 I = R * tree.inertia[i] * R.transpose();
-        if (scene.wind) {
-            const double y = (motion.joints()[i] + R * tree.com[i]).y();
-            const Vec3 u = wind_profile(*scene.wind, y) * scene.wind->velocity;
-            const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
-            damping[i].drag += area * air_damping(kind, R, u);
-            damping[i].spin += spin_rate(kind, area, tree.mass[i], u) * I;
-        }
-        if (terms.on && is_flat(kind)) {
-            damping[i].drag += leaf_damping(terms, tree.mass[i], R);
-            damping[i].spin += terms.across * I;
-        }
+        Vec3 u = Vec3::Zero();
+        if (scene.wind) u = wind_factor(*scene.wind, motion.joints()[i] + R * tree.com[i]) * scene.wind->velocity;
+        const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
+        const AirBody<double> body{kind, area, tree.mass[i], tree.com[i]};
+        damping[i].drag = air_load_damping(body, terms, R, u);
+        damping[i].spin = air_load(body, terms, R, u).spin * I;
     }
     return damping;
 }

@@ -1,9 +1,7 @@
 #include "stability.h"
-#include "../laws/air.h"
-#include "../laws/leaf_air.h"
-#include "../laws/wind.h"
+#include "../laws/air_load.h"
+#include "../plan/body_air.h"
 #include "../plan/ground.h"
-#include "../plan/shelter.h"
 #include "body_poses.h"
 #include "energy.h"
 #include "ring_down.h"
@@ -23,26 +21,17 @@ constexpr double energy_tolerance = 0.01, growth_tolerance = 1.05, small_angle =
 template <class T> std::vector<Vec3> air_moments(const Plan<T>& plan, const State<T>& s, double time) {
     WindTable<double> wind = make_wind_table<double>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     evaluate_wind(*plan.scene.wind, time, wind);
+    const LeafTerms<double> leaf = leaf_terms<double>(plan.scene);
     const std::vector<BodyMotion> motion = body_motions(plan, s);
     std::vector<Vec3> f(plan.bodies), tau(plan.bodies);
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const BodyMotion& b = motion[i];
         const Vec3 c = b.R * plan.com[i].template cast<double>();
         const Vec3 u = wind_on_body_at(plan, i, wind, Vec3(b.x + c)) - b.v - b.omega.cross(c);
-        const double area = double(plan.drag_area[i]), m = double(plan.mass[i]);
-        double spin = spin_rate<double>(plan.kind[i], area, m, u);
-        f[i] = area * air_force<double>(plan.kind[i], b.R, u).force;
-        tau[i].setZero();
-        if (plan.leaf.on && is_flat(plan.kind[i])) {
-            const LeafTerms<double> terms = leaf_terms<double>(plan.scene);
-            f[i] += leaf_resistance<double>(terms, m, b.R, u);
-            tau[i] = leaf_torque<double>(terms, area, b.R, u);
-            spin += terms.across;
-        }
-        if (spin > 0) {
-            const Mat3 J = b.R * plan.inertia_joint[i].template cast<double>() * b.R.transpose();
-            tau[i] -= spin * (central_inertia<double>(m, J, c) * b.omega);
-        }
+        const AirLoad<double> air = air_load(air_body<double>(plan, i), leaf, b.R, u);
+        const Mat3 J = b.R * plan.inertia_joint[i].template cast<double>() * b.R.transpose();
+        f[i] = air.force;
+        tau[i] = air.torque - air.spin * (central_inertia<double>(double(plan.mass[i]), J, c) * b.omega);
         tau[i] += c.cross(f[i]);
     }
     for (std::size_t i = plan.bodies; i-- > 0;) {

@@ -4,7 +4,10 @@
 // never above what they were at the start, and what pushing overlaps apart lifted, by more than 1 % of the largest kinetic energy so far: contacts, friction, breaking and air take energy alone.
 // With the analytic step, whose oscillators' energy is not the bodies', by nothing free being ten times as fast as balls were or a fall makes it.
 #pragma once
-#include "stability.h"
+#include "solvers.h"
+#include "stability_cases.h"
+#include "stability_cell.h"
+#include <functional>
 
 namespace bough {
 

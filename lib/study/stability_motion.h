@@ -9,7 +9,11 @@
 //   still          in a wind that changes, and of which the truth has no still frame, no frame is still.
 #pragma once
 #include "motion_statistics.h"
-#include "stability.h"
+#include "stability_cases.h"
+#include "stability_cell.h"
+#include <functional>
+#include <optional>
+#include <string>
 
 namespace bough {
 

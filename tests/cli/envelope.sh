@@ -67,6 +67,6 @@ refused 2 "nowhere.obj" treegen --envelope nowhere.obj
 echo "ply" >crown.ply
 refused 2 "is a PLY model, expected a closed triangle mesh" treegen --envelope crown.ply
 printf 'glTF\2\0\0\0\377\377\0\0' >broken.glb
-refused 2 "broken.glb: assimp could not read it" treegen --envelope broken.glb
+refused 2 "broken.glb: is cut off" treegen --envelope broken.glb
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n' >flat.obj
 refused 2 "encloses no volume" treegen --envelope flat.obj

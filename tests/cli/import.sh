@@ -46,6 +46,34 @@ refused 1 "--trunk-diameter" treegen --import "$fixtures/bare_bones.xml" --trunk
 expect 0 treegen --bodies 20 -o own.json
 refused 1 "--trunk-diameter: own.json is a bough document, whose radii are its own" treeconvert own.json --trunk-diameter 0.3 -o none.json
 
+# Twigs that a scan cannot see; ground that gives way, by treeconvert as by the scene.
+expect 0 treeconvert "$fixtures/archi_small.csv" --scan-radii --stats -o thin.json
+grep -q '^note  *--scan-radii: [1-9][0-9]* of [0-9]* radii made thinner' err || fail "$(cat err)"
+refused 1 "--scan-radii: own.json is a bough document, whose radii are its own" treeconvert own.json --scan-radii -o none.json
+refused 1 "--scan-radii: only with --import" treegen --scan-radii --seed 3
+expect 0 treeconvert "$fixtures/archi_small.csv" -o rigid.json
+expect 0 treeconvert "$fixtures/archi_small.csv" --root-stiffness 2000 -o soft.json
+treeprofile modes soft.json --modes 3 -q >soft.txt
+treeprofile modes rigid.json --modes 3 -q >rigid.txt
+treeprofile modes rigid.json --modes 3 -q --set material.root_stiffness=2000 >scene.txt
+cmp -s soft.txt scene.txt || fail "root_stiffness of a scene is another than treeconvert's"
+! cmp -s soft.txt rigid.txt || fail "--root-stiffness was passed over"
+refused 1 "--root-stiffness" treeconvert "$fixtures/archi_small.csv" --root-stiffness 0 -o none.json
+refused 2 "material/root_stiffness" treeprofile modes rigid.json --set material.root_stiffness=-1
+
+# Wood that cannot carry what it is drawn with says what would, and --radii carry does.
+cat >soft.swc <<'END'
+1 2 0 0 0 0.01 -1
+2 2 0 0 1 0.01 1
+3 2 3 0 1 0.001 2
+4 2 6 0 1 0.001 3
+END
+expect 0 treeconvert soft.swc --units m --up z -o soft.json
+refused 2 "times as thick would carry it: treeconvert --radii carry" treesim soft.json --frames 2 --no-output
+expect 0 treeconvert soft.swc --units m --up z --radii carry --stats -o carried.json
+grep -q -- '--radii carry: 1 of 1 branch made thicker' err || fail "$(cat err)"
+expect 0 treesim carried.json --frames 2 --no-output
+
 # What nobody can read is called by its name, whatever its content or its name says.
 refuse_as() {
     local file=$1 text=$2

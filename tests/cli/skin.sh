@@ -20,6 +20,15 @@ expect 0 treegen --import a.glb --no-source -o after.json
 same <(sed 1,4d before.json | grep -v '"name"\|"source"') <(sed 1,4d after.json | grep -v '"name"\|"source"')
 cat a.glb | treesim twig.json --frames 3 --skin - -q -o e.glb || fail "a .glb from a pipe"
 
+# Arrays that were quantized and compressed (gltfpack) move the same bones and stay as they are.
+small=$top/data/fixtures/twig_meshopt.glb
+expect 0 treesim "$small" --frames 3 -o small.glb
+grep -q "4 bones of the model moved" err || fail "a compressed model: $(cat err)"
+grep -aq '"extensionsRequired":\["KHR_mesh_quantization","EXT_meshopt_compression"\]' small.glb || fail "the model is compressed no more"
+expect 0 treegen --import "$small" --no-source -o before.json
+expect 0 treegen --import small.glb --no-source -o after.json
+same <(sed 1,4d before.json | grep -v '"name"\|"source"') <(sed 1,4d after.json | grep -v '"name"\|"source"')
+
 # In a scene the model stays at its own origin.
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig.json", "position": [30, 0, 5], "yaw": 40}], "wind": "storm"}' >one.json
 expect 0 treesim one.json --frames 5 --skin "$twig" -o scene.glb
@@ -40,4 +49,17 @@ refused 2 "cut off" "${run[@]}" --skin cut.glb -o x.glb
 refused 2 "cut off" treegen --import cut.glb
 treegen --bodies 300 -q | treeconvert - -q -o other.json
 refused 2 "expected the model that the tree was made from" treesim other.json --frames 3 --skin "$twig" -o x.glb
+# A texture beside the model that is no image.
+python3 - "$twig" <<'END'
+import json, sys
+model = json.load(open(sys.argv[1]))
+model["images"], model["textures"] = [{"uri": "bark.png"}], [{"source": 0}]
+model["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+json.dump(model, open("painted.gltf", "w"))
+END
+cp "$(dirname "$twig")/twig_bark.bin" .
+expect 0 treesim painted.gltf --frames 2 -o painted.glb
+grep -q 'image "bark.png" not put into the file' err || fail "a missing texture is not named: $(cat err)"
+echo hello >bark.png
+refused 2 'image "bark.png" is no image that can be read' treesim painted.gltf --frames 2 -o x.glb
 absent x.glb x.jsonl two.glb strict.json

@@ -1,7 +1,8 @@
 """serve.py PAGE PORT [FILE...]: PAGE's files and no others, to this machine alone (127.0.0.1), and the files that are named, for the page to open.
 
-GET and HEAD, for the names of a list made at the start: no path is ever looked up, so that nothing beside is reached. Requests that come under
-another host's name (a page elsewhere whose name was made to lead here) are refused. Prints the address.
+GET and HEAD, for the names of a list made at the start: no path is ever looked up, so that nothing beside is reached, nor by a link in PAGE that leads
+out of it. Requests that come under another host's name (a page elsewhere whose name was made to lead here) are refused, and files that have grown
+beyond LARGEST. Prints the address.
 """
 
 import http.server
@@ -26,7 +27,8 @@ def stop(text):
 
 
 def table(page, opened):
-    names = {"/" + file.name: file for file in page.iterdir() if file.is_file()}
+    folder = page.resolve()
+    names = {"/" + file.name: file for file in page.iterdir() if file.is_file() and file.resolve().parent == folder}
     if "/index.html" not in names:
         stop(f"{page}: has no index.html, expected the page")
     names["/"] = names["/index.html"]
@@ -59,9 +61,12 @@ def handler_of(names, listing):
                 content, kind = listing, TYPES[".json"]
             elif path in names:
                 try:
-                    content = names[path].read_bytes()
+                    with open(names[path], "rb") as file:
+                        content = file.read(LARGEST + 1)
                 except OSError as error:
                     return self.send_error(500, error.strerror)
+                if len(content) > LARGEST:
+                    return self.send_error(500, f"has more than {LARGEST} bytes")
                 kind = TYPES.get(names[path].suffix, "application/octet-stream")
             else:
                 return self.send_error(404)

@@ -1,5 +1,6 @@
 // Every function of bough_c.h called wrongly: a result and one line that names what is wrong, never more. (With the address sanitizer, tests/run.)
 #include "formats/c/bough_c.h"
+#include "formats/plain_text.h"
 #include "tests/support/make_tree.h"
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -438,4 +439,18 @@ TEST_CASE("a run that becomes non-finite says so at each step, and everything ca
     CHECK(bough_pick(h.simulation, from, to, 1, &hit, &found) == BOUGH_OK);
     CHECK(bough_hash(h.simulation, &hash) == BOUGH_OK);
     refused(bough_save(h.simulation, nullptr, 0, &size), BOUGH_OUTPUT, "not finite");
+}
+
+TEST_CASE("messages are valid UTF-8 in one line, whatever bytes a document has and wherever they are cut") {
+    for (const std::size_t length : {1, 40, 2000, 5000})
+        for (const char* const part : {"\xFF", "\xC3\xA9", "\xA9\n", "\xF0\x9F\x8C\xB3"}) {
+            std::string name, text = "{\"format\": \"bough-tree\", \"version\": ";
+            for (std::size_t k = 0; k < length; ++k) name += part;
+            text += name;
+            bough_tree* tree = nullptr;
+            CHECK(bough_read_tree(text.data(), text.size(), name.c_str(), &tree) == BOUGH_INPUT);
+            const std::string message = bough_error();
+            CHECK(bough::valid_utf8(message) == message);
+            CHECK(message.find('\n') == std::string::npos);
+        }
 }

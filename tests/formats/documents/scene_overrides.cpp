@@ -139,3 +139,10 @@ TEST_CASE("a scene that changes its trees' material is no scene without trees") 
         CHECK(back.damping_ratio == 0.0);
     }
 }
+
+TEST_CASE("bytes that are no text are refused, with what is") {
+    for (const std::string text : {"wind.se\xA9\xA9=7", "name=\xFF", "a\x01=1", "name=\"\x01\""})
+        CHECK_THROWS_WITH(parse_override("--set", text), Catch::Contains("expected UTF-8") && !Catch::Contains("\xA9"));
+    CHECK(with("", {"wind={\n\t\"velocity\": [1, 0, 0]}"}) == written_by_hand(R"("wind": {"velocity": [1, 0, 0]})"));
+    CHECK(with(two_trees, {"trees.0.file=\xC3\xA9.json"}).find("\xC3\xA9.json") != std::string::npos);
+}

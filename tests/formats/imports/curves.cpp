@@ -187,3 +187,12 @@ TEST_CASE("Sapling's trees: branches, length, height, radii as another reading c
         CHECK(*std::max_element(s.radius.begin(), s.radius.end()) == c.thickest);
     }
 }
+
+// Found by fuzzing: differences of coordinates beyond any double, on the way to where they are refused.
+TEST_CASE("coordinates whose differences overflow are refused") {
+    const std::string content = content_of(std::string(BOUGH_DATA_DIR) + "/../tests/fuzzing/found/far_apart.csv");
+    CHECK(!error_of(content, "far_apart.csv").empty());
+    const std::string far =
+        "spline,point,x,y,z,radius\n0,0,-1.7e308,0,0,1\n0,1,1.7e308,0,0,1\n1,0,0,0,0,1\n1,1,1,0,0,1\n";
+    CHECK(error_of(far, "far.csv").find("expected") != std::string::npos);
+}

@@ -8,6 +8,7 @@
 #include "formats/models/reader_limits.h"
 #include "tests/support/import_support.h"
 #include "tests/support/sanitized.h"
+#include <ctime>
 #include <functional>
 
 using namespace bough;
@@ -316,16 +317,70 @@ TEST_CASE("a skin has a matrix of floats for each joint, or none at all") {
             "skin 0: inverseBindMatrices (accessor 4) is \"MAT4\" of unsigned ints, expected MAT4 of floats");
 }
 
-TEST_CASE("a mesh with any array in a packed form is left out, its joints stay") {
-    for (const std::size_t packed : {position, joints, weights, indices}) {
-        INFO(packed);
-        const ModelScene scene = scene_of(changed([&](Json& j) {
-            view(j, packed)["extensions"]["EXT_meshopt_compression"] = {{"buffer", packed}, {"byteLength", 4}};
-        }));
-        CHECK(scene.mesh_encoded);
-        CHECK(scene.triangles == 0);
-        CHECK(std::count(scene.role.begin(), scene.role.end(), NodeRole::joint) == 2);
-    }
+TEST_CASE("a mesh in Draco's form is left out, its joints stay") {
+    const ModelScene scene = scene_of(changed([](Json& j) {
+        j["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+    }));
+    CHECK(scene.mesh_encoded);
+    CHECK(scene.triangles == 0);
+    CHECK(std::count(scene.role.begin(), scene.role.end(), NodeRole::joint) == 2);
+}
+
+TEST_CASE("places, materials, textures and images are there and are what they are called") {
+    const std::string nan = "0000C07F ";
+    refuses(
+        [&](Json& j) {
+            put(j, position, 5126, zero + zero + zero + one + nan + zero + one + one + one + one + one + one);
+        },
+        "mesh 0, primitive 0: POSITION: vertex 1 is not finite, expected numbers");
+    refuses(
+        [](Json& j) {
+            for (const std::size_t a : {position, joints, weights, indices}) accessor(j, a)["count"] = 0;
+        },
+        "mesh 0, primitive 0: POSITION has no vertices, expected one or more");
+    const auto with_image = [](const char* key, Json value, const std::string& uri) {
+        return [=](Json& j) {
+            j["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+            j["textures"] = {{{"source", 0}}};
+            j["images"] = {{{"uri", uri}}};
+            j["meshes"][0]["primitives"][0]["material"] = 0;
+            if (key) j[Json::json_pointer(key)] = value;
+        };
+    };
+    const std::string png = "data:image/png;base64,iVBORw0KGgo="; // a PNG's first bytes
+    reads(with_image(nullptr, {}, png));
+    refuses(with_image("/meshes/0/primitives/0/material", 1, png),
+            "mesh 0, primitive 0: material is 1, expected less than 1");
+    refuses(with_image("/materials/0/pbrMetallicRoughness/baseColorTexture/index", 3, png),
+            "material 0, baseColorTexture: index is 3, expected less than 1");
+    refuses(with_image("/textures/0/source", 1, png), "texture 0: source is 1, expected less than 1");
+    refuses(with_image(nullptr, {}, "data:image/png;base64,AAAA"),
+            "image 0 is no image that can be read, expected image/png");
+    refuses(with_image(nullptr, {}, "data:image/jpeg;base64,iVBO"),
+            "image 0 is no image that can be read, expected image/jpeg");
+}
+
+TEST_CASE("whole numbers are positions where the file says that it quantizes") {
+    // 0, 1/2, 1 and 2 as shorts of which the largest stands for 1, in a mesh that its skin's matrices make 2 units long.
+    const auto shorts = [](bool stated) {
+        return [=](Json& j) {
+            put(j, position, 5122, "00000000 00000000 00200000 00000000 00400000 00000000 FF7F0000 00000000");
+            view(j, position)["byteStride"] = 8;
+            accessor(j, position)["normalized"] = true;
+            if (stated) j["extensionsUsed"] = {"KHR_mesh_quantization"};
+            const std::string two = "00000040 ";
+            const std::string matrix = two + zero + zero + zero + zero + two + zero + zero + zero + zero + two + zero +
+                                       zero + zero + zero + one;
+            j["buffers"].push_back(buffer(matrix + matrix));
+            j["bufferViews"].push_back({{"buffer", 4}, {"byteLength", 128}});
+            j["accessors"].push_back({{"bufferView", 4}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+            j["skins"][0]["inverseBindMatrices"] = 4;
+        };
+    };
+    const double unit = 2.0 / 32767; // of a short, once it is in the world
+    reads(shorts(true), {{0, 0, 0}, {0x2000 * unit, 0.5, 0}, {0x4000 * unit, 1, 0}, {2, 1, 0}});
+    refuses(shorts(false),
+            "mesh 0, primitive 0: POSITION (accessor 0) is \"VEC3\" of normalized shorts, expected VEC3 of floats");
 }
 
 TEST_CASE("what a file names by number is there") {
@@ -335,7 +390,7 @@ TEST_CASE("what a file names by number is there") {
     refuses([](Json& j) { j["skins"][0]["joints"][1] = 3; }, "a joint of skin 0 is 3, expected less than 3");
     refuses([](Json& j) { attributes(j)["JOINTS_0"] = 4; }, "mesh 0, primitive 0: JOINTS_0 is 4, expected less than 4");
     refuses([](Json& j) { accessor(j, joints)["bufferView"] = 4; },
-            "mesh 0, primitive 0: JOINTS_0: bufferView is 4, expected less than 4");
+            "mesh 0, primitive 0: JOINTS_0 (accessor 1): bufferView is 4, expected less than 4");
     refuses([](Json& j) { j.erase("meshes"); }, "the mesh of node 2 is 0, but there is none");
     // Without scenes, what is no child is a root.
     const auto orphaned = [](int child) {
@@ -423,4 +478,44 @@ TEST_CASE("however little memory there is for a glTF file, its reader does not c
         CHECK_THAT(result.failure, !Catch::Contains("crashed"));
         if (megabytes < 100) CHECK_THAT(result.failure, Catch::Contains("needs more memory than"));
     }
+}
+
+// Twenty million points in 300 kB: one array of 10 000 points that 2 000 lines name, or 2 000 nodes whose mesh it is.
+TEST_CASE("arrays that are named over and over are refused before they take memory") {
+    const auto refused = [](int primitives, int nodes) {
+        Json json = Json::parse(
+            R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": []}], "nodes": [], "meshes": [{"primitives": []}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 10000, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 120000}]})");
+        json["buffers"] = Json::array({{{"byteLength", 120000}, {"uri", "data:," + std::string(120000, '0')}}});
+        for (int k = 0; k < primitives; ++k)
+            json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 3}});
+        for (int k = 0; k < nodes; ++k) json["nodes"].push_back({{"mesh", 0}}), json["scenes"][0]["nodes"].push_back(k);
+        ImportOptions options;
+        options.name = "many.gltf";
+        try {
+            scene_of_gltf(json.dump(), options);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(refused(2000, 1).find("named over and over") != std::string::npos);
+    CHECK(refused(1, 2000).find("named over and over") != std::string::npos);
+    CHECK(refused(100, 1).empty());
+    CHECK(refused(1, 100).empty());
+}
+
+TEST_CASE("reading many nodes takes time in proportion to their number") {
+    const auto seconds = [](int nodes) {
+        Json json = Json::parse(R"({"asset": {"version": "2.0"}, "nodes": []})");
+        for (int k = 0; k < nodes; ++k) json["nodes"].push_back({{"translation", {0, 1, 0}}});
+        const std::string text = json.dump();
+        ImportNotes notes;
+        const std::clock_t start = std::clock();
+        read_gltf(text, "nodes.gltf", "", GltfImages::leave, notes);
+        return double(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    if (sanitized) return;
+    CHECK(seconds(160000) < 12 * seconds(40000)); // 16 and more where it goes with the square
 }

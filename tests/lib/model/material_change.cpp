@@ -47,7 +47,7 @@ TEST_CASE("a changed material gives the tree that this material would have given
     cases[1].change.shear_modulus = cases[1].wanted.shear_modulus = 1e9;
     cases[2].change.density = cases[2].wanted.density = 450;
     cases[3].change.damping_ratio = cases[3].wanted.damping_ratio = 0.2;
-    cases[4].change = {2e10, 7e8, 1200, 0};
+    cases[4].change = {2e10, 7e8, 1200, 0, {}};
     cases[4].wanted.youngs_modulus = 2e10;
     cases[4].wanted.shear_modulus = 7e8;
     cases[4].wanted.density = 1200;

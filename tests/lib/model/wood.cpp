@@ -11,11 +11,14 @@ TEST_CASE("every wood preset is named once, sourced, and within the range of gre
         CHECK(names.insert(m.name).second);
         CHECK_FALSE(m.source.empty());
         CHECK_FALSE(check(m).has_value());
-        CHECK(m.density >= 800);
+        CHECK(m.density >= 750);
         CHECK(m.density <= 1000);
         CHECK(m.youngs_modulus >= 4e9);
         CHECK(m.youngs_modulus <= 12e9);
         CHECK(m.shear_modulus * 15 == Approx(m.youngs_modulus));
+        CHECK(m.strength >= 30e6); // a green modulus of rupture, about 0.005 to 0.007 of E
+        CHECK(m.strength / m.youngs_modulus >= 0.0045);
+        CHECK(m.strength / m.youngs_modulus <= 0.0085);
         CHECK(find_wood(m.name) == &m);
     }
     CHECK(names.count("black-willow") == 1);

@@ -1,0 +1,117 @@
+// wide_air.h: the air's law (laws/air.h, air_load.h) in lanes, but for leaves' own (wide_leaf.h).
+//
+// Written a second time: a kind is known for a whole group of rows, and speed and its inverse are worked out once and early for force, damping and
+// turning together; each of the scalar's functions takes a root and a quotient of its own. The lanes' tests hold the two together.
+#pragma once
+#include "../laws/air_constants.h"
+#include "../model/kind.h"
+#include "wide_pair.h"
+
+namespace bough::fast {
+inline namespace BOUGH_TARGET {
+
+template <class W> struct AirSpeed {
+    W speed, inverse;
+}; // [m/s] of the air that drags, and 1 over it, finite where it is 0
+// Of the air at velocity u past the body. Apart from air_on(), so that what does not wait for it can go in between.
+template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE AirSpeed<W> air_speed(const V3<W>& u, const M3<W>& R) {
+    V3<W> across = u;
+    if constexpr (kind == Kind::branch) across = u - dot(u, R.z) * R.z;
+    const W speed = root(dot(across, across));
+    return {speed, 1 / larger(speed, all(T(1e-30)))};
+}
+
+// 1 / fold_speed for what folds (air.h), else 0: a clump is a fruit but for that.
+template <class T> constexpr T fold_of(Kind kind) {
+    return is_foliage(kind) ? T(1 / fold_speed) : T(0);
+}
+// g
+template <class W, class T = RealOf<W>> BOUGH_FORCE W unfolded(T fold, const W& speed) {
+    return 1 / (1 + fold * speed);
+}
+
+template <class W> struct AirOn {
+    V3<W> force; // [N] with the drag of the velocity ahead
+    Symmetric<W> D;
+};
+
+// Force and damping, and onto H what a plate's moment changes by with its turning; arm: |com|.
+template <Kind kind, class W, class T = RealOf<W>>
+BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
+                            Symmetric<W>& H, const W& arm, T fold) {
+    AirOn<W> out;
+    W one = scale * s.speed, more = scale * s.inverse;
+    if constexpr (kind != Kind::branch) {
+        const W g = unfolded(fold, s.speed);
+        one = g * one;
+        more = g * g * more;
+    }
+    if constexpr (kind == Kind::leaf) {
+        const V3<W>&n = R.y, &x = R.x;
+        const W along = dot(u, n);
+        const T across = T(1 - streaming_drag), all_ways = T(streaming_drag);
+        const W s_one = all_ways * one;
+        const V3<W> dn = W(across * (one + more * along * along)) * n, du = W(all_ways * more) * u;
+        out.D = {s_one + du.x * u.x + dn.x * n.x, du.x * u.y + dn.x * n.y, du.x * u.z + dn.x * n.z,
+                 s_one + du.y * u.y + dn.y * n.y, du.y * u.z + dn.y * n.z, s_one + du.z * u.z + dn.z * n.z};
+        out.force = W(across * one * along) * n + s_one * u + out.D * ahead;
+        const V3<W> hx = W(2 * across * one * arm * s.speed) * x;
+        H = H + Symmetric<W>{hx.x * x.x, hx.x * x.y, hx.x * x.z, hx.y * x.y, hx.y * x.z, hx.z * x.z};
+    } else {
+        V3<W> across = u;
+        const V3<W>& t = R.z;
+        if constexpr (kind == Kind::branch) across = u - dot(u, t) * t;
+        const V3<W> m = more * across;
+        out.D = {one + m.x * across.x, m.x * across.y, m.x * across.z,
+                 one + m.y * across.y, m.y * across.z, one + m.z * across.z};
+        if constexpr (kind == Kind::branch) {
+            const V3<W> s_t = one * t;
+            out.D = out.D - Symmetric<W>{s_t.x * t.x, s_t.x * t.y, s_t.x * t.z, s_t.y * t.y, s_t.y * t.z, s_t.z * t.z};
+        }
+        out.force = one * across + out.D * ahead;
+    }
+    return out;
+}
+
+// streaming_stiffness; past: |u|, P: first moment of what is carried.
+template <class W, class T = RealOf<W>>
+BOUGH_FORCE Symmetric<W> streaming_stiffness(T fold, const V3<W>& P, const V3<W>& u, const W& past) {
+    const W along = past * unfolded(fold, past) * larger(dot(P, u), W{});
+    const V3<W> p = W(along / larger(dot(P, P), all(T(1e-30)))) * P;
+    return {along - p.x * P.x, -(p.x * P.y), -(p.x * P.z), along - p.y * P.y, -(p.y * P.z), along - p.z * P.z};
+}
+
+// spin_rate of foliage; folded: [m/s] g |u|.
+template <Kind kind, class W, class T = RealOf<W>>
+BOUGH_FORCE W spin_rate(const W& scale, const W& mass, const W& folded) {
+    return T(kind == Kind::leaf ? blade_turning : clump_turning) * scale / larger(mass, all(T(1e-30))) * folded;
+}
+
+// air_work_bound but for leaves' own. U: the wind's velocity, speed2 its square; relative: u.
+template <Kind kind, class W, class T = RealOf<W>>
+BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& relative) {
+    W most;
+    if constexpr (kind == Kind::leaf)
+        most = T(0.25) * root(dot(relative, relative)) * speed2;
+    else
+        most = T(4.0 / 27) * root(speed2) * speed2;
+    return h * scale * most;
+}
+
+// The force over kappa rho A in the body's own axes, and the speed that scales it (AirForce).
+template <Kind kind, class W, class T = RealOf<W>>
+BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, T fold) {
+    if constexpr (kind == Kind::branch) {
+        speed = root(W(u.x * u.x + u.y * u.y));
+        return {speed * u.x, speed * u.y, W{}};
+    } else {
+        speed = root(dot(u, u));
+        speed = unfolded(fold, speed) * speed;
+        if constexpr (kind == Kind::fruit) return speed * u;
+        const W streams = T(streaming_drag) * speed;
+        return {streams * u.x, speed * u.y, streams * u.z};
+    }
+}
+
+} // namespace BOUGH_TARGET
+} // namespace bough::fast

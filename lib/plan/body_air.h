@@ -1,0 +1,38 @@
+// body_air.h: what every solver, guard and reference asks of the air at a body of a plan: what its laws take of the body (laws/air_load.h), and the wind
+// there, with its shelter and its tree's clock. What else a wind does at a place stands in WindTable::at and wind_factor (laws/wind.h).
+#pragma once
+#include "../laws/air.h"
+#include "../laws/wind.h"
+#include "plan.h"
+
+namespace bough {
+
+// In a run's precision, or another.
+template <class Real, class T> AirBody<Real> air_body(const Plan<T>& plan, std::size_t body) {
+    return {plan.kind[body], Real(plan.drag_area[body]), Real(plan.mass[body]), plan.com[body].template cast<Real>()};
+}
+
+// Which of the wind's clocks a body's tree goes by.
+template <class T> std::size_t clock_of(const Plan<T>& plan, std::size_t body) {
+    return plan.clock.empty() ? 0 : plan.clock[body];
+}
+
+// The wind's velocity [m/s] at a body whose centre of mass is at `place` [m].
+template <class T, class Real>
+Vector3<Real> wind_on_body_at(const Plan<T>& plan, std::size_t body, const WindTable<Real>& wind,
+                              const Vector3<Real>& place) {
+    const Vector3<Real> undisturbed = wind.at(place, clock_of(plan, body));
+    return plan.shelter.empty() ? undisturbed : Vector3<Real>(Real(plan.shelter[body]) * undisturbed);
+}
+
+// What it changes by over a step, of a wind over the ground whose fields at the step's start and end these are.
+template <class T>
+Vector3<T> wind_change_on_body_at(const Plan<T>& plan, std::size_t body, const WindTable<T>& wind,
+                                  const WindField<T>& start, const WindField<T>& end, const Vector3<T>& place) {
+    const std::size_t clock = clock_of(plan, body);
+    const Vector3<T> change = end.at(place.x(), place.z(), clock) - start.at(place.x(), place.z(), clock);
+    const Vector3<T> undisturbed = wind.factor(place) * change;
+    return plan.shelter.empty() ? undisturbed : Vector3<T>(T(plan.shelter[body]) * undisturbed);
+}
+
+} // namespace bough

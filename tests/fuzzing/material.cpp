@@ -1,0 +1,9 @@
+#include "formats/documents/material.h"
+#include "fuzzing.h"
+
+using namespace bough;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    fuzzing::is_read(fuzzing::content_of(data, size), [](std::string_view content) { read_material(content, "file"); });
+    return 0;
+}

@@ -1,0 +1,10 @@
+#define main treeconvert_main
+#include "tools/treeconvert.cpp"
+#undef main
+#include "options.h"
+
+int bough::fuzzing::treeconvert_words(int argc, char** argv) {
+    Options o;
+    return read_words({{"", info, [&o](OptionList& list) { declare(list, o); }, [&o] { refuse_contradictions(o); }}},
+                      argc, argv, o.common);
+}
