@@ -154,6 +154,9 @@ TEST_CASE("a turn that grows from some way up the branch is found again: least, 
     CHECK(trunk.dual);
     for (std::size_t k = 0; k < 4; ++k) CHECK(fit.unit * trunk.at(s[k]) == Approx(model(s[k])).margin(1e-6));
     CHECK(trunk.most == Approx(1));
+    CHECK(fit.unit == Approx(0.06));
+    CHECK(trunk.least == Approx(0.01 / 0.06));
+    CHECK(trunk.shift == 0.5);
     const Json json = written(c.tree, c.groups, fit);
     CHECK(json["SimulationGroups"][0]["bUseDualInfluence"] == true);
     CHECK(json["SimulationGroups"][0]["MaxInfluence"] == 1);
