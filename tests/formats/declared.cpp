@@ -290,7 +290,7 @@ TEST_CASE("values nested a hundred thousand deep are refused or left alone, with
              {"glTF, zeros", R"({"asset":{"version":"2.0"},"nodes":)", "}"}})
         for (const std::string& content : json(before, after)) {
             INFO(what << ": " << content.substr(0, 80));
-            const std::string error = error_of([&] { reader(what)(content); });
+            const std::string error = error_of([&, named = what] { reader(named)(content); });
             CHECK(error.size() < 1000);
         }
     for (const std::string what : {"SpeedTree, spine", "SpeedTree, mesh", "Arbaro"}) {
