@@ -2,6 +2,7 @@
 #include "../base/shortest_text.h"
 #include "../laws/leaf_air.h"
 #include "../laws/wind_field.h"
+#include "../model/bending_stress.h"
 #include "carried.h"
 #include "plan_reach.h"
 #include "pose.h"
@@ -99,6 +100,15 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
                     " degrees from its spring's rest about " + "xyz"[k] + ", its limit is " + four_digits(most[k]));
         }
         plan.theta_limit.push_back(angle);
+    }
+}
+
+template <class T> void plan_stresses(Plan<T>& plan, const Tree& tree) {
+    plan.stress_of_moment.reserve(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const double radius = tree.size[i][1];
+        const bool wood = tree.kind[i] == Kind::branch && radius > 0;
+        plan.stress_of_moment.push_back(wood ? T(1 / section_modulus(radius)) : T(0));
     }
 }
 
@@ -214,8 +224,9 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.forces = plan.wind || plan.pushes();
     plan.velocity_wished = wishes.velocity;
     plan.velocity = wishes.velocity || stepper.reads_velocities(plan);
-    plan.torque = wishes.torque;
-    plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || wishes.torque || scene.fracture ||
+    plan.torque = wishes.torque || wishes.stress;
+    if (wishes.stress) plan_stresses(plan, tree);
+    plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || plan.torque || scene.fracture ||
                 !scene.balls.empty() || !scene.attachments.empty();
     plan_root_motion(plan, ranges);
     if (plan.wind) {

@@ -155,8 +155,10 @@ template <class T> void explain_arrays(const Plan<T>& plan, const Way<T>& way, s
                                  : way.fictitious ? "/fictitious"
                                  : plan.velocity  ? "output field velocity"
                                                   : "no wind, no output field velocity";
-    const std::string torque = plan.torque ? "output field torque" : "no output field torque";
-    const std::string unread = "in lanes; no poses, velocities, torques asked for";
+    const std::string torque = !plan.torque                    ? "no output field torque, no output field stress"
+                               : plan.stress_of_moment.empty() ? "output field torque"
+                                                               : "output field stress";
+    const std::string unread = "in lanes; no poses, velocities, torques, stresses asked for";
     const std::string read = plan.pose ? always : unread;
     add("theta", sizeof(Vector3<T>), plan.pose, read);
     add("theta_dot", sizeof(Vector3<T>), plan.pose, read);

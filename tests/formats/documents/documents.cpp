@@ -122,8 +122,9 @@ TEST_CASE("splines come back bit by bit from both forms") {
 
 TEST_CASE("motions come back bit by bit from all three forms") {
     Random random;
-    const MotionFields all{true, true, true, true}, pose{}, torque{false, false, true, false};
-    for (const MotionFields& fields : {all, pose, torque})
+    const MotionFields all{true, true, true, true, true}, pose{}, torque{false, false, true, false},
+        stress{false, false, false, false, true};
+    for (const MotionFields& fields : {all, pose, torque, stress})
         for (const std::int64_t frames : {0, 1, 7})
             for (const std::int64_t bodies : {0, 1, 12}) {
                 const Motion motion = random_motion(fields, bodies, frames, random);

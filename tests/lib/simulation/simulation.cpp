@@ -60,17 +60,19 @@ TEST_CASE("the door's steps are those of plan and state by hand, in both precisi
     // What is read, presented or not, and how many threads there are, change nothing.
     SimulationOptions two = with(Precision::double_);
     two.threads = 2;
-    two.velocities = two.torques = true;
+    two.velocities = two.torques = two.stresses = true;
     Simulation e(scene, two);
     for (int k = 0; k < 20; ++k) {
         e.step();
         CHECK(e.positions().size() == tree.size_bodies());
         CHECK(e.velocities().size() == tree.size_bodies());
         CHECK(e.torques().size() == tree.size_bodies());
+        CHECK(e.stresses().size() == tree.size_bodies());
     }
     CHECK(e.hash() == a.hash());
     CHECK(apart(e.positions(), a.positions()) == 0);
     CHECK(a.velocities().empty());
+    CHECK(a.stresses().empty());
     CHECK(apart(a.positions(), b.positions()) < 1e-4);
 }
 
