@@ -3,6 +3,7 @@
 #include "lib/simulation/pick.h"
 #include "wind.h"
 #include "write.h"
+#include <cstring>
 
 using namespace bough;
 using namespace bough::c;
@@ -50,7 +51,7 @@ template <class Numbers> bough_array array_of(std::span<const Numbers> values) {
     return {reinterpret_cast<const double*>(values.data()), values.size(), components, sizeof(Numbers)};
 }
 
-bough_array read(const Simulation& s, bough_field field) {
+bough_array read(const Simulation& s, std::int32_t field) {
     const auto wanted = [](bool is, const char* setting) {
         if (!is) throw WrongCall(std::string("field: is not kept; settings.") + setting + " asks for it");
     };
@@ -76,7 +77,7 @@ bough_array read(const Simulation& s, bough_field field) {
         wanted(s.options().stresses, "stresses");
         return array_of(s.stresses());
     }
-    throw WrongCall("field: is " + std::to_string(int(field)) + ", expected BOUGH_POSITION to BOUGH_STRESS");
+    throw WrongCall("field: is " + std::to_string(field) + ", expected BOUGH_POSITION to BOUGH_STRESS");
 }
 
 std::int32_t number_of(const std::string& event) {
@@ -157,7 +158,10 @@ bough_result bough_step(bough_simulation* simulation, bough_report* report) {
 bough_result bough_read(bough_simulation* simulation, bough_field field, bough_array* array) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
-        required(array, "array") = read(use->simulation, field);
+        std::int32_t number; // a caller may pass what no bough_field is
+        static_assert(sizeof field == sizeof number);
+        std::memcpy(&number, &field, sizeof number);
+        required(array, "array") = read(use->simulation, number);
     });
 }
 

@@ -352,12 +352,8 @@ private:
     static RootSpline& spline_of(Run<T>& run, const Driven& driven) { return run.plan.splines[driven.spline]; }
 
     Run<T> started() {
-        Wishes wishes;
-        wishes.velocity = options().velocities;
-        wishes.torque = options().torques;
-        wishes.stress = options().stresses;
-        wishes.pose = choice_.poses;
-        wishes.loads = options().pulls;
+        const SimulationOptions& o = options();
+        const Wishes wishes{o.velocities, o.torques, choice_.poses, o.stresses, o.pulls};
         const bool keeps = choice_.keeps_trees || has_free_bodies(assembly_->scene);
         Plan<T> plan = keeps ? plan_run<T>(*assembly_, wishes, options().step, stepper())
                              : plan_run<T>(std::move(*assembly_), wishes, options().step, stepper());

@@ -320,7 +320,7 @@ TEST_CASE("numbers out of range are refused with the number") {
     refused(blowing([](auto& w) { w.gust_period = 0; }), BOUGH_USAGE, "gust_period");
 
     bough_array a;
-    refused(bough_read(h.simulation, bough_field(7), &a), BOUGH_USAGE, "field: is 7");
+    refused(bough_read(h.simulation, bough_field(8), &a), BOUGH_USAGE, "field: is 8");
     refused(bough_read(h.simulation, BOUGH_VELOCITY, &a), BOUGH_USAGE, "settings.velocities");
     refused(bough_read(h.simulation, BOUGH_ANGULAR_VELOCITY, &a), BOUGH_USAGE, "settings.velocities");
     refused(bough_read(h.simulation, BOUGH_TORQUE, &a), BOUGH_USAGE, "settings.torques");
