@@ -10,11 +10,15 @@ namespace {
 struct Look { // what all vertices of a part have
     std::size_t uv = 0;
     bool color = false, bytes = true; // bytes: all colours within 0..1
+    bool tangent = false;             // all have one, and a normal map to take it
 };
 
 Look look_of(const OwnMesh& mesh, const OwnPart& part) {
     Look look;
+    look.tangent = part.material >= 0 && std::size_t(part.material) < mesh.material.size() &&
+                   mesh.material[std::size_t(part.material)].find("\"normalTexture\"") != std::string::npos;
     const auto add = [&](const OwnSurface& s) {
+        look.tangent &= s.tangent.size() == s.position.size();
         look.uv = std::max(look.uv, s.uv.size());
         look.color |= !s.color.empty();
         for (const auto& color : s.color)
@@ -117,6 +121,12 @@ std::string primitive(GltfFile& file, const OwnMesh& mesh, const OwnPart& part, 
                     to.add_all(p.x(), p.y(), p.z());
                 });
             });
+    if (look.tangent)
+        text += ",\"TANGENT\":" + add(16, GltfType::f32, "VEC4", [&mesh, &part](GltfBytes& to) {
+                    each_vertex(mesh, part, [&](const OwnSurface& from, std::size_t v, const OwnPlace* place) {
+                        for (const float t : tangent_of(from, v, place)) to.add(t);
+                    });
+                });
     for (std::size_t s = 0; s < look.uv; ++s)
         text += ",\"TEXCOORD_" + std::to_string(s) +
                 "\":" + add(8, GltfType::f32, "VEC2", [&mesh, &part, s](GltfBytes& to) {

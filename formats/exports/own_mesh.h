@@ -13,6 +13,7 @@ namespace bough {
 
 struct OwnSurface {
     std::vector<Eigen::Vector3f> position, normal;     // [m], unit; a shape's in its own frame
+    std::vector<std::array<float, 4>> tangent;         // or empty: unit, and the sign of the binormal (glTF's TANGENT)
     std::vector<std::vector<std::array<float, 2>>> uv; // sets; v from the top of an image down, as glTF has it
     std::vector<std::array<float, 4>> color;           // or empty
     std::vector<std::array<std::int32_t, 3>> triangle;
@@ -64,6 +65,13 @@ template <class Take> void each_vertex(const OwnMesh& mesh, const OwnPart& part,
 inline Eigen::Vector3f position_of(const OwnSurface& surface, std::size_t v, const OwnPlace* place) {
     if (!place) return surface.position[v];
     return place->turn * surface.position[v] + place->place;
+}
+// Where the surface has some.
+inline std::array<float, 4> tangent_of(const OwnSurface& surface, std::size_t v, const OwnPlace* place) {
+    const std::array<float, 4>& from = surface.tangent[v];
+    if (!place) return from;
+    const Eigen::Vector3f t = (place->turn * Eigen::Vector3f(from[0], from[1], from[2])).normalized();
+    return {t.x(), t.y(), t.z(), from[3]};
 }
 // Placed shapes are scaled alike in all directions.
 inline Eigen::Vector3f normal_of(const OwnSurface& surface, std::size_t v, const OwnPlace* place) {

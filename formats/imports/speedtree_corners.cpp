@@ -48,14 +48,18 @@ Records read_records(const pugi::xml_node& vertices, std::size_t points, const I
     if (!vertices) return records;
     const char* const axis[] = {"X", "Y", "Z"};
     const char* const channel[] = {"R", "G", "B", "A"};
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
         records.normal[k] = list_of(vertices, std::string("Normal") + axis[k], records.count, f);
+        records.tangent[k] = list_of(vertices, std::string("Tangent") + axis[k], records.count, f);
+        records.binormal[k] = list_of(vertices, std::string("Binormal") + axis[k], records.count, f);
+    }
     for (int k = 0; k < 4; ++k)
         records.color[k] = list_of(vertices, std::string("VertexColor") + channel[k], records.count, f);
-    for (int k = 1; k < 3; ++k)
-        if (records.normal[k].empty() != records.normal[0].empty() ||
-            records.color[k].empty() != records.color[0].empty())
-            f.refuse(vertices, "has some components of Normal or VertexColor and not the others");
+    for (const auto* list : {records.normal, records.tangent, records.binormal, records.color})
+        for (int k = 1; k < 3; ++k)
+            if (list[k].empty() != list[0].empty())
+                f.refuse(vertices,
+                         "has some components of Normal, Tangent, Binormal or VertexColor and not the others");
     read_uv(vertices, f, records);
     if (!vertices.child("BoneID")) return records;
     const std::vector<std::int64_t> ids = f.integers(vertices, "BoneID");
@@ -104,7 +108,12 @@ Surface surface_of(const std::vector<Eigen::Vector3f>& points, const Records& re
     // Of a point's records most often one or two: a list a point, in the order of their vertices.
     std::vector<std::int32_t> first(points.size(), -1), next, record_of;
     const Eigen::Matrix3f turn = linear.inverse().transpose().cast<float>();
+    const Eigen::Matrix3f along = linear.cast<float>();
     const bool mirrored = linear.determinant() < 0;
+    const bool tangents = !records.normal[0].empty() && !records.tangent[0].empty() && !records.binormal[0].empty();
+    const auto vector = [](const std::vector<float>(&list)[3], std::int32_t r) {
+        return Eigen::Vector3f(list[0][r], list[1][r], list[2][r]);
+    };
     const auto vertex_of = [&](std::size_t k) {
         const std::int32_t p = corners.point[k], r = record_at(corners, k);
         std::int32_t* at = &first[p];
@@ -117,10 +126,16 @@ Surface surface_of(const std::vector<Eigen::Vector3f>& points, const Records& re
         record_of.push_back(r);
         made.position.push_back(points[p]);
         if (!records.normal[0].empty()) {
-            const Eigen::Vector3f n =
-                turn * Eigen::Vector3f(records.normal[0][r], records.normal[1][r], records.normal[2][r]);
+            const Eigen::Vector3f n = turn * vector(records.normal, r);
             made.normal.push_back(n.squaredNorm() > 0 ? Eigen::Vector3f(n.normalized())
                                                       : Eigen::Vector3f(Eigen::Vector3f::UnitY()));
+        }
+        if (tangents) {
+            const Eigen::Vector3f t = along * vector(records.tangent, r), b = along * vector(records.binormal, r);
+            const float way = made.normal.back().cross(t).dot(b) < 0 ? -1.0f : 1.0f;
+            const Eigen::Vector3f unit = t.squaredNorm() > 0 ? Eigen::Vector3f(t.normalized())
+                                                             : Eigen::Vector3f(made.normal.back().unitOrthogonal());
+            made.tangent.push_back({unit.x(), unit.y(), unit.z(), way});
         }
         for (std::size_t s = 0; s < records.uv.size(); ++s)
             made.uv[s].push_back({records.uv[s][0][r], records.uv[s][1][r]});

@@ -12,7 +12,7 @@ using IndexOf = std::unordered_map<std::int64_t, std::int32_t>; // of an ID
 // The vertex records of an element: what of each is given.
 struct Records {
     std::size_t count = 0;
-    std::vector<float> normal[3], color[4];
+    std::vector<float> normal[3], tangent[3], binormal[3], color[4];
     std::vector<std::array<std::vector<float>, 2>> uv;
     std::vector<std::int32_t> bone; // indices
 };
@@ -26,8 +26,8 @@ struct Corners {
     std::vector<std::int32_t> point, record; // record: empty where records go with points
 };
 
-// One vertex for each pair that differs. Gives normals and colours as the records have them, normals of unit length; of those without
-// a bone that of their piece. `linear`: of normals; a mirror turns the triangles.
+// One vertex for each pair that differs. Gives normals, tangents and colours as the records have them, normals and tangents of unit length; of those
+// without a bone that of their piece. `linear`: of normals and tangents; a mirror turns the triangles.
 Surface surface_of(const std::vector<Eigen::Vector3f>& points, const Records&, const Corners&, const Mat3& linear);
 
 // The bone of most records of each connected piece, for those that have none. Pieces are joined by points.

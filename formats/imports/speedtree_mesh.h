@@ -7,7 +7,7 @@
 // bottom of an image to its top: so read, images lie unmirrored on the bark that SpeedTree makes (tests/formats/models/speedtree_model.cpp).
 // A vertex without a bone (BoneID -1) has that of most vertices of the piece of surface it is on, if they have one: a merged export
 // tells its branches apart by that alone.
-// Left out: binormals and tangents (glTF's readers make them of normals and UV), AO, Blend, wind.
+// Left out: AO, Blend, wind.
 #pragma once
 #include "speedtree_xml.h"
 #include <Eigen/Geometry>
@@ -32,9 +32,11 @@ struct MeshMaterial {
 
 // Vertices and triangles of one material.
 struct Surface {
-    std::int32_t material = -1;                        // index, -1: the file names none
-    std::int32_t object = -1;                          // of objects: index
-    std::vector<Eigen::Vector3f> position, normal;     // normal: unit, or empty: the file has none
+    std::int32_t material = -1;                    // index, -1: the file names none
+    std::int32_t object = -1;                      // of objects: index
+    std::vector<Eigen::Vector3f> position, normal; // normal: unit, or empty: the file has none
+    std::vector<std::array<float, 4>>
+        tangent; // unit, along u; then the sign that makes normal x tangent the binormal; or empty
     std::vector<std::vector<std::array<float, 2>>> uv; // sets
     std::vector<std::array<float, 4>> color;           // or empty
     std::vector<std::int32_t> bone;                    // index, -1: none

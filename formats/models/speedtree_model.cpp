@@ -105,6 +105,7 @@ OwnSurface own_surface(Surface&& from) {
     OwnSurface made;
     made.position = std::move(from.position);
     made.normal = std::move(from.normal);
+    made.tangent = std::move(from.tangent);
     made.uv = std::move(from.uv);
     for (auto& set : made.uv)
         for (auto& [u, v] : set) v = 1 - v;
@@ -132,6 +133,11 @@ void append(OwnSurface& to, OwnSurface&& more) {
     for (std::size_t s = 0; s < sets; ++s) append(to.uv[s], std::move(more.uv[s]));
     if (to.color.empty() != more.color.empty() && before > 0)
         (to.color.empty() ? to : more).color.assign(to.color.empty() ? before : added, {1, 1, 1, 1});
+    if (to.tangent.size() != before || more.tangent.size() != added) { // all have some, or none has
+        to.tangent.clear();
+        more.tangent.clear();
+    }
+    append(to.tangent, std::move(more.tangent));
     append(to.color, std::move(more.color));
     append(to.position, std::move(more.position));
     append(to.normal, std::move(more.normal));
@@ -183,6 +189,7 @@ private:
             if (moved) {
                 from.position[v] = (place_ * Vec3(from.position[v].cast<double>())).cast<float>();
                 from.normal[v] = (place_.linear() * from.normal[v].cast<double>()).cast<float>();
+                if (!from.tangent.empty()) from.tangent[v] = turned(from.tangent[v]);
             }
             std::int32_t chain = bone[v] < 0 ? -1 : chains_.of_bone[std::size_t(bone[v])];
             if (chain < 0) chain = beside;
@@ -191,6 +198,11 @@ private:
             to.second.push_back(to_wood.weight);
         }
         append(to.standing, std::move(from));
+    }
+
+    std::array<float, 4> turned(const std::array<float, 4>& tangent) const {
+        const Vec3 t = place_.linear() * Vec3(tangent[0], tangent[1], tangent[2]);
+        return {float(t.x()), float(t.y()), float(t.z()), tangent[3]};
     }
 
     // The leaf bodies of the references, -1: none. Both stand in the order of the file.

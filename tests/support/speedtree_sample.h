@@ -30,7 +30,7 @@ struct Tube {
 };
 
 inline std::string object(int id, int parent, const Tube& tube, const std::vector<int>& bone_of_ring, bool spine) {
-    std::vector<double> p[3], n[3], u, v, bone;
+    std::vector<double> p[3], n[3], t[3], b[3], u, v, bone; // t: along u, b: along v
     const auto put = [&](std::vector<double>* to, double x, double y, double z) {
         to[0].push_back(tube.level ? z : x), to[1].push_back(y), to[2].push_back(tube.level ? -x : z);
     };
@@ -39,6 +39,8 @@ inline std::string object(int id, int parent, const Tube& tube, const std::vecto
             const double a = 2 * std::numbers::pi * s / tube.sides, z = tube.length * r / (tube.rings - 1);
             if (s < tube.sides) put(p, tube.radius * std::cos(a), tube.radius * std::sin(a), z);
             put(n, std::cos(a), std::sin(a), 0);
+            put(t, -std::sin(a), std::cos(a), 0);
+            put(b, 0, 0, 1);
             u.push_back(double(s) / tube.sides);
             v.push_back(z);
             bone.push_back(bone_of_ring[std::size_t(r)]);
@@ -61,9 +63,10 @@ inline std::string object(int id, int parent, const Tube& tube, const std::vecto
     text << "<Object ID=\"" << id << "\" ParentID=\"" << parent << "\" Name=\"o\" AbsX=\"" << tube.from[0]
          << "\" AbsY=\"" << tube.from[1] << "\" AbsZ=\"" << tube.from[2] << "\">\n<Points>" << list("X", p[0])
          << list("Y", p[1]) << list("Z", p[2]) << "</Points>\n<Vertices>" << list("NormalX", n[0])
-         << list("NormalY", n[1]) << list("NormalZ", n[2]) << list("TexcoordU", u) << list("TexcoordV", v)
-         << list("VertexColorR", std::vector<double>(u.size(), 0.5)) << list("VertexColorG", u)
-         << list("VertexColorB", std::vector<double>(u.size(), 0.25)) << list("BoneID", bone)
+         << list("NormalY", n[1]) << list("NormalZ", n[2]) << list("TangentX", t[0]) << list("TangentY", t[1])
+         << list("TangentZ", t[2]) << list("BinormalX", b[0]) << list("BinormalY", b[1]) << list("BinormalZ", b[2])
+         << list("TexcoordU", u) << list("TexcoordV", v) << list("VertexColorR", std::vector<double>(u.size(), 0.5))
+         << list("VertexColorG", u) << list("VertexColorB", std::vector<double>(u.size(), 0.25)) << list("BoneID", bone)
          << "</Vertices>\n<Triangles Material=\"7\"><PointIndices>" << points.str() << "</PointIndices><VertexIndices>"
          << vertices.str() << "</VertexIndices></Triangles>\n";
     if (spine) {

@@ -24,12 +24,15 @@ struct Shown {
     std::vector<std::string> notes;
 };
 
-Shown shown_of(const std::string& content, const Eigen::Affine3d& place = Eigen::Affine3d::Identity()) {
+// stands: the tree where it was put, null where an import puts it.
+Shown shown_of(const std::string& content, const Eigen::Affine3d& place = Eigen::Affine3d::Identity(),
+               const Tree* stands = nullptr) {
     Shown made;
     ImportNotes found, notes;
     ImportOptions options;
     options.name = "t.xml";
     made.tree = segment(import_splines(content, options, found), wood_presets().front(), {});
+    if (stands) made.tree = *stands;
     SpeedtreeModel model = read_speedtree_model(content, "t.xml", found, notes);
     made.notes = notes.lines;
     made.mesh = bound_to(std::move(model), made.tree, place, made.notes);
@@ -384,5 +387,48 @@ TEST_CASE("The vertices of a mesh of its own, some at a time, are those of its s
                 mover.positions(first, some);
                 REQUIRE(std::memcmp(some.data(), position.data() + first, some.size() * sizeof(Vec3)) == 0);
             }
+    }
+}
+
+TEST_CASE("Tangents of the file stand where a normal map takes them: along u, and normal x tangent along v") {
+    for (const bool turned : {false, true}) {
+        Eigen::Affine3d place = Eigen::Affine3d::Identity();
+        if (turned) place = Eigen::Translation3d(3, 0, -2) * Eigen::AngleAxisd(0.7, Vec3::UnitY());
+        Shown shown = shown_of(speedtree_sample::file({}, "", speedtree_sample::references(1)));
+        if (turned) { // where a scene puts the tree, it puts its mesh
+            Tree moved;
+            append(moved, shown.tree, Vec3(3, 0, -2), 0.7);
+            shown = shown_of(speedtree_sample::file({}, "", speedtree_sample::references(1)), place, &moved);
+        }
+        CHECK(glb_of(shown).find("TANGENT") == std::string::npos); // no normal map
+        for (std::string& material : shown.mesh.material) material.insert(1, "\"normalTexture\":{\"index\":0},");
+        const gltf_reader::Glb glb = gltf_reader::parse(glb_of(shown));
+        std::size_t seen = 0;
+        for (const auto& primitive : glb.json["meshes"][0]["primitives"]) {
+            const auto& attributes = primitive["attributes"];
+            if (!attributes.contains("TANGENT")) continue; // the twig's mesh has none
+            const auto of = [&](const char* name) { return gltf_reader::numbers(glb, attributes[name]); };
+            const std::vector<double> p = of("POSITION"), n = of("NORMAL"), t = of("TANGENT"), uv = of("TEXCOORD_0"),
+                                      corner = gltf_reader::numbers(glb, primitive["indices"]);
+            for (std::size_t k = 0; k < corner.size(); k += 3) {
+                const auto at = [&](const std::vector<double>& from, std::size_t c) {
+                    return Vec3(from[3 * c], from[3 * c + 1], from[3 * c + 2]);
+                };
+                const std::size_t a = std::size_t(corner[k]), b = std::size_t(corner[k + 1]),
+                                  c = std::size_t(corner[k + 2]);
+                const Vec3 e1 = at(p, b) - at(p, a), e2 = at(p, c) - at(p, a);
+                const double u1 = uv[2 * b] - uv[2 * a], u2 = uv[2 * c] - uv[2 * a], v1 = uv[2 * a + 1] - uv[2 * b + 1],
+                             v2 = uv[2 * a + 1] - uv[2 * c + 1]; // v up, as a normal map's green is
+                const double area = u1 * v2 - u2 * v1;
+                const Vec3 along_u = (e1 * v2 - e2 * v1) / area, along_v = (e2 * u1 - e1 * u2) / area;
+                const Vec3 tangent(t[4 * a], t[4 * a + 1], t[4 * a + 2]);
+                CHECK(tangent.norm() == Approx(1).margin(1e-6));
+                CHECK(std::abs(t[4 * a + 3]) == 1);
+                CHECK(tangent.dot(along_u.normalized()) > 0.96);
+                CHECK((at(n, a).cross(tangent) * t[4 * a + 3]).dot(along_v.normalized()) > 0.96);
+                ++seen;
+            }
+        }
+        CHECK(seen > 1000);
     }
 }
