@@ -34,6 +34,10 @@ template <class T> struct Way {
     }
 };
 
+template <class T> bool pulls(const Plan<T>& plan) {
+    return !plan.pulls.empty() || !plan.followers.empty();
+}
+
 // What loads the bodies: the parts of the scene that do, or that none does.
 template <class T> std::string forces_text(const Plan<T>& plan) {
     std::string text;
@@ -42,7 +46,7 @@ template <class T> std::string forces_text(const Plan<T>& plan) {
     };
     add(plan.wind, "/wind");
     add(plan.wind && plan.leaf.on, "/leaves");
-    add(!plan.pulls.empty(), "/pulls");
+    add(pulls(plan), "/pulls");
     add(plan.contact && !plan.scene.balls.empty(), "/balls");
     add(plan.contact && plan.scene.fracture.has_value(), "/fracture");
     add(!plan.scene.walkers.empty(), "/walkers");
@@ -102,8 +106,11 @@ template <class T> void explain_stages(const Plan<T>& plan, const Way<T>& way, s
         plain     ? "every scene" + (plan.forces ? "; " + forces : "")
         : coupled ? fused
                   : solver);
-    const bool held = coupled && !plan.attachments.empty();
-    add(Stage::attachments, held, held ? "/attachments" : "no attachments");
+    const bool held = coupled && !plan.attachments.empty(), pulled = coupled && pulls(plan);
+    add(Stage::attachments, held || pulled,
+        held     ? pulled ? "/attachments, /pulls" : "/attachments"
+        : pulled ? "/pulls"
+                 : "no attachments, no pulls");
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, lanes,
         lanes
