@@ -335,6 +335,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.pulls.push_back(pull);
     pull.on = {};
     pull.on.body = 57;
+    pull.in_body = true;
     scene.pulls.push_back(pull);
     scene.attachments.resize(2);
     scene.attachments[0].on = pull.on;
@@ -428,6 +429,7 @@ TEST_CASE("scenes come back from both forms") {
         CHECK((read.contact->friction == 0.1 && read.contact->penalty == 20 && read.contact->ground_height == -1.5));
         CHECK((!read.contact->trees && read.contact->leaves && !read.contact->ground));
         REQUIRE(read.pulls.size() == 4);
+        CHECK((!read.pulls[0].in_body && read.pulls[3].in_body));
         CHECK(same(read.pulls[0].time, pull.time));
         CHECK(same(read.pulls[0].force, pull.force));
         CHECK(read.pulls[0].on.by == Selector::By::branch);
