@@ -82,13 +82,15 @@ using ComplexMat3 = Eigen::Matrix3cd;
 
 // A pull of the scene's (pulled_points.h).
 struct PulledPoint : AttachedEnd {
-    std::size_t source = 0; // index into Scene::pulls
+    std::size_t source = 0; // index into Scene::pulls; or of_caller: State::loads of this step
     bool turns = false;     // Pull::in_body
     // Of the step:
     bool on = false;
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero(); // [N], [N m] about the joint, at y*
     double work = 0;                                  // [J] done on the tree
 };
+
+constexpr std::size_t of_caller = ~std::size_t(0);
 
 // What the sweeps cannot eliminate (attachment_ties.h): an attachment between two bodies, a point.
 struct Tie {
@@ -112,7 +114,8 @@ struct Attachments {
     std::vector<Attached> all;
     std::vector<AttachedBody> bodies; // rising
     std::uint64_t numbers = 0;        // given so far
-    std::vector<PulledPoint> pulled;
+    std::vector<PulledPoint> pulled;  // the plan's, then the caller's
+    std::vector<std::size_t> touched; // find_bodies' own
 
     // With ties alone.
     std::vector<Tie> ties;

@@ -11,6 +11,7 @@
 #include "half_turn.h"
 #include "midpoint.h"
 #include "own_inertia.h"
+#include "pulled_points.h"
 #include "sleep.h"
 #include <algorithm>
 
@@ -273,6 +274,7 @@ void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Sta
         return;
     }
     SweepFlags flags;
+    if (take_loads(plan, state, work.attachments)) place_attached_rows(own, work);
     if (work.attachments.any())
         run_stage(Stage::attachments, state, clock, [&] {
             if (plan.root_motion) ground_over_step(plan, own, work, time);

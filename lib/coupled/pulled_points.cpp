@@ -1,5 +1,6 @@
 #include "pulled_points.h"
 #include "../plan/pushes.h"
+#include "attachment.h"
 #include "attachment_paths.h"
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,37 @@ void turn_with(AttachedBody& b, const Vec3& P, const Vec3& f, double w) {
 
 } // namespace
 
+template <class T> bool take_loads(const Plan<T>& plan, const State<T>& state, Attachments& a) {
+    if (!plan.loads || plan.contact || !plan.scene.walkers.empty()) return false;
+    const std::size_t first = std::size_t(
+        std::find_if(a.pulled.begin(), a.pulled.end(), [](const PulledPoint& p) { return p.source == of_caller; }) -
+        a.pulled.begin());
+    const auto of = [](const Load<T>& load) {
+        PulledPoint point{};
+        point.body = load.body;
+        point.point_b = load.point_b.template cast<double>();
+        point.source = of_caller;
+        point.force = load.force.template cast<double>();
+        return point;
+    };
+    bool same = a.pulled.size() == first + state.loads.size();
+    for (std::size_t k = 0; same && k < state.loads.size(); ++k) same = a.pulled[first + k].body == state.loads[k].body;
+    if (same) {
+        for (std::size_t k = 0; k < state.loads.size(); ++k) {
+            const std::size_t at = a.pulled[first + k].at;
+            a.pulled[first + k] = of(state.loads[k]);
+            a.pulled[first + k].at = at;
+        }
+        return false;
+    }
+    a.pulled.resize(first);
+    for (const Load<T>& load : state.loads) a.pulled.push_back(of(load));
+    find_bodies(plan, a);
+    return true;
+}
+
 template <class T> void place_pull(const Plan<T>& plan, Attachments& a, PulledPoint& point, double time) {
+    if (point.source == of_caller) return;
     const Pull& pull = plan.scene.pulls[point.source];
     const double h = plan.dt;
     AttachedBody& b = a.bodies[point.at];
@@ -78,6 +109,8 @@ template <class T> void add_directions(const Plan<T>& plan, Attachments& a) {
     }
 }
 
+template bool take_loads(const Plan<float>&, const State<float>&, Attachments&);
+template bool take_loads(const Plan<double>&, const State<double>&, Attachments&);
 template void place_pull(const Plan<float>&, Attachments&, PulledPoint&, double);
 template void place_pull(const Plan<double>&, Attachments&, PulledPoint&, double);
 template void add_directions(const Plan<float>&, Attachments&);

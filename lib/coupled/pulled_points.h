@@ -19,6 +19,10 @@
 
 namespace bough {
 
+// The caller's forces (State::loads, where nothing else brings some: contacts and walkers push for a moment) among them, before place_attachments.
+// True: on other bodies than before.
+template <class T> bool take_loads(const Plan<T>&, const State<T>&, Attachments&);
+
 // The force of the step from `time`; of one that turns all that it adds but what its body's turning makes of it. (The others' are body_load.h's.)
 // Needs AttachedEnd::rho. O(1).
 template <class T> void place_pull(const Plan<T>&, Attachments&, PulledPoint&, double time);

@@ -103,7 +103,7 @@ struct Pull {
     Selector on;
     std::vector<double> time; // [s] rising
     std::vector<Vec3> force;  // [N] one per time: world, or
-    bool in_body = false;     // in the body's axes, with which it turns; for the coupled solver (coupled/pulled_points.h)
+    bool in_body = false; // in the body's axes, with which it turns; for the coupled solver (coupled/pulled_points.h)
 };
 
 // A spring and a damper between a point of a body and a point in space, which may move: a hand, a rope, a prop, a wire. Force on the body

@@ -228,7 +228,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.velocity = wishes.velocity || stepper.reads_velocities(plan);
     plan.torque = wishes.torque;
     plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || wishes.torque || scene.fracture ||
-                !scene.balls.empty() || !scene.attachments.empty() || !scene.pulls.empty();
+                !scene.balls.empty() || !scene.attachments.empty() || !scene.pulls.empty() || wishes.loads;
     plan_root_motion(plan, ranges);
     if (plan.wind) {
         const WindReach reach = reach_of(plan, tree);
