@@ -4,6 +4,7 @@
 #include "../coupled/attachment.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
+#include "../free/world_step.h"
 #include "../lanes/plan_lanes.h"
 #include "../plan/change.h"
 #include "../plan/expand.h"
