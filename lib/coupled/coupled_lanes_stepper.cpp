@@ -3,6 +3,7 @@
 #include "../lanes/lane_motion.h"
 #include "../lanes/plan_lanes.h"
 #include "../plan/state_update.h"
+#include "allocate_coupled.h"
 #include "attachment.h"
 #include "attachment_lanes.h"
 #include "coupled_lanes_step.h"
