@@ -39,6 +39,7 @@ struct PlannedAttachment {
     std::size_t body;
     Vec3 point_b;                        // [m] body frame
     std::size_t source;                  // index into Scene::attachments
+    std::optional<Selected> far;         // of one with another body
     std::optional<QuinticSpline> course; // [m] of a target that moves
 };
 
@@ -86,8 +87,9 @@ template <class T> struct Plan {
     std::vector<double> clocks{0};    // [s] by how much the wind's clocks are ahead (wind_field.h)
     std::vector<std::uint32_t> clock; // which of them each body's tree goes by; empty: all by the first
 
-    std::vector<PlannedPull<T>> pulls;
+    std::vector<PlannedPull<T>> pulls, followers; // in the world's axes; in the body's (Pull::in_body)
     std::vector<PlannedAttachment> attachments;
+    bool pairs = false; // some of them with another body
 };
 
 // Of what goes by itself (lib/free): what the scene names of it, as a JSON pointer, or null; whether there is any; whether free bodies may

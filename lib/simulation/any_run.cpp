@@ -72,10 +72,9 @@ public:
             advance(nullptr);
             report.non_finite = non_finite();
         }
-        const StepFlags& now = run_.state.flags;
-        report.fast_turns = now.fast_turns - before.fast_turns;
-        report.guarded = now.energy_guard - before.energy_guard;
-        report.limited = now.limited - before.limited;
+        report.fast_turns = run_.state.flags.fast_turns - before.fast_turns;
+        report.guarded = run_.state.flags.energy_guard - before.energy_guard;
+        report.limited = run_.state.flags.limited - before.limited;
         for (const std::string& what : run_.world.events.what)
             ++(what == "broke" ? report.broke : what == "hit" ? report.hits : report.landed);
         if (!report.finite()) broken_ = report;

@@ -336,6 +336,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.pulls.push_back(pull);
     pull.on = {};
     pull.on.body = 57;
+    pull.in_body = true;
     scene.pulls.push_back(pull);
     scene.attachments.resize(2);
     scene.attachments[0].on = pull.on;
@@ -344,6 +345,10 @@ TEST_CASE("scenes come back from both forms") {
     scene.attachments[0].from = 0.1 / 3;
     scene.attachments[0].to = 2.5;
     scene.attachments[1].on = pull.on;
+    scene.attachments[1].with = Selector();
+    scene.attachments[1].with->tree = 0;
+    scene.attachments[1].with->body = 1;
+    scene.attachments[1].with->point = random.vector();
     scene.attachments[1].time = {0, 0.7, 1 / 0.7};
     scene.attachments[1].position = {random.vector(), random.vector(), random.vector()};
     scene.attachments[1].damping = 0.7;
@@ -425,6 +430,7 @@ TEST_CASE("scenes come back from both forms") {
         CHECK((read.contact->friction == 0.1 && read.contact->penalty == 20 && read.contact->ground_height == -1.5));
         CHECK((!read.contact->trees && read.contact->leaves && !read.contact->ground));
         REQUIRE(read.pulls.size() == 4);
+        CHECK((!read.pulls[0].in_body && read.pulls[3].in_body));
         CHECK(same(read.pulls[0].time, pull.time));
         CHECK(same(read.pulls[0].force, pull.force));
         CHECK(read.pulls[0].on.by == Selector::By::branch);
@@ -441,6 +447,10 @@ TEST_CASE("scenes come back from both forms") {
         for (std::size_t k = 0; k < 2; ++k) {
             const Attachment &found = read.attachments[k], &written = scene.attachments[k];
             CHECK(found.on.body == 57);
+            REQUIRE(found.with.has_value() == written.with.has_value());
+            if (written.with)
+                CHECK(
+                    (found.with->tree == 0 && found.with->body == 1 && same(*found.with->point, *written.with->point)));
             CHECK(found.target.has_value() == written.target.has_value());
             if (written.target) CHECK(same(*found.target, *written.target));
             CHECK(same(found.time, written.time));
