@@ -4,11 +4,12 @@ import * as basics from './basics.mjs';
 import { openBrowser } from './browser.mjs';
 import * as files from './files.mjs';
 import * as measures from './measures.mjs';
+import * as promises from './promises.mjs';
 import * as scenes from './scenes.mjs';
 
 const { BOUGH_LIVE_URL: url, BOUGH_LIVE_PAGE: folder, BOUGH_TOP: top, BOUGH_WORK: work, BOUGH_TOOLS: tools } = process.env;
 const { calm: _, ...of_basics } = basics;
-const tests = { ...of_basics, ...scenes, ...files, ...measures };
+const tests = { ...of_basics, ...scenes, ...promises, ...files, ...measures };
 const short = ['opens_and_moves', 'pulled_by_mouse', 'the_page_is_small'];
 const asked = process.argv.slice(2);
 const names = asked[0] === 'short' ? short : asked[0] === 'all' || asked.length === 0 ? Object.keys(tests) : asked;
