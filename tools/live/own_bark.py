@@ -73,15 +73,15 @@ class Bark:
                     self.triangles += [a, a + 1, b + 1, a, b + 1, b]
 
     def write(self, to):
-        def lists(parent, names, rows, digits):
+        def lists(parent, names, rows, decimals):
             for name, column in zip(names, zip(*rows)):
-                xml.SubElement(parent, name).text = " ".join(f"{value:.{digits}g}" for value in column)
+                xml.SubElement(parent, name).text = " ".join(f"{round(value, decimals) + 0:g}" for value in column)
 
         count = str(len(self.points))
-        lists(xml.SubElement(to, "Points", Count=count), "XYZ", self.points, 6)
+        lists(xml.SubElement(to, "Points", Count=count), "XYZ", self.points, 2)  # cm
         vertices = xml.SubElement(to, "Vertices", Count=count)
-        lists(vertices, ["NormalX", "NormalY", "NormalZ"], self.normals, 3)
-        lists(vertices, ["TexcoordU", "TexcoordV"], self.uvs, 4)
+        lists(vertices, ["NormalX", "NormalY", "NormalZ"], self.normals, 2)
+        lists(vertices, ["TexcoordU", "TexcoordV"], self.uvs, 3)
         lists(vertices, ["VertexColorR", "VertexColorG", "VertexColorB"], self.colors, 2)
         xml.SubElement(vertices, "BoneID").text = " ".join(map(str, self.bones))
         triangles = xml.SubElement(to, "Triangles", Material="0", Count=str(len(self.triangles) // 3))
