@@ -34,7 +34,7 @@ export const builtins = {
         wind: wind(5, 0.15, 1.5, 6),
     },
     young_maple: {
-        label: 'Young maple (SpeedTree XML)',
+        label: 'Young maple (XML)',
         trees: [youngMaple], places: [at(0, 0, 0)], wind: wind(6, 0.2, 1.5, 5),
     },
 };
