@@ -1,4 +1,4 @@
-// played.js: what the pages that play our files share: OBJ frames, distances, what was found as JSON in <pre>, a picture.
+// played.js: what the pages that play our files share: OBJ frames, skinned vertices, distances, what was found as JSON in <pre>, a picture.
 import * as THREE from 'three';
 
 export const query = new URLSearchParams(location.search);
@@ -25,6 +25,19 @@ export function farthest(a, b) {
     for (let i = 0; i < a.length; i += 3)
         most = Math.max(most, Math.hypot(a[i] - b[i], a[i + 1] - b[i + 1], a[i + 2] - b[i + 2]));
     return most;
+}
+
+// Vertices of all skinned meshes in the file's order, in the world, as three.js moves them.
+export function moved(meshes) {
+    const found = [], v = new THREE.Vector3();
+    for (const mesh of meshes) {
+        mesh.skeleton.update();
+        for (let i = 0; i < mesh.geometry.attributes.position.count; ++i) {
+            mesh.getVertexPosition(i, v).applyMatrix4(mesh.matrixWorld);
+            found.push(v.x, v.y, v.z);
+        }
+    }
+    return found;
 }
 
 export function bounds(vertices) {

@@ -102,16 +102,22 @@ export async function pulled_by_touch({ browser, url }) {
     const branch = await branchOnScreen(page);
     const touch = await page.context().newCDPSession(page);
     const send = (type, points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y, id = 1]) => ({ x, y, id })) });
-    await send('touchStart', [[branch.x + 6, branch.y]]); // a finger is no needle
+    expect(await page.$eval('#picture', (canvas) => getComputedStyle(canvas).touchAction) === 'none', 'the browser takes fingers for itself');
+    const drawn = await steps(page, 1);
+    await send('touchStart', [[branch.x, branch.y - 14]]); // a finger is no needle: 15 px beside it is on it
     const hand = await held(page);
     await send('touchMove', [[branch.x + 50, branch.y + 30]]);
     const targets = await page.evaluate(() => bough.pointers.targets());
     await steps(page, 90, targets);
+    expect(await page.evaluate(() => bough.view.arrows.size) === 1, 'no arrow is drawn');
     const { point, far: reach } = await grip(page), wanted = norm(less(targets[0][1], hand.world));
     const way = norm(less(point, hand.world));
     expect(way > 0.85 * Math.min(wanted, reach), `the finger moved it by ${way} m of ${Math.min(wanted, reach)} m`);
     await send('touchEnd', []);
     await page.waitForFunction(() => bough.pointers.all.size === 0);
+    const rest = at(drawn, hand.body), off = norm(less(at(await steps(page, 1), hand.body), rest));
+    const back = norm(less(at(await steps(page, 1200), hand.body), rest));
+    expect(back < 0.3 * off, `let go, it is ${back} m off after ${off} m`);
     // Two fingers beside the tree come nearer.
     const far = await page.evaluate(() => bough.view.orbit.distance);
     await send('touchStart', [[20, 60, 1]]);

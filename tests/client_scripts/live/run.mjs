@@ -1,17 +1,18 @@
-// run.mjs: the tests of the page, one after another: run.mjs short|all|NAME... with PAGE_URL and the folders in the environment (tests/live sets them).
+// run.mjs: the tests of the page, one after another: run.mjs one|short|all|NAME... with PAGE_URL and the folders in the environment (tests/live sets them).
 import path from 'node:path';
 import * as basics from './basics.mjs';
 import { openBrowser } from './browser.mjs';
 import * as files from './files.mjs';
 import * as measures from './measures.mjs';
+import * as promises from './promises.mjs';
 import * as scenes from './scenes.mjs';
 
 const { BOUGH_LIVE_URL: url, BOUGH_LIVE_PAGE: folder, BOUGH_TOP: top, BOUGH_WORK: work, BOUGH_TOOLS: tools } = process.env;
 const { calm: _, ...of_basics } = basics;
-const tests = { ...of_basics, ...scenes, ...files, ...measures };
-const short = ['opens_and_moves', 'pulled_by_mouse', 'the_page_is_small'];
+const tests = { ...of_basics, ...scenes, ...promises, ...files, ...measures };
+const sets = { one: ['opens_and_moves'], short: ['opens_and_moves', 'pulled_by_mouse'], all: Object.keys(tests) };
 const asked = process.argv.slice(2);
-const names = asked[0] === 'short' ? short : asked[0] === 'all' || asked.length === 0 ? Object.keys(tests) : asked;
+const names = sets[asked[0] ?? 'all'] ?? asked;
 
 let browser = await openBrowser(), failed = 0;
 for (const name of names) {

@@ -1,6 +1,8 @@
 // live_meshes.cpp: what the page draws: vertices once, and after each step how far each body is from where it was drawn.
 #include "lib/model/drawn_pose.h"
 #include "live.h"
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 using namespace bough;
@@ -17,6 +19,13 @@ void take_poses(MeshObject& mesh, const Simulation& run) {
         const Eigen::Vector3f place = x[i].cast<float>() - turn * mesh.joint[i];
         mesh.now[i] = {{place.x(), place.y(), place.z(), 0}, turn.coeffs()};
     }
+}
+
+// sRGB 0..255 times what a file's own vertex has, which is linear as in a .glb.
+std::uint8_t tinted(std::uint8_t color, float by) {
+    const double s = color / 255., linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    const double l = std::clamp(linear * double(by), 0., 1.);
+    return std::uint8_t(std::lround(255 * (l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055)));
 }
 
 } // namespace
@@ -61,12 +70,14 @@ LIVE bough_result live_mesh_counts(const void* mesh, std::size_t* counts) {
     });
 }
 
-// vertex: 9 floats each: position, normal (world, drawn), the two bodies that move it most and the second one's share. color: r g b 255, sRGB.
+// vertex: 9 floats each: position, normal (world, drawn), the two bodies that move it most and the second one's share. color: r g b 255, sRGB, its
+// part's, times the vertex's own.
 // index: 3 for each triangle. part: name's length in bytes, first triangle, triangles, for each. Arrays of the sizes that live_mesh_counts says.
 LIVE bough_result live_mesh_arrays(const void* mesh, float* vertex, std::uint8_t* color, std::uint32_t* index,
                                    std::uint32_t* part) {
     return call([&] {
-        const Skin& skin = find<MeshObject>(mesh)->skin;
+        const auto shown = find<MeshObject>(mesh);
+        const Skin& skin = shown->skin;
         for (std::size_t v = 0; v < skin.position.size(); ++v) {
             float* const to = vertex + 9 * v;
             Eigen::Vector3f::Map(to) = skin.position[v].cast<float>();
@@ -87,6 +98,14 @@ LIVE bough_result live_mesh_arrays(const void* mesh, float* vertex, std::uint8_t
                     color[4 * v + 3] = 255;
                 }
         }
+        std::size_t v = 0; // the skin has a file's own vertices in their order
+        if (shown->own)
+            for (const OwnPart& part : shown->own->part)
+                each_vertex(*shown->own, part, [&](const OwnSurface& from, std::size_t k, const OwnPlace*) {
+                    for (std::size_t c = 0; c < 3 && !from.color.empty(); ++c)
+                        color[4 * v + c] = tinted(color[4 * v + c], from.color[k][c]);
+                    ++v;
+                });
         for (std::size_t t = 0; t < skin.triangle.size(); ++t)
             for (std::size_t c = 0; c < 3; ++c) index[3 * t + c] = std::uint32_t(skin.triangle[t][c]);
     });
