@@ -25,7 +25,7 @@
 // which a clump swings with as much kinetic energy and brakes as much in the air, at 8 m/s, as its parts (swinging() in resolve.cpp).
 // Air. Tree::drag gives each body the drag of its parts as they stand in horizontal winds, mean over their directions: wood that of its pieces and of the twigs
 // that are one with it, a clump that of its blades and, at 8 m/s (leaves fold), of its wood.
-// What comes out, in leaf: README.md; held by tests/lib/growth/resolve.cpp.
+// What comes out, in leaf: README.md beside this; held by tests/lib/growth/resolve.cpp.
 // Reads a tree of segment(). Cost O(bodies), some eighty times.
 #pragma once
 #include "../model/tree.h"
