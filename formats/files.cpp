@@ -127,6 +127,7 @@ MotionFile::MotionFile(const std::string& file, const Simulation& simulation, do
     header.events = simulation.has_events();
     header.fields.velocity = simulation.options().velocities;
     header.fields.torque = simulation.options().torques;
+    header.fields.stress = simulation.options().stresses;
     header.name = simulation.tree().name;
     header.source = simulation.tree().source;
     inside_ = std::make_unique<Inside>(file, header, Digits{simulation.options().precision == Precision::single, 0});
@@ -145,6 +146,7 @@ void MotionFile::write(const Simulation& simulation) {
     copy(simulation.velocities(), frame.velocity);
     copy(simulation.angular_velocities(), frame.angular_velocity);
     copy(simulation.torques(), frame.torque);
+    copy(simulation.stresses(), frame.stress);
     frame.events = simulation.events();
     inside_->writer.write(frame);
     ++inside_->written;

@@ -33,11 +33,17 @@ using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool toge
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, Skin, const OwnMesh* own,
                                     const RustleMaker&, std::vector<std::string>& notes);
 
-// One point cache, `format` mdd or pc2: of `frames` frames from number `first` on. Keeps a reference to the tree; what the
+// One point cache, `format` mdd or pc2: of `count` frames from number `first` on. Keeps a reference to the tree; what the
 // user should know is added to the notes. Throws UsageError where the format cannot count so many.
+struct CacheFrames {
+    double fps = 30;
+    std::int64_t first = 0, count = 0;
+};
 std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string& format, const Tree&, Skin,
-                                      const RustleMaker&, double fps, std::int64_t first, std::int64_t frames,
-                                      std::vector<std::string>& notes);
+                                      const RustleMaker&, const CacheFrames&, std::vector<std::string>& notes);
+// The same of a mesh that came with the tree, or stands for it: no skin is made of it.
+std::unique_ptr<FrameSink> own_cache_sink(const std::string& file, const std::string& format, const Tree&, OwnMesh,
+                                          const CacheFrames&, std::vector<std::string>& notes);
 
 // --max-joints, --leaves-as and --key-tolerance (treesim alone).
 struct GltfChoice {

@@ -86,7 +86,8 @@ void refuse_what_is_foreign(const GrowthOptions& o, const ImportChoice& choice, 
     if (foreign && o.age) throw UsageError(std::string("--age") + reason);
     if (foreign && !o.season.empty()) throw UsageError(std::string("--season") + reason);
     if (!foreign && !o.radii.empty())
-        throw UsageError("--radii: only with --params of another program; a species says itself what its radii carry");
+        throw UsageError(
+            "--radii: only with --params of another program or --import; a species says itself what its radii carry");
 }
 
 } // namespace
@@ -99,9 +100,10 @@ void add_growth_options(OptionList& list, GrowthOptions& o) {
              "Grow by this file's parameters: Arbaro XML, tree-gen, Blender Sapling, ez-tree, or a bough-species\n"
              "document; - for stdin")
         .takes("FILE");
-    list.add("--radii", o.radii,
-             "With --params of another program: carry (default), thicker than the file says where wood must be to\n"
-             "carry the tree, or file, as it says")
+    list.add(
+            "--radii", o.radii,
+            "carry, thicker than the file says where wood must be to carry the tree (default with --params of another\n"
+            "program), or file, as it says (default with --import)")
         .takes("carry|file")
         .one_of({"carry", "file"});
     list.add("--bodies", o.bodies,
@@ -136,10 +138,14 @@ void refuse_contradictions(const GrowthOptions& o, bool import) {
         for (std::size_t i = first; i < first + count; ++i)
             if (given[i].second) throw UsageError(given[i].first + reason);
     };
-    if (import) refuse(0, std::size(given), ": not with --import, whose file says what the tree is");
+    if (import) {
+        const char* const reason = ": not with --import, whose file says what the tree is";
+        refuse(0, 3, reason);
+        refuse(4, std::size(given) - 4, reason); // all but --radii
+    }
     if (given[0].second) refuse(1, 6, ": not with --envelope, which has no species and grows in its own way");
     if (given[2].second) refuse(1, 1, ": not with --params, which is another tree");
-    if (!given[2].second) refuse(3, 1, ": only with --params");
+    if (!given[2].second && !import) refuse(3, 1, ": only with --params or --import");
     if (given[0].second) return;
     for (const auto& [option, is_given] : o.envelope.given())
         if (is_given) throw UsageError(option + ": only with --envelope");

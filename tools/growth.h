@@ -20,7 +20,7 @@ struct GrowthOptions {
 
 void add_growth_options(OptionList&, GrowthOptions&);
 
-// Throws UsageError where options contradict each other; with --import, of which only --leaves and --fruit go along.
+// Throws UsageError where options contradict each other; with --import, of which only --leaves, --fruit and --radii go along.
 void refuse_contradictions(const GrowthOptions&, bool import);
 
 // Throws UsageError, or InputError for a file. What the user should know is added to the notes.

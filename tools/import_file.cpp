@@ -5,6 +5,8 @@
 #include "formats/mapped.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
+#include "lib/base/counted.h"
+#include "lib/growth/carry.h"
 #include "reader_options.h"
 
 namespace bough {
@@ -80,6 +82,13 @@ Splines read_import(std::string_view content, const std::string& file, ImportNot
     options.name = input_name(file);
     options.folder = folder_of(file);
     return import_splines(content, options, notes);
+}
+
+void make_carry(Splines& splines, const Material& material, std::vector<std::string>& notes) {
+    if (const std::size_t thicker = thicken_to_carry(splines, material, foreign_sag))
+        notes.push_back("--radii carry: " + std::to_string(thicker) + " of " +
+                        counted(splines.branches(), "branch", "branches") + " made thicker, as " + material.name +
+                        " must be to carry them");
 }
 
 } // namespace bough

@@ -1,6 +1,7 @@
 // import_file.h: a tree's file of any kind that is known, as --import and INPUT name it.
 #pragma once
 #include "formats/imports/import.h"
+#include "lib/model/wood.h"
 #include "option_list.h"
 #include <functional>
 #include <optional>
@@ -24,5 +25,8 @@ Splines read_import(const std::string& file, const ImportChoice&, ImportNotes&,
                     const std::function<void(bool own)>& before = {});
 // The same of content that has been read already; `file`: where it came from.
 Splines read_import(std::string_view content, const std::string& file, ImportNotes&);
+
+// --radii carry: branches as thick as wood of this material must be to carry them (growth/carry.h), with a note of how many were not.
+void make_carry(Splines&, const Material&, std::vector<std::string>& notes);
 
 } // namespace bough

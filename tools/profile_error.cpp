@@ -1,4 +1,5 @@
 #include "file_names.h"
+#include "lib/analytic/analytic_stepper.h"
 #include "lib/study/work_precision.h"
 #include "profile.h"
 #include "progress.h"
@@ -103,6 +104,17 @@ void let_move(ErrorCommand& o, Scene& scene) {
     o.common.notes.push_back("no wind, pulls or root motion: gravity is switched on at the start (pose rest)");
 }
 
+// Series of a solver that cannot hold what the scene names, where nobody asked for it.
+void leave_out_analytic(ErrorCommand& o, const Scene& scene, std::vector<Variant>& variants) {
+    if (o.list->given("--solver")) return;
+    try {
+        refuse_with_analytic(scene);
+    } catch (const std::domain_error& error) {
+        std::erase_if(variants, [](const Variant& v) { return v.solver == Solver::analytic; });
+        o.common.notes.push_back("solver analytic is left out: " + std::string(error.what()));
+    }
+}
+
 void work(ErrorCommand& o) {
     if (o.list->given("--substeps")) throw UsageError("--substeps: --steps says it here");
     if (o.truth == "fine" && o.run.tolerance)
@@ -139,6 +151,7 @@ void work(ErrorCommand& o) {
         throw InputError(input_name(o.run.input),
                          free_part(setting.scene) + std::string(": treeprofile error has no reference "
                                                                 "solution of free bodies and walkers"));
+    leave_out_analytic(o, setting.scene, options.variants);
     let_move(o, setting.scene);
     const Problem problem{setting.tree,      setting.ranges, setting.scene, o.run.fps, frames_of(o.run, error_seconds),
                           chosen_simd(o.run)};

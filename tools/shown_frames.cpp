@@ -46,6 +46,9 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         o.common.notes.push_back("the trees of " + std::to_string(setting.tree_files.size()) + " files all look as " +
                                  (o.dress.look.empty() ? "the first one's species, " + shown.name : o.dress.look) +
                                  " does (--look)");
+    const CacheFrames cached{o.run.fps, first, last - first + 1};
+    if (is_point_cache(format) && own)
+        return own_cache_sink(o.common.output, format, shown, std::move(*own), cached, o.common.notes);
     if (is_mesh(format) && format != "glb") {
         Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
         if (format == "obj")
@@ -57,8 +60,7 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         if (format == "usda")
             return usda_sink(o.common.output, shown, std::move(skin), std::move(own), o.run.fps, o.gltf,
                              with_command_line(setting.source, o.common), o.common.notes);
-        return cache_sink(o.common.output, format, shown, std::move(skin), rustle, o.run.fps, first, last - first + 1,
-                          o.common.notes);
+        return cache_sink(o.common.output, format, shown, std::move(skin), rustle, cached, o.common.notes);
     }
     const std::string source = with_command_line(setting.source, o.common);
     if (model.driven)

@@ -6,6 +6,7 @@
 #include "formats/models/reader_limits.h"
 #include "import_file.h"
 #include "lib/model/drawn_pose.h"
+#include <algorithm>
 #include <numbers>
 
 namespace bough {
@@ -16,9 +17,10 @@ bool wants_own(const TreesimOptions& o, const std::string& format) {
     return is_mesh(format) && o.skin.empty() && o.mesh != "made" && o.run.input != "-";
 }
 
-bool has_skinned_mesh(const UserModel& model) {
+// Whether a node of it has all these.
+bool has_node_with(const UserModel& model, const std::initializer_list<const char*>& keys) {
     for (const auto& node : model.document->json.value("nodes", nlohmann::ordered_json::array()))
-        if (node.contains("mesh") && node.contains("skin")) return true;
+        if (std::all_of(keys.begin(), keys.end(), [&](const char* key) { return node.contains(key); })) return true;
     return false;
 }
 
@@ -55,6 +57,13 @@ bool kept_its_place(const Setting& setting, const Vec3& moved) {
     return (before + moved).norm() < before.norm();
 }
 
+// why: what reading INPUT's model said, with its place.
+[[noreturn]] void refuse_own_mesh(const std::string& why, const TreesimOptions& o) {
+    const std::string name = input_name(o.run.input);
+    throw InputError(name + ": its own mesh", (why.starts_with(name + ": ") ? why.substr(name.size() + 2) : why) +
+                                                  "; --mesh made shows one that is made from the tree");
+}
+
 SpeedtreeModel speedtree_model(TreesimOptions& o, const std::string& path, const Setting& setting) {
     ImportNotes found, notes;
     if (path == o.run.input && setting.imported)
@@ -89,16 +98,23 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
     if (format != "glb" || !wants_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
     try {
         UserModel own = read_user_model(o.run.input, notes);
-        if (!has_skinned_mesh(own)) return model;
+        if (!has_node_with(own, {"mesh", "skin"})) {
+            if (has_node_with(own, {"mesh"}))
+                o.common.notes.push_back(own.name +
+                                         ": no bones move its mesh (it has no skin): one made from the tree is shown");
+            return model;
+        }
         model.driven = std::move(own);
     } catch (const LimitError& error) {
-        throw InputError(input_name(o.run.input) + ": its own mesh",
-                         std::string(error.what()).substr(input_name(o.run.input).size() + 2) +
-                             "; --mesh made shows one that is made from the tree");
+        refuse_own_mesh(error.what(), o);
     } catch (const ImageError&) {
         throw; // the import looks at no image
-    } catch (const InputError&) {
-        return model; // no armature; and what is wrong with the file, its import says
+    } catch (const NoSkinnedMesh& error) {
+        o.common.notes.push_back(std::string(error.what()) + ": a mesh made from the tree is shown");
+        return model;
+    } catch (const InputError& error) {
+        model.failed = error.what();
+        return model;
     }
     if (!o.gltf.max_joints.empty())
         throw UsageError("--max-joints: only with --mesh made, as " + input_name(o.run.input) +
@@ -108,6 +124,7 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
 }
 
 void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting, const std::string& format) {
+    if (!model.failed.empty()) refuse_own_mesh(model.failed, o);
     if (!o.skin.empty() && !model.driven) {
         model.bound = speedtree_model(o, o.skin, setting);
     } else if (!o.skin.empty()) {

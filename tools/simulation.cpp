@@ -33,6 +33,7 @@ Simulation started(const std::shared_ptr<Setting>& setting, const RunOptions& o,
     choice.options.threads = threads;
     choice.options.velocities = wishes.fields.velocity;
     choice.options.torques = wishes.fields.torque;
+    choice.options.stresses = wishes.fields.stress;
     choice.steppers = stepper_maker(
         {chosen_solver(o), chosen_scheme(o), chosen_simd(o), chosen_sleep(o), o.tolerance.value_or(1e-8)});
     choice.poses = wishes.poses;

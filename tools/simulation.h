@@ -1,5 +1,6 @@
 // simulation.h: what treesim and treeprofile share: one run as frames, its errors as the tool's.
 #pragma once
+#include "formats/documents/motion.h"
 #include "lib/simulation/any_run.h"
 #include "setting.h"
 
@@ -9,7 +10,7 @@ double step_length(const RunOptions&); // [s]
 
 // What is read of a run: the arrays of its frames, its bodies' poses, its trees once it has begun; its state, to go on from.
 struct RunWishes {
-    MotionFields fields{false, false, false, false};
+    MotionFields fields = no_fields;
     bool poses = false, trees = false, state = false;
 };
 // At its start. The setting stays the caller's and the run's; without wishes for trees its tree is the plan's. Throws InputError for what the

@@ -10,7 +10,6 @@
 #include "import_file.h"
 #include "import_stats.h"
 #include "lib/base/counted.h"
-#include "lib/growth/carry.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
 #include "lib/model/drawn_pose.h"
@@ -321,11 +320,7 @@ void work(Options& o) {
     const std::size_t guesses = notes.size();
     const Material material = chosen_material(o, splines);
     splines.source = with_command_line(splines.source, o.common);
-    if (o.radii == "carry")
-        if (const std::size_t thicker = thicken_to_carry(splines, material, foreign_sag))
-            notes.push_back("--radii carry: " + std::to_string(thicker) + " of " +
-                            counted(splines.branches(), "branch", "branches") + " made thicker, as " + material.name +
-                            " must be to carry them");
+    if (o.radii == "carry") make_carry(splines, material, notes);
     SegmentReport report;
     Tree tree;
     try {

@@ -107,6 +107,10 @@ Splines imported(Options& o) {
     if (!o.stats) // which has told them
         for (const std::string& line : notes.lines) o.common.notes.push_back(name + ": " + line);
     leave_out(splines, o.growth, o.common.notes);
+    if (o.growth.radii == "carry") {
+        const Material* const named = find_wood(splines.material);
+        make_carry(splines, named ? *named : wood_presets().front(), o.common.notes);
+    }
     return splines;
 }
 

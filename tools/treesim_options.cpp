@@ -1,5 +1,6 @@
 #include "treesim_options.h"
 #include "file_names.h"
+#include "formats/documents/motion.h"
 #include "formats/exports/obj.h"
 #include "formats/output_folder.h"
 #include "shown_model.h"
@@ -81,8 +82,11 @@ void declare_output(OptionList& list, TreesimOptions& o) {
         .takes("LIST")
         .any_number_of_times()
         .suggests({"cost", "error", "guards", "hash", "plan", "rigid"});
-    list.add("--fields", o.fields, "What a frame holds: pose, velocity, torque, angles, with commas (pose)")
-        .takes("LIST");
+    list.add("--fields", o.fields,
+             "What a frame holds, with commas: pose, velocity, torque, angles, stress, which bends the wood at each "
+             "joint (pose)")
+        .takes("LIST")
+        .suggests({"angles", "pose", "stress", "torque", "velocity"});
     list.add("--digits", o.digits,
              "Round the numbers of JSON frames to so many digits; 6 halve the file, and are a hundredth of a "
              "millimetre in ten metres (as many as give back the same number)")
@@ -164,15 +168,11 @@ Reports chosen_reports(const std::vector<std::string>& lists) {
 
 MotionFields chosen_fields(const TreesimOptions& o) {
     if (o.fields.empty()) return {};
-    MotionFields fields{false, false, false, false};
+    MotionFields fields = no_fields;
     for (const std::string& name : split_list(o.fields)) {
-        bool* field = name == "pose"       ? &fields.pose
-                      : name == "velocity" ? &fields.velocity
-                      : name == "torque"   ? &fields.torque
-                      : name == "angles"   ? &fields.angles
-                                           : nullptr;
-        if (!field) throw UsageError("--fields holds '" + name + "', expected pose, velocity, torque, angles");
-        *field = true;
+        const auto field = field_of(name);
+        if (!field) throw UsageError("--fields holds '" + name + "', expected " + field_words_text);
+        fields.*field = true;
     }
     return fields;
 }
@@ -301,7 +301,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         for (const auto& [given, name] : others)
             if (given) throw UsageError(std::string("--loop: not with ") + name);
         const MotionFields fields = chosen_fields(o);
-        if (o.loop.blend && (!fields.pose || fields.velocity || fields.torque || fields.angles))
+        if (o.loop.blend && (!fields.pose || fields.velocity || fields.torque || fields.angles || fields.stress))
             throw UsageError("--loop-blend: only with --fields pose, which it changes");
     }
     if (o.watch) {

@@ -107,7 +107,7 @@ class Wind(ctypes.Structure):
 class _Settings(ctypes.Structure):
     _fields_ = [("check", ctypes.c_uint64), ("step", ctypes.c_double), ("precision", ctypes.c_int32), ("method", ctypes.c_int32),
                 ("sleep", ctypes.c_double), ("threads", ctypes.c_int32), ("velocities", ctypes.c_int32), ("torques", ctypes.c_int32),
-                ("pulls", ctypes.c_int32), ("grounds", ctypes.c_int32), ("portable", ctypes.c_int32)]
+                ("stresses", ctypes.c_int32), ("pulls", ctypes.c_int32), ("grounds", ctypes.c_int32), ("portable", ctypes.c_int32)]
 
 
 class _Report(ctypes.Structure):
@@ -477,11 +477,11 @@ def _written(function, handle):
 class Simulation(_Handle, _HasBodies):
     """One run of a scene. len(run): bodies that positions has."""
 
-    def __init__(self, scene, step=1 / 30, precision="double", method="coupled", sleep=0, threads=0, velocities=False, torques=False, pulls=False,
-                 grounds=False, portable=False, before=None):
+    def __init__(self, scene, step=1 / 30, precision="double", method="coupled", sleep=0, threads=0, velocities=False, torques=False, stresses=False,
+                 pulls=False, grounds=False, portable=False, before=None):
         """step [s] of one step(). precision "double" or "single" (twice as fast; arrays are doubles with both). method "coupled" or "analytic". sleep
         [rad/s]: slower than this for a while, trees are left out; 0: never. threads of a step at most; 0: as many as there are cores. velocities,
-        torques: are wanted; pulls: pull() will be called; grounds: set_ground() will be. portable: the same on every machine, several times slower. before: another Simulation, whose
+        torques, stresses: are wanted; pulls: pull() will be called; grounds: set_ground() will be. portable: the same on every machine, several times slower. before: another Simulation, whose
         trees' motion goes on where trees are connected alike."""
         if not isinstance(scene, Scene):
             raise UsageError(f"scene: is {type(scene).__name__}, expected Scene")
@@ -495,7 +495,7 @@ class Simulation(_Handle, _HasBodies):
             if value not in names:
                 raise UsageError(f"{field}: is {value!r}, expected {' or '.join(names)}")
             setattr(settings, field, names.index(value))
-        for field, value in (("velocities", velocities), ("torques", torques), ("pulls", pulls), ("grounds", grounds), ("portable", portable)):
+        for field, value in (("velocities", velocities), ("torques", torques), ("stresses", stresses), ("pulls", pulls), ("grounds", grounds), ("portable", portable)):
             setattr(settings, field, bool(value))
         super().__init__(_made(_c.bough_simulate, scene._handle, ctypes.byref(settings), None if before is None else before._handle))
 
@@ -560,6 +560,11 @@ class Simulation(_Handle, _HasBodies):
     def torques(self):
         """(trees' bodies, 3) [N m] of springs and dampers on bodies, joint frames (Simulation(torques=True))."""
         return self._read(6)
+
+    @property
+    def stresses(self):
+        """(trees' bodies, 1) [Pa] that bend the wood at joints, 0 of all but branches (Simulation(stresses=True))."""
+        return self._read(7)
 
     @property
     def tips(self):

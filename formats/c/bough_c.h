@@ -159,6 +159,7 @@ typedef struct bough_settings {
     int32_t threads;    /* of a step at most; 0: as many as the process has cores (default); small work takes fewer */
     int32_t velocities; /* BOUGH_VELOCITY and BOUGH_ANGULAR_VELOCITY are wanted; default 0, as those below */
     int32_t torques;    /* BOUGH_TORQUE is wanted */
+    int32_t stresses;   /* BOUGH_STRESS is wanted */
     int32_t pulls;      /* bough_pull will be called */
     int32_t grounds;    /* bough_set_ground will be called; nothing sleeps then */
     int32_t portable;   /* one number at a time, the same on every machine; several times slower */
@@ -193,7 +194,8 @@ typedef enum bough_field {
     BOUGH_ANGULAR_VELOCITY = 3, /* [rad/s] 3 (settings.velocities) */
     BOUGH_ANGLE = 4,            /* [rad] rotation vectors of joints, joint frames, 3; of trees' bodies alone */
     BOUGH_RATE = 5,             /* [rad/s] how those change, 3 */
-    BOUGH_TORQUE = 6            /* [N m] of springs and dampers, joint frames, 3 (settings.torques); as BOUGH_ANGLE */
+    BOUGH_TORQUE = 6,           /* [N m] of springs and dampers, joint frames, 3 (settings.torques); as BOUGH_ANGLE */
+    BOUGH_STRESS = 7            /* [Pa] that bends the wood at joints, 1 (settings.stresses); 0 of all but branches */
 } bough_field;
 typedef struct bough_array {
     const double* data; /* see "Memory" */

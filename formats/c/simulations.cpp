@@ -28,6 +28,7 @@ SimulationOptions options_of(const bough_settings& s) {
     o.threads = s.threads;
     o.velocities = s.velocities != 0;
     o.torques = s.torques != 0;
+    o.stresses = s.stresses != 0;
     o.pulls = s.pulls != 0;
     o.grounds = s.grounds != 0;
     o.portable = s.portable != 0;
@@ -45,7 +46,7 @@ void require_trees(const Scene& scene) {
 
 template <class Numbers> bough_array array_of(std::span<const Numbers> values) {
     constexpr std::size_t components = sizeof(Numbers) / sizeof(double);
-    static_assert(components == 3 || components == 4);
+    static_assert(components == 1 || components == 3 || components == 4);
     return {reinterpret_cast<const double*>(values.data()), values.size(), components, sizeof(Numbers)};
 }
 
@@ -71,8 +72,11 @@ bough_array read(const Simulation& s, bough_field field) {
     case BOUGH_TORQUE:
         wanted(s.options().torques, "torques");
         return array_of(s.torques());
+    case BOUGH_STRESS:
+        wanted(s.options().stresses, "stresses");
+        return array_of(s.stresses());
     }
-    throw WrongCall("field: is " + std::to_string(int(field)) + ", expected BOUGH_POSITION to BOUGH_TORQUE");
+    throw WrongCall("field: is " + std::to_string(int(field)) + ", expected BOUGH_POSITION to BOUGH_STRESS");
 }
 
 std::int32_t number_of(const std::string& event) {

@@ -48,9 +48,8 @@ template <class Item> void put_in_order(std::vector<Item>& items) {
 
 std::string fields_text(const MotionFields& f) {
     std::string text;
-    for (const auto& [on, word] :
-         {std::pair{f.pose, "pose"}, {f.velocity, "velocity"}, {f.torque, "torque"}, {f.angles, "angles"}})
-        if (on) text += (text.empty() ? "" : ", ") + std::string(word);
+    for (const FieldWord& known : field_words)
+        if (f.*known.field) text += (text.empty() ? "" : ", ") + std::string(known.word);
     return text.empty() ? "none" : text;
 }
 
@@ -91,6 +90,7 @@ void add_part(MotionFrame& whole, const MotionFrame& part) {
     append(whole.torque, part.torque);
     append(whole.theta, part.theta);
     append(whole.theta_dot, part.theta_dot);
+    append(whole.stress, part.stress);
 }
 
 } // namespace

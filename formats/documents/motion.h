@@ -3,9 +3,25 @@
 #include "formats/open.h"
 #include "formats/text.h"
 #include "lib/model/motion.h"
+#include <array>
 #include <memory>
 
 namespace bough {
+
+// The words of /fields, and what each asks for.
+struct FieldWord {
+    const char* word;
+    bool MotionFields::*field;
+};
+constexpr std::array<FieldWord, 5> field_words{{{"pose", &MotionFields::pose},
+                                                {"velocity", &MotionFields::velocity},
+                                                {"torque", &MotionFields::torque},
+                                                {"angles", &MotionFields::angles},
+                                                {"stress", &MotionFields::stress}}};
+constexpr MotionFields no_fields{false, false, false, false, false};
+// Null where it is none of them; and all of them, as a message names them.
+bool MotionFields::*field_of(const std::string& word);
+extern const char* const field_words_text;
 
 enum class MotionForm { jsonl, json, safetensors };
 

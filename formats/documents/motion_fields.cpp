@@ -3,20 +3,27 @@
 namespace bough {
 
 const std::vector<FrameArray> frame_arrays{
-    {"position", &MotionFields::pose, &MotionFrame::position, nullptr},
-    {"rotation", &MotionFields::pose, nullptr, &MotionFrame::rotation},
-    {"velocity", &MotionFields::velocity, &MotionFrame::velocity, nullptr},
-    {"angular_velocity", &MotionFields::velocity, &MotionFrame::angular_velocity, nullptr},
-    {"torque", &MotionFields::torque, &MotionFrame::torque, nullptr},
-    {"theta", &MotionFields::angles, &MotionFrame::theta, nullptr},
-    {"theta_dot", &MotionFields::angles, &MotionFrame::theta_dot, nullptr}};
+    {"position", &MotionFields::pose, &MotionFrame::position, nullptr, nullptr},
+    {"rotation", &MotionFields::pose, nullptr, &MotionFrame::rotation, nullptr},
+    {"velocity", &MotionFields::velocity, &MotionFrame::velocity, nullptr, nullptr},
+    {"angular_velocity", &MotionFields::velocity, &MotionFrame::angular_velocity, nullptr, nullptr},
+    {"torque", &MotionFields::torque, &MotionFrame::torque, nullptr, nullptr},
+    {"theta", &MotionFields::angles, &MotionFrame::theta, nullptr, nullptr},
+    {"theta_dot", &MotionFields::angles, &MotionFrame::theta_dot, nullptr, nullptr},
+    {"stress", &MotionFields::stress, nullptr, nullptr, &MotionFrame::stress}};
+
+const char* const field_words_text = "pose, velocity, torque, angles or stress";
+
+bool MotionFields::*field_of(const std::string& word) {
+    for (const FieldWord& known : field_words)
+        if (word == known.word) return known.field;
+    return nullptr;
+}
 
 std::vector<std::string> words_of(const MotionFields& fields) {
     std::vector<std::string> words;
-    if (fields.pose) words.push_back("pose");
-    if (fields.velocity) words.push_back("velocity");
-    if (fields.torque) words.push_back("torque");
-    if (fields.angles) words.push_back("angles");
+    for (const FieldWord& known : field_words)
+        if (fields.*known.field) words.push_back(known.word);
     return words;
 }
 
@@ -36,8 +43,9 @@ std::vector<Field> header_fields(MotionHeader& header, std::vector<std::string>&
 std::vector<Field> frame_fields(MotionFrame& frame) {
     std::vector<Field> fields{{"frame", &frame.frame}, {"time", &frame.time}};
     for (const FrameArray& a : frame_arrays)
-        fields.push_back(
-            optional(a.vectors ? array(a.name, frame.*a.vectors, {}) : array(a.name, frame.*a.rotations, {})));
+        fields.push_back(optional(a.vectors     ? array(a.name, frame.*a.vectors, {})
+                                  : a.rotations ? array(a.name, frame.*a.rotations, {})
+                                                : array(a.name, frame.*a.numbers, {})));
     const Per event{"event in /event", [&frame] { return frame.events.what.size(); }};
     fields.push_back(optional({"event", &frame.events.what}));
     for (Field field : {array("event_body", frame.events.body, event), array("event_on", frame.events.on, event),

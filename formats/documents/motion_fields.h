@@ -8,15 +8,22 @@ namespace bough {
 
 constexpr DocumentType motion_type{"bough-motion", 1};
 
-// One array of a frame, and which of MotionFields asks for it. One of the two pointers is set.
+// One array of a frame, and which of MotionFields asks for it. One of the three pointers is set.
 struct FrameArray {
     const char* name;
     bool MotionFields::*wanted;
     std::vector<Vec3> MotionFrame::*vectors;
     std::vector<Quat> MotionFrame::*rotations;
-    std::size_t components() const { return vectors ? 3 : 4; }
+    std::vector<double> MotionFrame::*numbers;
+    std::size_t components() const { return vectors ? 3 : rotations ? 4 : 1; }
     std::size_t size(const MotionFrame& frame) const {
-        return vectors ? (frame.*vectors).size() : (frame.*rotations).size();
+        return vectors ? (frame.*vectors).size() : rotations ? (frame.*rotations).size() : (frame.*numbers).size();
+    }
+    // Of safetensors: frames, bodies, and what one body has, where that is several numbers.
+    std::vector<std::int64_t> shape(std::int64_t frames, std::int64_t bodies) const {
+        std::vector<std::int64_t> all{frames, bodies, std::int64_t(components())};
+        if (numbers) all.pop_back();
+        return all;
     }
 };
 extern const std::vector<FrameArray> frame_arrays;

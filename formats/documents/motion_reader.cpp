@@ -8,17 +8,14 @@ namespace bough {
 namespace {
 
 void put_words(MotionHeader& header, const std::vector<std::string>& words, const std::string& place) {
-    header.fields = {false, false, false, false};
+    header.fields = no_fields;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        bool* wanted = nullptr;
-        if (words[i] == "pose") wanted = &header.fields.pose;
-        if (words[i] == "velocity") wanted = &header.fields.velocity;
-        if (words[i] == "torque") wanted = &header.fields.torque;
-        if (words[i] == "angles") wanted = &header.fields.angles;
+        const auto field = field_of(words[i]);
         const std::string at = place + "/fields/" + std::to_string(i);
-        if (!wanted) throw InputError(at, "is " + in_quotes(words[i]) + ", expected pose, velocity, torque or angles");
-        if (*wanted) throw InputError(at, "is " + in_quotes(words[i]) + ", which stands there twice");
-        *wanted = true;
+        if (!field) throw InputError(at, "is " + in_quotes(words[i]) + ", expected " + field_words_text);
+        bool& wanted = header.fields.*field;
+        if (wanted) throw InputError(at, "is " + in_quotes(words[i]) + ", which stands there twice");
+        wanted = true;
     }
 }
 
@@ -239,8 +236,7 @@ struct MotionFrames::Implementation {
         time = reals(*binary, name, "time", {frames});
         for (const FrameArray& array : frame_arrays)
             if (header.fields.*array.wanted)
-                tensor(*binary, name, array.name, Dtype::f64,
-                       {frames, header.bodies, std::int64_t(array.components())});
+                tensor(*binary, name, array.name, Dtype::f64, array.shape(frames, header.bodies));
         if (binary->tensors.contains("event")) read_events();
     }
 
@@ -277,7 +273,9 @@ struct MotionFrames::Implementation {
             std::memcpy(values.data(), from.data.data() + next_frame * count * sizeof(double), count * sizeof(double));
         check_finite(name, array.name, values.data(), count);
         const double* v = values.data();
-        if (array.vectors) {
+        if (array.numbers) {
+            frame.*array.numbers = std::move(values);
+        } else if (array.vectors) {
             (frame.*array.vectors).reserve(bodies);
             for (std::size_t i = 0; i < bodies; ++i, v += 3) (frame.*array.vectors).emplace_back(v[0], v[1], v[2]);
         } else {

@@ -62,8 +62,9 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quat) == 4 * sizeof(d
 void spool_frame(Spool& spool, const FrameArray& array, const MotionFrame& frame, const std::string& output) {
     const std::size_t count = array.size(frame) * array.components();
     if (count == 0) return;
-    const double* values =
-        array.vectors ? (frame.*array.vectors).front().data() : (frame.*array.rotations).front().coeffs().data();
+    const double* values = array.vectors     ? (frame.*array.vectors).front().data()
+                           : array.rotations ? (frame.*array.rotations).front().coeffs().data()
+                                             : (frame.*array.numbers).data();
     if (!all_finite(values, count))
         throw OutputError(output, "/" + std::string(array.name) + " of frame " + std::to_string(frame.frame) +
                                       " is not finite, and documents hold finite numbers only");
@@ -146,8 +147,10 @@ struct MotionWriter::Implementation {
         std::uint64_t stride = 0;
         for (const FrameArray* a : arrays) {
             const std::uint64_t bytes = bytes_a_frame(*a);
-            tensors.push_back(
-                {a->name, {"F64", {frames, std::uint64_t(header.bodies), a->components()}, frames * bytes, {}}});
+            std::vector<std::uint64_t> shape;
+            for (const std::int64_t size : a->shape(std::int64_t(frames), header.bodies))
+                shape.push_back(std::uint64_t(size));
+            tensors.push_back({a->name, {"F64", shape, frames * bytes, {}}});
             stride += bytes;
         }
         const std::uint64_t events = event.size();

@@ -9,6 +9,7 @@ using nlohmann::ordered_json;
 
 constexpr DocumentType scene_type{"bough-scene", 1};
 constexpr DocumentType wind_type{"bough-wind", 1};
+const std::vector<std::string> axes{"world", "body"};
 const std::vector<std::string> poses{"drawn", "settled", "rest"};
 const std::vector<std::string> inertias{"branch", "paper"};
 
@@ -47,6 +48,7 @@ Pull read_pull(const json& value, const std::string& name, const std::string& at
     object.read("time", pull.time);
     object.need("force");
     object.read("force", pull.force);
+    pull.in_body = object.word("axes", axes, 0) == 1;
     object.finish();
     return pull;
 }
@@ -111,6 +113,7 @@ ordered_json value_of(const Scene& scene, const MaterialChange& material) {
         ordered_json force = ordered_json::array();
         for (const Vec3& f : pull.force) force.push_back(numbers(f));
         fields["pulls"].push_back({{"on", value_of(pull.on)}, {"time", pull.time}, {"force", force}});
+        if (pull.in_body) fields["pulls"].back()["axes"] = axes[1];
     }
     for (const Attachment& held : scene.attachments) fields["attachments"].push_back(value_of(held));
     fields["root_motion"] = ordered_json::array();

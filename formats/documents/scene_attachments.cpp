@@ -9,6 +9,7 @@ Attachment read_attachment(const json& value, const std::string& name, const std
     Attachment held;
     ObjectReader object(value, name, at);
     held.on = read_selector(object.need("on"), name, object.at("on"));
+    if (object.has("with")) held.with = read_selector(object.need("with"), name, object.at("with"));
     if (object.has("target")) object.read("target", held.target.emplace());
     object.read("time", held.time);
     object.read("position", held.position);
@@ -23,6 +24,7 @@ Attachment read_attachment(const json& value, const std::string& name, const std
 
 ordered_json value_of(const Attachment& held) {
     ordered_json fields{{"on", value_of(held.on)}};
+    if (held.with) fields["with"] = value_of(*held.with);
     if (held.target) fields["target"] = numbers(*held.target);
     if (!held.time.empty()) fields["time"] = held.time;
     for (const Vec3& p : held.position) fields["position"].push_back(numbers(p));

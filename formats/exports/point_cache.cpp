@@ -1,4 +1,5 @@
 #include "point_cache.h"
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -48,25 +49,26 @@ PointCacheWriter::PointCacheWriter(Output& output, PointCache kind, const PointC
     output_.write(head);
 }
 
-void PointCacheWriter::write(const std::vector<Vec3>& position) {
-    assert(position.size() == shape_.vertices && written_ < shape_.frames);
-    constexpr std::size_t block = 4096; // vertices
+void PointCacheWriter::write(const std::function<void(std::size_t, std::span<Vec3>)>& fill) {
+    assert(written_ < shape_.frames);
+    constexpr std::size_t block = 65536; // vertices
     std::string bytes;
-    bytes.reserve(12 * block);
-    for (std::size_t v = 0; v < position.size(); ++v) {
-        for (int k = 0; k < 3; ++k) {
-            const float value = float(position[v][k]);
-            if (!std::isfinite(value))
-                throw OutputError(output_.name(), "frame " + std::to_string(shape_.first + written_) + ": vertex " +
-                                                      std::to_string(v) +
-                                                      " lies farther out than a float, which the format has, can say");
-            add_float(bytes, value, kind_);
-        }
-        if (bytes.size() < 12 * block) continue;
-        output_.write(bytes);
+    for (std::size_t first = 0; first < shape_.vertices; first += block) {
+        position_.resize(std::min(block, shape_.vertices - first));
+        fill(first, position_);
         bytes.clear();
+        for (std::size_t v = 0; v < position_.size(); ++v)
+            for (int k = 0; k < 3; ++k) {
+                const float value = float(position_[v][k]);
+                if (!std::isfinite(value))
+                    throw OutputError(output_.name(),
+                                      "frame " + std::to_string(shape_.first + written_) + ": vertex " +
+                                          std::to_string(first + v) +
+                                          " lies farther out than a float, which the format has, can say");
+                add_float(bytes, value, kind_);
+            }
+        output_.write(bytes);
     }
-    output_.write(bytes);
     ++written_;
 }
 

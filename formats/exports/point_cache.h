@@ -9,12 +9,14 @@
 //        frames a sample (1), int32 frames; then as above.
 // The head is written first, for as many frames as are promised, so that a pipe can take it; of fewer frames (an interrupt)
 // finish() mends it, where the output is a file.
-// Cost: O(vertices) a frame, memory a block of 48 KiB however many frames.
+// Cost: O(vertices) a frame, memory 2.3 MB however many frames and vertices.
 // Errors  OutputError for coordinates beyond floats, for what the Output cannot take, and for fewer frames than promised in
 //         a pipe; std::length_error for more frames or vertices than an int32 counts.
 #pragma once
 #include "formats/open.h"
 #include "lib/base/math.h"
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace bough {
@@ -32,8 +34,9 @@ class PointCacheWriter {
 public:
     // Keeps a reference to the Output and writes the head.
     PointCacheWriter(Output&, PointCache, const PointCacheShape&);
-    // The next frame: as many positions as promised.
-    void write(const std::vector<Vec3>& position);
+    // The next frame: fill(first, to) gives the positions of the vertices from `first` on, as many as `to` holds, and is called for one block after
+    // the other, up to as many as promised.
+    void write(const std::function<void(std::size_t first, std::span<Vec3> to)>& fill);
     // Once; the caller finishes the Output.
     void finish();
 
@@ -42,6 +45,7 @@ private:
     PointCache kind_;
     PointCacheShape shape_;
     std::int64_t written_ = 0;
+    std::vector<Vec3> position_; // of a block
 };
 
 } // namespace bough

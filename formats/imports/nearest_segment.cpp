@@ -1,5 +1,5 @@
 #include "nearest_segment.h"
-#include "imported_tree.h"
+#include "on_polyline.h"
 #include "segment_order.h"
 #include <algorithm>
 #include <array>

@@ -111,6 +111,11 @@ void hold_unweighted(aiScene& scene) {
     }
 }
 
+constexpr const char* moves_lines = "its bones move lines, no mesh of faces; give the curves a thickness (a bevel) and "
+                                    "make a mesh of them before it is "
+                                    "exported";
+constexpr const char* moves_nothing = "its bones move no mesh of faces, expected a skinned mesh";
+
 // assimp writes a line as a triangle with a corner at the origin: what is no face is left out.
 void keep_faces(aiScene& scene, const std::string& file) {
     std::vector<int> place(scene.mNumMeshes, -1);
@@ -128,11 +133,7 @@ void keep_faces(aiScene& scene, const std::string& file) {
         }
     }
     scene.mNumMeshes = kept;
-    if (!skinned)
-        throw InputError(file,
-                         lines ? "its bones move lines, no mesh of faces; give the curves a thickness (a bevel) and "
-                                 "make a mesh of them before it is exported"
-                               : "its bones move no mesh of faces, expected a skinned mesh");
+    if (!skinned) throw InputError(file, lines ? moves_lines : moves_nothing);
     std::vector<aiNode*> stack{scene.mRootNode};
     while (!stack.empty()) {
         aiNode* node = stack.back();
@@ -183,6 +184,8 @@ std::string glb_by_assimp(std::string_view content, AssimpKind kind, const Impor
         run_forked([&] { return convert(content, kind, options.name); }, reader_limits(content.size()));
     if (child.failure.empty()) return child.bytes;
     const std::string own = options.name + ": "; // of an InputError in the child
+    for (const char* none : {moves_lines, moves_nothing})
+        if (child.failure == own + none) throw NoSkinnedMesh(options.name, none);
     if (child.failure.starts_with(own)) throw InputError(options.name, valid_utf8(child.failure.substr(own.size())));
     if (child.limited) throw LimitError(options.name, not_turned(child.failure));
     throw InputError(options.name, not_turned(child.failure));

@@ -1,4 +1,6 @@
 #include "assimp_scene.h"
+#include "collada_check.h"
+#include "fbx_check.h"
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -62,6 +64,8 @@ ModelFrame fbx_frame(const aiScene& scene) {
 
 const aiScene* load_by_assimp(Assimp::Importer& importer, std::string_view content, AssimpKind kind, bool up_given) {
     const std::string wanted = ending(kind);
+    if (kind == AssimpKind::dae) check_collada(content);
+    if (kind == AssimpKind::fbx) check_fbx(content);
     keep_reader(importer, wanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_given);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);

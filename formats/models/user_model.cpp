@@ -40,7 +40,7 @@ UserModel read_user_model(const std::string& path, ImportNotes& notes) {
     ImportNotes of_armature; // what was guessed of ends and radii has no part in this
     model.armature = armature_of(scene, Vec3::UnitY(), of_armature);
     if (model.armature.bones.empty())
-        throw InputError(options.name, "has no armature, expected bones that move its mesh");
+        throw NoSkinnedMesh(options.name, "has no armature, expected bones that move its mesh");
     if (model.armature.mesh_beside)
         notes.lines.push_back(
             "the skin's bind matrices put the mesh beside its bones: it is shown there, as the file says");

@@ -20,10 +20,15 @@ struct UserModel {
     Vec3 moved = Vec3::Zero();       // [m] by which an import of the file moves it to the origin (placed_import.h)
 };
 
-// Throws InputError.
+// Of a file without bones, or whose bones move no faces: lines and curves, of which an import may still make a tree.
+struct NoSkinnedMesh : InputError {
+    using InputError::InputError;
+};
+
+// Throws InputError, NoSkinnedMesh.
 UserModel read_user_model(const std::string& path, ImportNotes&);
 
-// assimp_glb.cpp: FBX or COLLADA as a .glb. Throws InputError.
+// assimp_glb.cpp: FBX or COLLADA as a .glb. Throws InputError, NoSkinnedMesh.
 std::string glb_by_assimp(std::string_view content, AssimpKind, const ImportOptions&);
 // What is said where assimp fails, which often gives no reason (an empty text, unnamed_failure), and what to do.
 std::string not_turned(const std::string& why);

@@ -6,7 +6,7 @@
 #pragma once
 #include "../lanes/sweep_parts.h"
 #include "../lanes/wide_turn.h"
-#include "analytic_sweeps.h"
+#include "analytic_rows.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {

@@ -48,6 +48,10 @@ void refuse_with_analytic(const Scene& scene) {
         throw std::domain_error(
             "attachments: only for solver coupled; solver analytic moves each joint by itself, which no stiff "
             "spring at a point allows");
+    for (std::size_t k = 0; k < scene.pulls.size(); ++k)
+        if (scene.pulls[k].in_body)
+            throw std::domain_error("pulls/" + std::to_string(k) +
+                                    "/axes: is body, for solver coupled only, expected world with solver analytic");
 }
 
 NonFinite non_finite_in_analytic(std::size_t body) {

@@ -5,7 +5,7 @@
 
 namespace bough {
 
-// Throws std::domain_error for what the analytic solver cannot hold: attachments. Its joints are each moved by themselves, and a stiff spring at a point
+// Throws std::domain_error for what the analytic solver cannot hold: attachments, and pulls that turn with their bodies. Its joints are each moved by themselves, and a stiff spring at a point
 // couples all joints between it and the ground: lagged it is unstable from about the joints' own stiffness on, and bounded by its row sum, as drag
 // is (drag.h), which holds any stiffness still, each of n joints would go a part in n of its way a step: a hand that is followed ever later the longer the branch.
 void refuse_with_analytic(const Scene&);

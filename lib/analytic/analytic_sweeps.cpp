@@ -1,4 +1,5 @@
 // Compiled once for each target (CMakeLists.txt), with BOUGH_TARGET its name.
+#include "analytic_sweeps.h"
 #include "analytic_joints.h"
 
 namespace bough::fast {

@@ -1,5 +1,8 @@
 #include "attachment.h"
 #include "../base/rotation_maps.h"
+#include "attachment_paths.h"
+#include "attachment_ties.h"
+#include "pulled_points.h"
 #include "turn_bounds.h"
 #include <algorithm>
 #include <cmath>
@@ -8,31 +11,7 @@
 namespace bough {
 namespace {
 
-constexpr double lost = 0.01;    // of the path's own masses, by the rounding of zeta
-constexpr double far_turn = 0.1; // [rad] that a joint may be asked to turn by in a step
-
-// Bodies of all paths; those that stay keep nothing, as a step fills them anew.
-template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
-    std::vector<std::size_t> touched;
-    for (const Attached& held : a.all)
-        for (auto i = std::int64_t(held.body); i >= 0; i = plan.parent[std::size_t(i)])
-            touched.push_back(std::size_t(i));
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    const auto place = [&](std::size_t body) {
-        return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
-    };
-    a.bodies.assign(touched.size(), {});
-    for (std::size_t k = 0; k < touched.size(); ++k) {
-        AttachedBody& b = a.bodies[k];
-        b.body = touched[k];
-        const std::int32_t parent = plan.parent[b.body];
-        b.parent = parent < 0 ? -1 : place(std::size_t(parent));
-        b.joint_position = plan.joint_position[b.body].template cast<double>();
-        b.R_pj = plan.R_pj[b.body].template cast<double>();
-    }
-    for (Attached& held : a.all) held.at = std::size_t(place(held.body));
-}
+constexpr double lost = 0.01; // of the path's own masses, by the rounding of zeta
 
 // The grounds of a step's start and end under a body, where it is moved.
 struct Grounds {
@@ -61,6 +40,7 @@ void place_body(AttachedBody& b, const AttachedBody& p, bool halfway) {
     const Vec3 r = p.R * b.joint_position;
     b.R = G * maps.R;
     b.GJ = G * maps.J;
+    b.r = r;
     b.x = p.x + r;
     b.turn = p.turn + b.GJ * half;
     b.own = p.own + b.GJ * b.now.eta;
@@ -84,21 +64,12 @@ AttachedBody resting_ground(const Plan<T>& plan, const CoupledState<T>& work, st
     return g;
 }
 
-// The least of the masses that the path's joints answer with at the point, |s| of the scheme's slowest pole.
-template <class T>
-double answering_mass(const Plan<T>& plan, const Attachments& a, const Attached& held, const Vec3& point,
-                      std::complex<double> s1) {
-    double least = std::numeric_limits<double>::infinity();
-    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
-        const AttachedBody& b = a.bodies[std::size_t(k)];
-        const double arm2 = (point - b.x).squaredNorm();
-        if (!(arm2 > 0)) continue;
-        const Vector3<T>& K = plan.K[b.body];
-        const Matrix3<T>& J = plan.inertia_joint[b.body];
-        const double z = std::abs(double(plan.beta[b.body]) * s1 + s1 * s1);
-        for (int axis = 0; axis < 3; ++axis) least = std::min(least, double(J(axis, axis) + T(z) * K[axis]) / arm2);
-    }
-    return least;
+// Where it is at the step's start and half a step on.
+void place_end(const Attachments& a, AttachedEnd& end) {
+    const AttachedBody& b = a.bodies[end.at];
+    end.rho = b.R * end.point_b;
+    end.start = b.x_start + b.R_start * end.point_b;
+    end.velocity = b.v + b.own.cross(end.rho);
 }
 
 // Where the target is at t; its velocity.
@@ -109,6 +80,16 @@ template <class T> CurvePoint target_at(const Plan<T>& plan, const Attached& hel
     return {held.target, Vec3::Zero(), Vec3::Zero()};
 }
 
+// What the ground alone does with a point in the step: `of` -1 is taken off the target's way, 1 goes on it.
+template <class T> void carry(const Plan<T>& plan, const AttachedEnd& end, double time, double of, Attached& held) {
+    const Grounds grounds = grounds_of(plan, end.body, time);
+    if (!grounds.moved) return;
+    const Vec3 X = grounds.start.R.transpose() * (end.start - grounds.start.x);
+    held.to_target += of * (grounds.end.x + grounds.end.R * X - end.start);
+    held.quicker += of * (grounds.end.v + grounds.end.omega.cross(Vec3(grounds.end.R * X)) - grounds.start.v -
+                          grounds.start.omega.cross(Vec3(grounds.start.R * X)));
+}
+
 // The way of the target over the step.
 template <class T> void lead(const Plan<T>& plan, Attached& held, double time) {
     const CurvePoint start = target_at(plan, held, time), end = target_at(plan, held, time + plan.dt);
@@ -116,30 +97,47 @@ template <class T> void lead(const Plan<T>& plan, Attached& held, double time) {
     held.to_target = end.x;
     held.quicker = end.v - start.v;
     if (held.steps > 0) held.to_target += (held.goal - held.target) / held.steps;
-    const Grounds grounds = grounds_of(plan, held.body, time);
-    if (grounds.moved) { // less what the ground does with the point
-        const Vec3 X = grounds.start.R.transpose() * (held.start - grounds.start.x);
-        held.to_target -= grounds.end.x + grounds.end.R * X - held.start;
-        held.quicker -= grounds.end.v + grounds.end.omega.cross(Vec3(grounds.end.R * X)) - grounds.start.v -
-                        grounds.start.omega.cross(Vec3(grounds.start.R * X));
-    }
+    carry(plan, held, time, -1, held);
+    if (held.far) carry(plan, *held.far, time, 1, held);
     held.target_velocity = (held.to_target - held.from_target) / plan.dt;
 }
 
+// F_ground of one end, times `of`.
 template <class T>
-void add_ground(const Plan<T>& plan, const CoupledState<T>& work, AttachmentSums& sums, const Attached& held,
-                const Vec3& point) {
-    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, held.body) : -1;
+void add_ground(const Plan<T>& plan, const CoupledState<T>& work, const Attached& held, const AttachedEnd& end,
+                double of, Eigen::Matrix<double, 3, 4>& F) {
+    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, end.body) : -1;
     if (spline < 0) return;
     const GroundStep<T>& g = work.ground[std::size_t(spline)];
-    const Vec3 arm = point - g.x.template cast<double>();
+    const Vec3 arm = work.attachments.bodies[end.at].x + end.rho - g.x.template cast<double>();
     const Vec3 a = g.a.template cast<double>() + g.alpha.template cast<double>().cross(arm);
     const Vec3 slope = g.slope_a.template cast<double>() + g.slope_alpha.template cast<double>().cross(arm);
-    const Vec3 F[4] = {held.k * a, held.c * a, held.k * slope, held.c * slope};
+    F.col(0) -= of * held.k * a;
+    F.col(1) -= of * held.c * a;
+    F.col(2) -= of * held.k * slope;
+    F.col(3) -= of * held.c * slope;
+}
+
+template <class T> void add_ground(const Plan<T>& plan, CoupledState<T>& work, const Attached& held) {
+    Eigen::Matrix<double, 3, 4> F = Eigen::Matrix<double, 3, 4>::Zero();
+    add_ground(plan, work, held, held, 1, F);
+    AttachmentSums& sums = work.attachments.bodies[held.at].sums;
     for (int k = 0; k < 4; ++k) {
-        sums.F_ground[k] -= F[k];
-        sums.N_ground[k] -= held.rho.cross(F[k]);
+        sums.F_ground[k] += F.col(k);
+        sums.N_ground[k] += held.rho.cross(F.col(k));
     }
+}
+
+template <class T> void load_pair(const Plan<T>& plan, const CoupledState<T>& work, const Attached& held, Tie& tie) {
+    const AttachedEnd& far = *held.far;
+    const Vec3 velocity = held.velocity - far.velocity;
+    tie.F = held.k * (held.start - far.start - (held.from_target + held.to_target) / 2) +
+            held.c * (velocity - held.target_velocity);
+    tie.slope = -held.k * (held.to_target - held.from_target) - held.c * held.quicker;
+    tie.rate = held.k * velocity;
+    tie.ground.setZero();
+    add_ground(plan, work, held, held, 1, tie.ground);
+    add_ground(plan, work, held, far, -1, tie.ground);
 }
 
 void add_point(AttachmentSums& sums, const Attached& held) {
@@ -163,53 +161,6 @@ void add_point(AttachmentSums& sums, const Attached& held) {
     sums.N_rate += rho.cross(rate);
 }
 
-// What the joints of the path would turn by at most for the force beyond the last step's, each answering by its own spring and inertia alone, over
-// far_turn; at most 1.
-template <class T> double straining(const Plan<T>& plan, const Attachments& a, const Attached& held, const Vec3& more) {
-    const double h = plan.dt, per_metre = held.k + held.c / h;
-    const Vec3 point = a.bodies[held.at].x + held.rho;
-    const auto stiffness = [&](const AttachedBody& b) {
-        const Vector3<T>& K = plan.K[b.body];
-        const Matrix3<T>& J = plan.inertia_joint[b.body];
-        return double(std::min(K[0], K[1])) * (1 + double(plan.beta[b.body]) / h) +
-               double(std::min(J(0, 0), J(1, 1))) / (h * h);
-    };
-    Mat3 give = Mat3::Identity() / per_metre; // [m/N] of the point and of the attachment
-    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
-        const AttachedBody& b = a.bodies[std::size_t(k)];
-        const Vec3 arm = point - b.x;
-        give += (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose()) / stiffness(b);
-    }
-    const Vec3 force = give.inverse() * (more / per_metre);
-    double most = 0;
-    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
-        const AttachedBody& b = a.bodies[std::size_t(k)];
-        most = std::max(most, (point - b.x).cross(force).norm() / stiffness(b));
-    }
-    return std::min(1.0, most / far_turn);
-}
-
-// H of every body of the path.
-template <class T> void add_direction(const Plan<T>& plan, Attachments& a, const Attached& held) {
-    const Vec3 now = held.k * ((held.from_target + held.to_target) / 2 - held.start) +
-                     held.c * (held.target_velocity - held.velocity);
-    const double strain = straining(plan, a, held, Vec3(now - held.force)),
-                 most = std::max(held.force.norm(), strain * strain * now.norm());
-    Vec3 outward = a.bodies[held.at].x + held.rho;
-    for (auto k = std::int64_t(held.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
-        AttachedBody& b = a.bodies[std::size_t(k)];
-        const Vec3 P = outward - b.x;
-        outward = b.x;
-        const double arm = P.norm();
-        if (!(arm > 0) || !(most > 0)) continue;
-        const Vec3 p = P / arm;
-        const Mat3 H = arm * most * (Mat3::Identity() - p * p.transpose());
-        b.sums.A_stiffness += H;
-        b.sums.N -= H * b.turn;
-        b.sums.N_rate += H * b.own;
-    }
-}
-
 void clear(AttachmentSums& s) {
     s.A_stiffness.setZero();
     s.A_damping.setZero();
@@ -222,11 +173,58 @@ void clear(AttachmentSums& s) {
     }
 }
 
+// Stiffness and damping as they are taken: what digits can bear.
+template <class T>
+void take_softer(const Plan<T>& plan, const Attachments& a, Attached& held, std::complex<double> s1) {
+    double mass = answering_mass(plan, a, held, s1);
+    if (held.far) mass = std::min(mass, answering_mass(plan, a, *held.far, s1));
+    const double most = std::sqrt(lost / double(std::numeric_limits<T>::epsilon())) * mass;
+    held.k = std::min(held.stiffness, most / std::norm(s1));
+    held.c = std::min(held.damping, most / std::abs(s1));
+    if (!(held.k < held.stiffness)) return;
+    const Vec3 longer = (1 / held.k - 1 / held.stiffness) * held.spring;
+    held.from_target += longer;
+    held.to_target += longer;
+}
+
 bool holds(const Attached& held, double middle) {
     return held.from <= middle && middle < held.to;
 }
 
 } // namespace
+
+template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
+    std::vector<std::size_t>& touched = a.touched;
+    touched.clear();
+    const auto touch = [&](std::size_t body) {
+        for (auto i = std::int64_t(body); i >= 0; i = plan.parent[std::size_t(i)]) touched.push_back(std::size_t(i));
+    };
+    for (const Attached& held : a.all) {
+        touch(held.body);
+        if (held.far) touch(held.far->body);
+    }
+    for (const PulledPoint& point : a.pulled) touch(point.body);
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    const auto place = [&](std::size_t body) {
+        return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
+    };
+    a.bodies.assign(touched.size(), {});
+    for (std::size_t k = 0; k < touched.size(); ++k) {
+        AttachedBody& b = a.bodies[k];
+        b.body = touched[k];
+        const std::int32_t parent = plan.parent[b.body];
+        b.parent = parent < 0 ? -1 : place(std::size_t(parent));
+        b.joint_position = plan.joint_position[b.body].template cast<double>();
+        b.R_pj = plan.R_pj[b.body].template cast<double>();
+    }
+    for (Attached& held : a.all) {
+        held.at = std::size_t(place(held.body));
+        if (held.far) held.far->at = std::size_t(place(held.far->body));
+    }
+    for (PulledPoint& point : a.pulled) point.at = std::size_t(place(point.body));
+    find_ties(a);
+}
 
 template <class T> void begin_attachments(const Plan<T>& plan, CoupledState<T>& work) {
     Attachments& a = work.attachments;
@@ -237,12 +235,22 @@ template <class T> void begin_attachments(const Plan<T>& plan, CoupledState<T>& 
         held.planned = &planned - plan.attachments.data();
         held.body = planned.body;
         held.point_b = planned.point_b;
+        if (planned.far) held.far = AttachedEnd{planned.far->body, 0, planned.far->point_b};
         held.stiffness = of.stiffness;
         held.damping = of.damping;
         held.from = of.from;
         held.to = of.to;
         a.all.push_back(held);
     }
+    for (const auto* pulls : {&plan.pulls, &plan.followers})
+        for (const PlannedPull<T>& pull : *pulls) {
+            PulledPoint point{};
+            point.body = pull.body;
+            point.point_b = pull.point_b.template cast<double>();
+            point.source = pull.source;
+            point.turns = pulls == &plan.followers;
+            a.pulled.push_back(point);
+        }
     find_bodies(plan, a);
     for (AttachedBody& b : a.bodies) {
         b.now = {plan.theta_start[b.body].template cast<double>(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
@@ -250,10 +258,13 @@ template <class T> void begin_attachments(const Plan<T>& plan, CoupledState<T>& 
         if (b.parent < 0) ground = resting_ground(plan, work, b.body, 0);
         place_body(b, b.parent < 0 ? ground : a.bodies[std::size_t(b.parent)], false);
     }
+    const auto place_of = [&](const AttachedEnd& end) {
+        const AttachedBody& b = a.bodies[end.at];
+        return Vec3(b.x_start + b.R_start * end.point_b);
+    };
     for (Attached& held : a.all) {
-        const AttachedBody& b = a.bodies[held.at];
         const Attachment& of = plan.scene.attachments[plan.attachments[std::size_t(held.planned)].source];
-        held.target = of.target.value_or(b.x_start + b.R_start * held.point_b);
+        held.target = of.target.value_or(held.far ? Vec3(place_of(held) - place_of(*held.far)) : place_of(held));
     }
 }
 
@@ -303,9 +314,9 @@ template <class T>
 void release_from(const Plan<T>& plan, CoupledState<T>& work, const std::vector<std::size_t>& bodies) {
     Attachments& a = work.attachments;
     if (!a.any()) return;
-    std::erase_if(a.all, [&](const Attached& held) {
-        return std::find(bodies.begin(), bodies.end(), held.body) != bodies.end();
-    });
+    const auto gone = [&](std::size_t body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
+    std::erase_if(a.all, [&](const Attached& held) { return gone(held.body) || (held.far && gone(held.far->body)); });
+    std::erase_if(a.pulled, [&](const PulledPoint& point) { return gone(point.body); });
     find_bodies(plan, a);
 }
 
@@ -330,30 +341,31 @@ void place_attachments(const Plan<T>& plan, const CoupledPlan<T>& own, CoupledSt
     std::complex<double> s1 = plan.dt / scheme.pole[0].p;
     for (int k = 1; k < scheme.poles; ++k)
         if (const auto other = plan.dt / scheme.pole[std::size_t(k)].p; std::abs(other) > std::abs(s1)) s1 = other;
+    auto tie = a.ties.begin();
     for (Attached& held : a.all) {
+        Tie* const own_tie = held.far ? &*tie++ : nullptr;
         held.on = holds(held, time + plan.dt / 2);
         if (!held.on) {
             held.force = held.spring = Vec3::Zero();
             continue;
         }
-        AttachedBody& b = a.bodies[held.at];
-        held.rho = b.R * held.point_b;
-        held.start = b.x_start + b.R_start * held.point_b;
-        held.velocity = b.v + b.own.cross(held.rho);
+        place_end(a, held);
+        if (held.far) place_end(a, *held.far);
         lead(plan, held, time);
-        const double most = std::sqrt(lost / double(std::numeric_limits<T>::epsilon())) *
-                            answering_mass(plan, a, held, Vec3(b.x + held.rho), s1);
-        held.k = std::min(held.stiffness, most / std::norm(s1));
-        held.c = std::min(held.damping, most / std::abs(s1));
-        if (held.k < held.stiffness) {
-            const Vec3 longer = (1 / held.k - 1 / held.stiffness) * held.spring;
-            held.from_target += longer;
-            held.to_target += longer;
+        take_softer(plan, a, held, s1);
+        if (held.far) {
+            load_pair(plan, work, held, *own_tie);
+        } else {
+            add_point(a.bodies[held.at].sums, held);
+            add_ground(plan, work, held);
         }
-        add_point(b.sums, held);
-        add_ground(plan, work, b.sums, held, Vec3(b.x + held.rho));
         add_direction(plan, a, held);
     }
+    for (PulledPoint& point : a.pulled) {
+        place_end(a, point);
+        place_pull(plan, a, point, time);
+    }
+    add_directions(plan, a);
 }
 
 template <class T> bool changes(const Plan<T>& plan, const Attached& held, double time) {
@@ -365,6 +377,7 @@ template <class T> bool changes(const Plan<T>& plan, const Attached& held, doubl
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void find_bodies(const Plan<T>&, Attachments&);                                                           \
     template void begin_attachments(const Plan<T>&, CoupledState<T>&);                                                 \
     template std::uint64_t attach(const Plan<T>&, CoupledState<T>&, std::size_t, const Vec3&, double, double,          \
                                   const Vec3&);                                                                        \

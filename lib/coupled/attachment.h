@@ -1,5 +1,6 @@
 // attachment.h: springs and dampers of any stiffness between points of bodies and points in space (Attachment, scene.h), in the coupled step.
 //
+// Between two bodies: attachment_ties.h. With a point in space, here.
 // Force on the body, x its point, X the target:   f = -k (x - X) - c (x' - X')
 // In coupled_step.h's linear model k J^T J joins K and c J^T J joins D, J = d x' / d eta at y*. Divided by s^2 (resolvent.h) that is a
 // mass zeta = k/s^2 + c/s at the point: with rho the point from the body's joint
@@ -35,6 +36,10 @@
 #include <complex>
 
 namespace bough {
+
+// The bodies of all paths: to be called where what holds or pulls them has changed. Those that stay keep nothing, as a step fills them anew.
+// O(paths). Allocates where they are more than before.
+template <class T> void find_bodies(const Plan<T>&, Attachments&);
 
 // Of the plan's, at the start pose. O(paths).
 template <class T> void begin_attachments(const Plan<T>&, CoupledState<T>&);

@@ -1,10 +1,14 @@
 #include "attachment_lanes.h"
 #include "attachment.h"
+#include "attachment_ties.h"
 #include "energy_guard.h"
 #include <algorithm>
+#include <numbers>
 
 namespace bough::fast {
 namespace {
+
+constexpr int inverse_count = 12; // a complex symmetric matrix
 
 // The last that begins at or before a row.
 template <class Of> std::size_t holder(const std::vector<Of>& all, std::uint32_t row) {
@@ -15,6 +19,18 @@ template <class Of> std::size_t holder(const std::vector<Of>& all, std::uint32_t
 
 template <class T> Vec3 three(const Row<T>* rows, std::size_t lane) {
     return {double(rows[0].lane[lane]), double(rows[1].lane[lane]), double(rows[2].lane[lane])};
+}
+
+// The sweep outward has taken joints past half a turn the shorter way round (half_turn.h), and what they changed by in the step with it: as the
+// solve had it, again.
+void turn_on(const JointNow& before, JointNow& now) {
+    if (!now.eta_change.isZero(0) || !(now.theta.norm() > 0)) return;
+    const Vec3 other_way = (1 - 2 * std::numbers::pi / now.theta.norm()) * now.theta;
+    if (!((other_way - before.theta).norm() < (now.theta - before.theta).norm())) return;
+    now.eta = body_rate_jacobian_inverse(other_way) * (body_rate_jacobian(now.theta) * now.eta);
+    now.theta = other_way;
+    now.theta_change = now.theta - before.theta;
+    now.eta_change = now.eta - before.eta;
 }
 
 } // namespace
@@ -34,6 +50,7 @@ template <class T> void place_attached_rows(const CoupledLanesPlan<T>& own, Coup
         if (rows.of_row[row] < 0) rows.of_row[row] = count++;
     }
     rows.terms.assign(std::size_t(count) * inward::count, Row<T>{});
+    rows.inverses.assign(work.attachments.ties.empty() ? 0 : std::size_t(count) * inverse_count, Row<T>{});
 }
 
 template <class T> void read_attached(const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work, bool end) {
@@ -44,8 +61,10 @@ template <class T> void read_attached(const CoupledLanesPlan<T>& own, CoupledLan
         const auto row = std::uint32_t(b.slot / L);
         const Row<T>* at = &work.lanes.table[std::size_t((end ? places.next : places.now).at(row - block.first_row))];
         const std::size_t lane = b.slot % L;
+        const JointNow before = b.now;
         b.now = {three(at + motion::theta, lane), three(at + motion::theta_dot, lane),
                  three(at + motion::theta_change, lane), three(at + motion::theta_dot_change, lane)};
+        if (end) turn_on(before, b.now);
     }
 }
 
@@ -76,22 +95,72 @@ void put_attachments(const Plan<T>& plan, CoupledLanesState<T>& work, std::compl
     }
     to.attached_of_row = rows.of_row.data();
     to.attached = rows.terms.front().lane;
+    if (!rows.inverses.empty()) to.inverses = rows.inverses.front().lane;
+}
+
+template <class T>
+void tie_in_lanes(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work,
+                  std::complex<double> p) {
+    Attachments& a = work.attachments;
+    if (a.ties.empty()) return;
+    constexpr std::uint32_t L = Row<T>::lanes;
+    const auto solved_at = [&](const AttachedBody& b) {
+        const Block& block = own.lanes.layout.blocks[b.block];
+        return &work.lanes.table[std::size_t(places_of(own, work, block).solved.at(b.slot / L - block.first_row))];
+    };
+    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+        const AttachedBody& b = a.bodies[i];
+        SolvedBody& q = a.solved[i];
+        const std::size_t lane = b.slot % L;
+        const auto number = [lane](const Row<T>* rows, int quantity) {
+            return std::complex<double>(rows[quantity].lane[lane], rows[quantity + 1].lane[lane]);
+        };
+        const Row<T>* const solved = solved_at(b);
+        const Row<T>* const inverse =
+            &work.attached.inverses[std::size_t(work.attached.of_row[b.slot / L]) * inverse_count];
+        int next = 0;
+        for (int r = 0; r < 3; ++r)
+            for (int c = r; c < 3; ++c, next += 2) q.E(r, c) = q.E(c, r) = number(inverse, next);
+        for (int r = 0; r < 3; ++r) {
+            q.Eu[r] = number(solved, solved::Eu + 2 * r);
+            for (int c = 0; c < 3; ++c) {
+                q.EA(r, c) = number(solved, solved::EA + 6 * c + 2 * r);
+                q.EB(r, c) = number(solved, solved::EB + 6 * c + 2 * r);
+            }
+        }
+    }
+    solve_ties(plan, work, p);
+    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+        const AttachedBody& b = a.bodies[i];
+        Row<T>* const solved = solved_at(b);
+        for (int r = 0; r < 3; ++r) {
+            solved[solved::Eu + 2 * r].lane[b.slot % L] += T(a.solved[i].gain[r].real());
+            solved[solved::Eu + 2 * r + 1].lane[b.slot % L] += T(a.solved[i].gain[r].imag());
+        }
+    }
 }
 
 template <class T>
 void book_attachments(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work) {
     constexpr std::size_t L = Row<T>::lanes;
+    const auto book = [&](const AttachedEnd& end, double done) {
+        const AttachedBody& b = work.attachments.bodies[end.at];
+        work.account[own.lanes.layout.tree[b.base]].gained -= std::max(0.0, done);
+        if (is_end(plan, end.body)) work.lanes.energy_fast[b.slot / L].lane[b.slot % L] = 1;
+    };
     for (const Attached& held : work.attachments.all) {
-        const AttachedBody& b = work.attachments.bodies[held.at];
-        const std::uint32_t tree = own.lanes.layout.tree[b.base];
-        work.account[tree].gained -= std::max(0.0, held.work);
-        if (is_end(plan, held.body)) work.lanes.energy_fast[b.slot / L].lane[b.slot % L] = 1;
+        book(held, held.work);
+        if (held.far) book(*held.far, held.far_work);
     }
+    for (const PulledPoint& point : work.attachments.pulled)
+        if (point.turns) book(point, point.work);
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void place_attached_rows(const CoupledLanesPlan<T>&, CoupledLanesState<T>&);                              \
     template void read_attached(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, bool);                              \
+    template void tie_in_lanes(const Plan<T>&, const CoupledLanesPlan<T>&, CoupledLanesState<T>&,                      \
+                               std::complex<double>);                                                                  \
     template void put_attachments(const Plan<T>&, CoupledLanesState<T>&, std::complex<double>, CoupledRows<T>&);       \
     template void book_attachments(const Plan<T>&, const CoupledLanesPlan<T>&, CoupledLanesState<T>&);
 BOUGH_INSTANTIATE(float)

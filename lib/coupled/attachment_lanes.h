@@ -14,6 +14,10 @@ template <class T> void read_attached(const CoupledLanesPlan<T>&, CoupledLanesSt
 // The terms at pole p into the rows, and these into what sweeps are given.
 template <class T> void put_attachments(const Plan<T>&, CoupledLanesState<T>&, std::complex<double> p, CoupledRows<T>&);
 
+// Attachments between bodies (attachment_ties.h) at pole p, between the sweeps inward and outward of all rows.
+template <class T>
+void tie_in_lanes(const Plan<T>&, const CoupledLanesPlan<T>&, CoupledLanesState<T>&, std::complex<double> p);
+
 // In the energy guard: ends that are attached keep their rates, and trees the work done on them.
 template <class T> void book_attachments(const Plan<T>&, const CoupledLanesPlan<T>&, CoupledLanesState<T>&);
 

@@ -1,7 +1,10 @@
 // attachment_state.h: attachments as the coupled solver keeps them in a state (attachment.h).
 #pragma once
 #include "../base/math.h"
+#include <Eigen/LU>
+#include <complex>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace bough {
@@ -35,21 +38,32 @@ struct AttachedBody {
     // At y*, world: as in CoupledBody, own: by the joints' rates at y0 alone, v its velocity at the joint; x_start, R_start: at y0.
     Mat3 R_start, R, GJ;
     Vec3 x_start, x, turn, own, v;
+    Vec3 r; // from the joint that carries it, or the ground's place
     AttachmentSums sums;
+    // Of pulls on it and on what it carries: force; rad/(N m) that the joints to the ground give; the sum of pulled_points.h.
+    Vec3 pulled;
+    double give, share;
     Vec3 turned, moved; // [rad], [m] over the step, in the linear model
     Vec3 spun, sped;    // [rad/s], [m/s] likewise: rates
 };
 
-struct Attached {
-    std::uint64_t number; // 0: planned; else of those made while the run goes on
-    std::int64_t planned; // in Plan::attachments; -1: made so
-    std::size_t body;
-    std::size_t at = 0; // in Attachments::bodies
-    Vec3 point_b;       // [m] body frame
-    double stiffness, damping;
-    double from, to; // [s]
-    Vec3 target;     // [m] of one at rest, or led: at the next step's start
-    Vec3 goal;       // [m] where it is led, in so many steps
+// Where one takes hold.
+struct AttachedEnd {
+    std::size_t body = 0;
+    std::size_t at = 0;          // in Attachments::bodies
+    Vec3 point_b = Vec3::Zero(); // [m] body frame
+    // Of the step: from the joint at y*; x_0; V_0
+    Vec3 rho = Vec3::Zero(), start = Vec3::Zero(), velocity = Vec3::Zero();
+};
+
+struct Attached : AttachedEnd {
+    std::uint64_t number = 0;       // 0: planned; else of those made while the run goes on
+    std::int64_t planned = -1;      // in Plan::attachments; -1: made so
+    std::optional<AttachedEnd> far; // of a pair; targets are then as seen from it
+    double stiffness = 0, damping = 0;
+    double from = 0, to = 0;    // [s]
+    Vec3 target = Vec3::Zero(); // [m] of one at rest, or led: at the next step's start
+    Vec3 goal = Vec3::Zero();   // [m] where it is led, in so many steps
     int steps = 0;
 
     Vec3 force = Vec3::Zero(),
@@ -57,19 +71,60 @@ struct Attached {
 
     // Of the step.
     bool on = false;
-    double k, c;                   // as they are taken
-    Vec3 rho, start, velocity;     // from the joint at y*; x_0; V_0
-    Vec3 from_target, to_target;   // [m] at its start and end, as seen from the ground
-    Vec3 target_velocity, quicker; // [m/s] mean, and what it gains
-    double work = 0;               // [J] done on the tree, by the mean of both ends' forces
+    double k = 0, c = 0;                                         // as they are taken
+    Vec3 from_target = Vec3::Zero(), to_target = Vec3::Zero();   // [m] at its start and end, as seen from the ground
+    Vec3 target_velocity = Vec3::Zero(), quicker = Vec3::Zero(); // [m/s] mean, and what it gains
+    double work = 0, far_work = 0; // [J] done on the tree, by the mean of both ends' forces; on the far end's
+};
+
+using ComplexVec3 = Eigen::Vector3cd;
+using ComplexMat3 = Eigen::Matrix3cd;
+
+// A pull of the scene's (pulled_points.h).
+struct PulledPoint : AttachedEnd {
+    std::size_t source = 0; // index into Scene::pulls; or of_caller: State::loads of this step
+    bool turns = false;     // Pull::in_body
+    // Of the step:
+    bool on = false;
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero(); // [N], [N m] about the joint, at y*
+    double work = 0;                                  // [J] done on the tree
+};
+
+constexpr std::size_t of_caller = ~std::size_t(0);
+
+// What the sweeps cannot eliminate (attachment_ties.h): an attachment between two bodies, a point.
+struct Tie {
+    bool follows = false;
+    std::size_t of = 0; // in Attachments::all, in pulled
+    // Of a pair: at the near point, as F, F_slope, F_rate, F_ground of AttachmentSums.
+    Vec3 F = Vec3::Zero(), slope = Vec3::Zero(), rate = Vec3::Zero();
+    Eigen::Matrix<double, 3, 4> ground = Eigen::Matrix<double, 3, 4>::Zero();
+};
+
+// A body of `bodies` in the solve at one pole, as resolvent.h has it: E, E A, E B, E u.
+struct SolvedBody {
+    ComplexMat3 E, EA, EB;
+    ComplexVec3 Eu;
+    ComplexVec3 alpha, a;     // accelerations
+    ComplexVec3 N, F;         // what is pushed on it and what it carries
+    ComplexVec3 moment, gain; // what ties add to N_0, to E u
 };
 
 struct Attachments {
     std::vector<Attached> all;
     std::vector<AttachedBody> bodies; // rising
     std::uint64_t numbers = 0;        // given so far
+    std::vector<PulledPoint> pulled;  // the plan's, then the caller's
+    std::vector<std::size_t> touched; // find_bodies' own
 
-    bool any() const { return !all.empty(); }
+    // With ties alone.
+    std::vector<Tie> ties;
+    std::vector<SolvedBody> solved; // of `bodies`
+    Eigen::MatrixXcd answers;       // what a unit of each tie's unknowns makes of each tie's
+    Eigen::VectorXcd asked, unknowns;
+    Eigen::PartialPivLU<Eigen::MatrixXcd> factors;
+
+    bool any() const { return !bodies.empty(); }
 };
 
 } // namespace bough

@@ -24,14 +24,30 @@ void settle_attachments(Attachments& a) {
             held.target += (held.goal - held.target) / held.steps;
             --held.steps;
         }
-        held.work = 0;
+        held.work = held.far_work = 0;
         if (!held.on) continue;
-        const AttachedBody& b = a.bodies[held.at];
-        const Vec3 way = b.moved + b.turned.cross(held.rho), gained = b.sped + b.spun.cross(held.rho);
+        Vec3 start = held.start, velocity = held.velocity, way = Vec3::Zero(), far_way = way, gained = way;
+        const auto go = [&](const AttachedEnd& end, Vec3& end_way, double of) {
+            const AttachedBody& b = a.bodies[end.at];
+            end_way = b.moved + b.turned.cross(end.rho);
+            gained += of * (b.sped + b.spun.cross(end.rho));
+        };
+        go(held, way, 1);
+        if (held.far) {
+            go(*held.far, far_way, -1);
+            start -= held.far->start;
+            velocity -= held.far->velocity;
+        }
         const Vec3 before = held.force;
-        held.spring = -held.k * (held.start + way - held.to_target);
-        held.force = held.spring - held.c * (held.velocity + gained - held.target_velocity - held.quicker / 2);
+        held.spring = -held.k * (start + (way - far_way) - held.to_target);
+        held.force = held.spring - held.c * (velocity + gained - held.target_velocity - held.quicker / 2);
         held.work = (before + held.force).dot(way) / 2;
+        held.far_work = -(before + held.force).dot(far_way) / 2;
+    }
+    for (PulledPoint& point : a.pulled) {
+        if (!point.turns) continue;
+        const AttachedBody& b = a.bodies[point.at];
+        point.work = point.force.dot(b.moved + b.turned.cross(point.rho));
     }
 }
 

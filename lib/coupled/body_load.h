@@ -13,6 +13,7 @@
 // steady 35 m/s leaned by 0.47 m instead of 0.52 m. On plates also the bound of air.h on how fast their moment may turn, and leaf_air.h's where
 // there is /leaves, which brings to N its torque too. What the air takes of a body's own turning, spin I omega, is in N at omega_0, as its change is
 // the resolvent's.
+// (What it makes that the points of pulls go with their bodies: pulled_points.h.)
 // slope: known functions of time, the wind's velocity U and the pulls: D (U(t+h) - U(t)), f(t+h) - f(t).
 // Torque of the joint, world: rates^T (-K (theta_0 + beta eta_0)), and rates^T K eta_0 its rate.
 // Reads   the first part of coupled, theta, theta_dot, wind, wind_change. Writes the second. O(n), bodies in parallel. Errors none.

@@ -43,6 +43,34 @@ template <class T> struct CoupledIn : CoupledParts<T> {
         for (int k = 0; k < inward::count; ++k) sum.set(k, sum.real(k) + more.real(k));
     }
 
+    // A with its own beside what came (resolvent.cpp, start).
+    template <bool wind, bool gravity, bool tip>
+    BOUGH_FORCE Symmetric<C> whole_A(const Rows<T>& q, const Rows<const T>& in, const C& s1, const C& s2,
+                                     const V3<W>& c) const {
+        const Symmetric<W> J = in.symmetric(loaded::J);
+        Symmetric<C> A = came<tip>(q.complex_symmetric(inward::A));
+        A = {A.xx + J.xx, A.xy + J.xy, A.xz + J.xz, A.yy + J.yy, A.yz + J.yz, A.zz + J.zz};
+        if constexpr (gravity || wind) A = plus(A, s2, in.symmetric(loaded::H));
+        if constexpr (wind)
+            A = plus(A, s1, upper(cross_left(c, transposed(cross_left(c, full(in.symmetric(loaded::D)))))));
+        return A;
+    }
+    // E = (A + Z)^-1
+    BOUGH_FORCE static Symmetric<C> inverse_of(const Symmetric<C>& A, const Rows<const T>& in, const C& z) {
+        const Symmetric<W> J = in.symmetric(loaded::J), K = in.symmetric(loaded::K);
+        const W size = J.xx + J.yy + J.zz + (magnitude(z.re) + magnitude(z.im)) * (K.xx + K.yy + K.zz);
+        return inverse(plus(A, z, K), W(1 / size));
+    }
+
+    // For attachments between bodies (attachment_ties.h), before step_in.
+    template <bool wind, bool gravity>
+    [[gnu::noinline]] void keep_inverse(const Rows<T>& q, std::uint32_t row, int lane, const Rows<const T>& in) const {
+        const C s1 = number(rows.s1), s2 = number(rows.s2), z = constants(row, lane).real(constant::beta) * s1 + s2;
+        const Symmetric<C> A = whole_A<wind, gravity, false>(q, in, s1, s2, in.vector(loaded::c));
+        const Rows<T> to{rows.inverses + std::size_t(rows.attached_of_row[row]) * 12 * L + lane};
+        to.set(0, inverse_of(A, in, z));
+    }
+
     // q: what the bodies carry, and then what they are to those that carry them. It stays in memory, where each part waits until its turn: as
     // numbers of the function's own, the compiler would store most of them on its stack as well (381 stores a row, where now there are some 165).
     template <bool wind, bool gravity, bool tip>
@@ -55,18 +83,11 @@ template <class T> struct CoupledIn : CoupledParts<T> {
         alignas(64) T waiting[solved::rates * L];
         const Rows<T> kept{rows.stream ? waiting + lane : solved_row(row, lane).at};
 
-        // A with its own beside what came (resolvent.cpp, start), and E = (A + Z)^-1
         Symmetric<C> E;
         {
-            const Symmetric<W> J = in.symmetric(loaded::J), K = in.symmetric(loaded::K);
-            Symmetric<C> A = came<tip>(q.complex_symmetric(inward::A));
-            A = {A.xx + J.xx, A.xy + J.xy, A.xz + J.xz, A.yy + J.yy, A.yz + J.yz, A.zz + J.zz};
-            if constexpr (gravity || wind) A = plus(A, s2, in.symmetric(loaded::H));
-            if constexpr (wind)
-                A = plus(A, s1, upper(cross_left(c, transposed(cross_left(c, full(in.symmetric(loaded::D)))))));
+            const Symmetric<C> A = whole_A<wind, gravity, tip>(q, in, s1, s2, c);
             q.set(inward::A, A);
-            const W size = J.xx + J.yy + J.zz + (magnitude(z.re) + magnitude(z.im)) * (K.xx + K.yy + K.zz);
-            E = inverse(plus(A, z, K), W(1 / size));
+            E = inverse_of(A, in, z);
         }
         const V3<W> mc = mass * c;
         Symmetric<W> D{};
@@ -218,6 +239,7 @@ template <class T> struct CoupledIn : CoupledParts<T> {
                     add_carried(q, {rows.attached + std::size_t(rows.attached_of_row[row]) * inward::count * L + lane});
                 }
                 const Rows<const T> in{loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane};
+                if (rows.inverses && rows.attached_of_row[row] >= 0) keep_inverse<wind, gravity>(q, row, lane, in);
                 if (tip)
                     step_in<wind, gravity, true>(q, row, lane, in);
                 else

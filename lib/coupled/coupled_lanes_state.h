@@ -10,8 +10,9 @@ template <class T> struct CoupledLanesPlan : CoupledPlan<T> { PlannedLanes<T> la
 // What attachments add to the sweep inward (attachment_lanes.h).
 template <class T> struct AttachedRows {
     std::vector<std::int32_t>
-        of_row;         // of each row, the place of its record in `terms`, -1: none; empty without attachments
-    RowVector<T> terms; // as records inward, but in rows
+        of_row;            // of each row, the place of its record in `terms`, -1: none; empty without attachments
+    RowVector<T> terms;    // as records inward, but in rows
+    RowVector<T> inverses; // with ties alone: CoupledRows::inverses
 };
 
 template <class T> struct CoupledLanesState : Cloned<CoupledLanesState<T>, CoupledState<T>, StepperState> {

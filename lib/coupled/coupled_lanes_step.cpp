@@ -11,6 +11,7 @@
 #include "half_turn.h"
 #include "midpoint.h"
 #include "own_inertia.h"
+#include "pulled_points.h"
 #include "sleep.h"
 #include <algorithm>
 
@@ -107,9 +108,10 @@ CoupledRows<T> rows_of(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Stat
     return rows;
 }
 
+// For the solve of the scheme's pole k.
 template <class T>
 SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work,
-                 const CoupledRows<T>& rows) {
+                 const CoupledRows<T>& rows, int k) {
     const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(own.lanes.target, plan.wind, plan.gravity, plan.field);
     const std::vector<Block>& blocks = own.lanes.layout.blocks;
     Lanes<T>& lanes = work.lanes;
@@ -138,8 +140,8 @@ SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLan
             wait += !blocks[b].whole;
         }
     const double cost = block_cost(own.lanes.layout) / double(blocks.size());
-    parallel_blocks(blocks.size() - 1, cost * double(awake), [&](std::size_t k, int worker) {
-        const std::size_t b = 1 + k;
+    parallel_blocks(blocks.size() - 1, cost * double(awake), [&](std::size_t which, int worker) {
+        const std::size_t b = 1 + which;
         const Block& block = blocks[b];
         const Rest rest = rest_of(work.lanes, b);
         if (rest == Rest::settling && block.whole) keep_motion(own, work, block);
@@ -160,11 +162,12 @@ SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLan
     if (rest_of_top == Rest::awake) {
         add_ports(own.lanes, work.lanes, inward::count);
         sweeps.inward(top_rows, blocks[0], top_scratch);
+        tie_in_lanes(plan, own, work, scheme_of(own.scheme).pole[std::size_t(k)].p);
         sweeps.accelerate(top_rows, blocks[0], top);
     }
     // From the last on, which is in the caches still.
-    parallel_blocks(blocks.size() - 1, cost * double(wait) / 5, [&](std::size_t k, int) {
-        const std::size_t b = blocks.size() - 1 - k;
+    parallel_blocks(blocks.size() - 1, cost * double(wait) / 5, [&](std::size_t which, int) {
+        const std::size_t b = blocks.size() - 1 - which;
         if (!blocks[b].whole && rest_of(work.lanes, b) == Rest::awake)
             sweeps.accelerate(rows_of_block(blocks[b]), blocks[b], flags[b]);
     });
@@ -271,6 +274,7 @@ void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Sta
         return;
     }
     SweepFlags flags;
+    if (take_loads(plan, state, work.attachments)) place_attached_rows(own, work);
     if (work.attachments.any())
         run_stage(Stage::attachments, state, clock, [&] {
             if (plan.root_motion) ground_over_step(plan, own, work, time);
@@ -279,11 +283,11 @@ void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Sta
         });
     run_stage(Stage::lanes, state, clock, [&] {
         CoupledRows<T> rows = rows_of(plan, own, state, work, time, 0);
-        flags = sweep(plan, own, work, rows);
+        flags = sweep(plan, own, work, rows, 0);
         for (int k = 1; k < scheme_of(own.scheme).poles; ++k) {
             rows = rows_of(plan, own, state, work, time, k);
             const SweepFlags solved =
-                sweep(plan, own, work, rows); // its way outward has met with the same as the first
+                sweep(plan, own, work, rows, k); // its way outward has met with the same as the first
             flags.half_turns = solved.half_turns;
             flags.fast = solved.fast;
             flags.finite = solved.finite;

@@ -3,6 +3,7 @@
 #include "../lanes/lane_motion.h"
 #include "../lanes/plan_lanes.h"
 #include "../plan/state_update.h"
+#include "allocate_coupled.h"
 #include "attachment.h"
 #include "attachment_lanes.h"
 #include "coupled_lanes_step.h"
@@ -32,6 +33,9 @@ CoupledLanesStepper<T>::CoupledLanesStepper(Scheme scheme, Target target, double
 template <class T> void CoupledLanesStepper<T>::lay_out(const Plan<T>& plan, const std::vector<TreeRange>& ranges) {
     gravity_ = plan.gravity;
     lay_out_lanes(plan, ranges, own.lanes);
+    // Between the sweeps inward and outward ties are solved for, for which all trees wait.
+    if (plan.pairs || !plan.followers.empty())
+        for (Block& block : own.lanes.layout.blocks) block.whole = false;
     fill_coupled(plan, own);
     give_back(own.carried_moment, own.carried_drag);
     plan_sleep(plan, own, sleep_);

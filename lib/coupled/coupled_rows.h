@@ -81,6 +81,7 @@ template <class T> struct CoupledRows : SweepRows<T> {
     const std::int32_t*
         attached_of_row; // of each row, which of `attached` is added to it, -1: none; null: no attachments
     T* attached;         // records inward, a row each quantity
+    T* inverses; // of the rows that `attached` has: E of resolvent.h, complex symmetric, for attachments between bodies; else null
 
     T fold; // 1 / fold_speed (air.h) where there is foliage, else 0: how the drag of what bodies carry is taken
     bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last

@@ -8,6 +8,7 @@
 #include "half_turn.h"
 #include "limits.h"
 #include "midpoint.h"
+#include "pulled_points.h"
 #include "resolvent.h"
 
 namespace bough {
@@ -46,6 +47,7 @@ void coupled_step(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& stat
         midpoint(plan, state, work, scheme_of(own.scheme).extrapolates);
     });
     run_stage(Stage::body_loads, state, clock, [&] { body_loads(plan, own, state, work, time); });
+    take_loads(plan, state, work.attachments);
     const bool holds = work.attachments.any();
     if (holds)
         run_stage(Stage::attachments, state, clock, [&] {

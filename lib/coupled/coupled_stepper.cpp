@@ -1,5 +1,6 @@
 #include "coupled_stepper.h"
 #include "../plan/state_update.h"
+#include "allocate_coupled.h"
 #include "attachment.h"
 #include "coupled_step.h"
 #include <algorithm>

@@ -201,10 +201,16 @@ template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, CoupledWo
     for (std::size_t i = 0; i < plan.bodies; ++i)
         if (work.account[work.guard[i].tree].watched) weigh_end(plan, s, work, i);
     book_pulls(plan, s, work, time, -1);
+    const auto book = [&](std::size_t body, double done) {
+        work.guard[body].keep = 1;
+        work.account[work.guard[body].tree].gained -= std::max(0.0, done);
+    };
     for (const Attached& held : work.attachments.all) {
-        work.guard[held.body].keep = 1;
-        work.account[work.guard[held.body].tree].gained -= std::max(0.0, held.work);
+        book(held.body, held.work);
+        if (held.far) book(held.far->body, held.far_work);
     }
+    for (const PulledPoint& point : work.attachments.pulled)
+        if (point.turns) book(point.body, point.work);
     for (EnergyAccount& account : work.account)
         if (account.watched) settle(account, plan.foliage);
     for (std::size_t i = 0; i < plan.bodies; ++i) {

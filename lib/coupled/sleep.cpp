@@ -27,6 +27,8 @@ template <class T> std::string reason_against(const Plan<T>& plan, const Coupled
         return steady(without) ? "/wind/swirl" : "/wind/grid";
     }
     if (!scene.root_motion.empty()) return "/root_motion";
+    if (plan.pairs) return "/attachments with another body";
+    if (!plan.followers.empty()) return "/pulls in bodies' axes";
     if (has_free_bodies(scene)) return free_part(scene); // whatever breaks, hits or treads would have to wake it
     if (plan.loads) return "forces of the caller";       // likewise
     return {};

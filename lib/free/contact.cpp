@@ -1,4 +1,6 @@
 #include "contact.h"
+#include "../base/parallel.h"
+#include "path_response.h"
 #include <algorithm>
 #include <cmath>
 
@@ -160,7 +162,7 @@ void push(FreeBody& free, const Vec3& arm, const Vec3& impulse) {
 namespace {
 
 struct Solving {
-    Mat3 free_mobility, mobility; // [1/kg] the free body's, both
+    Mat3 mobility;                // [1/kg] the free body's and the tree's
     double along = 0, across = 0; // [kg] effective masses
     double target = 0;            // [m/s] least velocity apart
     Vec3 tree_velocity = Vec3::Zero();
@@ -171,26 +173,21 @@ struct Solving {
 } // namespace
 
 template <class T>
-void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& response, TreeResponse<T>& rigid,
-                    const Contact& contact, std::vector<FreeBody>& free, std::vector<ContactPoint>& points) {
+void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, const TreeResponse<T>& sprung,
+                    const TreeResponse<T>& rigid, const Contact& contact, std::vector<FreeBody>& free,
+                    std::vector<ContactPoint>& points) {
     if (points.empty()) return;
     std::vector<Solving> solving(points.size());
     const double slow = 2 * plan.scene.gravity.norm() * plan.dt;
-    double fastest = 0;
+    std::vector<std::int64_t> bodies;
+    for (const ContactPoint& c : points) {
+        bodies.push_back(c.body);
+        if (c.body >= 0) poses.of(std::size_t(c.body)); // known from here on
+    }
+    PathResponse response(plan, poses, sprung, rigid, bodies);
     // What the springs will have made of the trees' velocities at the end of the step in which they answer.
-    response.begin();
-    std::vector<std::size_t> joints;
-    for (const ContactPoint& c : points)
-        for (std::int64_t i = c.body; i >= 0; i = plan.parent[std::size_t(i)]) joints.push_back(std::size_t(i));
-    std::sort(joints.begin(), joints.end());
-    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
-    for (const std::size_t joint : joints) response.add_spring(plan, poses, joint);
-    for (std::size_t k = 0; k < points.size(); ++k)
-        if (points[k].body >= 0)
-            solving[k].tree_velocity = response.velocity(plan, poses, std::size_t(points[k].body), points[k].point);
-    response.begin();
-    rigid.begin();
-    for (std::size_t k = 0; k < points.size(); ++k) {
+    response.add_springs();
+    parallel_for(points.size(), 5000, [&](std::size_t k) {
         ContactPoint& c = points[k];
         Solving& s = solving[k];
         const Mat3 W = mobility_of(free[c.free], c.arm);
@@ -198,11 +195,10 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
         s.mobility = W;
         double bounces = 1;
         if (c.body >= 0) {
-            const auto body = std::size_t(c.body);
-            s.mobility += response.mobility(plan, poses, body, c.point);
-            now = poses.of(body).velocity_at(c.point);
-            s.tree_velocity += now;
-            const Mat3 unsprung = W + rigid.mobility(plan, poses, body, c.point);
+            s.mobility += response.mobility(k, c.point, true);
+            now = poses.known(std::size_t(c.body)).velocity_at(c.point);
+            s.tree_velocity = now + response.velocity(k, c.point);
+            const Mat3 unsprung = W + response.mobility(k, c.point, false);
             bounces = c.normal.dot(s.mobility * c.normal) / c.normal.dot(unsprung * c.normal);
         }
         s.along = 1 / c.normal.dot(s.mobility * c.normal);
@@ -211,17 +207,24 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
         c.approach = -c.normal.dot(Vec3(free[c.free].velocity_at(c.arm) - now));
         s.target = c.approach > slow ? contact.restitution * bounces * c.approach : 0;
         if (c.free_speed > 0) s.target = -c.free_speed;
-        fastest = std::max(fastest, c.approach);
-    }
+    });
+    double fastest = 0;
+    for (const ContactPoint& c : points) fastest = std::max(fastest, c.approach);
     response.begin();
+    // Rounds over all contacts, and between them over those alone that still change: few do after the first.
     constexpr int rounds = 100;
+    const double settled = 1e-6 * fastest;
+    std::vector<char> changes(points.size(), 1);
+    bool all = true;
     for (int round = 0; round < rounds; ++round) {
         double change = 0;
         for (std::size_t k = 0; k < points.size(); ++k) {
+            if (!all && !changes[k]) continue;
             ContactPoint& c = points[k];
             Solving& s = solving[k];
+            changes[k] = 0;
             Vec3 v = free[c.free].velocity_at(c.arm) - s.tree_velocity;
-            if (c.body >= 0) v -= response.velocity(plan, poses, std::size_t(c.body), c.point);
+            if (c.body >= 0) v -= response.velocity(k, c.point);
             const double apart = c.normal.dot(v);
             const double before = s.normal_impulse;
             s.normal_impulse = std::max(0.0, before + s.along * (s.target - apart));
@@ -232,11 +235,18 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
             if (size > most) s.friction *= size > 0 ? most / size : 0;
             const Vec3 impulse = (s.normal_impulse - before) * c.normal + s.friction - last;
             if (impulse.isZero(0)) continue;
-            change = std::max(change, impulse.norm() / s.along);
+            const double own = impulse.norm() / s.along;
+            changes[k] = own > settled;
+            change = std::max(change, own);
             push(free[c.free], c.arm, impulse);
-            if (c.body >= 0) response.add(plan, poses, std::size_t(c.body), c.point, -impulse);
+            if (c.body >= 0) response.add(k, c.point, -impulse);
         }
-        if (change <= 1e-6 * fastest) break;
+        if (change > settled)
+            all = false;
+        else if (all)
+            break;
+        else
+            all = true;
     }
     for (std::size_t k = 0; k < points.size(); ++k)
         points[k].impulse = solving[k].normal_impulse * points[k].normal + solving[k].friction;
@@ -249,8 +259,8 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, TreeResponse<T>& r
     template void find_contacts(const Plan<T>&, const Tree&, const Subtrees&, TreeWay<T>, const Contact&,              \
                                 const FreeBody&, std::size_t, const FreeMotion&, bool, std::vector<ContactPoint>&,     \
                                 ContactTests&);                                                                        \
-    template void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, TreeResponse<T>&, const Contact&,    \
-                                 std::vector<FreeBody>&, std::vector<ContactPoint>&);
+    template void solve_contacts(const Plan<T>&, TreePoses<T>&, const TreeResponse<T>&, const TreeResponse<T>&,        \
+                                 const Contact&, std::vector<FreeBody>&, std::vector<ContactPoint>&);
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)
 #undef BOUGH_INSTANTIATE

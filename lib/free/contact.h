@@ -4,12 +4,12 @@
 //            was before the step to where it is after it. Subtrees whose reach (subtree.h) the free body's own bound does not come near on the
 //            way are pruned: the result is that of looking at every body. The ground is a plane, which a branch meets with the rims of its flat ends. A meeting is at a part `way` of the step, 0 for
 //            what touches already.
-// Solved     Sequential impulses with accumulated bounds (Catto 2005): contact by contact, until nothing changes by more than 1e-6 of the fastest
+// Solved     Sequential impulses with accumulated bounds (Catto 2005): contact by contact, until in a round over all nothing changes by more than 1e-6 of the fastest
 //            approach, or 100 rounds. Along the normal the velocity after is at least
 //              restitution x (effective mass without springs / with them) times the approach  (0 for what comes slower than gravity makes
 //              it in two steps): springs give back by themselves what they take. A body that meets several things one after another may
 //              go on up to the later ones, at gap / time left
-//            and across it friction takes up to `friction` times the normal impulse. Trees answer as response.h says.
+//            and across it friction takes up to `friction` times the normal impulse. Trees answer as path_response.h says.
 // Given      the free bodies their impulses; the tree the same, negative, as forces over the step to come (State::loads).
 // One contact alone, without friction: impulse = (1 + e) v_n / (1/m + r x n . I^-1 r x n + n.W n), W the tree's mobility there.
 // Cost       finding: O(bodies that are not pruned); solving: O(contacts x bodies on their ways to the root) a round.
@@ -63,7 +63,7 @@ void push(FreeBody&, const Vec3& arm, const Vec3& impulse);
 
 // Finds the impulses of all, poses those after the step, and gives the free bodies theirs. rigid: without springs.
 template <class T>
-void solve_contacts(const Plan<T>&, TreePoses<T>&, TreeResponse<T>&, TreeResponse<T>& rigid, const Contact&,
-                    std::vector<FreeBody>&, std::vector<ContactPoint>&);
+void solve_contacts(const Plan<T>&, TreePoses<T>&, const TreeResponse<T>& sprung, const TreeResponse<T>& rigid,
+                    const Contact&, std::vector<FreeBody>&, std::vector<ContactPoint>&);
 
 } // namespace bough

@@ -3,6 +3,7 @@
 #include "../growth/random.h"
 #include "../laws/air.h"
 #include "../laws/leaf_air.h"
+#include "../model/bending_stress.h"
 #include <algorithm>
 #include <numbers>
 
@@ -30,8 +31,8 @@ double of_kind(const Fracture& f, const Tree& tree, std::size_t i) {
     case Kind::branch:
         break;
     }
-    const double r = tree.size[i][1];
-    return f.strength < Fracture::never ? std::min(f.branch, f.strength * std::numbers::pi * r * r * r / 4) : f.branch;
+    if (!(f.strength < Fracture::never)) return f.branch;
+    return std::min(f.branch, f.strength * section_modulus(tree.size[i][1]));
 }
 
 } // namespace

@@ -9,6 +9,7 @@ template <class T> void place_free_bodies(const World<T>& world, MotionFrame& fr
     for (auto* array :
          {&frame.position, &frame.velocity, &frame.angular_velocity, &frame.torque, &frame.theta, &frame.theta_dot})
         if (!array->empty()) array->resize(bodies + world.balls + world.walkers.size(), Vec3::Zero());
+    if (!frame.stress.empty()) frame.stress.resize(bodies + world.balls + world.walkers.size(), 0);
     if (!frame.rotation.empty()) frame.rotation.resize(bodies + world.balls + world.walkers.size(), Quat::Identity());
     for (std::size_t k = 0; k < world.free.size(); ++k) {
         const FreeBody& free = world.free[k];

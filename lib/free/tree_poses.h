@@ -27,6 +27,8 @@ public:
     void begin_copy(const Plan<T>&, const State<T>&);
     // Stays where it is until the next begin().
     const BodyPose& of(std::size_t body);
+    // The same of a body that was asked for: several threads may.
+    const BodyPose& known(std::size_t body) const { return pose_[place_[body]]; }
     // [rad], [rad/s] joint frame.
     Vec3 theta(std::size_t body) const;
     Vec3 theta_dot(std::size_t body) const;

@@ -1,14 +1,5 @@
-// world.h: what is free in a scene, and one step of it all: trees, what breaks off them, balls, ground (§6, §8).
+// world.h: what is free in a scene: what breaks off its trees, balls, and who walks on them (§6, §8). world_step.h moves it.
 //
-// Order of a step:
-//   walkers   their weight on what they are on goes to the forces of the step (walker.h)
-//   trees     the plan's solver, with the contacts' forces from the step before (advance.h)
-//   flight    each free body's way through the air (flight.h; leaves: leaf_flight.h)
-//   contacts  what they meet on it, trees on their own ways, and the impulses (contact.h); a free body goes to where it met something
-//             first, and on from there with its new velocity up to the next thing, which is the next step's. It does not end behind the point that it
-//             met; what overlapped before is pushed out by a fifth a step. With the paper's pair, the tree takes the penalty force, and the free
-//             body the tree's velocity along the normal where that pushes it away
-//   fracture  joints whose springs' torque is above their threshold (fracture.h)
 // A scene without /fracture, /balls and /walkers has no World, and its step is advance() alone.
 // What lies slow on the ground for half a second is at rest from then on. A leaf that comes to the ground lies down on it within some tenths of a second.
 // The hash of a run with free bodies goes on over them; saved() and restore() hold them for a run that is cut. Nothing hangs on threads.
@@ -56,9 +47,6 @@ template <class T> struct World {
 // Empty (on() false) where the scene has nothing free. The tree is kept by reference: joined, unscaled, as the plan was made from. Throws
 // std::out_of_range for a selector of /fracture or /walkers that names no body, std::domain_error for walkers on what may break. O(n).
 template <class T> World<T> make_world(const Plan<T>&, const Tree&, const std::vector<TreeRange>&);
-
-// One step of all; without a world that is on, advance(plan, state).
-template <class T> void advance(Plan<T>&, State<T>&, World<T>&, StageClock* clock = nullptr);
 
 // state_hash, gone on over broken joints and free bodies.
 template <class T> std::uint64_t state_hash(const Plan<T>&, const State<T>&, const World<T>&);

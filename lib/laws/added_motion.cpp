@@ -110,6 +110,8 @@ std::vector<double> composite_reach(const Tree& tree) {
 
 std::string no_estimate(const Scene& scene) {
     if (!scene.attachments.empty()) return "its estimate knows nothing of what /attachments hold";
+    for (const Pull& pull : scene.pulls)
+        if (pull.in_body) return "its estimate knows nothing of /pulls that turn with their bodies";
     if (!scene.root_motion.empty()) return "its estimate knows nothing of what /root_motion does";
     const bool sags = scene.pose != Pose::drawn && !scene.gravity.isZero();
     const bool blows = scene.wind && scene.air_density > 0;

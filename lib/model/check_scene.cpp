@@ -70,6 +70,11 @@ std::optional<Defect> check_keys(const std::vector<double>& time, const std::str
 
 std::optional<Defect> check(const Attachment& held, const std::string& at, std::size_t trees) {
     if (auto defect = check(held.on, at + "/on", trees)) return defect;
+    if (held.with) {
+        if (auto defect = check(*held.with, at + "/with", trees)) return defect;
+        if (held.with->by == Selector::By::level)
+            return Defect{at + "/with", -1, "is by level, expected one body: by body, branch or nearest"};
+    }
     if (held.target && !held.time.empty())
         return Defect{at + "/target", -1, "stands beside time and position, expected one of the two"};
     if (held.target)

@@ -13,6 +13,7 @@ struct MotionFields {
     bool velocity = false; // velocity (of the centre of mass), angular_velocity
     bool torque = false;   // torque
     bool angles = false;   // theta, theta_dot
+    bool stress = false;   // stress
 };
 
 // What happened in the steps that led to a frame, arrays over events. Bodies as in the motion: the trees', then balls, then walkers.
@@ -57,6 +58,7 @@ struct MotionFrame {
     std::vector<Vec3> torque;           // [N m] of the joint's spring and damper on the body, joint frame
     std::vector<Vec3> theta;            // [rad] joint frame
     std::vector<Vec3> theta_dot;        // [rad/s] joint frame
+    std::vector<double> stress; // [Pa] that bends the wood at the joint (bending_stress.h); 0 of all but branches
     MotionEvents events;
 };
 

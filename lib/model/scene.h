@@ -102,15 +102,19 @@ std::optional<Wind> wind_preset(const std::string& name);
 struct Pull {
     Selector on;
     std::vector<double> time; // [s] rising
-    std::vector<Vec3> force;  // [N] world, one per time
+    std::vector<Vec3> force;  // [N] one per time: world, or
+    bool in_body = false; // in the body's axes, with which it turns; for the coupled solver (coupled/pulled_points.h)
 };
 
 // A spring and a damper between a point of a body and a point in space, which may move: a hand, a rope, a prop, a wire. Force on the body
 //   f = -stiffness (x - target) - damping (x' - target')
 // as long as from <= t < to, taken for each step by its middle. For the coupled solver (coupled/attachment.h).
+// Or between points of two bodies, of one tree or of two, with the force's opposite on the other: a hammock, a cable, branches that are tied.
+// x and x' are then as seen from the other point, in the world's axes.
 struct Attachment {
-    Selector on;                // by level: one for each of its bodies
-    std::optional<Vec3> target; // [m] world, at rest; absent, and without keys: where the point is at the run's start
+    Selector on;                  // by level: one for each of its bodies
+    std::optional<Selector> with; // the other body; not by level
+    std::optional<Vec3> target;   // [m] world, at rest; absent, and without keys: where the point is at the run's start
     std::vector<double>
         time; // [s] rising: keys of a target that moves through them as RootMotion does; none, or at least two
     std::vector<Vec3> position; // [m] world, one per time

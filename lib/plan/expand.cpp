@@ -48,8 +48,10 @@ void expand_frame(const Reduced& r, const Tree& whole, const Plan<T>& plan, cons
     const auto leads = [&](std::size_t i) {
         return r.body[i] >= 0 && r.leader[std::size_t(r.body[i])] == std::int32_t(i);
     };
-    const auto of_leader = [&](std::vector<Vec3>& array) {
-        expand(array, n, [&](std::size_t i) { return leads(i) ? array[std::size_t(r.body[i])] : Vec3(Vec3::Zero()); });
+    const auto of_leader = [&](auto& array, const auto& none) {
+        using Value = std::decay_t<decltype(array[0])>;
+        expand(array, n,
+               [&](std::size_t i) -> Value { return leads(i) ? array[std::size_t(r.body[i])] : Value(none); });
     };
     // Before the positions, the rotations and the angular velocities that they are made with.
     expand(frame.velocity, n, [&](std::size_t i) -> Vec3 {
@@ -83,9 +85,10 @@ void expand_frame(const Reduced& r, const Tree& whole, const Plan<T>& plan, cons
         if (leads(i)) return frame.rotation[std::size_t(g)];
         return positive(frame.rotation[std::size_t(g)] * r.rotation[i]);
     });
-    of_leader(frame.torque);
-    of_leader(frame.theta);
-    of_leader(frame.theta_dot);
+    of_leader(frame.torque, Vec3::Zero());
+    of_leader(frame.theta, Vec3::Zero());
+    of_leader(frame.theta_dot, Vec3::Zero());
+    of_leader(frame.stress, 0);
 }
 
 template WholePose whole_pose(const Reduced&, const Plan<float>&, const State<float>&, std::size_t);

@@ -2,7 +2,7 @@
 // still its ground.
 //
 // Its joint has turned by nothing: theta and theta_dot are 0. What torque it passes on is not known without the accelerations of all that it
-// carries: 0 too.
+// carries: 0 too, as the stress of it.
 #pragma once
 #include "../model/motion.h"
 #include "plan.h"

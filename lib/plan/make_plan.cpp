@@ -2,6 +2,7 @@
 #include "../base/shortest_text.h"
 #include "../laws/leaf_air.h"
 #include "../laws/wind_field.h"
+#include "../model/bending_stress.h"
 #include "carried.h"
 #include "plan_reach.h"
 #include "pose.h"
@@ -102,6 +103,15 @@ template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
     }
 }
 
+template <class T> void plan_stresses(Plan<T>& plan, const Tree& tree) {
+    plan.stress_of_moment.reserve(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        const double radius = tree.size[i][1];
+        const bool wood = tree.kind[i] == Kind::branch && radius > 0;
+        plan.stress_of_moment.push_back(wood ? T(1 / section_modulus(radius)) : T(0));
+    }
+}
+
 template <class T> WindReach reach_of(const Plan<T>& plan, const Tree& tree) {
     WindReach reach{highest_reach(tree, plan.splines, plan.moved), 0};
     if (const std::optional<WindSwirl>& swirl = plan.scene.wind->swirl)
@@ -167,9 +177,11 @@ void refuse_unapplied(const Scene& scene) {
 
 template <class T> void plan_pulls(Plan<T>& plan, const Tree& tree, const std::vector<TreeRange>& ranges) {
     for (std::size_t k = 0; k < plan.scene.pulls.size(); ++k) {
+        const Pull& pull = plan.scene.pulls[k];
         try {
-            for (const Selected& target : select(tree, ranges, plan.scene.pulls[k].on))
-                plan.pulls.push_back({target.body, target.point_b.template cast<T>(), k});
+            for (const Selected& target : select(tree, ranges, pull.on))
+                (pull.in_body ? plan.followers : plan.pulls)
+                    .push_back({target.body, target.point_b.template cast<T>(), k});
         } catch (const std::out_of_range& error) {
             throw std::out_of_range("/pulls/" + std::to_string(k) + "/on: " + error.what());
         }
@@ -181,12 +193,22 @@ template <class T> void plan_attachments(Plan<T>& plan, const Tree& tree, const 
         const Attachment& held = plan.scene.attachments[k];
         std::optional<QuinticSpline> course;
         if (!held.time.empty()) course = make_quintic(held.time, held.position);
-        try {
-            for (const Selected& target : select(tree, ranges, held.on))
-                plan.attachments.push_back({target.body, target.point_b, k, course});
-        } catch (const std::out_of_range& error) {
-            throw std::out_of_range("/attachments/" + std::to_string(k) + "/on: " + error.what());
+        const std::string at = "/attachments/" + std::to_string(k);
+        const auto selected = [&](const Selector& on, const char* name) {
+            try {
+                return select(tree, ranges, on);
+            } catch (const std::out_of_range& error) {
+                throw std::out_of_range(at + name + error.what());
+            }
+        };
+        std::optional<Selected> far;
+        if (held.with) far = selected(*held.with, "/with: ").front();
+        for (const Selected& target : selected(held.on, "/on: ")) {
+            if (far && far->body == target.body)
+                throw std::out_of_range(at + "/with: is the body that /on names, expected another");
+            plan.attachments.push_back({target.body, target.point_b, k, far, course});
         }
+        plan.pairs = plan.pairs || far;
     }
 }
 
@@ -214,9 +236,10 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.forces = plan.wind || plan.pushes();
     plan.velocity_wished = wishes.velocity;
     plan.velocity = wishes.velocity || stepper.reads_velocities(plan);
-    plan.torque = wishes.torque;
-    plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || wishes.torque || scene.fracture ||
-                !scene.balls.empty() || !scene.attachments.empty();
+    plan.torque = wishes.torque || wishes.stress;
+    if (wishes.stress) plan_stresses(plan, tree);
+    plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || plan.torque || scene.fracture ||
+                !scene.balls.empty() || !scene.attachments.empty() || !scene.pulls.empty() || wishes.loads;
     plan_root_motion(plan, ranges);
     if (plan.wind) {
         const WindReach reach = reach_of(plan, tree);

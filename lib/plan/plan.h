@@ -20,7 +20,8 @@ struct Wishes {
     // Poses and angles as they go. Without (and without the two above) a step in lanes keeps neither them nor their constants in document
     // order: a run then has its hash, and the angles that present() brings for a saved state.
     bool pose = true;
-    bool loads = false; // the caller will put forces on bodies into State::loads before steps
+    bool stress = false; // bending_stresses() will be called
+    bool loads = false;  // the caller will put forces on bodies into State::loads before steps
     // [m] What the wind's tables reach at least, whatever the tree at hand does: a part of a larger scene looks its wind up in the same.
     double top = 0, reach = 0;
     std::vector<double> clocks{}; // [s] the wind's of the whole, in its order (wind_clocks)
@@ -38,6 +39,7 @@ struct PlannedAttachment {
     std::size_t body;
     Vec3 point_b;                        // [m] body frame
     std::size_t source;                  // index into Scene::attachments
+    std::optional<Selected> far;         // of one with another body
     std::optional<QuinticSpline> course; // [m] of a target that moves
 };
 
@@ -67,6 +69,7 @@ template <class T> struct Plan {
     std::vector<Vector3<T>> theta_start;    // [rad]
 
     std::vector<Vector3<T>> theta_limit; // [rad] joint_limit.h; infinite: none
+    std::vector<T> stress_of_moment;     // [1/m^3] of wood 1 / section_modulus(), of all else 0; with Wishes::stress
 
     // Root motion (root_term.h): a curve an entry of Scene::root_motion, and which trees it moves, rising.
     std::vector<RootSpline> splines;
@@ -84,8 +87,9 @@ template <class T> struct Plan {
     std::vector<double> clocks{0};    // [s] by how much the wind's clocks are ahead (wind_field.h)
     std::vector<std::uint32_t> clock; // which of them each body's tree goes by; empty: all by the first
 
-    std::vector<PlannedPull<T>> pulls;
+    std::vector<PlannedPull<T>> pulls, followers; // in the world's axes; in the body's (Pull::in_body)
     std::vector<PlannedAttachment> attachments;
+    bool pairs = false; // some of them with another body
 };
 
 // Of what goes by itself (lib/free): what the scene names of it, as a JSON pointer, or null; whether there is any; whether free bodies may

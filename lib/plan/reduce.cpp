@@ -144,16 +144,30 @@ Scene scene_on(const Reduced& r, const Tree& whole, Scene scene) {
     std::vector<Pull> pulls;
     for (const Pull& pull : scene.pulls)
         for (const Selected& target : select(whole, r.whole, pull.on))
-            if (const std::optional<Selector> on = selector_on(r, target))
-                pulls.push_back({*on, pull.time, pull.force});
+            if (const std::optional<Selector> on = selector_on(r, target)) {
+                pulls.push_back(pull);
+                pulls.back().on = *on;
+                if (!pull.in_body) continue;
+                for (Vec3& f : pulls.back().force) f = r.rotation[target.body] * f;
+            }
     scene.pulls = std::move(pulls);
     std::vector<Attachment> attachments;
-    for (const Attachment& held : scene.attachments)
-        for (const Selected& target : select(whole, r.whole, held.on))
-            if (const std::optional<Selector> on = selector_on(r, target)) {
-                attachments.push_back(held);
-                attachments.back().on = *on;
-            }
+    for (const Attachment& held : scene.attachments) {
+        std::optional<Selector> with;
+        if (held.with) with = selector_on(r, select(whole, r.whole, *held.with).front());
+        for (const Selected& target : select(whole, r.whole, held.on)) {
+            const std::optional<Selector> on = selector_on(r, target);
+            if (held.with && (!on || !with || (on->tree == with->tree && on->body == with->body)))
+                throw std::domain_error(
+                    "/attachments/" + std::to_string(&held - scene.attachments.data()) +
+                    (on && with ? ": holds two bodies that are one" : ": one of its two bodies stands still") +
+                    " (/simulate, /rigid), expected both to move by themselves");
+            if (!on) continue;
+            attachments.push_back(held);
+            attachments.back().on = *on;
+            attachments.back().with = with;
+        }
+    }
     scene.attachments = std::move(attachments);
     return scene;
 }

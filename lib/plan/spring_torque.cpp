@@ -8,7 +8,15 @@ template <class T> void spring_torque(const Plan<T>& plan, State<T>& state) {
                             plan.K[i].cwiseProduct(state.theta[i] + plan.beta[i] * state.theta_dot[i]);
 }
 
+template <class T> void bending_stresses(const Plan<T>& plan, const State<T>& state, std::vector<double>& stress) {
+    stress.resize(plan.bodies);
+    for (std::size_t i = 0; i < plan.bodies; ++i)
+        stress[i] = double(state.torque_j[i].template head<2>().norm() * plan.stress_of_moment[i]);
+}
+
 template void spring_torque(const Plan<float>&, State<float>&);
 template void spring_torque(const Plan<double>&, State<double>&);
+template void bending_stresses(const Plan<float>&, const State<float>&, std::vector<double>&);
+template void bending_stresses(const Plan<double>&, const State<double>&, std::vector<double>&);
 
 } // namespace bough

@@ -9,4 +9,8 @@ namespace bough {
 // joint frame's rates, into torque_j for all bodies.
 template <class T> void spring_torque(const Plan<T>&, State<T>&);
 
+// [Pa] What the present torque_j bends each body's wood by (model/bending_stress.h), 0 for what is no branch. Needs Wishes::stress. O(bodies);
+// allocates nothing once the array has grown.
+template <class T> void bending_stresses(const Plan<T>&, const State<T>&, std::vector<double>& stress);
+
 } // namespace bough

@@ -4,6 +4,7 @@
 #include "../coupled/attachment.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
+#include "../free/world_step.h"
 #include "../lanes/plan_lanes.h"
 #include "../plan/change.h"
 #include "../plan/expand.h"
@@ -52,7 +53,7 @@ Ground ground_of(const RootSpline& spline, const GroundMotion& motion) {
 template <class T> class RunOf final : public AnyRun {
 public:
     RunOf(std::shared_ptr<Assembly> of, const RunChoice& c) : AnyRun(std::move(of), c) {
-        fields_ = {true, options().velocities, options().torques, true};
+        fields_ = {true, options().velocities, options().torques, true, options().stresses};
         if (options().grounds) find_driven();
         if (choice_.saves) name_ = fingerprint(assembly_->tree, assembly_->scene);
         run_ = started();
@@ -71,10 +72,9 @@ public:
             advance(nullptr);
             report.non_finite = non_finite();
         }
-        const StepFlags& now = run_.state.flags;
-        report.fast_turns = now.fast_turns - before.fast_turns;
-        report.guarded = now.energy_guard - before.energy_guard;
-        report.limited = now.limited - before.limited;
+        report.fast_turns = run_.state.flags.fast_turns - before.fast_turns;
+        report.guarded = run_.state.flags.energy_guard - before.energy_guard;
+        report.limited = run_.state.flags.limited - before.limited;
         for (const std::string& what : run_.world.events.what)
             ++(what == "broke" ? report.broke : what == "hit" ? report.hits : report.landed);
         if (!report.finite()) broken_ = report;
@@ -133,7 +133,7 @@ public:
     }
     std::optional<std::size_t> fill(const MotionFields& fields, MotionFrame& frame) override {
         present(run_.plan, run_.state);
-        const std::optional<std::size_t> wrong = fill_frame(run_.state, fields, frame);
+        const std::optional<std::size_t> wrong = fill_frame(run_.plan, run_.state, fields, frame);
         show_all(*assembly_, run_, frame);
         return wrong;
     }
@@ -354,6 +354,7 @@ private:
         Wishes wishes;
         wishes.velocity = options().velocities;
         wishes.torque = options().torques;
+        wishes.stress = options().stresses;
         wishes.pose = choice_.poses;
         wishes.loads = options().pulls;
         const bool keeps = choice_.keeps_trees || has_free_bodies(assembly_->scene);

@@ -34,6 +34,15 @@ template <class T> struct Way {
     }
 };
 
+template <class T> bool pulls(const Plan<T>& plan) {
+    return !plan.pulls.empty() || !plan.followers.empty();
+}
+
+// Are forces to come from the caller alone?
+template <class T> bool callers(const Plan<T>& plan) {
+    return plan.loads && !plan.contact && plan.scene.walkers.empty();
+}
+
 // What loads the bodies: the parts of the scene that do, or that none does.
 template <class T> std::string forces_text(const Plan<T>& plan) {
     std::string text;
@@ -42,11 +51,11 @@ template <class T> std::string forces_text(const Plan<T>& plan) {
     };
     add(plan.wind, "/wind");
     add(plan.wind && plan.leaf.on, "/leaves");
-    add(!plan.pulls.empty(), "/pulls");
+    add(pulls(plan), "/pulls");
     add(plan.contact && !plan.scene.balls.empty(), "/balls");
     add(plan.contact && plan.scene.fracture.has_value(), "/fracture");
     add(!plan.scene.walkers.empty(), "/walkers");
-    add(plan.loads && !plan.contact && plan.scene.walkers.empty(), "forces of the caller");
+    add(callers(plan), "forces of the caller");
     return text.empty() ? "no wind, no pulls" : text;
 }
 
@@ -102,8 +111,14 @@ template <class T> void explain_stages(const Plan<T>& plan, const Way<T>& way, s
         plain     ? "every scene" + (plan.forces ? "; " + forces : "")
         : coupled ? fused
                   : solver);
-    const bool held = coupled && !plan.attachments.empty();
-    add(Stage::attachments, held, held ? "/attachments" : "no attachments");
+    std::string held;
+    const auto holds = [&](bool on, const char* part) {
+        if (coupled && on) held += (held.empty() ? "" : ", ") + std::string(part);
+    };
+    holds(!plan.attachments.empty(), "/attachments");
+    holds(pulls(plan), "/pulls");
+    holds(callers(plan), "forces of the caller");
+    add(Stage::attachments, !held.empty(), held.empty() ? "no attachments, no pulls" : held);
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, lanes,
         lanes
@@ -155,8 +170,10 @@ template <class T> void explain_arrays(const Plan<T>& plan, const Way<T>& way, s
                                  : way.fictitious ? "/fictitious"
                                  : plan.velocity  ? "output field velocity"
                                                   : "no wind, no output field velocity";
-    const std::string torque = plan.torque ? "output field torque" : "no output field torque";
-    const std::string unread = "in lanes; no poses, velocities, torques asked for";
+    const std::string torque = !plan.torque                    ? "no output field torque, no output field stress"
+                               : plan.stress_of_moment.empty() ? "output field torque"
+                                                               : "output field stress";
+    const std::string unread = "in lanes; no poses, velocities, torques, stresses asked for";
     const std::string read = plan.pose ? always : unread;
     add("theta", sizeof(Vector3<T>), plan.pose, read);
     add("theta_dot", sizeof(Vector3<T>), plan.pose, read);

@@ -48,7 +48,10 @@ template <class T> std::string explanation(const Plan<T>& plan, const std::vecto
         (array.on ? used : left) += array.bytes;
     }
     text << "constants of bodies in document order "
-         << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques asked for") << "\n";
+         << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques, stresses asked for")
+         << "\n";
+    text << "constants of stresses "
+         << (plan.stress_of_moment.empty() ? "left out: no output field stress" : "on: output field stress") << "\n";
     if (const auto* lanes = fast::planned_lanes(plan))
         text << "constants of rows in lanes " << sharing_text(*lanes) << "\n";
     text << "threads " << threads_text(plan) << "\n";

@@ -76,10 +76,15 @@ struct Fingerprint {
         add(std::uint64_t(pull.time.size()));
         for (const double t : pull.time) add(t);
         for (const Vec3& f : pull.force) add(f);
+        if (pull.in_body) add_named(11, {});
     }
     void add(const Attachment& held) {
         add(held.on);
         add_named(8, {held.stiffness, held.damping, held.from, held.to, double(held.target.has_value())});
+        if (held.with) {
+            add_named(10, {});
+            add(*held.with);
+        }
         if (held.target) add(*held.target);
         add_named(0, held.time);
         for (const Vec3& p : held.position) add(p);

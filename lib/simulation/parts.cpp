@@ -141,8 +141,12 @@ Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
         if (held.on.by == Selector::By::nearest || held.on.by == Selector::By::level)
             throw SceneError("not with the scene's /attachments/" + std::to_string(k) +
                              "/on, which looks for its body in all trees; name it by body or branch");
+        if (held.with && (held.with->by == Selector::By::nearest || held.with->tree != held.on.tree))
+            throw SceneError("not with the scene's /attachments/" + std::to_string(k) +
+                             "/with, which goes from tree to tree");
         if (!within(held.on.tree)) continue;
         held.on.tree -= std::int32_t(first);
+        if (held.with) held.with->tree -= std::int32_t(first);
         part.attachments.push_back(std::move(held));
     }
     if (part.wood) {

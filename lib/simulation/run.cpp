@@ -2,6 +2,7 @@
 #include "../analytic/analytic_lanes_stepper.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../plan/expand.h"
+#include "../plan/spring_torque.h"
 
 namespace bough {
 namespace {
@@ -84,7 +85,8 @@ template <class T> std::string non_finite(Run<T>& run, const Tree& tree) {
 }
 
 template <class T>
-std::optional<std::size_t> fill_frame(const State<T>& state, const MotionFields& fields, MotionFrame& out) {
+std::optional<std::size_t> fill_frame(const Plan<T>& plan, const State<T>& state, const MotionFields& fields,
+                                      MotionFrame& out) {
     std::optional<std::size_t> broken;
     const auto copy = [&](bool wanted, const std::vector<Vector3<T>>& from, std::vector<Vec3>& to) {
         if (!wanted) return;
@@ -100,6 +102,9 @@ std::optional<std::size_t> fill_frame(const State<T>& state, const MotionFields&
     copy(fields.torque, state.torque_j, out.torque);
     copy(fields.angles, state.theta, out.theta);
     copy(fields.angles, state.theta_dot, out.theta_dot);
+    if (fields.stress) bending_stresses(plan, state, out.stress);
+    for (std::size_t i = 0; !broken && i < out.stress.size(); ++i)
+        if (!std::isfinite(out.stress[i])) broken = i;
     if (!fields.pose) return broken;
     out.rotation.resize(state.R_wb.size());
     for (std::size_t i = 0; i < state.R_wb.size(); ++i) {
@@ -130,8 +135,10 @@ template Run<float> start_run(Plan<float>, const Assembly&);
 template Run<double> start_run(Plan<double>, const Assembly&);
 template std::string non_finite(Run<float>&, const Tree&);
 template std::string non_finite(Run<double>&, const Tree&);
-template std::optional<std::size_t> fill_frame(const State<float>&, const MotionFields&, MotionFrame&);
-template std::optional<std::size_t> fill_frame(const State<double>&, const MotionFields&, MotionFrame&);
+template std::optional<std::size_t> fill_frame(const Plan<float>&, const State<float>&, const MotionFields&,
+                                               MotionFrame&);
+template std::optional<std::size_t> fill_frame(const Plan<double>&, const State<double>&, const MotionFields&,
+                                               MotionFrame&);
 template void show_all(const Assembly&, const Run<float>&, MotionFrame&);
 template void show_all(const Assembly&, const Run<double>&, MotionFrame&);
 

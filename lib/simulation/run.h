@@ -38,9 +38,10 @@ template <class T> Run<T> start_run(Plan<T> plan, const Assembly&);
 // After a step: "", or where the run became non-finite: "stage spring (theta), body 17 (branch 3)". Arrays are brought up to date where that takes it.
 template <class T> std::string non_finite(Run<T>&, const Tree&);
 
-// The arrays of a state that is up to date (present()), as far as `fields` asks for them, in the precision of frames. Returns the first body
+// The arrays of a plan's state that is up to date (present()), as far as `fields` asks for them, in the precision of frames. Returns the first body
 // whose numbers are non-finite, if there is one. Allocates nothing once the frame has grown.
-template <class T> std::optional<std::size_t> fill_frame(const State<T>&, const MotionFields& fields, MotionFrame&);
+template <class T>
+std::optional<std::size_t> fill_frame(const Plan<T>&, const State<T>&, const MotionFields& fields, MotionFrame&);
 
 // A frame of the run becomes one of all bodies: those that are held, what fell, balls and walkers.
 template <class T> void show_all(const Assembly&, const Run<T>&, MotionFrame&);

@@ -149,6 +149,10 @@ std::span<const Vec3> Simulation::rates() const {
 std::span<const Vec3> Simulation::torques() const {
     return run_->frame().torque;
 }
+
+std::span<const double> Simulation::stresses() const {
+    return run_->frame().stress;
+}
 const MotionEvents& Simulation::events() const {
     return run_->events();
 }

@@ -43,6 +43,7 @@ struct SimulationOptions {
         0; // of a step at most, the caller's among them; 0: as many as the process has cores. Small work takes fewer ("Threads")
     bool velocities = false; // velocities() and angular_velocities() are wanted: else empty
     bool torques = false;    // likewise torques()
+    bool stresses = false;   // likewise stresses()
     bool pulls = false;      // pull() will be called: without, the step has no place for it
     bool grounds =
         false; // set_ground() will be called: nothing sleeps then, and the analytic method takes the plain path
@@ -109,7 +110,9 @@ public:
     std::span<const Vec3> angles() const;  // [rad] rotation vectors of joints in their joint frames; of trees alone
     std::span<const Vec3> rates() const;   // [rad/s] how those change
     std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (Options::torques)
-    const MotionEvents& events() const;    // of the last call of step(): what broke, hit, landed
+    std::span<const double>
+    stresses() const; // [Pa] that bend the wood at each joint (model/bending_stress.h; Options::stresses)
+    const MotionEvents& events() const; // of the last call of step(): what broke, hit, landed
     // The trees drawn as they stand, to be run again from there or written: with pose drawn they stay so by themselves. Stiffness and damping are the
     // trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.
     Tree posed_tree() const;

@@ -130,27 +130,46 @@ void add_pulls(const Plan<double>& plan, ArticulatedPass& pass, double time) {
         b.F -= f;
         b.N -= pull.point_b.cross(f);
     }
+    for (const PlannedPull<double>& pull : plan.followers) {
+        ArticulatedBody& b = pass.body[pull.body];
+        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time);
+        b.F -= f;
+        b.N -= pull.point_b.cross(f);
+    }
 }
 
-// As forces, and in an implicit step with their change over it: h (h k + c) is a mass at the point.
+// As forces, and in an implicit step with their change over it: h (h k + c) is a mass at the point. (Of those between two bodies each end has
+// that mass by itself, the other going on as it moves: this pass closes no loop.)
 void add_attachments(const Plan<double>& plan, ArticulatedPass& pass, double time, double h) {
-    for (std::size_t j = 0; j < plan.attachments.size(); ++j) {
-        const PlannedAttachment& planned = plan.attachments[j];
-        const Attachment& held = plan.scene.attachments[planned.source];
-        if (!(held.from <= time && time < held.to)) continue;
-        ArticulatedBody& b = pass.body[planned.body];
-        const Vec3 &p = planned.point_b, x = b.x_w + b.R_wb * p;
-        const Vec3 v = b.R_wb * (b.v + b.omega.cross(p));
-        CurvePoint target{held.target.value_or(pass.attached_at[j])};
-        if (planned.course) target = curve_at(*planned.course, time + h);
-        const Vec3 f = b.R_wb.transpose() * (held.stiffness * (target.x - x - h * v) + held.damping * (target.v - v));
-        const double mass = h * (h * held.stiffness + held.damping);
-        const Vec3 spun = b.omega.cross(b.omega.cross(p));
+    const auto push = [&](std::size_t body, const Vec3& p, const Vec3& f_w, double mass) {
+        ArticulatedBody& b = pass.body[body];
+        const Vec3 f = b.R_wb.transpose() * f_w, spun = b.omega.cross(b.omega.cross(p));
         b.M += mass * Mat3::Identity();
         b.B += mass * cross_matrix(p);
         b.A += mass * (p.squaredNorm() * Mat3::Identity() - p * p.transpose());
         b.F -= f - mass * spun;
         b.N -= p.cross(Vec3(f - mass * spun));
+    };
+    const auto motion = [&](std::size_t body, const Vec3& p) {
+        const ArticulatedBody& b = pass.body[body];
+        return CurvePoint{b.x_w + b.R_wb * p, b.R_wb * (b.v + b.omega.cross(p))};
+    };
+    for (std::size_t j = 0; j < plan.attachments.size(); ++j) {
+        const PlannedAttachment& planned = plan.attachments[j];
+        const Attachment& held = plan.scene.attachments[planned.source];
+        if (!(held.from <= time && time < held.to)) continue;
+        CurvePoint now = motion(planned.body, planned.point_b);
+        if (planned.far) {
+            const CurvePoint far = motion(planned.far->body, planned.far->point_b);
+            now.x -= far.x;
+            now.v -= far.v;
+        }
+        CurvePoint target{held.target.value_or(pass.attached_at[j])};
+        if (planned.course) target = curve_at(*planned.course, time + h);
+        const Vec3 f = held.stiffness * (target.x - now.x - h * now.v) + held.damping * (target.v - now.v);
+        const double mass = h * (h * held.stiffness + held.damping);
+        push(planned.body, planned.point_b, f, mass);
+        if (planned.far) push(planned.far->body, planned.far->point_b, -f, mass);
     }
 }
 

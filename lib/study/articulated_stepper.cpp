@@ -42,7 +42,7 @@ void articulated(const Plan<double>& plan, const ArticulatedPlan& own, State<dou
     }
 }
 
-// Where the points of the plan's attachments are at the run's start.
+// Where the points of the plan's attachments are at the run's start, as seen from what they are attached to.
 std::vector<Vec3> attached_at(const Plan<double>& plan) {
     std::vector<Vec3> at;
     if (plan.attachments.empty()) return at;
@@ -57,7 +57,10 @@ std::vector<Vec3> attached_at(const Plan<double>& plan) {
         x[i] = (root ? ground.x : x[p]) + carrier * plan.joint_position[i];
         R[i] = carrier * plan.R_pj[i] * rotation_from_vector(plan.theta_start[i]);
     }
-    for (const PlannedAttachment& held : plan.attachments) at.push_back(x[held.body] + R[held.body] * held.point_b);
+    for (const PlannedAttachment& held : plan.attachments) {
+        at.push_back(x[held.body] + R[held.body] * held.point_b);
+        if (held.far) at.back() -= x[held.far->body] + R[held.far->body] * held.far->point_b;
+    }
     return at;
 }
 

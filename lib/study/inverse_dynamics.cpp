@@ -72,13 +72,15 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
         b.N = inertial - c.cross(weight + f) - torque;
         b.moment = inertial.norm() + c.cross(weight).norm() + c.cross(f).norm() + torque.norm();
     }
-    for (const PlannedPull<double>& pull : plan.pulls) {
+    const auto push = [&](const PlannedPull<double>& pull, const Mat3& axes) {
         Moving& b = body[pull.body];
-        const Vec3 f = pull_force(plan.scene.pulls[pull.source], time), arm = b.R * pull.point_b;
+        const Vec3 f = axes * pull_force(plan.scene.pulls[pull.source], time), arm = b.R * pull.point_b;
         b.F -= f;
         b.N -= arm.cross(f);
         b.moment += arm.cross(f).norm();
-    }
+    };
+    for (const PlannedPull<double>& pull : plan.pulls) push(pull, Mat3::Identity());
+    for (const PlannedPull<double>& pull : plan.followers) push(pull, body[pull.body].R);
     Residual residual;
     double squares = 0, moments = 0;
     for (std::size_t i = n; i-- > 0;) {

@@ -1,5 +1,5 @@
 #include "stability_free.h"
-#include "../free/world.h"
+#include "../free/world_step.h"
 #include "energy.h"
 #include "solvers.h"
 #include <algorithm>

@@ -9,7 +9,6 @@ echo '#include <bough/bough_c.h>' | tee header.c >header.cpp
 code c lib/README.md >apple.c
 
 strict=(-Wall -Wextra -Wpedantic -Werror -Wshadow -Wstrict-prototypes -Iinclude)
-sanitizers=$(sed -n 's/BOUGH_SANITIZE:STRING=//p' "$build/CMakeCache.txt")
 own=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 compilers=(gcc clang)
 [[ -z $sanitizers ]] || compilers=("${own/++/}") # sanitized libraries go with their own compiler alone

@@ -11,7 +11,8 @@ cleanup() { rm -rf "$work"; }
 trap cleanup EXIT
 cd "$work"
 maple=$top/data/young_maple.xml
-: "$build" "$maple"
+sanitizers=$(sed -n 's/BOUGH_SANITIZE:STRING=//p' "$build/CMakeCache.txt") # empty in a plain build
+: "$build" "$maple" "$sanitizers"
 
 # Runs start at rest here, as they are held against closed forms and each other, unless they say how they start. settle.sh has the default.
 treesim() {

@@ -72,6 +72,12 @@ expect 0 treeconvert soft.swc --units m --up z -o soft.json
 refused 2 "times as thick would carry it: treeconvert --radii carry" treesim soft.json --frames 2 --no-output
 expect 0 treeconvert soft.swc --units m --up z --radii carry --stats -o carried.json
 grep -q -- '--radii carry: 1 of 1 branch made thicker' err || fail "$(cat err)"
+expect 0 treegen --import soft.swc --units m --up z --radii carry -o carried.splines.json
+grep -q -- '--radii carry: [1-9][0-9]* of [0-9]* branch' err || fail "$(cat err)"
+expect 0 treeconvert carried.splines.json -o of_splines.json
+expect 0 treesim of_splines.json --frames 2 --no-output
+expect 0 treegen --import soft.swc --units m --up z --radii file -o file.splines.json
+refused 1 "--radii: only with --params or --import" treegen --radii carry --seed 3
 expect 0 treesim carried.json --frames 2 --no-output
 
 # What nobody can read is called by its name, whatever its content or its name says.

@@ -18,7 +18,6 @@ add_executable(program program.cpp)
 target_link_libraries(program PRIVATE bough::files)
 END
 code cpp lib/README.md >program/program.cpp
-sanitizers=$(sed -n 's/BOUGH_SANITIZE:STRING=//p' "$build/CMakeCache.txt")
 own=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 compilers=("$own") # sanitized libraries go with their own compiler alone
 [[ -n $sanitizers ]] || compilers=(g++ clang++)

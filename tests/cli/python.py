@@ -60,7 +60,7 @@ with open("birch.json", "rb") as file:
     assert len(bough.read_tree(file)) == len(tree)
 
 # The motion is what treesim wrote, number for number; bodies that go on along a branch hang where the one before ends.
-run = of(tree, velocities=True, torques=True)
+run = of(tree, velocities=True, torques=True, stresses=True)
 joined = np.flatnonzero((tree.parents >= 0) & (tree.kinds == 0) & (tree.branches == tree.branches[tree.parents]))
 assert len(joined) > 20
 before = run.positions
@@ -79,6 +79,7 @@ for k, frame in enumerate(frames):
     assert np.abs(run.positions[joined] - run.tips[tree.parents[joined]]).max() < 1e-9
     assert np.allclose(run.tips, run.positions + rotated(run.rotations, np.outer(tree.sizes[:, 0], [0, 0, 1])), atol=1e-12)
 assert run.angles.shape == run.rates.shape == run.torques.shape == (len(tree), 3)
+assert run.stresses.shape == (len(tree), 1)
 
 # Views: no copy, not to be written to, the same memory from step to step, alive as long as one of them.
 assert address(run.positions) == at and np.array_equal(before, run.positions)

@@ -4,7 +4,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 python=$(python_with_numpy)
 [[ -n $python ]] || { echo "SKIPPED: no Python with numpy (python3-numpy)"; exit 77; }
-[[ -z $(sed -n 's/BOUGH_SANITIZE:STRING=//p' "$build/CMakeCache.txt") ]] || { echo "SKIPPED: Python is not built with the sanitizers"; exit 77; }
+[[ -z $sanitizers ]] || { echo "SKIPPED: Python is not built with the sanitizers"; exit 77; }
 export BOUGH_LIBRARY=$build/formats/libbough_files.so PYTHONPATH=$top/formats/c PYTHONDONTWRITEBYTECODE=1
 
 treegen --species birch --bodies 300 --seed 2 --leaves | treeconvert - -o birch.json

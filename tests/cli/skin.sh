@@ -62,4 +62,21 @@ expect 0 treesim painted.gltf --frames 2 -o painted.glb
 grep -q 'image "bark.png" not put into the file' err || fail "a missing texture is not named: $(cat err)"
 echo hello >bark.png
 refused 2 'image "bark.png" is no image that can be read' treesim painted.gltf --frames 2 -o x.glb
+
+# INPUT's own mesh is shown, or it is said why another is.
+armatures=$top/data/fixtures/two_armatures.dae
+refused 2 "its own mesh: two of its nodes are called" treesim "$armatures" --frames 2 -o x.glb
+refused 2 "--mesh made shows one that is made from the tree" treesim "$armatures" --frames 2 -o x.glb
+expect 0 treesim "$armatures" --frames 2 --mesh made -o made.glb
+expect 0 treesim "$top/data/fixtures/twig_joints.dae" --frames 2 -o joints.glb
+grep -q 'its bones move no mesh of faces.*: a mesh made from the tree is shown' err || fail "a made mesh is not told of: $(cat err)"
+python3 - "$twig" <<'END'
+import json, sys
+model = json.load(open(sys.argv[1]))
+for node in model["nodes"]:
+    node.pop("skin", None)
+json.dump(model, open("skinless.gltf", "w"))
+END
+expect 0 treesim skinless.gltf --frames 2 -o skinless.glb
+grep -q 'no bones move its mesh' err || fail "a mesh without skin is not told of: $(cat err)"
 absent x.glb x.jsonl two.glb strict.json

@@ -5,7 +5,8 @@
 // eta - eta_0):  d' = L d + f~ + (t - h/2)/h slope.  From dense_dynamics.h: accelerations and mass matrix. From here:
 //   rates of turning Phi_b and of moving V_b of body b with eta, in y*'s pose; D = sum V^T D_b V, H = sum Phi^T H_b Phi
 //   H_b    gravity's, by second differences of the potential of what body b turns; the air's bound on plates (air.h)
-//   attachments: k P^T P in K, c P^T P in C, P the rates of the point, and what turning resists by their force
+//   attachments: k P^T P in K, c P^T P in C, P the rates of the point (less those of the other's), and what turning resists by their force
+//   pulls (coupled/pulled_points.h): what they resist turning by, in K; of those that turn, what they and their moments change by as their body turns
 //   slope  M^-1 of what wind and pulls change by, and of what D makes of the ground's going on
 // The step is R(h W) of the matrix W that makes the system autonomous, R by its polynomials: no poles, no residues.
 // For grounds of steady acceleration and angular velocity, turning about the world's origin.
@@ -31,6 +32,14 @@ struct Held {
     V3 point_b;
     Real k, c;
     V3 from, to, quicker, force; // force: of the last step's end
+    std::int64_t far = -1;       // the other body, from whose point the targets are seen
+    V3 far_point_b = V3::Zero();
+};
+
+// A pull that turns with its body, at y*; change: of its force over the step, in y*'s axes.
+struct Turning {
+    std::size_t body;
+    V3 point_b, force, change;
 };
 
 struct Step {
@@ -41,6 +50,7 @@ struct Step {
     std::vector<V3> pull_change{}; // of middle.pulls
     Real h = 0;
     std::vector<Held> held{};
+    std::vector<Turning> turning{};
 };
 
 // theta(t + h) - theta_0, then eta(t + h) - eta_0.
@@ -136,27 +146,42 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
     start.time = p.time - taken.h / 2;
     const Pose before = pose_at(start, 0);
     for (const Held& held : taken.held) {
-        const V3 x = pose.x[held.body] + pose.R[held.body] * held.point_b;
-        const V3 x_0 = before.x[held.body] + before.R[held.body] * held.point_b;
         const M3 R_0 = p.ground.R(start.time), R_1 = p.ground.R(start.time + taken.h);
-        const V3 on_ground = R_0.transpose() * (x_0 - p.ground.x(start.time));
-        const V3 to = held.to - (p.ground.x(start.time + taken.h) + R_1 * on_ground - x_0);
-        const V3 spun = p.ground.omega.cross(V3((R_1 - R_0) * on_ground));
-        const V3 pivot = p.ground.omega.cross(V3((R_1 - R_0) * p.ground.pivot));
-        const V3 quicker = held.quicker - (p.ground.a * taken.h - pivot + spun);
+        V3 x_apart = V3::Zero(), to = held.to, quicker = held.quicker;
         Matrix P = Matrix::Zero(3, N);
-        std::vector<std::size_t> path;
-        for (std::int32_t k = std::int32_t(held.body); k >= 0; k = tree.parent[std::size_t(k)]) {
-            path.push_back(std::size_t(k));
-            P.block<3, 3>(0, 3 * k) =
-                -cross(x - pose.x[std::size_t(k)]) * pose.R[std::size_t(k)] * J.block<3, 3>(3 * k, 3 * k);
-        }
-        const V3 f = -held.k * (x_0 - (held.from + to) / 2) - held.c * (P * eta_0 - (to - held.from) / taken.h);
+        struct Carrier {
+            std::size_t body;
+            V3 to_end, to_next;
+            std::vector<std::size_t> carried_by; // it and all between it and the ground
+        };
+        std::vector<Carrier> paths;
+        const auto add_end = [&](std::size_t body, const V3& point_b, Real sign) {
+            const V3 x = pose.x[body] + pose.R[body] * point_b, x_0 = before.x[body] + before.R[body] * point_b;
+            x_apart += sign * x_0;
+            const V3 on_ground = R_0.transpose() * (x_0 - p.ground.x(start.time));
+            to -= sign * (p.ground.x(start.time + taken.h) + R_1 * on_ground - x_0);
+            const V3 spun = p.ground.omega.cross(V3((R_1 - R_0) * on_ground));
+            const V3 pivot = p.ground.omega.cross(V3((R_1 - R_0) * p.ground.pivot));
+            quicker -= sign * (p.ground.a * taken.h - pivot + spun);
+            V3 next = x;
+            for (std::int32_t k = std::int32_t(body); k >= 0; k = tree.parent[std::size_t(k)]) {
+                const auto q = std::size_t(k);
+                P.block<3, 3>(0, 3 * k) -= sign * cross(x - pose.x[q]) * pose.R[q] * J.block<3, 3>(3 * k, 3 * k);
+                Carrier step{q, x - pose.x[q], next - pose.x[q], {}};
+                for (std::int32_t i = k; i >= 0; i = tree.parent[std::size_t(i)])
+                    step.carried_by.push_back(std::size_t(i));
+                paths.push_back(step);
+                next = pose.x[q];
+            }
+        };
+        add_end(held.body, held.point_b, 1);
+        if (held.far >= 0) add_end(std::size_t(held.far), held.far_point_b, -1);
+        const V3 f = -held.k * (x_apart - (held.from + to) / 2) - held.c * (P * eta_0 - (to - held.from) / taken.h);
         K += held.k * P.transpose() * P;
         C += held.c * P.transpose() * P;
         force += P.transpose() * f;
         slope += P.transpose() * (held.k * (to - held.from) + held.c * quicker);
-        // By how much the path's springs and inertias alone would turn for what is more than the last step's force.
+        // By how much the paths' springs and inertias alone would turn for what is more than the last step's force.
         const Real per_metre = held.k + held.c / taken.h;
         const auto own = [&](std::size_t b) {
             const M3 I = p.plan.inertia_joint[b].cast<Real>();
@@ -165,24 +190,87 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
                    std::min(I(0, 0), I(1, 1)) / (taken.h * taken.h);
         };
         M3 give = M3::Identity() / per_metre;
-        for (const std::size_t b : path) give -= cross(x - pose.x[b]) * cross(x - pose.x[b]) / own(b);
+        for (const Carrier& step : paths) give -= cross(step.to_end) * cross(step.to_end) / own(step.body);
         const V3 answer = give.ldlt().solve((f - held.force) / per_metre);
         Real turns = 0;
-        for (const std::size_t b : path) turns = std::max(turns, (x - pose.x[b]).cross(answer).norm() / own(b));
+        for (const Carrier& step : paths) turns = std::max(turns, step.to_end.cross(answer).norm() / own(step.body));
         const Real strain = std::min(Real(1), turns / Real(0.1L));
-        for (std::size_t j = 0; j < path.size(); ++j) {
-            const std::size_t b = path[j];
-            const V3 arm = (j == 0 ? x : pose.x[path[j - 1]]) - pose.x[b];
+        for (const Carrier& step : paths) {
+            const V3& arm = step.to_next;
             const Real tension = arm.norm() * std::max(held.force.norm(), strain * strain * f.norm());
             const M3 H = tension * (M3::Identity() - arm * arm.transpose() / arm.squaredNorm());
             Matrix turn = Matrix::Zero(3, N);
-            for (std::size_t i = j; i < path.size(); ++i) {
-                const auto at = 3 * Eigen::Index(path[i]);
-                turn.block<3, 3>(0, at) = pose.R[path[i]] * J.block<3, 3>(at, at);
+            for (const std::size_t b : step.carried_by) {
+                const auto at = 3 * Eigen::Index(b);
+                turn.block<3, 3>(0, at) = pose.R[b] * J.block<3, 3>(at, at);
             }
             K += turn.transpose() * H * turn;
             K_turning += turn.transpose() * H * turn;
         }
+    }
+    // Pulls. H of every body that carries a force at a place, as long as the sum over them is small what a potential's is (by differences of it).
+    struct Carried {
+        std::size_t body;
+        V3 P, f;
+    };
+    std::vector<V3> acting(n, V3::Zero()); // at the joint: of all that it carries
+    std::vector<Carried> carried_forces;
+    const auto turn_of = [&](std::size_t body) {
+        Matrix turn = Matrix::Zero(3, N);
+        for (auto k = std::int32_t(body); k >= 0; k = tree.parent[std::size_t(k)])
+            turn.block<3, 3>(0, 3 * k) = pose.R[std::size_t(k)] * J.block<3, 3>(3 * k, 3 * k);
+        return turn;
+    };
+    for (std::size_t k = 0; k < p.pulls.size(); ++k) {
+        const std::size_t body = p.plan.pulls[k].body;
+        acting[body] += p.pulls[k];
+        carried_forces.push_back({body, pose.R[body] * p.plan.pulls[k].point_b.cast<Real>(), p.pulls[k]});
+    }
+    for (const Turning& pull : taken.turning) {
+        acting[pull.body] += pull.force;
+        const Matrix turn = turn_of(pull.body);
+        Matrix joint = Matrix::Zero(3, N); // rates of the joint's place
+        for (std::int32_t k = tree.parent[pull.body]; k >= 0; k = tree.parent[std::size_t(k)])
+            joint.block<3, 3>(0, 3 * k) =
+                -cross(pose.x[pull.body] - pose.x[std::size_t(k)]) * turn.block<3, 3>(0, 3 * k);
+        const V3 arm = pose.R[pull.body] * pull.point_b, m = arm.cross(pull.force), f = pull.force;
+        force += joint.transpose() * f + turn.transpose() * m;
+        slope += joint.transpose() * pull.change + turn.transpose() * arm.cross(pull.change);
+        const Matrix more = joint.transpose() * cross(f) * turn + turn.transpose() * cross(m) * turn / 2;
+        K += more;
+        K_turning += more;
+    }
+    std::vector<Real> give(n);
+    for (std::size_t b = 0; b < n; ++b) {
+        const M3 I = p.plan.inertia_joint[b].cast<Real>();
+        const auto at = 3 * Eigen::Index(b);
+        give[b] = 1 / (std::min(stiffness[at], stiffness[at + 1]) *
+                           (1 + Real(tree.damping[b]) * Real(p.plan.scene.damping_scale) / taken.h) +
+                       std::min(I(0, 0), I(1, 1)) / (taken.h * taken.h));
+        if (tree.parent[b] >= 0) give[b] += give[std::size_t(tree.parent[b])];
+    }
+    for (std::size_t b = n; b-- > 1;) {
+        const auto q = std::size_t(tree.parent[b]);
+        acting[q] += acting[b];
+        carried_forces.push_back({q, pose.x[b] - pose.x[q], acting[b]});
+    }
+    Real share = 0;
+    for (const Carried& on : carried_forces) share += on.P.norm() * on.f.norm() * give[on.body];
+    const Real w = std::min(Real(1), share * share);
+    for (const Carried& on : carried_forces) {
+        const auto curvature = [&](const V3& along) { // of -f . (turned P) as it turns
+            const auto potential = [&](Real s) { return Vector::Constant(1, -on.f.dot(turned(V3(s * along)) * on.P)); };
+            return Real(second_derivative(potential)[0]);
+        };
+        M3 H;
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+                H(r, c) = (curvature(V3::Unit(r) + V3::Unit(c)) - curvature(V3::Unit(r) - V3::Unit(c))) / 4;
+        H *= 1 - w;
+        H += w * on.f.norm() * on.P.norm() * (M3::Identity() - on.P * on.P.transpose() / on.P.squaredNorm());
+        const Matrix turn = turn_of(on.body), more = turn.transpose() * H * turn;
+        K += more;
+        K_turning += more;
     }
     const Matrix M = J.transpose() * solved.M * J;
     const auto inverse = M.ldlt();

@@ -1,6 +1,6 @@
 // free_support.h: a tree, what is free beside it, steps of both: what the tests of free bodies share.
 #pragma once
-#include "lib/free/world.h"
+#include "lib/free/world_step.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>

@@ -192,6 +192,7 @@ inline Motion random_motion(const MotionFields& fields, std::int64_t bodies, std
         vectors(frame.torque, fields.torque);
         vectors(frame.theta, fields.angles);
         vectors(frame.theta_dot, fields.angles);
+        for (std::int64_t i = 0; fields.stress && i < bodies; ++i) frame.stress.push_back(random.vector().x());
         for (std::int64_t k = 0; bodies > 2 && k < f % 3; ++k) // frames without events among those with
             frame.events.add(k == 0  ? "broke"
                              : f % 2 ? "hit"
@@ -260,15 +261,17 @@ inline bool same(const JointLimit& a, const JointLimit& b) {
 inline bool same(const MotionFrame& a, const MotionFrame& b) {
     return a.frame == b.frame && same(a.time, b.time) && same(a.position, b.position) && same(a.rotation, b.rotation) &&
            same(a.velocity, b.velocity) && same(a.angular_velocity, b.angular_velocity) && same(a.torque, b.torque) &&
-           same(a.theta, b.theta) && same(a.theta_dot, b.theta_dot) && a.events.what == b.events.what &&
-           a.events.body == b.events.body && a.events.on == b.events.on && same(a.events.value, b.events.value);
+           same(a.theta, b.theta) && same(a.theta_dot, b.theta_dot) && same(a.stress, b.stress) &&
+           a.events.what == b.events.what && a.events.body == b.events.body && a.events.on == b.events.on &&
+           same(a.events.value, b.events.value);
 }
 
 inline bool same(const Motion& a, const Motion& b) {
     const MotionFields &f = a.header.fields, &g = b.header.fields;
     return same(a.header.fps, b.header.fps) && a.header.bodies == b.header.bodies && a.header.balls == b.header.balls &&
            a.header.name == b.header.name && a.header.source == b.header.source && f.pose == g.pose &&
-           f.velocity == g.velocity && f.torque == g.torque && f.angles == g.angles && same(a.frame, b.frame);
+           f.velocity == g.velocity && f.torque == g.torque && f.angles == g.angles && f.stress == g.stress &&
+           same(a.frame, b.frame);
 }
 
 } // namespace bough::test

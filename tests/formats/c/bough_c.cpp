@@ -37,14 +37,14 @@ TEST_CASE("a run through C is that of the C++ door, bit by bit, in all fields") 
     settings.step = 1 / 24.;
     settings.precision = precision;
     settings.method = method;
-    settings.velocities = settings.torques = 1;
+    settings.velocities = settings.torques = settings.stresses = 1;
     bough_simulation* const simulation = in_wind("gusty", settings);
 
     SimulationOptions o;
     o.step = 1 / 24.;
     o.precision = precision == BOUGH_FLOAT ? Precision::single : Precision::double_;
     o.method = method == BOUGH_COUPLED ? Method::coupled : Method::analytic;
-    o.velocities = o.torques = true;
+    o.velocities = o.torques = o.stresses = true;
     Simulation own(own_scene("gusty"), o);
     const double* const at = array(simulation, BOUGH_POSITION).data;
     for (int k = 1; k <= 12; ++k) {
@@ -62,6 +62,7 @@ TEST_CASE("a run through C is that of the C++ door, bit by bit, in all fields") 
         CHECK(same(array(simulation, BOUGH_ANGLE), own.angles()));
         CHECK(same(array(simulation, BOUGH_RATE), own.rates()));
         CHECK(same(array(simulation, BOUGH_TORQUE), own.torques()));
+        CHECK(same(array(simulation, BOUGH_STRESS), own.stresses()));
     }
     CHECK(array(simulation, BOUGH_POSITION).data == at); // stays where it is
     CHECK(hash(simulation) == own.hash());

@@ -324,6 +324,7 @@ TEST_CASE("numbers out of range are refused with the number") {
     refused(bough_read(h.simulation, BOUGH_VELOCITY, &a), BOUGH_USAGE, "settings.velocities");
     refused(bough_read(h.simulation, BOUGH_ANGULAR_VELOCITY, &a), BOUGH_USAGE, "settings.velocities");
     refused(bough_read(h.simulation, BOUGH_TORQUE, &a), BOUGH_USAGE, "settings.torques");
+    refused(bough_read(h.simulation, BOUGH_STRESS, &a), BOUGH_USAGE, "settings.stresses");
     bough_hit hit;
     std::int32_t found;
     refused(bough_pick(h.simulation, bad, v, 0, &hit, &found), BOUGH_USAGE, "from: is not finite");

@@ -122,8 +122,9 @@ TEST_CASE("splines come back bit by bit from both forms") {
 
 TEST_CASE("motions come back bit by bit from all three forms") {
     Random random;
-    const MotionFields all{true, true, true, true}, pose{}, torque{false, false, true, false};
-    for (const MotionFields& fields : {all, pose, torque})
+    const MotionFields all{true, true, true, true, true}, pose{}, torque{false, false, true, false},
+        stress{false, false, false, false, true};
+    for (const MotionFields& fields : {all, pose, torque, stress})
         for (const std::int64_t frames : {0, 1, 7})
             for (const std::int64_t bodies : {0, 1, 12}) {
                 const Motion motion = random_motion(fields, bodies, frames, random);
@@ -335,6 +336,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.pulls.push_back(pull);
     pull.on = {};
     pull.on.body = 57;
+    pull.in_body = true;
     scene.pulls.push_back(pull);
     scene.attachments.resize(2);
     scene.attachments[0].on = pull.on;
@@ -343,6 +345,10 @@ TEST_CASE("scenes come back from both forms") {
     scene.attachments[0].from = 0.1 / 3;
     scene.attachments[0].to = 2.5;
     scene.attachments[1].on = pull.on;
+    scene.attachments[1].with = Selector();
+    scene.attachments[1].with->tree = 0;
+    scene.attachments[1].with->body = 1;
+    scene.attachments[1].with->point = random.vector();
     scene.attachments[1].time = {0, 0.7, 1 / 0.7};
     scene.attachments[1].position = {random.vector(), random.vector(), random.vector()};
     scene.attachments[1].damping = 0.7;
@@ -424,6 +430,7 @@ TEST_CASE("scenes come back from both forms") {
         CHECK((read.contact->friction == 0.1 && read.contact->penalty == 20 && read.contact->ground_height == -1.5));
         CHECK((!read.contact->trees && read.contact->leaves && !read.contact->ground));
         REQUIRE(read.pulls.size() == 4);
+        CHECK((!read.pulls[0].in_body && read.pulls[3].in_body));
         CHECK(same(read.pulls[0].time, pull.time));
         CHECK(same(read.pulls[0].force, pull.force));
         CHECK(read.pulls[0].on.by == Selector::By::branch);
@@ -440,6 +447,10 @@ TEST_CASE("scenes come back from both forms") {
         for (std::size_t k = 0; k < 2; ++k) {
             const Attachment &found = read.attachments[k], &written = scene.attachments[k];
             CHECK(found.on.body == 57);
+            REQUIRE(found.with.has_value() == written.with.has_value());
+            if (written.with)
+                CHECK(
+                    (found.with->tree == 0 && found.with->body == 1 && same(*found.with->point, *written.with->point)));
             CHECK(found.target.has_value() == written.target.has_value());
             if (written.target) CHECK(same(*found.target, *written.target));
             CHECK(same(found.time, written.time));

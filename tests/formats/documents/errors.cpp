@@ -459,7 +459,7 @@ TEST_CASE("motions name the line of the frame") {
     CHECK_THAT(wrong(head + frame + frame.substr(0, 30)), StartsWith("m:3: ends here"));
     CHECK_THAT(wrong(head + replaced(frame, "[0, 0, 0]", "[0, 0 0]")), StartsWith("m:2:"));
     CHECK(wrong(replaced(head, "\"pose\"", "\"poses\"")) ==
-          "m: /fields/0: is \"poses\", expected pose, velocity, torque or angles");
+          "m: /fields/0: is \"poses\", expected pose, velocity, torque, angles or stress");
     CHECK(wrong(head + replaced(frame, "}", ", \"torque\": [0, 0, 0]}")) ==
           "m:2: /torque: has 3 numbers, expected none: /fields does not name it");
 }

@@ -2,6 +2,7 @@
 // against the file as pugixml reads it, corner by corner.
 #include "formats/models/speedtree_model.h"
 #include "formats/exports/gltf.h"
+#include "formats/exports/own_mover.h"
 #include "lib/growth/segment.h"
 #include "lib/model/drawn_pose.h"
 #include "tests/support/gltf_reader.h"
@@ -363,4 +364,25 @@ TEST_CASE("What is wrong with a mesh is told in a line with its place") {
     std::string none = good;
     none.replace(x, end - x, "<Points><X></X><Y></Y><Z></Z>");
     CHECK_THAT(error_of_mesh(none), Contains("expected none, as there are no points"));
+}
+
+TEST_CASE("The vertices of a mesh of its own, some at a time, are those of its skin bit by bit") {
+    const Shown shown = shown_of(speedtree_sample::file({}, "", speedtree_sample::references(1)));
+    const Skin skin = skin_of(shown.mesh);
+    OwnMover mover(shown.mesh, shown.tree);
+    REQUIRE(mover.vertices() == skin.position.size());
+    for (const double angle : {0.0, 0.3}) {
+        const MotionFrame frame = bent(shown.tree, [&](std::size_t i) { return angle * std::sin(double(i)); });
+        std::vector<Mat3> R;
+        for (const Quat& q : frame.rotation) R.push_back(q.toRotationMatrix());
+        std::vector<Vec3> position, normal;
+        SkinDeformer(skin, shown.tree).deform(R, frame.position, position, normal);
+        mover.go_to(frame);
+        for (const std::size_t size : {std::size_t(1), std::size_t(7), std::size_t(5000)})
+            for (std::size_t first = 0; first < position.size(); first += size) {
+                std::vector<Vec3> some(std::min(size, position.size() - first));
+                mover.positions(first, some);
+                REQUIRE(std::memcmp(some.data(), position.data() + first, some.size() * sizeof(Vec3)) == 0);
+            }
+    }
 }

@@ -1,8 +1,7 @@
 // Springs and dampers at points (attachment.h): against the reference and statics, in lanes, of any stiffness, over threads and cuts.
 #include "lib/coupled/attachment.h"
 #include "lib/base/parallel.h"
-#include "lib/base/rotation_maps.h"
-#include "tests/support/coupled_support.h"
+#include "tests/support/held_tree.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;
@@ -10,63 +9,6 @@ using namespace coupled;
 using solver::empty_scene;
 
 namespace {
-
-Attachment hold(std::int64_t body, double k, double c) {
-    Attachment held;
-    held.on.body = body;
-    held.on.point = Vec3(0, 0, 0.03);
-    held.stiffness = k;
-    held.damping = c;
-    return held;
-}
-
-// A twig of 0.8 mm, 0.36 m of it in 12 pieces.
-Tree twig() {
-    return make_tree::chain(12, 0.36, 0.0004, 0.0004, 0.03, {800, 5e9, 5e8, 0.002});
-}
-
-template <class T> struct Held {
-    Plan<T> plan;
-    State<T> state;
-    Held(const Tree& tree, const Scene& scene, bool lanes, double dt = 1.0 / 30, Scheme scheme = Scheme::p12)
-        : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, dt, Solver::coupled, scheme,
-                            lanes ? std::optional(fast::best_target()) : std::nullopt)),
-          state(make_state(plan)) {}
-    void step() {
-        advance(plan, state);
-        present(plan, state);
-    }
-    const Attached& held(std::size_t k = 0) const { return coupled_state(state).attachments.all[k]; }
-    Vec3 point(std::size_t k = 0) const {
-        const Attached& of = held(k);
-        return state.x_w[of.body].template cast<double>() + state.R_wb[of.body].template cast<double>() * of.point_b;
-    }
-    double largest_angle() const {
-        double most = 0;
-        for (const Vector3<T>& theta : state.theta) most = std::max(most, double(theta.norm()));
-        return most;
-    }
-    double kinetic() const {
-        double sum = 0;
-        std::vector<Vec3> omega(plan.bodies), v(plan.bodies);
-        for (std::size_t i = 0; i < plan.bodies; ++i) {
-            const Mat3 R = state.R_wb[i].template cast<double>();
-            const RotationMaps<double> maps = rotation_maps<double>(state.theta[i].template cast<double>());
-            omega[i] = R * (maps.R.transpose() * (maps.J * state.theta_dot[i].template cast<double>()));
-            v[i].setZero();
-            if (plan.parent[i] >= 0) {
-                const auto p = std::size_t(plan.parent[i]);
-                v[i] = v[p] + omega[p].cross(Vec3((state.x_w[i] - state.x_w[p]).template cast<double>()));
-                omega[i] += omega[p];
-            }
-            const double m = double(plan.mass[i]);
-            const Vec3 c = R * plan.com[i].template cast<double>(), w = R.transpose() * omega[i];
-            sum += m * (v[i].squaredNorm() / 2 + v[i].dot(omega[i].cross(c))) +
-                   w.dot(plan.inertia_joint[i].template cast<double>() * w) / 2;
-        }
-        return sum;
-    }
-};
 
 // Where a twig is held: in its reach, beside it, three times as far as it reaches, and moved to and fro.
 std::vector<Attachment> hands(std::int64_t body, double k, double c) {

@@ -54,7 +54,37 @@ std::vector<Named> scenes() {
     Scene hand = bare, held_all = all;
     hand.attachments = {held(12, 30, 0)};
     held_all.attachments = {held(12, 30, 0.5), held(9, 0, 2), held(20, 100, 0.3), held(20, 3, 0.1)};
-    return {{"an attachment", hand},
+    // Loops: twigs of the tree tied to each other, twice, and one of them held.
+    const auto tied = [&](std::int64_t body, std::int64_t other, double k, double c) {
+        Attachment on = held(body, k, c);
+        on.with = Selector();
+        on.with->body = other;
+        on.with->point = Vec3(-0.02, 0.01, 0.03);
+        return on;
+    };
+    Scene pair = bare, pairs_all = all;
+    pair.attachments = {tied(12, 20, 30, 0.2)};
+    pairs_all.attachments = {tied(12, 20, 30, 0.5), held(9, 0, 2), tied(20, 9, 100, 0.3), tied(5, 15, 0, 3)};
+    // Forces that turn with their bodies: small, and as large as springs of the path; one twig with two, one that is tied as well.
+    const auto follower = [](std::int64_t body, const Vec3& from, const Vec3& to) {
+        Pull pull = pull_on(body, from, to);
+        pull.in_body = true;
+        pull.on.point = Vec3(0.01, -0.02, 0.06);
+        return pull;
+    };
+    Scene jet = bare, jets_all = pairs_all;
+    jet.pulls = {follower(12, Vec3(0.1, 0.02, -0.05), Vec3(0.2, 0, 0.1))};
+    for (const Pull& pull :
+         {follower(12, Vec3(3, 1, -2), Vec3(2, 1, -4)), follower(12, Vec3(0, 0, -40), Vec3(0, 0, 60)),
+          follower(17, Vec3(0.1, 0.2, 0.1), Vec3(0.3, 0, 0))})
+        jets_all.pulls.push_back(pull);
+    return {{"a pull that turns", jet},
+            {"pulls that turn and all", jets_all},
+            {"pulls that turn and all, driven and turning", jets_all, both},
+            {"an attachment", hand},
+            {"two bodies attached to each other", pair},
+            {"pairs and all", pairs_all},
+            {"pairs and all, driven and turning", pairs_all, both},
             {"attachments and all", held_all},
             {"attachments and all, driven and turning", held_all, both},
             {"nothing", bare},
@@ -112,8 +142,17 @@ dense::Step step_of(const Tree& tree, const Named& named, const Bench& bench) {
     }
     for (const Pull& pull : scene.pulls) {
         const Vec3 rise = (pull.force[1] - pull.force[0]) / 2; // a second
+        if (pull.in_body) continue;
         p.pulls.push_back((pull.force[0] + (t + h / 2) * rise).cast<dense::Real>());
         step.pull_change.push_back((h * rise).cast<dense::Real>());
+    }
+    const dense::Pose pose = dense::pose_at(p, 0);
+    for (const PlannedPull<double>& pull : bench.plan.followers) {
+        const Pull& source = scene.pulls[pull.source];
+        const Vec3 rise = (source.force[1] - source.force[0]) / 2;
+        const auto of_world = [&](const Vec3& f) { return dense::V3(pose.R[pull.body] * f.cast<dense::Real>()); };
+        step.turning.push_back({pull.body, pull.point_b.cast<dense::Real>(),
+                                of_world(source.force[0] + (t + h / 2) * rise), of_world(h * rise)});
     }
     for (const Attached& held : coupled_state(bench.state).attachments.all) {
         const PlannedAttachment& planned = bench.plan.attachments[std::size_t(held.planned)];
@@ -121,6 +160,9 @@ dense::Step step_of(const Tree& tree, const Named& named, const Bench& bench) {
         step.held.push_back({held.body, held.point_b.cast<dense::Real>(), held.stiffness, held.damping,
                              from.x.cast<dense::Real>(), to.x.cast<dense::Real>(),
                              Vec3(to.v - from.v).cast<dense::Real>(), held.force.cast<dense::Real>()});
+        if (!held.far) continue;
+        step.held.back().far = std::int64_t(held.far->body);
+        step.held.back().far_point_b = held.far->point_b.cast<dense::Real>();
     }
     return step;
 }
@@ -176,8 +218,8 @@ TEST_CASE(
                 CAPTURE(leaves, named.name, scheme_of(scheme).name);
                 REQUIRE(bench.state.flags.fast_turns == 0);
                 REQUIRE(bench.state.flags.half_turns == 0);
-                // (P34's denominator is a polynomial of fourth degree in a matrix with entries to 1e4.)
-                CHECK(difference(bench, truth) < (scheme == Scheme::p34 ? 1e-7 : 1e-10));
+                // (P34's denominator is a polynomial of fourth degree in a matrix with entries to 1e4: 3e-7 where forces of 50 N turn with leafy twigs.)
+                CHECK(difference(bench, truth) < (scheme == Scheme::p34 ? 1e-6 : 1e-10));
             }
     }
 }

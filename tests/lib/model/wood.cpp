@@ -11,7 +11,7 @@ TEST_CASE("every wood preset is named once, sourced, and within the range of gre
         CHECK(names.insert(m.name).second);
         CHECK_FALSE(m.source.empty());
         CHECK_FALSE(check(m).has_value());
-        CHECK(m.density >= 750);
+        CHECK(m.density >= 700);
         CHECK(m.density <= 1000);
         CHECK(m.youngs_modulus >= 4e9);
         CHECK(m.youngs_modulus <= 12e9);
@@ -30,6 +30,10 @@ TEST_CASE("green density lies between dry wood and wood with every pore full") {
     const Material* cherry = find_wood("black-cherry");
     REQUIRE(cherry);
     CHECK(cherry->density == Approx(470 + 0.6 * (1163 - 470)).margin(1));
+    // As weighed, where the rule would be 10 % and more off: the Wood Handbook's table 4-1.
+    CHECK(find_wood("quaking-aspen")->density == Approx(350 * (1 + (0.95 + 1.13) / 2)).margin(1));
+    CHECK(find_wood("douglas-fir")->density == Approx(450 * (1 + (0.37 + 1.15) / 2)).margin(1));
+    CHECK(find_wood("european-ash")->density == Approx(550 * (1 + (0.46 + 0.44) / 2)).margin(1));
 }
 
 TEST_CASE("a material's broken number is named") {

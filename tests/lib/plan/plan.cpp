@@ -91,6 +91,9 @@ std::vector<Case> cases() {
                    joined(velocities, {"spin_dot", "alpha_w", "a_w", "fictitious_w"})});
     all.push_back({"velocity wished", Scene{}, {true, false}, {}, velocities});
     all.push_back({"torque wished", Scene{}, {false, true}, {}, {"torque_j"}});
+    Wishes stress;
+    stress.stress = true;
+    all.push_back({"stress wished", Scene{}, stress, {}, {"torque_j"}});
     windy.pulls = pulled.pulls;
     all.push_back(
         {"everything", windy, {true, true}, {"wind_field", "external_forces", "drag"}, joined(blown, {"torque_j"})});
@@ -106,7 +109,7 @@ Names expected_arrays(const Case& c, const Method& method) {
     if (method.solver == Solver::analytic) return joined(every_array, c.arrays);
     Names names = joined(every_coupled_array, {method.scheme == Scheme::lie ? "resolvent_real" : "resolvent"});
     if (c.wishes.velocity) names = joined(names, {"omega_w", "v_w"});
-    if (c.wishes.torque) names.insert("torque_j");
+    if (c.wishes.torque || c.wishes.stress) names.insert("torque_j");
     return names;
 }
 
@@ -124,6 +127,7 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
             continue; // refused (tests/lib/analytic/fictitious.cpp)
         CAPTURE(c.name);
         const Plan<T> plan = plan_by<T>(method, tree, c.scene, c.wishes);
+        CHECK(plan.stress_of_moment.capacity() == (c.wishes.stress ? plan.bodies : 0));
         State<T> state = make_state(plan);
         for (int k = 0; k < 10; ++k) advance(plan, state);
         CHECK(state.step == 10);

@@ -78,6 +78,14 @@ TEST_CASE("a part of a scene has what concerns its trees, under their new number
     REQUIRE(part.root_motion.size() == 1);
     CHECK(part.root_motion[0].tree == 0);
     CHECK(part.trees.size() == 2);
+    scene.attachments.resize(1);
+    scene.attachments[0].on.tree = 3;
+    scene.attachments[0].with = Selector();
+    scene.attachments[0].with->tree = 3;
+    CHECK(scene_of_part(scene, 2, 4).attachments[0].with->tree == 1);
+    scene.attachments[0].with->tree = 1;
+    CHECK_THROWS_WITH(scene_of_part(scene, 2, 4), Catch::Contains("/attachments/0/with"));
+    scene.attachments.clear();
     scene.pulls[0].on.by = Selector::By::nearest;
     CHECK_THROWS_WITH(scene_of_part(scene, 2, 4), Catch::Contains("/pulls/0/on"));
     scene.pulls.clear();

@@ -60,17 +60,19 @@ TEST_CASE("the door's steps are those of plan and state by hand, in both precisi
     // What is read, presented or not, and how many threads there are, change nothing.
     SimulationOptions two = with(Precision::double_);
     two.threads = 2;
-    two.velocities = two.torques = true;
+    two.velocities = two.torques = two.stresses = true;
     Simulation e(scene, two);
     for (int k = 0; k < 20; ++k) {
         e.step();
         CHECK(e.positions().size() == tree.size_bodies());
         CHECK(e.velocities().size() == tree.size_bodies());
         CHECK(e.torques().size() == tree.size_bodies());
+        CHECK(e.stresses().size() == tree.size_bodies());
     }
     CHECK(e.hash() == a.hash());
     CHECK(apart(e.positions(), a.positions()) == 0);
     CHECK(a.velocities().empty());
+    CHECK(a.stresses().empty());
     CHECK(apart(a.positions(), b.positions()) < 1e-4);
 }
 
@@ -393,6 +395,28 @@ TEST_CASE("steps allocate nothing once they have run") {
 #ifdef BOUGH_SANITIZED
     return; // nothing is counted
 #endif
+    for (const bool portable : {false, true}) { // trees that are tied to each other
+        Scene scene = one(make_tree::branched(), "gusty");
+        scene.add(make_tree::branched(), Vec3(2, 0, 0));
+        scene.attachments.resize(8);
+        for (std::size_t k = 0; k < 8; ++k) {
+            Attachment& held = scene.attachments[k];
+            held.on.body = std::int64_t(k);
+            held.with = Selector();
+            held.with->tree = 1;
+            held.with->body = std::int64_t(k);
+            held.stiffness = 100;
+        }
+        SimulationOptions o;
+        o.portable = portable;
+        o.threads = 1;
+        Simulation tied(scene, o);
+        tied.step(3);
+        const std::size_t before = allocations;
+        tied.step();
+        const std::size_t after = allocations;
+        CHECK(after == before);
+    }
     const Tree tree = segment(grow_bodies(default_growth(), 5, {true, false, true}, 6000), wood_presets().front(), {});
     for (const Precision precision : {Precision::single, Precision::double_}) {
         SimulationOptions o = with(precision);

@@ -1,0 +1,190 @@
+#include "collada_check.h"
+#include "formats/plain_text.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <pugixml.hpp>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace bough {
+namespace {
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+// take(word) for each word of an element's text, around comments.
+template <class Take> void each_word_of(const char* text, Take&& take) {
+    while (true) {
+        while (is_blank(*text)) ++text;
+        if (*text == '\0') return;
+        const char* const first = text;
+        while (*text != '\0' && !is_blank(*text)) ++text;
+        take(std::string_view(first, std::size_t(text - first)));
+    }
+}
+
+template <class Take> void each_word(const pugi::xml_node& element, Take&& take) {
+    for (const pugi::xml_node& part : element.children())
+        if (part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata) each_word_of(part.value(), take);
+}
+
+// The integers of <p>, <v> or <vcount>.
+template <class Take> void each_index(const pugi::xml_node& list, const std::string& place, Take&& take) {
+    each_word(list, [&](std::string_view word) {
+        const std::optional<std::int64_t> number = parse_integer(word);
+        if (!number)
+            throw std::runtime_error(place + "<" + list.name() + "> holds " + in_ascii_quotes(std::string(word)) +
+                                     ", expected a whole number");
+        take(*number);
+    });
+}
+
+// What an <input> of indices points into.
+struct Input {
+    std::string semantic;
+    std::int64_t offset = 0, count = 0;
+    bool any_count = false; // the source is elsewhere, or of a kind that is not counted here
+};
+
+class Library { // of one <geometry> or <controller>
+public:
+    Library(const pugi::xml_node& node, const pugi::xml_node& body)
+        : place_(std::string(node.name()) + " " + in_ascii_quotes(node.attribute("id").value()) + ": "), body_(body) {
+        for (const pugi::xml_node& source : body.children("source")) add(source);
+        for (const pugi::xml_node& vertices : body.children("vertices"))
+            for (const pugi::xml_node& input : vertices.children("input"))
+                if (input.attribute("semantic").value() == std::string_view("POSITION"))
+                    if (const auto of = count_.find(without_hash(input.attribute("source").value()));
+                        of != count_.end())
+                        count_[vertices.attribute("id").value()] = of->second;
+    }
+
+    void check_mesh() const {
+        for (const char* const kind :
+             {"triangles", "polylist", "polygons", "lines", "linestrips", "tristrips", "trifans"})
+            for (const pugi::xml_node& primitive : body_.children(kind)) {
+                const std::vector<Input> inputs = inputs_of(primitive);
+                for (const Input& input : inputs)
+                    if (input.semantic == "VERTEX" && !input.any_count && input.count == 0 && primitive.child("p"))
+                        throw std::runtime_error(place_ + "has no vertices, but <" + kind + "> of them");
+                for (const pugi::xml_node& p : primitive.children("p")) check_indices(p, kind, inputs, 0);
+                for (const pugi::xml_node& ph : primitive.children("ph"))
+                    for (const pugi::xml_node& p : ph.children("p")) check_indices(p, kind, inputs, 0);
+            }
+    }
+
+    void check_skin() const {
+        for (const pugi::xml_node& weights : body_.children("vertex_weights")) {
+            const std::vector<Input> inputs = inputs_of(weights);
+            const std::size_t numbers = check_indices(weights.child("v"), "vertex_weights", inputs, -1);
+            std::uint64_t taken = 0;
+            each_index(weights.child("vcount"), place_, [&](std::int64_t n) {
+                if (n < 0 || n > std::numeric_limits<std::int32_t>::max())
+                    throw std::runtime_error(place_ + "<vcount> holds " + std::to_string(n) + ", expected 0 or more");
+                taken += std::uint64_t(n);
+            });
+            if (const auto stride = std::uint64_t(stride_of(inputs)); taken * stride != numbers)
+                throw std::runtime_error(place_ + "<vcount> takes " + std::to_string(taken * stride) +
+                                         " numbers of <v>, which has " + std::to_string(numbers));
+        }
+    }
+
+private:
+    static std::string without_hash(const char* reference) { return *reference == '#' ? reference + 1 : ""; }
+
+    void add(const pugi::xml_node& source) {
+        const std::string id = source.attribute("id").value();
+        const pugi::xml_node accessor = source.child("technique_common").child("accessor");
+        const std::int64_t count = accessor.attribute("count").as_llong(-1);
+        for (const pugi::xml_node& array : source.children("float_array")) check_floats(array, accessor);
+        if (accessor && count >= 0) count_[id] = count;
+    }
+
+    void check_floats(const pugi::xml_node& array, const pugi::xml_node& accessor) const {
+        const std::string at = place_ + "float_array " + in_ascii_quotes(array.attribute("id").value()) + " ";
+        std::int64_t numbers = 0;
+        each_word(array, [&](std::string_view word) {
+            const std::optional<double> number = parse_number(word);
+            if (!number || !std::isfinite(*number))
+                throw std::runtime_error(at + "holds " + in_ascii_quotes(std::string(word)) + " as number " +
+                                         std::to_string(numbers) + ", expected a finite number");
+            ++numbers;
+        });
+        constexpr long long most = 1LL << 31; // of each: their product is a number still
+        const std::int64_t said = array.attribute("count").as_llong(numbers),
+                           read = std::clamp(accessor.attribute("count").as_llong(0), 0LL, most) *
+                                  std::clamp(accessor.attribute("stride").as_llong(1), 0LL, most);
+        if (said != numbers || read > numbers)
+            throw std::runtime_error(at + "has " + std::to_string(numbers) + " numbers, expected the " +
+                                     std::to_string(std::max(said, read)) + " that its count says");
+    }
+
+    std::vector<Input> inputs_of(const pugi::xml_node& node) const {
+        std::vector<Input> inputs;
+        for (const pugi::xml_node& from : node.children("input")) {
+            Input input;
+            input.semantic = from.attribute("semantic").value();
+            input.offset = from.attribute("offset").as_llong(0);
+            if (input.offset < 0 || input.offset > 64)
+                throw std::runtime_error(place_ + "an <input> has the offset " + std::to_string(input.offset) +
+                                         ", expected 0 to 64");
+            const auto source = count_.find(without_hash(from.attribute("source").value()));
+            input.any_count = source == count_.end();
+            if (!input.any_count) input.count = source->second;
+            inputs.push_back(std::move(input));
+        }
+        return inputs;
+    }
+
+    static std::int64_t stride_of(const std::vector<Input>& inputs) {
+        std::int64_t stride = 1;
+        for (const Input& input : inputs) stride = std::max(stride, input.offset + 1);
+        return stride;
+    }
+
+    // least: of a joint. Returns how many numbers there are.
+    std::size_t check_indices(const pugi::xml_node& list, const char* of, const std::vector<Input>& inputs,
+                              std::int64_t least) const {
+        const auto stride = std::size_t(stride_of(inputs));
+        std::vector<std::vector<const Input*>> at(stride);
+        for (const Input& input : inputs)
+            if (!input.any_count) at[std::size_t(input.offset)].push_back(&input);
+        std::size_t k = 0;
+        each_index(list, place_, [&](std::int64_t index) {
+            for (const Input* input : at[k % stride])
+                if (index < (input->semantic == "JOINT" ? least : 0) || index >= input->count)
+                    throw std::runtime_error(place_ + "<" + of + "> names " + input->semantic + " " +
+                                             std::to_string(index) + ", expected 0 to less than " +
+                                             std::to_string(input->count));
+            ++k;
+        });
+        return k;
+    }
+
+    const std::string place_;
+    const pugi::xml_node body_;
+    std::unordered_map<std::string, std::int64_t> count_; // of each source, by its id
+};
+
+} // namespace
+
+void check_collada(std::string_view content) {
+    pugi::xml_document document;
+    if (!document.load_buffer(content.data(), content.size())) return;
+    const pugi::xml_node root = document.child("COLLADA");
+    for (const pugi::xml_node& library : root.children("library_geometries"))
+        for (const pugi::xml_node& geometry : library.children("geometry"))
+            for (const pugi::xml_node& mesh : geometry.children("mesh")) Library(geometry, mesh).check_mesh();
+    for (const pugi::xml_node& library : root.children("library_controllers"))
+        for (const pugi::xml_node& controller : library.children("controller"))
+            for (const pugi::xml_node& skin : controller.children("skin")) Library(controller, skin).check_skin();
+}
+
+} // namespace bough

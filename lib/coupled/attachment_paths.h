@@ -1,0 +1,33 @@
+// attachment_paths.h: what the joints between an attachment's ends and the ground are to it (attachment.h), each by its own spring and inertia alone.
+#pragma once
+#include "coupled_state.h"
+#include <complex>
+
+namespace bough {
+
+// Of the joints between an end and the ground, from the end on: visit(body, from its joint to the end, from its joint to the next joint or the end).
+template <class Of, class Visit> void along_path(Of& a, const AttachedEnd& end, Visit&& visit) {
+    const Vec3 point = a.bodies[end.at].x + end.rho;
+    Vec3 outward = point;
+    for (auto k = std::int64_t(end.at); k >= 0; k = a.bodies[std::size_t(k)].parent) {
+        auto& b = a.bodies[std::size_t(k)];
+        visit(b, Vec3(point - b.x), Vec3(outward - b.x));
+        outward = b.x;
+    }
+}
+template <class Of, class Visit> void along_paths(Of& a, const Attached& held, Visit&& visit) {
+    along_path(a, held, visit);
+    if (held.far) along_path(a, *held.far, visit);
+}
+
+// [N m/rad] that a joint resists a turn in one step with, about its softest axis: by its spring, its damping and its inertia.
+template <class T> double answering_stiffness(const Plan<T>&, const AttachedBody&);
+
+// The least of the masses that the path's joints answer with at the point, |s| of the scheme's slowest pole.
+template <class T>
+double answering_mass(const Plan<T>&, const Attachments&, const AttachedEnd&, std::complex<double> s1);
+
+// H of every body of the paths, from their places at y*.
+template <class T> void add_direction(const Plan<T>&, Attachments&, const Attached&);
+
+} // namespace bough

@@ -1,0 +1,27 @@
+// bending_stress.h: how hard the moment at a joint bends the wood there.
+//
+// A round section of radius r under a bending moment M has at its surface, on the side that is drawn and on the side that is pressed,
+//   sigma = M r / I = M / W,   I = pi r^4 / 4,  W = pi r^3 / 4 its section modulus      (beam theory, small strains, sound wood)
+// M [N m] is what the joint's spring and damper pass on about the two axes across the wood: x and y of the torque of plan/spring_torque.h. By the
+// balance of what hangs on the joint that is the moment of its weight, of the air on it and of its inertia about the joint, whatever the joint's
+// stiffness is. r [m] is the radius at the body's foot, where the joint is.
+// Strength (Material::strength) is the same quotient of the moment at which a bar broke: their ratio is 1 where wood breaks.
+// Left out: the weight along the branch, which adds m g / (pi r^2), below 1 MPa in trees; twist and shear across; what grew into the wood; hollows.
+#pragma once
+#include "../base/math.h"
+#include <cmath>
+#include <numbers>
+
+namespace bough {
+
+// [m^3] W of a round section of this radius [m].
+inline double section_modulus(double radius) {
+    return std::numbers::pi * radius * radius * radius / 4;
+}
+
+// [Pa] Of a joint's torque [N m], joint frame. radius [m] above 0.
+inline double bending_stress(const Vec3& torque_j, double radius) {
+    return std::hypot(torque_j.x(), torque_j.y()) / section_modulus(radius);
+}
+
+} // namespace bough

@@ -1,0 +1,270 @@
+// Attachments between two bodies (attachment_ties.h): against the reference and statics, in lanes, of any stiffness, over threads and scenes.
+// (One step against dense algebra, pairs among it: step.cpp.)
+#include "lib/coupled/attachment_ties.h"
+#include "lib/base/parallel.h"
+#include "lib/simulation/simulation.h"
+#include "tests/support/held_tree.h"
+#include <catch2/catch.hpp>
+
+using namespace bough;
+using namespace coupled;
+using solver::empty_scene;
+
+namespace {
+
+Attachment tie(std::int64_t body, std::int64_t other, double k, double c) {
+    Attachment held = hold(body, k, c);
+    held.with = Selector();
+    held.with->body = other;
+    held.with->point = Vec3(0, 0, 0.03);
+    return held;
+}
+
+Tree beside(Tree tree, const Vec3& by) {
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        if (tree.parent[i] < 0) tree.joint_position[i] += by;
+    return tree;
+}
+
+// Two twigs 0.2 m apart.
+Tree twigs() {
+    return make_tree::forest({twig(), beside(twig(), Vec3(0.2, 0, 0))});
+}
+
+// Of both points, as seen from where they were.
+template <class T> Vec3 apart(const Held<T>& run, std::size_t k = 0) {
+    return run.point(run.held(k)) - run.point(*run.held(k).far);
+}
+
+} // namespace
+
+TEST_CASE("Two twigs of 0.8 mm are tied by springs of any stiffness and dampers of any strength at 1/30 s") {
+    const Tree tree = twigs();
+    const auto check = [&]<class T>(T, bool lanes) {
+        for (const double k : {0.0, 1e-3, 1.0, 20.0, 1e3, 1e5, 1e7, 1e9, 1e12})
+            for (const double c : {0.0, 1e-2, 1.0, 1e3, 1e9}) {
+                if (k == 0 && c == 0) continue;
+                // Drawn together, held as far apart as they are, pressed away from each other; of both, the first three times as long as they reach.
+                for (const Vec3& target : {Vec3(0, 0, 0), Vec3(-0.2, 0, 0), Vec3(-0.5, 0.1, 0.1), Vec3(-1.6, 0, 0.3)}) {
+                    Scene scene = empty_scene();
+                    scene.gravity = Vec3(0, -9.81, 0);
+                    scene.attachments = {tie(11, 23, k, c)};
+                    scene.attachments[0].target = target;
+                    Held<T> run(tree, scene, lanes);
+                    CAPTURE(sizeof(T), lanes, k, c, target.transpose());
+                    double third = 0, last = 0;
+                    for (int f = 0; f < 240; ++f) {
+                        run.step();
+                        const double energy = run.kinetic();
+                        REQUIRE(std::isfinite(energy));
+                        (f < 180 ? third : last) = std::max(f < 180 ? (f < 120 ? 0 : third) : last, energy);
+                    }
+                    CHECK(run.largest_angle() < 3.2);
+                    CHECK(last <= 1.05 * third + 5e-5); // [J] they fall by their lengths for 1e-3
+                    if (target.norm() < 0.3 && k >= 1e3 && c <= k / 10) CHECK((apart(run) - target).norm() < 0.05);
+                }
+            }
+    };
+    check(double(), false);
+    check(double(), true);
+    check(float(), false);
+    check(float(), true);
+}
+
+TEST_CASE("Tied bodies move in lanes as they do one number at a time, in both precisions, under every load") {
+    const Tree one = leafy(2e9, 0.01);
+    const auto n = std::int64_t(one.size_bodies());
+    const Tree tree = make_tree::forest({one, beside(one, Vec3(0.8, 0, 0.3))});
+    Scene scene = empty_scene();
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.wind = wind_preset("gusty");
+    scene.attachments = {tie(12, n + 20, 200, 0.5), tie(22, 9, 30, 0), hold(9, 0, 2), tie(n + 15, 15, 0, 3),
+                         tie(n + 5, 5, 1e7, 0)};
+    scene.attachments[0].target = Vec3(-0.5, 0.1, 0);
+    scene.attachments[1].from = 0.3;
+    scene.attachments[1].to = 1.2;
+    scene.attachments[3].time = {0, 1, 2};
+    scene.attachments[3].position = {Vec3(0.8, 0, 0.3), Vec3(0.5, 0.1, 0.2), Vec3(0.8, 0, 0.3)};
+    for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
+        Held<double> plain(tree, scene, false, 1.0 / 120, scheme), lanes(tree, scene, true, 1.0 / 120, scheme);
+        Held<float> single(tree, scene, true, 1.0 / 120, scheme), plain_single(tree, scene, false, 1.0 / 120, scheme);
+        double moved = 0, off = 0, off_single = 0, off_plain = 0;
+        for (int f = 0; f < 240; ++f) {
+            plain.step();
+            lanes.step();
+            single.step();
+            plain_single.step();
+            for (std::size_t i = 0; i < plain.plan.bodies; ++i) {
+                const Vec3& x = plain.state.x_w[i];
+                if (tree.parent[i] >= 0) moved = std::max(moved, plain.state.theta[i].norm());
+                off = std::max(off, (x - lanes.state.x_w[i]).norm());
+                off_single = std::max(off_single, (x - single.state.x_w[i].cast<double>()).norm());
+                off_plain = std::max(off_plain, (x - plain_single.state.x_w[i].cast<double>()).norm());
+            }
+        }
+        CAPTURE(scheme_of(scheme).name);
+        CHECK(moved > 0.05);
+        CHECK(off < 1e-9);
+        CHECK(off_single < 5e-3);
+        CHECK(off_plain < 5e-3);
+        for (std::size_t k = 0; k < scene.attachments.size(); ++k)
+            CHECK((plain.held(k).force - lanes.held(k).force).norm() < 1e-6 * (1 + plain.held(k).force.norm()));
+    }
+}
+
+// Where the sum of elastic, potential and the spring's energy is least, by differences of it: none of the solver's equations.
+TEST_CASE("Two branches that are tied come to rest where their energy is least, and the tie's force is what it says") {
+    const Tree rod = make_tree::chain(5, 1.0, 0.006, 0.004, 0.1, {800, 2e9, 2e8, 0.05});
+    const Tree tree = make_tree::forest({rod, beside(rod, Vec3(0.4, 0, 0))});
+    Scene scene = empty_scene();
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.pose = Pose::rest;
+    for (const double k : {5.0, 300.0, 1e6}) {
+        scene.attachments = {tie(3, 9, k, 1)};
+        scene.attachments[0].target = Vec3(-0.1, 0.05, 0.05);
+        Held<double> run(tree, scene, false);
+        for (int f = 0; f < 3000; ++f) advance(run.plan, run.state);
+        present(run.plan, run.state);
+        const auto energy_at = [&](const Eigen::VectorXd& theta) {
+            long double sum = 0;
+            Vec3 between = Vec3::Zero();
+            for (std::size_t first : {0, 5}) {
+                Mat3 R = Mat3::Identity();
+                Vec3 x = Vec3::Zero();
+                for (std::size_t i = first; i < first + 5; ++i) {
+                    const Vec3 angle = theta.segment<3>(3 * Eigen::Index(i));
+                    x += R * tree.joint_position[i];
+                    R = R * tree.joint_rotation[i].toRotationMatrix() *
+                        Mat3(Eigen::AngleAxisd(angle.norm(), angle.stableNormalized()));
+                    sum += angle.dot(tree.stiffness[i].cwiseProduct(angle)) / 2;
+                    sum -= tree.mass[i] * scene.gravity.dot(x + R * tree.com[i]);
+                    if (i == 3) between += x + R * Vec3(0, 0, 0.03);
+                    if (i == 9) between -= x + R * Vec3(0, 0, 0.03);
+                }
+            }
+            return double(sum + k / 2 * (between - *scene.attachments[0].target).squaredNorm());
+        };
+        Eigen::VectorXd at(30);
+        for (std::size_t i = 0; i < 10; ++i) at.segment<3>(3 * Eigen::Index(i)) = run.state.theta[i];
+        const double d = 1e-4;
+        Eigen::VectorXd gradient(30);
+        for (int j = 0; j < 30; ++j) {
+            const auto shifted = [&](double s) {
+                Eigen::VectorXd there = at;
+                there[j] += s * d;
+                return energy_at(there);
+            };
+            gradient[j] = (8 * (shifted(1) - shifted(-1)) - (shifted(2) - shifted(-2))) / (12 * d);
+        }
+        CAPTURE(k, gradient.norm());
+        double moment = 0; // [N m] what stands against each other
+        for (std::size_t i = 0; i < 10; ++i)
+            moment = std::max(moment, tree.stiffness[i].cwiseProduct(run.state.theta[i]).norm());
+        CHECK(moment > 0.05);
+        CHECK(gradient.norm() < 2e-6 * moment * std::max(1.0, k / 1e3));
+        const Vec3 force = k * (*scene.attachments[0].target - apart(run));
+        CHECK((run.held().force - force).norm() < 1e-6 * force.norm());
+    }
+}
+
+TEST_CASE("Trees that are tied move as the reference's, and their error falls with the square of the step") {
+    const Tree one = paper_trees::branched(2e9, 0.01);
+    const auto n = std::int64_t(one.size_bodies());
+    coupled::Motion motion{make_tree::forest({one, beside(one, Vec3(0.9, 0, 0))}), empty_scene(), 30};
+    motion.scene.gravity = Vec3(0, -9.81, 0);
+    motion.scene.attachments = {tie(20, n + 12, 50, 0.4), tie(n + 5, 5, 400, 2), tie(9, 15, 20, 0)};
+    const Held<double> start(motion.tree, motion.scene, false);
+    const Vec3 a = apart(start, 0), b = apart(start, 1);
+    motion.scene.attachments[0].time = {0, 0.4, 0.8, 1};
+    motion.scene.attachments[1].time = {0, 0.5, 1};
+    motion.scene.attachments[0].position = {a, a + Vec3(0.2, 0, 0.1), a + Vec3(0, -0.1, 0.2), a};
+    motion.scene.attachments[1].position = {b, b + Vec3(0, -0.1, 0.1), b};
+    const Track truth = truth_of(motion);
+    const double coarse = error_of(motion, truth, Scheme::p12, 1), fine = error_of(motion, truth, Scheme::p12, 4);
+    CAPTURE(coarse, fine);
+    CHECK(coarse < 0.02);
+    CHECK(order_at(motion, truth, Scheme::p12, 4) > 1.8);
+    CHECK(order_at(motion, truth, Scheme::p34, 4) > 1.8);
+}
+
+TEST_CASE("Tied bodies act the same on any number of threads; without ties nothing of them is there") {
+    const Tree one = make_tree::random_tree(3000, 3);
+    const Tree tree =
+        make_tree::forest({one, beside(one, Vec3(3, 0, 0)), beside(make_tree::random_tree(40, 4), Vec3(6, 0, 0))});
+    Scene scene = empty_scene();
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.wind = wind_preset("breeze");
+    for (const int body : {50, 500, 2500}) scene.attachments.push_back(tie(body, 3000 + body, 100, 1));
+    scene.attachments.push_back(tie(3010, 6010, 1e5, 0));
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 5}) {
+        const ThreadLimit limit(threads);
+        Held<float> run(tree, scene, true);
+        for (int f = 0; f < 20; ++f) advance(run.plan, run.state);
+        CHECK(run.state.calls[std::size_t(Stage::attachments)] == 20);
+        hashes.push_back(state_hash(run.plan, run.state));
+        CHECK(run.held(0).force.norm() > 0);
+    }
+    CHECK(hashes[0] == hashes[1]);
+    CHECK(hashes[0] == hashes[2]);
+    for (Attachment& held : scene.attachments) {
+        held.with.reset();
+        held.target = Vec3(0, 1, 0);
+    }
+    Held<float> without(tree, scene, true);
+    advance(without.plan, without.state);
+    CHECK(coupled_state(without.state).attachments.ties.capacity() == 0);
+    CHECK(coupled_state(without.state).attachments.solved.capacity() == 0);
+    CHECK(coupled_state(without.state).attachments.answers.size() == 0);
+}
+
+TEST_CASE("A scene ties two of its trees; what cannot be tied is refused; a run that is cut goes on bit by bit") {
+    Scene scene;
+    const Tree one = paper_trees::branched(2e9, 0.01);
+    scene.add(one);
+    scene.add(one, Vec3(1, 0, 0), 90);
+    scene.wind = wind_preset("breeze");
+    scene.attachments = {tie(5, 5, 500, 1)};
+    scene.attachments[0].with->tree = 1;
+    Simulation tied(scene);
+    const std::size_t other = one.size_bodies() + 5;
+    const auto between = [&] { return Vec3(tied.positions()[5] - tied.positions()[other]); };
+    const Vec3 start = between();
+    Scene loose = scene;
+    loose.attachments.clear();
+    Simulation apart(loose);
+    for (int f = 0; f < 60; ++f) {
+        tied.step();
+        apart.step();
+    }
+    CHECK((between() - start).norm() < 0.5 * (apart.positions()[5] - apart.positions()[other] - start).norm() + 1e-4);
+    CHECK(tied.hash() != apart.hash());
+    const SavedState saved = tied.save();
+    Simulation again(scene);
+    again.restore(saved);
+    for (int f = 0; f < 20; ++f) {
+        tied.step();
+        again.step();
+    }
+    CHECK(again.hash() == tied.hash());
+
+    const auto refused = [](Scene wrong, const SimulationOptions& o = {}) -> std::string {
+        try {
+            const Simulation simulation(std::move(wrong), o);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    Scene wrong = scene;
+    wrong.attachments[0].with->by = Selector::By::level;
+    CHECK_THAT(refused(wrong), Catch::Contains("attachments/0/with is by level"));
+    wrong = scene;
+    wrong.attachments[0].with->tree = 0;
+    CHECK_THAT(refused(wrong), Catch::Contains("/attachments/0/with") && Catch::Contains("expected another"));
+    wrong.attachments[0].with->body = 10000;
+    CHECK_THAT(refused(wrong), Catch::Contains("/attachments/0/with"));
+    SimulationOptions paper;
+    paper.method = Method::analytic;
+    CHECK_THAT(refused(scene, paper), Catch::Contains("attachments: only for solver coupled"));
+}
