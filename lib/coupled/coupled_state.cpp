@@ -1,6 +1,5 @@
 #include "coupled_state.h"
 #include "../plan/carried.h"
-#include "attachment.h"
 #include <stdexcept>
 
 namespace bough {
@@ -29,7 +28,6 @@ void allocate_coupled(const Plan<T>& plan, State<T>& state, CoupledState<T>& own
         own.wind_change = state.wind;
     own.ground.resize(plan.splines.size());
     own.account.resize(roots);
-    if (!plan.attachments.empty() || !plan.followers.empty() || !plan.pulls.empty()) begin_attachments(plan, own);
 }
 
 void refuse_with_coupled(const Scene& scene) {
