@@ -1,7 +1,6 @@
 #include "attachment.h"
 #include "../base/rotation_maps.h"
 #include "attachment_paths.h"
-#include "attachment_ties.h"
 #include "pulled_points.h"
 #include "turn_bounds.h"
 #include <algorithm>
@@ -193,39 +192,6 @@ bool holds(const Attached& held, double middle) {
 
 } // namespace
 
-template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
-    std::vector<std::size_t>& touched = a.touched;
-    touched.clear();
-    const auto touch = [&](std::size_t body) {
-        for (auto i = std::int64_t(body); i >= 0; i = plan.parent[std::size_t(i)]) touched.push_back(std::size_t(i));
-    };
-    for (const Attached& held : a.all) {
-        touch(held.body);
-        if (held.far) touch(held.far->body);
-    }
-    for (const PulledPoint& point : a.pulled) touch(point.body);
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    const auto place = [&](std::size_t body) {
-        return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
-    };
-    a.bodies.assign(touched.size(), {});
-    for (std::size_t k = 0; k < touched.size(); ++k) {
-        AttachedBody& b = a.bodies[k];
-        b.body = touched[k];
-        const std::int32_t parent = plan.parent[b.body];
-        b.parent = parent < 0 ? -1 : place(std::size_t(parent));
-        b.joint_position = plan.joint_position[b.body].template cast<double>();
-        b.R_pj = plan.R_pj[b.body].template cast<double>();
-    }
-    for (Attached& held : a.all) {
-        held.at = std::size_t(place(held.body));
-        if (held.far) held.far->at = std::size_t(place(held.far->body));
-    }
-    for (PulledPoint& point : a.pulled) point.at = std::size_t(place(point.body));
-    find_ties(a);
-}
-
 template <class T> void begin_attachments(const Plan<T>& plan, CoupledState<T>& work) {
     Attachments& a = work.attachments;
     a = {};
@@ -377,7 +343,6 @@ template <class T> bool changes(const Plan<T>& plan, const Attached& held, doubl
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
-    template void find_bodies(const Plan<T>&, Attachments&);                                                           \
     template void begin_attachments(const Plan<T>&, CoupledState<T>&);                                                 \
     template std::uint64_t attach(const Plan<T>&, CoupledState<T>&, std::size_t, const Vec3&, double, double,          \
                                   const Vec3&);                                                                        \

@@ -37,10 +37,6 @@
 
 namespace bough {
 
-// The bodies of all paths: to be called where what holds or pulls them has changed. Those that stay keep nothing, as a step fills them anew.
-// O(paths). Allocates where they are more than before.
-template <class T> void find_bodies(const Plan<T>&, Attachments&);
-
 // Of the plan's, at the start pose. O(paths).
 template <class T> void begin_attachments(const Plan<T>&, CoupledState<T>&);
 

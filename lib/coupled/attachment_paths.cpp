@@ -1,4 +1,5 @@
 #include "attachment_paths.h"
+#include "attachment_ties.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,6 +26,39 @@ double straining(const Plan<T>& plan, const Attachments& a, const Attached& held
 }
 
 } // namespace
+
+template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
+    std::vector<std::size_t>& touched = a.touched;
+    touched.clear();
+    const auto touch = [&](std::size_t body) {
+        for (auto i = std::int64_t(body); i >= 0; i = plan.parent[std::size_t(i)]) touched.push_back(std::size_t(i));
+    };
+    for (const Attached& held : a.all) {
+        touch(held.body);
+        if (held.far) touch(held.far->body);
+    }
+    for (const PulledPoint& point : a.pulled) touch(point.body);
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    const auto place = [&](std::size_t body) {
+        return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
+    };
+    a.bodies.assign(touched.size(), {});
+    for (std::size_t k = 0; k < touched.size(); ++k) {
+        AttachedBody& b = a.bodies[k];
+        b.body = touched[k];
+        const std::int32_t parent = plan.parent[b.body];
+        b.parent = parent < 0 ? -1 : place(std::size_t(parent));
+        b.joint_position = plan.joint_position[b.body].template cast<double>();
+        b.R_pj = plan.R_pj[b.body].template cast<double>();
+    }
+    for (Attached& held : a.all) {
+        held.at = std::size_t(place(held.body));
+        if (held.far) held.far->at = std::size_t(place(held.far->body));
+    }
+    for (PulledPoint& point : a.pulled) point.at = std::size_t(place(point.body));
+    find_ties(a);
+}
 
 template <class T> double answering_stiffness(const Plan<T>& plan, const AttachedBody& b) {
     const double h = plan.dt;
@@ -66,6 +100,8 @@ template <class T> void add_direction(const Plan<T>& plan, Attachments& a, const
     });
 }
 
+template void find_bodies(const Plan<float>&, Attachments&);
+template void find_bodies(const Plan<double>&, Attachments&);
 template double answering_stiffness(const Plan<float>&, const AttachedBody&);
 template double answering_stiffness(const Plan<double>&, const AttachedBody&);
 template double answering_mass(const Plan<float>&, const Attachments&, const AttachedEnd&, std::complex<double>);

@@ -5,6 +5,10 @@
 
 namespace bough {
 
+// The bodies of all paths: to be called where what holds or pulls them has changed. Those that stay keep nothing, as a step fills them anew.
+// O(paths). Allocates where they are more than before.
+template <class T> void find_bodies(const Plan<T>&, Attachments&);
+
 // Of the joints between an end and the ground, from the end on: visit(body, from its joint to the end, from its joint to the next joint or the end).
 template <class Of, class Visit> void along_path(Of& a, const AttachedEnd& end, Visit&& visit) {
     const Vec3 point = a.bodies[end.at].x + end.rho;

@@ -3,7 +3,6 @@
 #include "../lanes/lane_motion.h"
 #include "../lanes/plan_lanes.h"
 #include "../plan/state_update.h"
-#include "allocate_coupled.h"
 #include "attachment.h"
 #include "attachment_lanes.h"
 #include "coupled_lanes_step.h"
@@ -44,6 +43,7 @@ template <class T> void CoupledLanesStepper<T>::lay_out(const Plan<T>& plan, con
 template <class T> void CoupledLanesStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
     auto work = std::make_unique<CoupledLanesState<T>>();
     allocate_coupled(plan, state, *work, own.lanes.layout.ground.size());
+    begin_attachments(plan, *work);
     if (work->attachments.any()) place_attached_rows(own, *work);
     state.own = Copied<StepperState>(std::move(work));
 }

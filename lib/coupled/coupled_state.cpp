@@ -15,6 +15,21 @@ template <class T> void take_coupled_constants(const Plan<T>& plan, const Tree& 
     if (plan.wind) own.carried_drag = in_precision<T>(carried_drag(plan, tree));
 }
 
+template <class T>
+void allocate_coupled(const Plan<T>& plan, State<T>& state, CoupledState<T>& own, std::size_t roots) {
+    if (plan.pose) {
+        own.theta_change.assign(plan.bodies, Vector3<T>::Zero());
+        own.theta_dot_change.assign(plan.bodies, Vector3<T>::Zero());
+    }
+    if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
+    if (plan.field)
+        own.wind_start = own.wind_end = state.wind.field;
+    else
+        own.wind_change = state.wind;
+    own.ground.resize(plan.splines.size());
+    own.account.resize(roots);
+}
+
 void refuse_with_coupled(const Scene& scene) {
     if (scene.fictitious)
         throw std::domain_error("fictitious: only for solver analytic; solver coupled has these terms by nature, whole "
@@ -25,5 +40,7 @@ template struct CoupledWork<float>;
 template struct CoupledWork<double>;
 template void take_coupled_constants(const Plan<float>&, const Tree&, CoupledPlan<float>&);
 template void take_coupled_constants(const Plan<double>&, const Tree&, CoupledPlan<double>&);
+template void allocate_coupled(const Plan<float>&, State<float>&, CoupledState<float>&, std::size_t);
+template void allocate_coupled(const Plan<double>&, State<double>&, CoupledState<double>&, std::size_t);
 
 } // namespace bough

@@ -38,6 +38,9 @@ template <class T> struct CoupledWork : Cloned<CoupledWork<T>, CoupledState<T>, 
 // The constants of `own`, as Stepper::take_constants is asked for them. O(n).
 template <class T> void take_coupled_constants(const Plan<T>&, const Tree&, CoupledPlan<T>& own);
 
+// All of a state that both ways have; roots: of the trees.
+template <class T> void allocate_coupled(const Plan<T>&, State<T>&, CoupledState<T>& own, std::size_t roots);
+
 // Throws std::domain_error for what the coupled solver cannot hold.
 void refuse_with_coupled(const Scene&);
 

@@ -1,6 +1,5 @@
 #include "coupled_stepper.h"
 #include "../plan/state_update.h"
-#include "allocate_coupled.h"
 #include "attachment.h"
 #include "coupled_step.h"
 #include <algorithm>
@@ -41,6 +40,7 @@ template <class T> void CoupledStepper<T>::allocate(const Plan<T>& plan, State<T
     auto work = std::make_unique<CoupledWork<T>>();
     const auto roots = std::size_t(std::count(plan.parent.begin(), plan.parent.end(), -1));
     allocate_coupled(plan, state, *work, roots);
+    begin_attachments(plan, *work);
     work->coupled.resize(plan.bodies);
     const bool real = scheme_of(own.scheme).real;
     if (!real) work->resolvent.resize(plan.bodies);

@@ -1,6 +1,5 @@
 #include "pulled_points.h"
 #include "../plan/pushes.h"
-#include "attachment.h"
 #include "attachment_paths.h"
 #include <algorithm>
 #include <cmath>

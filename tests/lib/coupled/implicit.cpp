@@ -61,16 +61,19 @@ TEST_CASE("With springs, dampers and turning bodies alone, LIE is the linearly i
     CHECK(difference(tree_off_origin(), solver::empty_scene(), {}, 0.5) < 1e-11);
 }
 
-TEST_CASE("So it is with pulls") {
-    Scene scene = solver::empty_scene();
-    scene.pulls = {pull_on(3, Vec3(1, 0, -4), Vec3(1, 0, -4)), pull_on(9, Vec3(0, 0.1, 0), Vec3(0, 0.1, 0))};
-    CHECK(difference(tree_off_origin(), scene, {}, 0.5) < 1e-11);
-}
-
-TEST_CASE("So it is with pulls that change: both take those at the end of the step") {
-    Scene scene = solver::empty_scene();
-    scene.pulls = {pull_on(3, Vec3(1, 0, -4), Vec3(-8, 1, 2)), pull_on(9, Vec3(0, 0.1, 0), Vec3(0.2, 0.1, 0.5))};
-    CHECK(difference(tree_off_origin(), scene, {}, 0.5) < 1e-11);
+// Another difference of principle, as with gravity: L here has what pulls make of their points' turning with the bodies (pulled_points.h).
+TEST_CASE("With pulls, steady or changing, they differ by what their points resist turning by, second order in h") {
+    for (const bool changing : {false, true}) {
+        Scene scene = solver::empty_scene();
+        scene.pulls = {pull_on(3, Vec3(1, 0, -4), changing ? Vec3(-8, 1, 2) : Vec3(1, 0, -4)),
+                       pull_on(9, Vec3(0, 0.1, 0), changing ? Vec3(0.2, 0.1, 0.5) : Vec3(0, 0.1, 0))};
+        const double coarse = difference(paper_trees::branched(2e7, 0), scene, {}, 0.5, 2e-4),
+                     fine = difference(paper_trees::branched(2e7, 0), scene, {}, 0.5, 1e-4);
+        CAPTURE(changing, coarse, fine);
+        CHECK(coarse < 2e-2);
+        CHECK(coarse > 1e-8);
+        CHECK(std::log2(coarse / fine) == Approx(2).margin(0.2));
+    }
 }
 
 TEST_CASE("So it is on a driven ground, and on a turning one") {
