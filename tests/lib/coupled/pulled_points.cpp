@@ -25,7 +25,7 @@ Pull steady(std::int64_t body, const Vec3& point_b, const Vec3& force, bool in_b
 
 } // namespace
 
-// (From 6 N on it flutters out of its plane, at any step.) From the tip, in whose axes the force is known, joint by joint: each turns by the moment over its stiffness.
+// (At 7 N and more it leaves its plane: flutter, as Beck's column has it.) From the tip, in whose axes the force is known, joint by joint: each turns by the moment over its stiffness.
 TEST_CASE("A force that turns with a branch's end bends it as the balance from its end says, by up to 1.9 rad") {
     const int n = 8;
     const Tree tree = make_tree::chain(n, 1.0, 0.006, 0.004, 0, {800, 2e9, 2e8, 0.05});

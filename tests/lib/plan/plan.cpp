@@ -102,7 +102,8 @@ std::vector<Case> cases() {
 
 Names expected_stages(const Case& c, const Method& method) {
     if (method.solver == Solver::analytic) return joined(every_stage, c.stages);
-    return joined(every_coupled_stage, c.scene.wind ? Names{"wind_field"} : Names{});
+    Names stages = joined(every_coupled_stage, c.scene.wind ? Names{"wind_field"} : Names{});
+    return joined(stages, c.scene.pulls.empty() ? Names{} : Names{"attachments"});
 }
 
 Names expected_arrays(const Case& c, const Method& method) {
