@@ -195,7 +195,8 @@ typedef enum bough_field {
     BOUGH_ANGLE = 4,            /* [rad] rotation vectors of joints, joint frames, 3; of trees' bodies alone */
     BOUGH_RATE = 5,             /* [rad/s] how those change, 3 */
     BOUGH_TORQUE = 6,           /* [N m] of springs and dampers, joint frames, 3 (settings.torques); as BOUGH_ANGLE */
-    BOUGH_STRESS = 7            /* [Pa] that bends the wood at joints, 1 (settings.stresses); 0 of all but branches */
+    BOUGH_STRESS = 7,           /* [Pa] that bends the wood at joints, 1 (settings.stresses); 0 of all but branches */
+    BOUGH_FIELD_WIDTH = 0x7fffffff /* no field: the type is as wide as an int */
 } bough_field;
 typedef struct bough_array {
     const double* data; /* see "Memory" */

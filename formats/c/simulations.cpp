@@ -3,7 +3,6 @@
 #include "lib/simulation/pick.h"
 #include "wind.h"
 #include "write.h"
-#include <cstring>
 
 using namespace bough;
 using namespace bough::c;
@@ -158,10 +157,7 @@ bough_result bough_step(bough_simulation* simulation, bough_report* report) {
 bough_result bough_read(bough_simulation* simulation, bough_field field, bough_array* array) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
-        std::int32_t number; // a caller may pass what no bough_field is
-        static_assert(sizeof field == sizeof number);
-        std::memcpy(&number, &field, sizeof number);
-        required(array, "array") = read(use->simulation, number);
+        required(array, "array") = read(use->simulation, std::int32_t(field)); // which may be none of them
     });
 }
 
