@@ -167,10 +167,10 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             for (std::int32_t k = std::int32_t(body); k >= 0; k = tree.parent[std::size_t(k)]) {
                 const auto q = std::size_t(k);
                 P.block<3, 3>(0, 3 * k) -= sign * cross(x - pose.x[q]) * pose.R[q] * J.block<3, 3>(3 * k, 3 * k);
-                Carrier step{q, x - pose.x[q], next - pose.x[q], {}};
+                Carrier link{q, x - pose.x[q], next - pose.x[q], {}};
                 for (std::int32_t i = k; i >= 0; i = tree.parent[std::size_t(i)])
-                    step.carried_by.push_back(std::size_t(i));
-                paths.push_back(step);
+                    link.carried_by.push_back(std::size_t(i));
+                paths.push_back(link);
                 next = pose.x[q];
             }
         };
@@ -190,17 +190,17 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
                    std::min(I(0, 0), I(1, 1)) / (taken.h * taken.h);
         };
         M3 give = M3::Identity() / per_metre;
-        for (const Carrier& step : paths) give -= cross(step.to_end) * cross(step.to_end) / own(step.body);
+        for (const Carrier& link : paths) give -= cross(link.to_end) * cross(link.to_end) / own(link.body);
         const V3 answer = give.ldlt().solve((f - held.force) / per_metre);
         Real turns = 0;
-        for (const Carrier& step : paths) turns = std::max(turns, step.to_end.cross(answer).norm() / own(step.body));
+        for (const Carrier& link : paths) turns = std::max(turns, link.to_end.cross(answer).norm() / own(link.body));
         const Real strain = std::min(Real(1), turns / Real(0.1L));
-        for (const Carrier& step : paths) {
-            const V3& arm = step.to_next;
+        for (const Carrier& link : paths) {
+            const V3& arm = link.to_next;
             const Real tension = arm.norm() * std::max(held.force.norm(), strain * strain * f.norm());
             const M3 H = tension * (M3::Identity() - arm * arm.transpose() / arm.squaredNorm());
             Matrix turn = Matrix::Zero(3, N);
-            for (const std::size_t b : step.carried_by) {
+            for (const std::size_t b : link.carried_by) {
                 const auto at = 3 * Eigen::Index(b);
                 turn.block<3, 3>(0, at) = pose.R[b] * J.block<3, 3>(at, at);
             }
