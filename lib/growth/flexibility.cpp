@@ -146,7 +146,6 @@ std::vector<Bend> bends(const Tree& tree, const Flexibility& f, const std::vecto
 // With r the part of the lowest mode in the bend, S = r / (omega_1^2 - omega^2) and, Q being twice the kinetic energy at 1 rad/s, Q = dS / d omega^2.
 Flexibility flexibility_at_sway(const Tree& tree) {
     Flexibility slow = flexibility(tree, 0);
-    slow.slow = slow.whole;
     if (!slow.stands) return slow;
     double S = 0, Q = 0;
     const std::vector<Bend> all = bends(tree, slow, std::vector<std::int32_t>(tree.size_bodies(), 0));
@@ -161,11 +160,7 @@ Flexibility flexibility_at_sway(const Tree& tree) {
         if (tree.kind[i] == Kind::branch && !continues_parent(tree, i))
             omega2 = std::min(omega2, of_a_rod * slow.mass[i] / slow.whole[i]);
     for (int k = 0; k < most_tries; ++k, omega2 *= lower)
-        if (stands_at(tree, slow, omega2)) {
-            Flexibility f = flexibility(tree, omega2);
-            f.slow = std::move(slow.slow);
-            return f;
-        }
+        if (stands_at(tree, slow, omega2)) return flexibility(tree, omega2);
     return slow;
 }
 

@@ -50,7 +50,6 @@ struct Flexibility {
     std::vector<Vec3> first;  // [kg m] its first moment about the joint, world
     std::vector<double> give;
     std::vector<double> whole; // give of the joint and all that it carries
-    std::vector<double> slow;  // likewise at omega = 0, of flexibility_at_sway() alone
     std::vector<Mat3> turn, follow, slide;
 };
 

@@ -124,7 +124,7 @@ GrowthParameters default_growth();
 // the tree comes to more than 5e7 branches, leaves and fruit. O(points).
 Splines grow(const GrowthParameters&, std::uint64_t seed, const Items&);
 
-// The same tree, whatever the number, which it carries along (Splines::bodies): what segment() makes of it, within a tenth from 100 bodies on,
+// The same tree, whatever the number, which it carries along (Splines::bodies): what segment() makes of it, within a tenth from some 50 bodies on,
 // by fewer (resolve.h) or by cutting it more finely. Throws std::invalid_argument beyond 1 to 2e7 too, and where the tree is not to be had on so few.
 Splines grow_bodies(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t bodies);
 

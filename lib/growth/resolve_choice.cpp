@@ -2,7 +2,6 @@
 #include "random.h"
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -12,7 +11,6 @@ namespace {
 
 constexpr double own_clump = 0.25; // [1] of the threshold, at which a side branch has a clump of its own
 constexpr double bodies_power = 0.75;
-constexpr std::size_t slowest_kept = 4;
 constexpr int most_tries = 60;
 
 enum class ResolveDraw : std::uint8_t { item = 220 }; // apart from the draws of growth (stem.h)
@@ -41,7 +39,6 @@ private:
     bool resolved(std::size_t chain, double t) const {
         return chain_[chain].on < 0 || chain_[chain].always || chain_[chain].weight >= t;
     }
-    void keep_slowest(const Flexibility&);
     void keep_top(const DrawnPose&);
     std::int32_t bodies_of(const Chain&, double t) const;
     void place(double t);
@@ -72,10 +69,9 @@ Chooser::Chooser(const Tree& tree, const Flexibility& give) : tree_(tree), chain
         // Leaves that are all alike come one after another, not all at once.
         const double spread =
             tree.kind[i] == Kind::branch ? 1 : std::exp2(random_sign(RandomKey{0}, ResolveDraw::item, i));
-        const double w = spread * give.mass[i] * std::pow(give.slow[i] / give.mass[i], 6);
+        const double w = spread * give.mass[i] * std::pow(give.whole[i] / give.mass[i], 6);
         chain_.push_back({std::int32_t(i), 1, p, w});
     }
-    keep_slowest(give);
     for (std::size_t c = chain_.size(); c-- > 0;) {
         const Chain& chain = chain_[c];
         const double pieces = chain.pieces;
@@ -86,20 +82,6 @@ Chooser::Chooser(const Tree& tree, const Flexibility& give) : tree_(tree), chain
         if (tree.kind[std::size_t(chain.first)] == Kind::branch) on.weight = std::max(on.weight, chain.weight);
     }
     keep_top(give.pose);
-}
-
-// The side branches that answer most to what shakes the tree: its lowest modes may be theirs.
-void Chooser::keep_slowest(const Flexibility& give) {
-    std::vector<std::pair<double, std::size_t>> slow;
-    double heaviest = 0;
-    for (std::size_t c = 0; c < chain_.size(); ++c) {
-        const auto i = std::size_t(chain_[c].first);
-        heaviest = std::max(heaviest, chain_[c].weight);
-        if (tree_.kind[i] == Kind::branch && chain_[c].on >= 0) slow.emplace_back(give.whole[i] / give.mass[i], c);
-    }
-    const std::size_t count = std::min(slowest_kept, slow.size());
-    std::partial_sort(slow.begin(), slow.begin() + std::ptrdiff_t(count), slow.end(), std::greater<>());
-    for (std::size_t k = 0; k < count; ++k) chain_[slow[k].second].weight = heaviest * std::exp2(-double(k));
 }
 
 // A tree keeps its height: the way to its highest wood is always resolved, if by one body a branch.

@@ -100,7 +100,7 @@ TEST_CASE("All eight species are one tree from 300 bodies on: height, masses, le
         const Material& wood = wood_for(species);
         const Items in_leaf{true, false, false};
         const Measured whole = measured(segment(grow(species.growth, 1, in_leaf), wood, {}), wood);
-        for (const std::int64_t bodies : cases<std::int64_t>(1, {300, 10000, 100000})) {
+        for (const std::int64_t bodies : cases<std::int64_t>(1, {300, 1000, 10000, 100000})) {
             const Tree tree = segment(grow_bodies(species.growth, 1, in_leaf, bodies), wood, {});
             const Measured now = measured(tree, wood);
             INFO(species.name << ", " << tree.size_bodies() << " bodies");

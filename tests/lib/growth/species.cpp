@@ -81,7 +81,7 @@ TEST_CASE("The paper's four species and four more are there") {
 
 TEST_CASE("Each species has the number of bodies asked for, with and without leaves") {
     for (const Species& species : all_species())
-        for (const std::int64_t bodies : cases<std::int64_t>(1, {100, 5000}))
+        for (const std::int64_t bodies : cases<std::int64_t>(3, {100, 700, 5000, 60000}))
             for (const bool leaves : {false, true}) {
                 INFO(species.name << " " << bodies << (leaves ? " with leaves" : ""));
                 const Splines s = grow_bodies(species.growth, 3, {leaves, false, leaves}, bodies);
