@@ -10,7 +10,7 @@ namespace bough {
 namespace {
 
 constexpr double own_clump = 0.25; // [1] of the threshold, at which a side branch has a clump of its own
-constexpr double bodies_power = 0.75;
+constexpr double bodies_power = 0.4;
 constexpr int most_tries = 60;
 
 enum class ResolveDraw : std::uint8_t { item = 220 }; // apart from the draws of growth (stem.h)

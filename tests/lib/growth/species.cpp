@@ -90,7 +90,7 @@ TEST_CASE("Each species has the number of bodies asked for, with and without lea
             }
 }
 
-TEST_CASE("An odd number of bodies is met") {
+TEST_CASE("An odd number of bodies is met by leaving out twigs") {
     const Species oak = named("oak");
     for (const std::uint64_t seed : {7, 8, 9}) {
         const Splines s = grow_bodies(oak.growth, seed, {}, 137);
