@@ -47,7 +47,7 @@ template <class Take> void each_index(const pugi::xml_node& list, const std::str
 }
 
 // What an <input> of indices points into.
-struct Input {
+struct SharedInput {
     std::string semantic;
     std::int64_t offset = 0, count = 0;
     bool any_count = false; // the source is elsewhere, or of a kind that is not counted here
@@ -70,8 +70,8 @@ public:
         for (const char* const kind :
              {"triangles", "polylist", "polygons", "lines", "linestrips", "tristrips", "trifans"})
             for (const pugi::xml_node& primitive : body_.children(kind)) {
-                const std::vector<Input> inputs = inputs_of(primitive);
-                for (const Input& input : inputs)
+                const std::vector<SharedInput> inputs = inputs_of(primitive);
+                for (const SharedInput& input : inputs)
                     if (input.semantic == "VERTEX" && !input.any_count && input.count == 0 && primitive.child("p"))
                         throw std::runtime_error(place_ + "has no vertices, but <" + kind + "> of them");
                 for (const pugi::xml_node& p : primitive.children("p")) check_indices(p, kind, inputs, 0);
@@ -82,7 +82,7 @@ public:
 
     void check_skin() const {
         for (const pugi::xml_node& weights : body_.children("vertex_weights")) {
-            const std::vector<Input> inputs = inputs_of(weights);
+            const std::vector<SharedInput> inputs = inputs_of(weights);
             const std::size_t numbers = check_indices(weights.child("v"), "vertex_weights", inputs, -1);
             std::uint64_t taken = 0;
             each_index(weights.child("vcount"), place_, [&](std::int64_t n) {
@@ -126,10 +126,10 @@ private:
                                      std::to_string(std::max(said, read)) + " that its count says");
     }
 
-    std::vector<Input> inputs_of(const pugi::xml_node& node) const {
-        std::vector<Input> inputs;
+    std::vector<SharedInput> inputs_of(const pugi::xml_node& node) const {
+        std::vector<SharedInput> inputs;
         for (const pugi::xml_node& from : node.children("input")) {
-            Input input;
+            SharedInput input;
             input.semantic = from.attribute("semantic").value();
             input.offset = from.attribute("offset").as_llong(0);
             if (input.offset < 0 || input.offset > 64)
@@ -143,22 +143,22 @@ private:
         return inputs;
     }
 
-    static std::int64_t stride_of(const std::vector<Input>& inputs) {
+    static std::int64_t stride_of(const std::vector<SharedInput>& inputs) {
         std::int64_t stride = 1;
-        for (const Input& input : inputs) stride = std::max(stride, input.offset + 1);
+        for (const SharedInput& input : inputs) stride = std::max(stride, input.offset + 1);
         return stride;
     }
 
     // least: of a joint. Returns how many numbers there are.
-    std::size_t check_indices(const pugi::xml_node& list, const char* of, const std::vector<Input>& inputs,
+    std::size_t check_indices(const pugi::xml_node& list, const char* of, const std::vector<SharedInput>& inputs,
                               std::int64_t least) const {
         const auto stride = std::size_t(stride_of(inputs));
-        std::vector<std::vector<const Input*>> at(stride);
-        for (const Input& input : inputs)
+        std::vector<std::vector<const SharedInput*>> at(stride);
+        for (const SharedInput& input : inputs)
             if (!input.any_count) at[std::size_t(input.offset)].push_back(&input);
         std::size_t k = 0;
         each_index(list, place_, [&](std::int64_t index) {
-            for (const Input* input : at[k % stride])
+            for (const SharedInput* input : at[k % stride])
                 if (index < (input->semantic == "JOINT" ? least : 0) || index >= input->count)
                     throw std::runtime_error(place_ + "<" + of + "> names " + input->semantic + " " +
                                              std::to_string(index) + ", expected 0 to less than " +
