@@ -33,7 +33,7 @@
 extern "C" {
 #endif
 
-#define BOUGH_ABI 1 /* of this header */
+#define BOUGH_ABI 2 /* of this header */
 /* Of the library that runs: where it is not BOUGH_ABI, this header is not for it. */
 int32_t bough_abi(void);
 const char* bough_version(void); /* "0.1.0" */

@@ -12,6 +12,7 @@ public:
     const char* name() const override { return "coupled"; }
     const char* scheme() const override { return scheme_of(own.scheme).name; }
     void refuse(const Scene& scene) const override { refuse_with_coupled(scene); }
+    bool places_points() const override { return true; } // pulled_points.h, attachment.h
     void take_constants(const Plan<T>& plan, const Tree& tree) override { take_coupled_constants(plan, tree, own); }
     void lay_out(const Plan<T>&, const std::vector<TreeRange>&) override;
     void allocate(const Plan<T>&, State<T>&) const override;

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <string_view>
 #include <tuple>
 
 namespace bough {
@@ -239,10 +238,9 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.velocity = wishes.velocity || stepper.reads_velocities(plan);
     plan.torque = wishes.torque || wishes.stress;
     if (wishes.stress) plan_stresses(plan, tree);
-    // The coupled step places the points of pulls by what poses need (coupled/pulled_points.h).
-    const bool places = (!scene.pulls.empty() || wishes.loads) && std::string_view(stepper.name()) == "coupled";
+    const bool held = !scene.attachments.empty() || !scene.pulls.empty() || wishes.loads;
     plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || plan.torque || scene.fracture ||
-                !scene.balls.empty() || !scene.attachments.empty() || places;
+                !scene.balls.empty() || (held && stepper.places_points());
     plan_root_motion(plan, ranges);
     if (plan.wind) {
         const WindReach reach = reach_of(plan, tree);

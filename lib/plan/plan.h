@@ -17,7 +17,7 @@ namespace bough {
 struct Wishes {
     bool velocity = false; // velocity and angular velocity of each body
     bool torque = false;   // spring torque of each joint
-    // Poses and angles as they go. Without (and without the two above) a step in lanes keeps neither them nor their constants in document
+    // Poses and angles as they go. Without (and without velocities, torques and stresses) a step in lanes keeps neither them nor their constants in document
     // order: a run then has its hash, and the angles that present() brings for a saved state.
     bool pose = true;
     bool stress = false; // bending_stresses() will be called

@@ -4,6 +4,7 @@
 // twig()             a twig of 0.8 mm, 0.36 m of it in 12 pieces
 // Held<T>            a run of a tree by the coupled step, plain or in lanes
 #pragma once
+#include "lib/base/parallel.h"
 #include "lib/base/rotation_maps.h"
 #include "lib/coupled/attachment.h"
 #include "tests/support/coupled_support.h"
@@ -21,6 +22,21 @@ inline Attachment hold(std::int64_t body, double k, double c) {
 
 inline Tree twig() {
     return make_tree::chain(12, 0.36, 0.0004, 0.0004, 0.03, {800, 5e9, 5e8, 0.002});
+}
+
+// By differences of fourth order.
+template <class Energy> Eigen::VectorXd gradient_of(const Energy& energy_at, const Eigen::VectorXd& at) {
+    const double d = 1e-4;
+    Eigen::VectorXd gradient(at.size());
+    for (int j = 0; j < at.size(); ++j) {
+        const auto shifted = [&](double s) {
+            Eigen::VectorXd there = at;
+            there[j] += s * d;
+            return energy_at(there);
+        };
+        gradient[j] = (8 * (shifted(1) - shifted(-1)) - (shifted(2) - shifted(-2))) / (12 * d);
+    }
+    return gradient;
 }
 
 template <class T> struct Held {
@@ -65,5 +81,24 @@ template <class T> struct Held {
         return sum;
     }
 };
+
+// The hash after 20 frames in float lanes, which is the same on 1, 2 and 5 threads. see(run): what else is looked at.
+template <class See> std::uint64_t hash_on_threads(const Tree& tree, const Scene& scene, const See& see) {
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 5}) {
+        const ThreadLimit limit(threads);
+        Held<float> run(tree, scene, true);
+        for (int f = 0; f < 20; ++f) advance(run.plan, run.state);
+        CHECK(run.state.calls[std::size_t(Stage::attachments)] == 20);
+        see(run);
+        hashes.push_back(state_hash(run.plan, run.state));
+    }
+    CHECK(hashes[0] == hashes[1]);
+    CHECK(hashes[0] == hashes[2]);
+    return hashes[0];
+}
+inline std::uint64_t hash_on_threads(const Tree& tree, const Scene& scene) {
+    return hash_on_threads(tree, scene, [](const Held<float>&) {});
+}
 
 } // namespace coupled

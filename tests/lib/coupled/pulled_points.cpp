@@ -162,15 +162,6 @@ TEST_CASE("Pulls act in lanes as one number at a time, in both precisions, and t
     many.wind = wind_preset("breeze");
     for (const int body : {50, 500, 2500})
         many.pulls.push_back(steady(body, Vec3::Zero(), Vec3(0.3, 0, 0.2), body != 500));
-    std::vector<std::uint64_t> hashes;
-    for (const int threads : {1, 2, 5}) {
-        const ThreadLimit limit(threads);
-        Held<float> run(large, many, true);
-        for (int f = 0; f < 20; ++f) advance(run.plan, run.state);
-        CHECK(run.state.calls[std::size_t(Stage::attachments)] == 20);
-        hashes.push_back(state_hash(run.plan, run.state));
-    }
-    CHECK(hashes[0] == hashes[1]);
-    CHECK(hashes[0] == hashes[2]);
+    hash_on_threads(large, many);
     CHECK_THROWS_WITH(refuse_with_analytic(many), Catch::Contains("pulls/0/axes"));
 }
