@@ -110,6 +110,7 @@ std::unique_ptr<Stepper<T>> analytic_stepper(const Scene& scene, std::optional<T
     const char* const plainly = !simd                                         ? "not asked for"
                                 : scene.joint_limit                           ? "/joint_limit"
                                 : !scene.root_motion.empty()                  ? "/root_motion"
+                                : !scene.attachments.empty()                  ? "/attachments"
                                 : scene.fictitious && lags(*scene.fictitious) ? "/fictitious"
                                                                               : "";
     if (*plainly == 0) return std::make_unique<AnalyticLanesStepper<T>>(*simd, sleep);

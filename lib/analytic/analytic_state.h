@@ -2,6 +2,7 @@
 #pragma once
 #include "../plan/plan.h"
 #include "../plan/state.h"
+#include "held_state.h"
 
 namespace bough {
 
@@ -60,11 +61,16 @@ template <class T> struct AnalyticWork : Cloned<AnalyticWork<T>, AnalyticState<T
     std::vector<Vector3<T>> alpha_w, a_w; // [rad/s^2], [m/s^2] of the body, of its own joint, by (9) and (12)
     std::vector<Vector3<T>> fictitious_w; // [N m] about own joint, for the spring
 
+    // held_points: with attachments
+    std::vector<Vector3<T>> held_tau_w; // [N m] about own joint
+    std::vector<T> held_row;            // [N m/rad]
+    HeldPoints<T> held;
+
     std::size_t bytes() const override;
 };
 
 // What of a scene an array of AnalyticWork is for.
-enum class AnalyticNeed : std::uint8_t { always, forces, air, lagged };
+enum class AnalyticNeed : std::uint8_t { always, forces, air, lagged, held };
 
 // visit(name, array, need) for every array over bodies, in the order in which they are written.
 template <class WorkType, class Visit> void visit_arrays(WorkType& w, Visit&& visit) {
@@ -92,6 +98,8 @@ template <class WorkType, class Visit> void visit_arrays(WorkType& w, Visit&& vi
     visit("alpha_w", w.alpha_w, Need::lagged);
     visit("a_w", w.a_w, Need::lagged);
     visit("fictitious_w", w.fictitious_w, Need::lagged);
+    visit("held_tau_w", w.held_tau_w, Need::held);
+    visit("held_row", w.held_row, Need::held);
 }
 
 } // namespace bough

@@ -7,6 +7,7 @@
 #include "drag.h"
 #include "external_forces.h"
 #include "fictitious.h"
+#include "held_points.h"
 #include "root_term.h"
 #include "spring.h"
 
@@ -24,7 +25,12 @@ void analytic_step(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& st
     if (plan.wind) run_stage(Stage::drag, state, clock, [&] { joint_drag(plan, own, state, work); });
     if (plan.root_motion) run_stage(Stage::root_motion, state, clock, [&] { root_loads(plan, work, time); });
     if (own.fictitious) run_stage(Stage::fictitious, state, clock, [&] { fictitious_torques(plan, state, work); });
-    run_stage(Stage::spring, state, clock, [&] { spring_update(plan, own, state, work); });
+    if (work.held.any())
+        run_stage(Stage::attachments, state, clock, [&] { hold_points(plan, own, state, work, time); });
+    run_stage(Stage::spring, state, clock, [&] {
+        spring_update(plan, own, state, work);
+        if (work.held.any()) slow_held(plan, state, work);
+    });
     run_stage(Stage::state_update, state, clock, [&] {
         move_ground(plan, state, time_of(plan, state, 1));
         state_update(plan, state);

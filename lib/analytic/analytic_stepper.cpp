@@ -1,8 +1,10 @@
 #include "analytic_stepper.h"
+#include "../coupled/attachment_course.h"
 #include "../laws/wind.h"
 #include "../plan/state_update.h"
 #include "analytic_step.h"
 #include "fictitious.h"
+#include "held_points.h"
 #include <cmath>
 #include <stdexcept>
 
@@ -44,10 +46,6 @@ template <class T> std::size_t AnalyticWork<T>::bytes() const {
 }
 
 void refuse_with_analytic(const Scene& scene) {
-    if (!scene.attachments.empty())
-        throw std::domain_error(
-            "attachments: only for solver coupled; solver analytic moves each joint by itself, which no stiff "
-            "spring at a point allows");
     for (std::size_t k = 0; k < scene.pulls.size(); ++k)
         if (scene.pulls[k].in_body)
             throw std::domain_error("pulls/" + std::to_string(k) +
@@ -80,10 +78,12 @@ template <class T> void AnalyticStepper<T>::allocate(const Plan<T>& plan, State<
         const bool on = need == AnalyticNeed::forces   ? plan.forces
                         : need == AnalyticNeed::air    ? plan.wind
                         : need == AnalyticNeed::lagged ? own.fictitious
+                        : need == AnalyticNeed::held   ? !plan.attachments.empty()
                                                        : true;
         if (on) array.assign(plan.bodies, zero<std::decay_t<decltype(array[0])>>());
     });
     work->root_load.resize(plan.splines.size());
+    if (!plan.attachments.empty()) begin_held(plan, *work);
     if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     state.own = Copied<StepperState>(std::move(work));
 }
@@ -117,6 +117,14 @@ template <class T> std::vector<CarriedArray<T>> AnalyticStepper<T>::carried(Stat
     return arrays;
 }
 
+template <class T> void AnalyticStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
+    saved.attachments = saved_attachments(static_cast<const AnalyticWork<T>&>(*state.own).held.all);
+}
+
+template <class T> void AnalyticStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
+    restore_attachments(work_of(state).held.all, saved.attachments);
+}
+
 template <class T>
 void AnalyticStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
     AnalyticWork<T>& work = work_of(state);
@@ -125,6 +133,7 @@ void AnalyticStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<
         if (!own.gravity_row.empty()) own.gravity_row[i] = 0;
         if (!work.spin_dot.empty()) work.spin_dot[i].setZero();
     }
+    release_held(plan, work, bodies);
     state_update(plan, state);
     if (own.fictitious) accelerations(plan, state, work);
 }

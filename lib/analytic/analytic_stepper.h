@@ -5,9 +5,7 @@
 
 namespace bough {
 
-// Throws std::domain_error for what the analytic solver cannot hold: attachments, and pulls that turn with their bodies. Its joints are each moved by themselves, and a stiff spring at a point
-// couples all joints between it and the ground: lagged it is unstable from about the joints' own stiffness on, and bounded by its row sum, as drag
-// is (drag.h), which holds any stiffness still, each of n joints would go a part in n of its way a step: a hand that is followed ever later the longer the branch.
+// Throws std::domain_error for what the analytic solver cannot hold: pulls that turn with their bodies.
 void refuse_with_analytic(const Scene&);
 
 template <class T> class AnalyticStepper final : public Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>> {
@@ -24,6 +22,8 @@ public:
     NonFinite non_finite(const State<T>&) const override;
     std::vector<CarriedArray<T>> carried(State<T>&) const override;
     const std::vector<Vector3<T>>& inertia_factor() const override { return own.inertia_factor; }
+    void save(const Plan<T>&, const State<T>&, SavedState&) const override;
+    void restore(const Plan<T>&, State<T>&, const SavedState&) const override;
     void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
 
     AnalyticPlan<T> own;

@@ -47,12 +47,7 @@ StepFlags spring_update(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T
     flags.bounded_lambda = o.bounded;
     const Vector3<T> r = o.U.transpose() * joint.residual_b;
     const Vector3<T> v = o.X.transpose() * work.scaled_rate[i]; // U^-1 theta_dot = X^T L^T theta_dot
-    Vector3<T> dq, v_new;
-    for (int k = 0; k < 3; ++k) {
-        const T residual = o.ratio[k] * (r[k] + o.d[k] * v[k]);
-        dq[k] = o.step[k].E * residual + o.step[k].B * v[k];
-        v_new[k] = o.step[k].B * residual + o.step[k].C * v[k];
-    }
+    auto [dq, v_new] = turn_of_modes(o, r, v);
     const Vector3<T> phi = o.U * dq, next = s.theta[i] + joint.T_tb * phi;
     v_new *= kept_of_rate(plan, joint, i, s.theta[i], next, phi, v, v_new, flags);
     s.theta[i] = next;

@@ -18,6 +18,10 @@ SpringJoint<T> spring_joint(const Plan<T>& plan, const AnalyticPlan<T>& own, con
     Vector3<T> tau_w = Vector3<T>::Zero();
     if (plan.forces) tau_w += work.c_tau_w[i];
     if (own.fictitious) tau_w += work.fictitious_w[i];
+    if (work.held.any()) {
+        tau_w += work.held_tau_w[i];
+        joint.KG_b.diagonal().array() += work.held_row[i];
+    }
     const RootLoad<T>* root = plan.root_motion ? root_load_of(plan, work, i) : nullptr;
     joint.g_b = joint.h_b = Vector3<T>::Zero();
     if (plan.gravity || root) {

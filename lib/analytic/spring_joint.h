@@ -2,17 +2,9 @@
 #pragma once
 #include "../base/oscillator.h"
 #include "analytic_state.h"
+#include "spring_load.h"
 
 namespace bough {
-
-// One joint at the start of its step, in the axes of its body.
-template <class T> struct SpringJoint {
-    Matrix3<T> T_tb;       // rates of theta from the body's: J^-1
-    Vector3<T> residual_b; // [N m] tau - T^T K theta
-    Matrix3<T> K_b, KG_b;  // [N m/rad] T^T K T, and with gravity's gradient
-    Vector3<T> held_b;     // [N m] of tau, what is held constant over the step: all but gravity
-    Vector3<T> g_b, h_b;   // [m/s^2], [kg m] gravity and the composite's first moment
-};
 
 // Reads what spring_update does (spring.h).
 template <class T>
@@ -31,6 +23,19 @@ template <class T> struct SpringOscillators {
 template <class T>
 SpringOscillators<T> spring_oscillators(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&, const AnalyticWork<T>&,
                                         const SpringJoint<T>&, std::size_t body);
+
+// What the modes turn by in the step, and their rates at its end: r, v the residual and the rates in modes.
+template <class T> struct SpringTurn { Vector3<T> dq, v; };
+template <class T>
+SpringTurn<T> turn_of_modes(const SpringOscillators<T>& o, const Vector3<T>& r, const Vector3<T>& v) {
+    SpringTurn<T> turn;
+    for (int k = 0; k < 3; ++k) {
+        const T residual = o.ratio[k] * (r[k] + o.d[k] * v[k]);
+        turn.dq[k] = o.step[k].E * residual + o.step[k].B * v[k];
+        turn.v[k] = o.step[k].B * residual + o.step[k].C * v[k];
+    }
+    return turn;
+}
 
 // What the modes' rates keep, 1 but where a turn phi_b of more than guarded_turn to `next` has gained energy (spring.h, "Large turns"), counted.
 // before, after: the rates, |.|^2 / 2 the kinetic energy.

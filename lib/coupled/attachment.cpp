@@ -1,5 +1,6 @@
 #include "attachment.h"
 #include "../base/rotation_maps.h"
+#include "attachment_course.h"
 #include "attachment_paths.h"
 #include "pulled_points.h"
 #include "turn_bounds.h"
@@ -11,21 +12,6 @@ namespace bough {
 namespace {
 
 constexpr double lost = 0.01; // of the path's own masses, by the rounding of zeta
-
-// The grounds of a step's start and end under a body, where it is moved.
-struct Grounds {
-    Ground start, end;
-    bool moved = false;
-};
-template <class T> Grounds grounds_of(const Plan<T>& plan, std::size_t body, double time) {
-    Grounds g;
-    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, body) : -1;
-    if (spline < 0) return g;
-    g.moved = true;
-    g.start = ground_at(plan.splines[std::size_t(spline)], time);
-    g.end = ground_at(plan.splines[std::size_t(spline)], time + plan.dt);
-    return g;
-}
 
 // As midpoint.cpp, and where the joint is at y0.
 void place_body(AttachedBody& b, const AttachedBody& p, bool halfway) {
@@ -69,36 +55,6 @@ void place_end(const Attachments& a, AttachedEnd& end) {
     end.rho = b.R * end.point_b;
     end.start = b.x_start + b.R_start * end.point_b;
     end.velocity = b.v + b.own.cross(end.rho);
-}
-
-// Where the target is at t; its velocity.
-template <class T> CurvePoint target_at(const Plan<T>& plan, const Attached& held, double t) {
-    if (held.planned >= 0)
-        if (const std::optional<QuinticSpline>& course = plan.attachments[std::size_t(held.planned)].course)
-            return curve_at(*course, t);
-    return {held.target, Vec3::Zero(), Vec3::Zero()};
-}
-
-// What the ground alone does with a point in the step: `of` -1 is taken off the target's way, 1 goes on it.
-template <class T> void carry(const Plan<T>& plan, const AttachedEnd& end, double time, double of, Attached& held) {
-    const Grounds grounds = grounds_of(plan, end.body, time);
-    if (!grounds.moved) return;
-    const Vec3 X = grounds.start.R.transpose() * (end.start - grounds.start.x);
-    held.to_target += of * (grounds.end.x + grounds.end.R * X - end.start);
-    held.quicker += of * (grounds.end.v + grounds.end.omega.cross(Vec3(grounds.end.R * X)) - grounds.start.v -
-                          grounds.start.omega.cross(Vec3(grounds.start.R * X)));
-}
-
-// The way of the target over the step.
-template <class T> void lead(const Plan<T>& plan, Attached& held, double time) {
-    const CurvePoint start = target_at(plan, held, time), end = target_at(plan, held, time + plan.dt);
-    held.from_target = start.x;
-    held.to_target = end.x;
-    held.quicker = end.v - start.v;
-    if (held.steps > 0) held.to_target += (held.goal - held.target) / held.steps;
-    carry(plan, held, time, -1, held);
-    if (held.far) carry(plan, *held.far, time, 1, held);
-    held.target_velocity = (held.to_target - held.from_target) / plan.dt;
 }
 
 // F_ground of one end, times `of`.
@@ -186,28 +142,12 @@ void take_softer(const Plan<T>& plan, const Attachments& a, Attached& held, std:
     held.to_target += longer;
 }
 
-bool holds(const Attached& held, double middle) {
-    return held.from <= middle && middle < held.to;
-}
-
 } // namespace
 
 template <class T> void begin_attachments(const Plan<T>& plan, CoupledState<T>& work) {
     Attachments& a = work.attachments;
     a = {};
-    for (const PlannedAttachment& planned : plan.attachments) {
-        const Attachment& of = plan.scene.attachments[planned.source];
-        Attached held{};
-        held.planned = &planned - plan.attachments.data();
-        held.body = planned.body;
-        held.point_b = planned.point_b;
-        if (planned.far) held.far = AttachedEnd{planned.far->body, 0, planned.far->point_b};
-        held.stiffness = of.stiffness;
-        held.damping = of.damping;
-        held.from = of.from;
-        held.to = of.to;
-        a.all.push_back(held);
-    }
+    a.all = planned_attachments(plan);
     for (const auto* pulls : {&plan.pulls, &plan.followers})
         for (const PlannedPull<T>& pull : *pulls) {
             PulledPoint point{};
@@ -228,10 +168,8 @@ template <class T> void begin_attachments(const Plan<T>& plan, CoupledState<T>& 
         const AttachedBody& b = a.bodies[end.at];
         return Vec3(b.x_start + b.R_start * end.point_b);
     };
-    for (Attached& held : a.all) {
-        const Attachment& of = plan.scene.attachments[plan.attachments[std::size_t(held.planned)].source];
-        held.target = of.target.value_or(held.far ? Vec3(place_of(held) - place_of(*held.far)) : place_of(held));
-    }
+    for (Attached& held : a.all)
+        held.target = target_at_start(plan, held, place_of(held), held.far ? place_of(*held.far) : Vec3(Vec3::Zero()));
 }
 
 template <class T>
@@ -334,14 +272,6 @@ void place_attachments(const Plan<T>& plan, const CoupledPlan<T>& own, CoupledSt
     add_directions(plan, a);
 }
 
-template <class T> bool changes(const Plan<T>& plan, const Attached& held, double time) {
-    if (held.steps > 0) return true;
-    const double h = plan.dt;
-    if (holds(held, time + h / 2) != holds(held, time - h / 2)) return true;
-    const Vec3 now = target_at(plan, held, time).x;
-    return target_at(plan, held, time - h).x != now || target_at(plan, held, time + h).x != now;
-}
-
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void begin_attachments(const Plan<T>&, CoupledState<T>&);                                                 \
     template std::uint64_t attach(const Plan<T>&, CoupledState<T>&, std::size_t, const Vec3&, double, double,          \
@@ -350,8 +280,7 @@ template <class T> bool changes(const Plan<T>& plan, const Attached& held, doubl
     template void release(const Plan<T>&, CoupledState<T>&, std::uint64_t);                                            \
     template void release_from(const Plan<T>&, CoupledState<T>&, const std::vector<std::size_t>&);                     \
     template void read_attached(const State<T>&, CoupledState<T>&);                                                    \
-    template void place_attachments(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double);                  \
-    template bool changes(const Plan<T>&, const Attached&, double);
+    template void place_attachments(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double);
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)
 #undef BOUGH_INSTANTIATE

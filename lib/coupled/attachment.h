@@ -59,19 +59,11 @@ template <class T> void place_attachments(const Plan<T>&, const CoupledPlan<T>&,
 // Once it is solved, and before the energy guard: the forces at its end, the work. Needs AttachedBody::now of its end.
 void settle_attachments(Attachments&);
 
-// In the step from `time`, or in the one before, is its target moved, or is it let go or taken up?
-template <class T> bool changes(const Plan<T>&, const Attached&, double time);
-
 // What is added to a body of the solve at pole p, by parts as they stand in resolvent.h.
 template <class S> struct AttachmentTerms {
     Eigen::Matrix<S, 3, 3> A, B, M;
     Eigen::Matrix<S, 3, 1> N, F;
 };
 template <class S> AttachmentTerms<S> attachment_terms(const AttachmentSums&, std::complex<double> p, double h);
-
-// What a saved state carries: six numbers for each of the plan's that is still there.
-std::vector<double> saved_attachments(const Attachments&);
-// Throws std::length_error where there are not so many.
-void restore_attachments(Attachments&, const std::vector<double>&);
 
 } // namespace bough

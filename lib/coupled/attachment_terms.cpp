@@ -82,27 +82,6 @@ template <class S> AttachmentTerms<S> attachment_terms(const AttachmentSums& sum
     return t;
 }
 
-std::vector<double> saved_attachments(const Attachments& a) {
-    std::vector<double> saved;
-    for (const Attached& held : a.all)
-        if (held.planned >= 0)
-            for (const Vec3* v : {&held.force, &held.spring})
-                for (int k = 0; k < 3; ++k) saved.push_back((*v)[k]);
-    return saved;
-}
-
-void restore_attachments(Attachments& a, const std::vector<double>& saved) {
-    std::size_t next = 0, needed = 0;
-    for (const Attached& held : a.all) needed += held.planned >= 0 ? 6 : 0;
-    if (saved.size() != needed)
-        throw std::length_error("has " + std::to_string(saved.size()) + " numbers, this run needs " +
-                                std::to_string(needed));
-    for (Attached& held : a.all)
-        if (held.planned >= 0)
-            for (Vec3* v : {&held.force, &held.spring})
-                for (int k = 0; k < 3; ++k) (*v)[k] = saved[next++];
-}
-
 template AttachmentTerms<float> attachment_terms(const AttachmentSums&, std::complex<double>, double);
 template AttachmentTerms<double> attachment_terms(const AttachmentSums&, std::complex<double>, double);
 template AttachmentTerms<std::complex<float>> attachment_terms(const AttachmentSums&, std::complex<double>, double);

@@ -4,6 +4,7 @@
 #include "../lanes/plan_lanes.h"
 #include "../plan/state_update.h"
 #include "attachment.h"
+#include "attachment_course.h"
 #include "attachment_lanes.h"
 #include "coupled_lanes_step.h"
 #include "coupled_stepper.h"
@@ -90,12 +91,12 @@ template <class T> std::vector<CarriedArray<T>> CoupledLanesStepper<T>::carried(
 
 template <class T> void CoupledLanesStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
     saved.sleep = saved_sleep(own, coupled_work(state));
-    saved.attachments = saved_attachments(coupled_work(state).attachments);
+    saved.attachments = saved_attachments(coupled_work(state).attachments.all);
 }
 
 template <class T>
 void CoupledLanesStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
-    restore_attachments(coupled_work(state).attachments, saved.attachments);
+    restore_attachments(coupled_work(state).attachments.all, saved.attachments);
     if (own.lanes.sleep.on) restore_sleep(own, coupled_work(state), saved.sleep); // else what slept goes on awake
 }
 

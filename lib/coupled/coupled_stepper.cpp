@@ -1,6 +1,7 @@
 #include "coupled_stepper.h"
 #include "../plan/state_update.h"
 #include "attachment.h"
+#include "attachment_course.h"
 #include "coupled_step.h"
 #include <algorithm>
 
@@ -73,11 +74,11 @@ void CoupledStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<s
 }
 
 template <class T> void CoupledStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
-    saved.attachments = saved_attachments(coupled_state(state).attachments);
+    saved.attachments = saved_attachments(coupled_state(state).attachments.all);
 }
 
 template <class T> void CoupledStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
-    restore_attachments(coupled_state(state).attachments, saved.attachments);
+    restore_attachments(coupled_state(state).attachments.all, saved.attachments);
 }
 
 template class CoupledStepper<float>;

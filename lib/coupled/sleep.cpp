@@ -2,6 +2,7 @@
 #include "../laws/wind.h"
 #include "../plan/pushes.h"
 #include "attachment.h"
+#include "attachment_course.h"
 #include "coupled_tables.h"
 #include <algorithm>
 #include <cmath>

@@ -108,7 +108,7 @@ struct Pull {
 
 // A spring and a damper between a point of a body and a point in space, which may move: a hand, a rope, a prop, a wire. Force on the body
 //   f = -stiffness (x - target) - damping (x' - target')
-// as long as from <= t < to, taken for each step by its middle. For the coupled solver (coupled/attachment.h).
+// as long as from <= t < to, taken for each step by its middle (coupled/attachment.h, analytic/held_points.h).
 // Or between points of two bodies, of one tree or of two, with the force's opposite on the other: a hammock, a cable, branches that are tied.
 // x and x' are then as seen from the other point, in the world's axes.
 struct Attachment {

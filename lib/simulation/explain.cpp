@@ -113,11 +113,11 @@ template <class T> void explain_stages(const Plan<T>& plan, const Way<T>& way, s
                   : solver);
     std::string held;
     const auto holds = [&](bool on, const char* part) {
-        if (coupled && on) held += (held.empty() ? "" : ", ") + std::string(part);
+        if (on) held += (held.empty() ? "" : ", ") + std::string(part);
     };
     holds(!plan.attachments.empty(), "/attachments");
-    holds(pulls(plan), "/pulls");
-    holds(callers(plan), "forces of the caller");
+    holds(coupled && pulls(plan), "/pulls");
+    holds(coupled && callers(plan), "forces of the caller");
     add(Stage::attachments, !held.empty(), held.empty() ? "no attachments, no pulls" : held);
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, lanes,

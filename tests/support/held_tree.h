@@ -2,8 +2,10 @@
 //
 // hold(body, k, c)   an attachment of a point of that body
 // twig()             a twig of 0.8 mm, 0.36 m of it in 12 pieces
-// Held<T>            a run of a tree by the coupled step, plain or in lanes
+// Held<T>            a run of a tree, plain or in lanes
+// check_grid, check_rest   of any stiffness; where energy is least
 #pragma once
+#include "lib/analytic/analytic_state.h"
 #include "lib/base/parallel.h"
 #include "lib/base/rotation_maps.h"
 #include "lib/coupled/attachment.h"
@@ -42,15 +44,19 @@ template <class Energy> Eigen::VectorXd gradient_of(const Energy& energy_at, con
 template <class T> struct Held {
     Plan<T> plan;
     State<T> state;
-    Held(const Tree& tree, const Scene& scene, bool lanes, double dt = 1.0 / 30, Scheme scheme = Scheme::p12)
-        : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, dt, Solver::coupled, scheme,
+    Held(const Tree& tree, const Scene& scene, bool lanes, double dt = 1.0 / 30, Scheme scheme = Scheme::p12,
+         Solver solver = Solver::coupled)
+        : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, dt, solver, scheme,
                             lanes ? std::optional(fast::best_target()) : std::nullopt)),
           state(make_state(plan)) {}
     void step() {
         advance(plan, state);
         present(plan, state);
     }
-    const Attached& held(std::size_t k = 0) const { return coupled_state(state).attachments.all[k]; }
+    const Attached& held(std::size_t k = 0) const {
+        if (const auto* work = dynamic_cast<const AnalyticWork<T>*>(&*state.own)) return work->held.all[k];
+        return coupled_state(state).attachments.all[k];
+    }
     Vec3 point(const AttachedEnd& of) const {
         return state.x_w[of.body].template cast<double>() + state.R_wb[of.body].template cast<double>() * of.point_b;
     }
@@ -81,6 +87,86 @@ template <class T> struct Held {
         return sum;
     }
 };
+
+// Where a twig is held: in its reach, beside it, three times as far as it reaches, and moved to and fro.
+inline std::vector<Attachment> hands(std::int64_t body, double k, double c) {
+    std::vector<Attachment> all(4, hold(body, k, c));
+    all[0].target = Vec3(0.1, 0.25, 0.05);
+    all[1].target = Vec3(-0.3, 0.05, 0.1);
+    all[2].target = Vec3(1, 0.3, -0.2);
+    all[3].time = {0, 0.3, 0.6, 0.9, 1.2};
+    all[3].position = {Vec3(0, 0.36, 0), Vec3(0.3, 0.2, 0), Vec3(0, 0.2, 0.6), Vec3(-0.3, 0.3, 0), Vec3(0.2, 0.2, 0.1)};
+    return all;
+}
+
+template <class T> void check_grid(Solver solver, bool lanes) {
+    const Tree tree = twig();
+    for (const double k : {0.0, 1e-3, 1.0, 20.0, 1e3, 1e5, 1e7, 1e9, 1e12})
+        for (const double c : {0.0, 1e-2, 1.0, 1e3, 1e9}) {
+            if (k == 0 && c == 0) continue;
+            for (std::size_t hand = 0; hand < 4; ++hand) {
+                Scene scene = solver::empty_scene();
+                scene.gravity = Vec3(0, -9.81, 0);
+                scene.attachments = {hands(11, k, c)[hand]};
+                Held<T> run(tree, scene, lanes, 1.0 / 30, Scheme::p12, solver);
+                CAPTURE(sizeof(T), lanes, k, c, hand);
+                double third = 0, last = 0;
+                for (int f = 0; f < 240; ++f) {
+                    run.step();
+                    const double energy = run.kinetic();
+                    REQUIRE(std::isfinite(energy));
+                    (f < 180 ? third : last) = std::max(f < 180 ? (f < 120 ? 0 : third) : last, energy);
+                }
+                CHECK(run.largest_angle() < 3.2);
+                CHECK(last <= 1.05 * third + 5e-5);                      // [J] it falls by its length for 5e-4
+                const bool creeps = solver == Solver::analytic && c > k; // in c/k seconds; coupled takes c as weaker
+                if (hand < 2 && k >= 1e3 && !creeps)
+                    CHECK((run.point() - *scene.attachments[0].target).norm() < 0.05); // as it comes to rest
+            }
+        }
+}
+
+// Where the sum of elastic, potential and the spring's energy is least, by Newton's method on differences of it: none of the solver's equations.
+inline void check_rest(Solver solver, int frames, double within) {
+    const Tree tree = make_tree::chain(5, 1.0, 0.006, 0.004, 0.1, {800, 2e9, 2e8, 0.05});
+    Scene scene = solver::empty_scene();
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.pose = Pose::rest;
+    for (const double k : {5.0, 300.0, 1e6}) {
+        scene.attachments = {hold(3, k, 1)};
+        scene.attachments[0].on.point = Vec3(0.001, 0, 0.15);
+        scene.attachments[0].target = Vec3(0.5, 0.55, 0.2);
+        Held<double> run(tree, scene, false, 1.0 / 30, Scheme::p12, solver);
+        for (int f = 0; f < frames; ++f) advance(run.plan, run.state);
+        present(run.plan, run.state);
+        const auto energy_at = [&](const Eigen::VectorXd& theta) {
+            long double sum = 0;
+            Mat3 R = Mat3::Identity();
+            Vec3 x = Vec3::Zero(), held = Vec3::Zero();
+            for (std::size_t i = 0; i < 5; ++i) {
+                const Vec3 angle = theta.segment<3>(3 * Eigen::Index(i));
+                x += R * tree.joint_position[i];
+                R = R * tree.joint_rotation[i].toRotationMatrix() *
+                    Mat3(Eigen::AngleAxisd(angle.norm(), angle.stableNormalized()));
+                sum += angle.dot(tree.stiffness[i].cwiseProduct(angle)) / 2;
+                sum -= tree.mass[i] * scene.gravity.dot(x + R * tree.com[i]);
+                if (i == 3) held = x + R * *scene.attachments[0].on.point;
+            }
+            return double(sum + k / 2 * (held - *scene.attachments[0].target).squaredNorm());
+        };
+        Eigen::VectorXd at(15);
+        for (std::size_t i = 0; i < 5; ++i) at.segment<3>(3 * Eigen::Index(i)) = run.state.theta[i];
+        const Eigen::VectorXd gradient = gradient_of(energy_at, at);
+        CAPTURE(k, gradient.norm());
+        double moment = 0; // [N m] what stands against each other
+        for (std::size_t i = 0; i < 5; ++i)
+            moment = std::max(moment, tree.stiffness[i].cwiseProduct(run.state.theta[i]).norm());
+        CHECK(moment > 0.05);
+        CHECK(gradient.norm() < within * moment * std::max(1.0, k / 1e3));
+        const Vec3 force = k * (*scene.attachments[0].target - run.point());
+        CHECK((run.held().force - force).norm() < 1e-6 * force.norm());
+    }
+}
 
 // The hash after 20 frames in float lanes, which is the same on 1, 2 and 5 threads. see(run): what else is looked at.
 template <class See> std::uint64_t hash_on_threads(const Tree& tree, const Scene& scene, const See& see) {

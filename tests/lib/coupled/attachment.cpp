@@ -8,51 +8,10 @@ using namespace bough;
 using namespace coupled;
 using solver::empty_scene;
 
-namespace {
-
-// Where a twig is held: in its reach, beside it, three times as far as it reaches, and moved to and fro.
-std::vector<Attachment> hands(std::int64_t body, double k, double c) {
-    std::vector<Attachment> all(4, hold(body, k, c));
-    all[0].target = Vec3(0.1, 0.25, 0.05);
-    all[1].target = Vec3(-0.3, 0.05, 0.1);
-    all[2].target = Vec3(1, 0.3, -0.2);
-    all[3].time = {0, 0.3, 0.6, 0.9, 1.2};
-    all[3].position = {Vec3(0, 0.36, 0), Vec3(0.3, 0.2, 0), Vec3(0, 0.2, 0.6), Vec3(-0.3, 0.3, 0), Vec3(0.2, 0.2, 0.1)};
-    return all;
-}
-
-template <class T> void check_grid(bool lanes) {
-    const Tree tree = twig();
-    for (const double k : {0.0, 1e-3, 1.0, 20.0, 1e3, 1e5, 1e7, 1e9, 1e12})
-        for (const double c : {0.0, 1e-2, 1.0, 1e3, 1e9}) {
-            if (k == 0 && c == 0) continue;
-            for (std::size_t hand = 0; hand < 4; ++hand) {
-                Scene scene = empty_scene();
-                scene.gravity = Vec3(0, -9.81, 0);
-                scene.attachments = {hands(11, k, c)[hand]};
-                Held<T> run(tree, scene, lanes);
-                CAPTURE(sizeof(T), lanes, k, c, hand);
-                double third = 0, last = 0;
-                for (int f = 0; f < 240; ++f) {
-                    run.step();
-                    const double energy = run.kinetic();
-                    REQUIRE(std::isfinite(energy));
-                    (f < 180 ? third : last) = std::max(f < 180 ? (f < 120 ? 0 : third) : last, energy);
-                }
-                CHECK(run.largest_angle() < 3.2);
-                CHECK(last <= 1.05 * third + 5e-5); // [J] it falls by its length for 5e-4
-                if (hand < 2 && k >= 1e3)
-                    CHECK((run.point() - *scene.attachments[0].target).norm() < 0.05); // as it comes to rest
-            }
-        }
-}
-
-} // namespace
-
 TEST_CASE("A twig of 0.8 mm is held by springs of any stiffness and dampers of any strength at 1/30 s") {
-    check_grid<double>(false);
-    check_grid<double>(true);
-    check_grid<float>(true);
+    check_grid<double>(Solver::coupled, false);
+    check_grid<double>(Solver::coupled, true);
+    check_grid<float>(Solver::coupled, true);
 }
 
 TEST_CASE("Attachments in lanes move a tree as they do one number at a time, in both precisions, under every load") {
@@ -90,46 +49,8 @@ TEST_CASE("Attachments in lanes move a tree as they do one number at a time, in 
     }
 }
 
-// Where the sum of elastic, potential and the spring's energy is least, by Newton's method on differences of it: none of the solver's equations.
 TEST_CASE("Under a rope a branch comes to rest where its energy is least, and the rope's force is what it says") {
-    const Tree tree = make_tree::chain(5, 1.0, 0.006, 0.004, 0.1, {800, 2e9, 2e8, 0.05});
-    Scene scene = empty_scene();
-    scene.gravity = Vec3(0, -9.81, 0);
-    scene.pose = Pose::rest;
-    for (const double k : {5.0, 300.0, 1e6}) {
-        scene.attachments = {hold(3, k, 1)};
-        scene.attachments[0].on.point = Vec3(0.001, 0, 0.15);
-        scene.attachments[0].target = Vec3(0.5, 0.55, 0.2);
-        Held<double> run(tree, scene, false);
-        for (int f = 0; f < 3000; ++f) advance(run.plan, run.state);
-        present(run.plan, run.state);
-        const auto energy_at = [&](const Eigen::VectorXd& theta) {
-            long double sum = 0;
-            Mat3 R = Mat3::Identity();
-            Vec3 x = Vec3::Zero(), held = Vec3::Zero();
-            for (std::size_t i = 0; i < 5; ++i) {
-                const Vec3 angle = theta.segment<3>(3 * Eigen::Index(i));
-                x += R * tree.joint_position[i];
-                R = R * tree.joint_rotation[i].toRotationMatrix() *
-                    Mat3(Eigen::AngleAxisd(angle.norm(), angle.stableNormalized()));
-                sum += angle.dot(tree.stiffness[i].cwiseProduct(angle)) / 2;
-                sum -= tree.mass[i] * scene.gravity.dot(x + R * tree.com[i]);
-                if (i == 3) held = x + R * *scene.attachments[0].on.point;
-            }
-            return double(sum + k / 2 * (held - *scene.attachments[0].target).squaredNorm());
-        };
-        Eigen::VectorXd at(15);
-        for (std::size_t i = 0; i < 5; ++i) at.segment<3>(3 * Eigen::Index(i)) = run.state.theta[i];
-        const Eigen::VectorXd gradient = gradient_of(energy_at, at);
-        CAPTURE(k, gradient.norm());
-        double moment = 0; // [N m] what stands against each other
-        for (std::size_t i = 0; i < 5; ++i)
-            moment = std::max(moment, tree.stiffness[i].cwiseProduct(run.state.theta[i]).norm());
-        CHECK(moment > 0.05);
-        CHECK(gradient.norm() < 2e-6 * moment * std::max(1.0, k / 1e3));
-        const Vec3 force = k * (*scene.attachments[0].target - run.point());
-        CHECK((run.held().force - force).norm() < 1e-6 * force.norm());
-    }
+    check_rest(Solver::coupled, 3000, 2e-6);
 }
 
 TEST_CASE("A tree that is held moves as the reference's, and its error falls with the square of the step") {

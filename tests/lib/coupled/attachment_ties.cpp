@@ -245,7 +245,4 @@ TEST_CASE("A scene ties two of its trees; what cannot be tied is refused; a run 
     CHECK_THAT(refused(wrong), Catch::Contains("/attachments/0/with") && Catch::Contains("expected another"));
     wrong.attachments[0].with->body = 10000;
     CHECK_THAT(refused(wrong), Catch::Contains("/attachments/0/with"));
-    SimulationOptions paper;
-    paper.method = Method::analytic;
-    CHECK_THAT(refused(scene, paper), Catch::Contains("attachments: only for solver coupled"));
 }

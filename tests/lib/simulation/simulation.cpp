@@ -357,7 +357,6 @@ TEST_CASE("a hand that takes hold at any time is the scene's attachment, and let
     Scene held = one(tree);
     held.attachments.resize(1);
     held.attachments[0].stiffness = 1;
-    CHECK_THAT(refusal(held, paper), Catch::Contains("attachments: only for solver coupled"));
     held.attachments[0].on.body = 10000;
     CHECK_THAT(refusal(held), Catch::Contains("/attachments/0/on"));
 }
@@ -375,8 +374,9 @@ TEST_CASE("a run with attachments that is cut ends as the whole one, bit by bit"
     held.attachments[1].position = {Vec3(0, 1, 0), Vec3(0.3, 1, 0), Vec3(0, 1, 0.2)};
     held.attachments[1].to = 0.9;
     for (const Precision precision : {Precision::single, Precision::double_})
-        for (const bool portable : {false, true}) {
-            SimulationOptions o = with(precision);
+        for (const auto& [method, portable] : {std::pair(Method::coupled, false), std::pair(Method::coupled, true),
+                                               std::pair(Method::analytic, false)}) {
+            SimulationOptions o = with(precision, method);
             o.portable = portable;
             Simulation whole(held, o), second(held, o);
             run(whole, 17);
@@ -395,7 +395,8 @@ TEST_CASE("steps allocate nothing once they have run") {
 #ifdef BOUGH_SANITIZED
     return; // nothing is counted
 #endif
-    for (const bool portable : {false, true}) { // trees that are tied to each other
+    for (const auto& [method, portable] : {std::pair(Method::coupled, false), std::pair(Method::coupled, true),
+                                           std::pair(Method::analytic, false)}) { // trees that are tied to each other
         Scene scene = one(make_tree::branched(), "gusty");
         scene.add(make_tree::branched(), Vec3(2, 0, 0));
         scene.attachments.resize(8);
@@ -407,7 +408,7 @@ TEST_CASE("steps allocate nothing once they have run") {
             held.with->body = std::int64_t(k);
             held.stiffness = 100;
         }
-        SimulationOptions o;
+        SimulationOptions o = with(Precision::double_, method);
         o.portable = portable;
         o.threads = 1;
         Simulation tied(scene, o);

@@ -1,0 +1,47 @@
+// held_state.h: attachments as the analytic solver keeps them in a state (held_points.h).
+#pragma once
+#include "../coupled/attachment_state.h"
+#include "spring_load.h"
+#include <Eigen/Cholesky>
+
+namespace bough {
+
+// A joint between a point that is held and the ground.
+template <class T> struct HeldJoint {
+    std::size_t body;
+    std::int64_t parent; // in HeldPoints::joints, -1: the ground
+    int depth;           // joints from the ground to it, itself too
+    Vec3 joint_position; // of the plan
+    Mat3 R_pj;
+
+    // Of the step.
+    SpringJoint<T> load;
+    Matrix3<T> L; // S = L L^T, body axes
+    Mat3 R;       // world from body
+    Vec3 x;       // [m]
+    Mat3 give;    // [rad/(N m)] E_j, then S_j^-1 [1/(kg m^2)], world
+    double row;   // [N m/rad] gamma_j
+    Vec3 turn;    // [rad] over the step
+    Vec3 moment;  // [N m], then [N m s]
+};
+
+// Of an attachment, what the coupled solver's Attached has no place for.
+struct HeldForce {
+    double kappa, g; // [N/m], [kg]
+    double most;     // [N] F
+    Vec3 before;     // [N] the last step's force
+};
+
+template <class T> struct HeldPoints {
+    std::vector<Attached> all;
+    std::vector<HeldForce> forces;    // of each of them
+    std::vector<HeldJoint<T>> joints; // rising
+
+    Eigen::MatrixXd answers; // what a unit of each force makes of each point's way
+    Eigen::VectorXd asked, solved;
+    std::optional<Eigen::LDLT<Eigen::MatrixXd>> factors;
+
+    bool any() const { return !joints.empty(); }
+};
+
+} // namespace bough
