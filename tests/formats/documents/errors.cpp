@@ -4,6 +4,7 @@
 #include "formats/documents/splines.h"
 #include "formats/documents/tree.h"
 #include "tests/support/random_documents.h"
+#include "tests/support/sanitized.h"
 #include <cstring>
 
 using namespace bough;
@@ -592,7 +593,7 @@ TEST_CASE("cut or with any byte changed, a document is read as it stands or refu
     };
     for (const std::string& text : documents) {
         try_all(text);
-        for (std::size_t i = 0; i < text.size(); ++i) {
+        for (std::size_t i = 0; i < text.size(); i += sanitized ? 7 : 1) {
             try_all(text.substr(0, i));
             for (const int flip : {1, 32, 128}) {
                 std::string flipped = text;

@@ -145,7 +145,7 @@ TEST_CASE("places in large pieces, asked one by one and many at once") {
 
 TEST_CASE("the nearest place among many is that of a search through all, each curve alone or in groups") {
     for (const unsigned seed : cases(1, {1u, 2u, 3u})) {
-        const Wood w = random_wood(seed, 400);
+        const Wood w = random_wood(seed, sanitized ? 150 : 400);
         SegmentSearch search(w.point, w.radius, w.base, w.segment, w.base.size());
         std::vector<std::int32_t> group(w.base.size());
         std::iota(group.begin(), group.end(), 0);
@@ -190,7 +190,7 @@ TEST_CASE("an order by digits is the stable order by comparison") {
 }
 
 TEST_CASE("pieces are joined alike by any number of threads, and whatever places are looked at first") {
-    const Wood w = random_wood(5, 5000);
+    const Wood w = random_wood(5, sanitized ? 1000 : 5000);
     std::vector<std::vector<double>> results;
 #ifdef _OPENMP
     const int before = omp_get_max_threads();

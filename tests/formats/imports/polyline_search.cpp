@@ -1,5 +1,6 @@
 // The nearest point of a polyline, found in boxes, beside what looking at each segment finds.
 #include "formats/imports/polyline_search.h"
+#include "tests/support/sanitized.h"
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <random>
@@ -23,7 +24,7 @@ TEST_CASE("boxes find what looking at each segment finds, bit by bit") {
     const auto any = [&](double size) {
         return Vec3(size * normal(engine), size * normal(engine), size * normal(engine));
     };
-    for (const std::size_t points : {1, 2, 3, 8, 9, 10, 64, 65, 66, 600, 5000}) {
+    for (const std::size_t points : cases<std::size_t>(9, {1, 2, 3, 8, 9, 10, 64, 65, 66, 600, 5000})) {
         INFO(points);
         std::vector<Vec3> walk{any(1)}, straight,
             back; // a random walk; even steps with ties; there and back again over the same points
