@@ -131,13 +131,18 @@ void clear(AttachmentSums& s) {
 // Stiffness and damping as they are taken: what digits can bear.
 template <class T>
 void take_softer(const Plan<T>& plan, const Attachments& a, Attached& held, std::complex<double> s1) {
-    double mass = answering_mass(plan, a, held, s1);
-    if (held.far) mass = std::min(mass, answering_mass(plan, a, *held.far, s1));
-    const double most = std::sqrt(lost / double(std::numeric_limits<T>::epsilon())) * mass;
+    PathAnswer answer = path_answer(plan, a, held, s1);
+    if (held.far) {
+        const PathAnswer far = path_answer(plan, a, *held.far, s1);
+        answer = {std::min(answer.mass, far.mass), std::min(answer.push, far.push)};
+    }
+    const double digits = 1 / std::sqrt(double(std::numeric_limits<T>::epsilon())),
+                 most = std::sqrt(lost) * digits * answer.mass;
     held.k = std::min(held.stiffness, most / std::norm(s1));
     held.c = std::min(held.damping, most / std::abs(s1));
     if (!(held.k < held.stiffness)) return;
-    const Vec3 longer = (1 / held.k - 1 / held.stiffness) * held.spring;
+    const double force = held.spring.norm(), bearable = digits * answer.push / std::norm(s1);
+    const Vec3 longer = (1 / held.k - 1 / held.stiffness) * std::min(1.0, bearable / force) * held.spring;
     held.from_target += longer;
     held.to_target += longer;
 }

@@ -28,6 +28,10 @@
 // sqrt(0.01 / epsilon) m_t: 290 m_t in float, 7 10^6 in double. A stiffer spring is taken with that stiffness k_c, its target shifted by
 // f_k (1/k_c - 1/k), f_k its own force of the last step: at rest it is as long as a spring of k, and in float its point follows the target within 1 / 290
 // of its way in a step. A stronger damper is taken as one of that c.
+// So shifted, a spring whose target is out of reach pulls by k_c times the way that is left more at every step, and what several hold against each
+// other with grows until rounding moves the joints between them: (H / (J + |z| K) |s|^2)^2 roundings, as zeta's. So the f_k that shifts is at most
+// sqrt(1 / epsilon) times what turns a joint of the path by a radian in a step, the least of (J + |z| K) / (l |s|^2): 2900 of it in float, 7 10^7 in double.
+// Beyond, a target is pulled at with that and with k_c.
 //
 // Carried from step to step: both forces. Reads motions of the bodies on paths alone, and writes sums for them, before the solves; after
 // them, forces. O(path) an attachment, about 0.3 us a joint of all paths together; all in double. A step allocates nothing. Errors none.

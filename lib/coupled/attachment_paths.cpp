@@ -69,15 +69,19 @@ template <class T> double answering_stiffness(const Plan<T>& plan, const Attache
 }
 
 template <class T>
-double answering_mass(const Plan<T>& plan, const Attachments& a, const AttachedEnd& end, std::complex<double> s1) {
-    double least = std::numeric_limits<double>::infinity();
+PathAnswer path_answer(const Plan<T>& plan, const Attachments& a, const AttachedEnd& end, std::complex<double> s1) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    PathAnswer least{infinity, infinity};
     along_path(a, end, [&](const AttachedBody& b, const Vec3& arm, const Vec3&) {
         const double arm2 = arm.squaredNorm();
         if (!(arm2 > 0)) return;
         const Vector3<T>& K = plan.K[b.body];
         const Matrix3<T>& J = plan.inertia_joint[b.body];
         const double z = std::abs(double(plan.beta[b.body]) * s1 + s1 * s1);
-        for (int axis = 0; axis < 3; ++axis) least = std::min(least, double(J(axis, axis) + T(z) * K[axis]) / arm2);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double inertia = double(J(axis, axis) + T(z) * K[axis]);
+            least = {std::min(least.mass, inertia / arm2), std::min(least.push, inertia / std::sqrt(arm2))};
+        }
     });
     return least;
 }
@@ -104,8 +108,8 @@ template void find_bodies(const Plan<float>&, Attachments&);
 template void find_bodies(const Plan<double>&, Attachments&);
 template double answering_stiffness(const Plan<float>&, const AttachedBody&);
 template double answering_stiffness(const Plan<double>&, const AttachedBody&);
-template double answering_mass(const Plan<float>&, const Attachments&, const AttachedEnd&, std::complex<double>);
-template double answering_mass(const Plan<double>&, const Attachments&, const AttachedEnd&, std::complex<double>);
+template PathAnswer path_answer(const Plan<float>&, const Attachments&, const AttachedEnd&, std::complex<double>);
+template PathAnswer path_answer(const Plan<double>&, const Attachments&, const AttachedEnd&, std::complex<double>);
 template void add_direction(const Plan<float>&, Attachments&, const Attached&);
 template void add_direction(const Plan<double>&, Attachments&, const Attached&);
 

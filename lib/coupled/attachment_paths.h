@@ -27,9 +27,13 @@ template <class Of, class Visit> void along_paths(Of& a, const Attached& held, V
 // [N m/rad] that a joint resists a turn in one step with, about its softest axis: by its spring, its damping and its inertia.
 template <class T> double answering_stiffness(const Plan<T>&, const AttachedBody&);
 
-// The least of the masses that the path's joints answer with at the point, |s| of the scheme's slowest pole.
+// What the path's joints answer with at the point, |s| of the scheme's slowest pole: the least of each.
+struct PathAnswer {
+    double mass; // [kg] (J + |z| K) / l^2
+    double push; // [kg m] (J + |z| K) / l: over |s|^2, the force that turns it by a radian
+};
 template <class T>
-double answering_mass(const Plan<T>&, const Attachments&, const AttachedEnd&, std::complex<double> s1);
+PathAnswer path_answer(const Plan<T>&, const Attachments&, const AttachedEnd&, std::complex<double> s1);
 
 // H of every body of the paths, from their places at y*.
 template <class T> void add_direction(const Plan<T>&, Attachments&, const Attached&);
