@@ -50,7 +50,7 @@ Names joined(const Names& a, const Names& b) {
 std::vector<Case> cases() {
     const Names forces{"f_w", "tau_w", "c_f_w", "c_tau_w"}, velocities{"omega_w", "v_w"};
     const Names drag{"drag_f_w", "drag_tau_w", "drag_bound", "wind_bound", "turn_bound", "c_drag_f_w", "c_drag_tau_w",
-                     "c_drag",   "c_drag_row", "c_wind",     "c_wind_row", "c_turn",     "c_turn_row", "held_row"};
+                     "c_drag",   "c_drag_row", "c_wind",     "c_wind_row", "c_turn",     "c_turn_row"};
     std::vector<Case> all;
     all.push_back({"gravity only", Scene{}, {}, {}, {}});
     all.push_back({"no gravity", empty_scene(), {}, {}, {}});
