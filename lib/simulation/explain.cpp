@@ -207,6 +207,10 @@ template <class T> void explain_arrays(const Plan<T>& plan, const Way<T>& way, s
     add("alpha_w", sizeof(Vector3<T>), way.fictitious, lagged);
     add("a_w", sizeof(Vector3<T>), way.fictitious, lagged);
     add("fictitious_w", sizeof(Vector3<T>), way.fictitious, lagged);
+    const bool held = !coupled && !plan.attachments.empty();
+    const std::string points = coupled ? solver : held ? "/attachments" : "no attachments";
+    add("held_tau_w", sizeof(Vector3<T>), held, points);
+    add("held_row", sizeof(T), held, points);
     add("coupled", sizeof(CoupledBody<T>), plain, work);
     add("resolvent", sizeof(ResolventBody<std::complex<T>>), plain && !real,
         coupled && real ? "a scheme of a real pole" : work);

@@ -72,6 +72,10 @@ std::vector<Case> cases() {
     Scene pulled;
     pulled.pulls.push_back({Selector{}, {0, 1}, {Vec3(1, 0, 0), Vec3(2, 0, 0)}});
     all.push_back({"pulls only", pulled, {}, {"external_forces"}, forces});
+    Scene tied;
+    tied.attachments.resize(1);
+    tied.attachments[0].stiffness = 1e4;
+    all.push_back({"an attachment only", tied, {}, {"attachments"}, {"held_tau_w", "held_row"}});
     Scene moved;
     moved.root_motion.push_back({0, {0, 1}, {Vec3::Zero(), Vec3(1, 0, 0)}, {}});
     all.push_back({"root motion", moved, {}, {"root_motion"}, {}});
@@ -103,7 +107,7 @@ std::vector<Case> cases() {
 Names expected_stages(const Case& c, const Method& method) {
     if (method.solver == Solver::analytic) return joined(every_stage, c.stages);
     Names stages = joined(every_coupled_stage, c.scene.wind ? Names{"wind_field"} : Names{});
-    return joined(stages, c.scene.pulls.empty() ? Names{} : Names{"attachments"});
+    return joined(stages, c.scene.pulls.empty() && c.scene.attachments.empty() ? Names{} : Names{"attachments"});
 }
 
 Names expected_arrays(const Case& c, const Method& method) {
@@ -182,8 +186,8 @@ TEST_CASE("sizes of arrays are those of their numbers") {
     for (const PlannedArray& array : explain(plan).arrays) {
         if (records.contains(array.name)) continue; // not numbers: held against what is allocated above
         const Names matrices{"R_wb", "c_J_w"};
-        const Names single{"drag_bound", "wind_bound", "turn_bound", "c_drag",    "c_drag_row",
-                           "c_wind",     "c_wind_row", "c_turn",     "c_turn_row"};
+        const Names single{"drag_bound", "wind_bound", "turn_bound", "c_drag",     "c_drag_row",
+                           "c_wind",     "c_wind_row", "c_turn",     "c_turn_row", "held_row"};
         const std::size_t numbers = matrices.count(array.name) ? 9 : single.count(array.name) ? 1 : 3;
         CAPTURE(array.name);
         CHECK(array.bytes == tree.size_bodies() * numbers * sizeof(double));
