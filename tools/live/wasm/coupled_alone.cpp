@@ -1,11 +1,46 @@
-// coupled_alone.cpp: the page runs the coupled method alone: the analytic one's sweeps, a sixth of the whole module, are left out.
+// coupled_alone.cpp: the page runs the coupled method alone: the analytic one's sweeps, a sixth of the whole module, and its attachments are left out.
 #include "lib/analytic/analytic_sweeps.h"
+#include "lib/analytic/held_points.h"
 #include <stdexcept>
+
+namespace bough {
+namespace {
+
+[[noreturn]] void no_part() {
+    throw std::logic_error("the analytic method is no part of the page");
+}
+
+} // namespace
+
+template <class T> void begin_held(const Plan<T>&, AnalyticWork<T>&) {
+    no_part();
+}
+template <class T> void release_held(const Plan<T>&, AnalyticWork<T>&, const std::vector<std::size_t>&) {
+    // There are none.
+}
+template <class T> void hold_points(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&, AnalyticWork<T>&, double) {
+    no_part();
+}
+template <class T> void slow_held(const Plan<T>&, State<T>&, AnalyticWork<T>&) {
+    no_part();
+}
+template void begin_held(const Plan<float>&, AnalyticWork<float>&);
+template void begin_held(const Plan<double>&, AnalyticWork<double>&);
+template void release_held(const Plan<float>&, AnalyticWork<float>&, const std::vector<std::size_t>&);
+template void release_held(const Plan<double>&, AnalyticWork<double>&, const std::vector<std::size_t>&);
+template void hold_points(const Plan<float>&, const AnalyticPlan<float>&, const State<float>&, AnalyticWork<float>&,
+                          double);
+template void hold_points(const Plan<double>&, const AnalyticPlan<double>&, const State<double>&, AnalyticWork<double>&,
+                          double);
+template void slow_held(const Plan<float>&, State<float>&, AnalyticWork<float>&);
+template void slow_held(const Plan<double>&, State<double>&, AnalyticWork<double>&);
+
+} // namespace bough
 
 namespace bough::fast::baseline {
 
 template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads) {
-    throw std::logic_error("the analytic method is no part of the page");
+    no_part();
 }
 template AnalyticSweeps<float> analytic_sweeps(AnalyticLoads);
 template AnalyticSweeps<double> analytic_sweeps(AnalyticLoads);
