@@ -126,7 +126,41 @@ template <class T> void check_grid(Solver solver, bool lanes) {
         }
 }
 
-// Where the sum of elastic, potential and the spring's energy is least, by Newton's method on differences of it: none of the solver's equations.
+// [J] Elastic and potential energy of the chain of bodies [first, end); visit(body, x, R): where theta puts each.
+template <class Visit>
+double chain_energy(const Tree& tree, const Scene& scene, const Eigen::VectorXd& theta, std::size_t first,
+                    std::size_t end, const Visit& visit) {
+    long double sum = 0;
+    Mat3 R = Mat3::Identity();
+    Vec3 x = Vec3::Zero();
+    for (std::size_t i = first; i < end; ++i) {
+        const Vec3 angle = theta.segment<3>(3 * Eigen::Index(i));
+        x += R * tree.joint_position[i];
+        R = R * tree.joint_rotation[i].toRotationMatrix() *
+            Mat3(Eigen::AngleAxisd(angle.norm(), angle.stableNormalized()));
+        sum += angle.dot(tree.stiffness[i].cwiseProduct(angle)) / 2;
+        sum -= tree.mass[i] * scene.gravity.dot(x + R * tree.com[i]);
+        visit(i, x, R);
+    }
+    return double(sum);
+}
+
+// The energy's gradient where the run stands is nothing beside the moments that stand against each other there.
+template <class Energy>
+void check_least(const Held<double>& run, const Tree& tree, double k, double within, const Energy& energy_at) {
+    Eigen::VectorXd at(3 * Eigen::Index(tree.size_bodies()));
+    double moment = 0; // [N m]
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        at.segment<3>(3 * Eigen::Index(i)) = run.state.theta[i];
+        moment = std::max(moment, tree.stiffness[i].cwiseProduct(run.state.theta[i]).norm());
+    }
+    const Eigen::VectorXd gradient = gradient_of(energy_at, at);
+    CAPTURE(k, gradient.norm());
+    CHECK(moment > 0.05);
+    CHECK(gradient.norm() < within * moment * std::max(1.0, k / 1e3));
+}
+
+// Where the sum of elastic, potential and the spring's energy is least, by differences of it: none of the solver's equations.
 inline void check_rest(Solver solver, int frames, double within) {
     const Tree tree = make_tree::chain(5, 1.0, 0.006, 0.004, 0.1, {800, 2e9, 2e8, 0.05});
     Scene scene = solver::empty_scene();
@@ -139,30 +173,13 @@ inline void check_rest(Solver solver, int frames, double within) {
         Held<double> run(tree, scene, false, 1.0 / 30, Scheme::p12, solver);
         for (int f = 0; f < frames; ++f) advance(run.plan, run.state);
         present(run.plan, run.state);
-        const auto energy_at = [&](const Eigen::VectorXd& theta) {
-            long double sum = 0;
-            Mat3 R = Mat3::Identity();
-            Vec3 x = Vec3::Zero(), held = Vec3::Zero();
-            for (std::size_t i = 0; i < 5; ++i) {
-                const Vec3 angle = theta.segment<3>(3 * Eigen::Index(i));
-                x += R * tree.joint_position[i];
-                R = R * tree.joint_rotation[i].toRotationMatrix() *
-                    Mat3(Eigen::AngleAxisd(angle.norm(), angle.stableNormalized()));
-                sum += angle.dot(tree.stiffness[i].cwiseProduct(angle)) / 2;
-                sum -= tree.mass[i] * scene.gravity.dot(x + R * tree.com[i]);
+        check_least(run, tree, k, within, [&](const Eigen::VectorXd& theta) {
+            Vec3 held = Vec3::Zero();
+            const double own = chain_energy(tree, scene, theta, 0, 5, [&](std::size_t i, const Vec3& x, const Mat3& R) {
                 if (i == 3) held = x + R * *scene.attachments[0].on.point;
-            }
-            return double(sum + k / 2 * (held - *scene.attachments[0].target).squaredNorm());
-        };
-        Eigen::VectorXd at(15);
-        for (std::size_t i = 0; i < 5; ++i) at.segment<3>(3 * Eigen::Index(i)) = run.state.theta[i];
-        const Eigen::VectorXd gradient = gradient_of(energy_at, at);
-        CAPTURE(k, gradient.norm());
-        double moment = 0; // [N m] what stands against each other
-        for (std::size_t i = 0; i < 5; ++i)
-            moment = std::max(moment, tree.stiffness[i].cwiseProduct(run.state.theta[i]).norm());
-        CHECK(moment > 0.05);
-        CHECK(gradient.norm() < within * moment * std::max(1.0, k / 1e3));
+            });
+            return own + k / 2 * (held - *scene.attachments[0].target).squaredNorm();
+        });
         const Vec3 force = k * (*scene.attachments[0].target - run.point());
         CHECK((run.held().force - force).norm() < 1e-6 * force.norm());
     }

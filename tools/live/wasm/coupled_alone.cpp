@@ -24,16 +24,14 @@ template <class T> void hold_points(const Plan<T>&, const AnalyticPlan<T>&, cons
 template <class T> void slow_held(const Plan<T>&, State<T>&, AnalyticWork<T>&) {
     no_part();
 }
-template void begin_held(const Plan<float>&, AnalyticWork<float>&);
-template void begin_held(const Plan<double>&, AnalyticWork<double>&);
-template void release_held(const Plan<float>&, AnalyticWork<float>&, const std::vector<std::size_t>&);
-template void release_held(const Plan<double>&, AnalyticWork<double>&, const std::vector<std::size_t>&);
-template void hold_points(const Plan<float>&, const AnalyticPlan<float>&, const State<float>&, AnalyticWork<float>&,
-                          double);
-template void hold_points(const Plan<double>&, const AnalyticPlan<double>&, const State<double>&, AnalyticWork<double>&,
-                          double);
-template void slow_held(const Plan<float>&, State<float>&, AnalyticWork<float>&);
-template void slow_held(const Plan<double>&, State<double>&, AnalyticWork<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void begin_held(const Plan<T>&, AnalyticWork<T>&);                                                        \
+    template void release_held(const Plan<T>&, AnalyticWork<T>&, const std::vector<std::size_t>&);                     \
+    template void hold_points(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&, AnalyticWork<T>&, double);      \
+    template void slow_held(const Plan<T>&, State<T>&, AnalyticWork<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough
 
