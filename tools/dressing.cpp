@@ -65,6 +65,10 @@ std::optional<OwnMesh> dressed(const Tree& tree, std::optional<int> sides, const
     if (sides) options.sides = *sides;
     if (!sides && (!glb || format == "vat"))
         options.sides = SkinOptions().sides; // as treeconvert --mesh and point caches have it
+    if (format == "vat") {
+        options.sprays = sprays_in_vat;
+        options.clump_leaves = leaves_in_vat;
+    }
     options.textures = !glb || o.textures == "none" ? 0 : o.textures.empty() ? 512 : std::stoi(o.textures);
     options.detail = detail == "card" ? LeafDetail::card : detail == "mesh" ? LeafDetail::mesh : LeafDetail::kite;
     if (options.detail == LeafDetail::kite && options.textures == 0) return std::nullopt;

@@ -17,6 +17,9 @@ struct DressChoice {
                                       : nullptr;
     }
 };
+// A vertex animation texture holds 8192 vertices, four of a spray, eight of a leaf: of clumps no more than
+constexpr int sprays_in_vat = 1000, leaves_in_vat = 500;
+
 // Whether a mesh of that format has textures.
 inline bool has_textures(const std::string& format) {
     return format == "glb" || format == "usda" || format == "vat";

@@ -50,7 +50,9 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     if (is_point_cache(format) && own)
         return own_cache_sink(o.common.output, format, shown, std::move(*own), cached, o.common.notes);
     if (is_mesh(format) && format != "glb") {
-        Skin skin = own ? skin_of(*own) : build_skin(shown, {o.sides.value_or(8)});
+        SkinOptions drawn{o.sides.value_or(8)};
+        if (format == "vat") drawn.clump_leaves = leaves_in_vat;
+        Skin skin = own ? skin_of(*own) : build_skin(shown, drawn);
         if (format == "obj")
             return obj_sink(o.common.output, shown, std::move(skin), own ? &*own : nullptr, rustle, o.common.notes);
         if (format == "vat")

@@ -44,7 +44,7 @@ private:
 // What would make fewer of them, where none are left out yet.
 [[noreturn]] void refuse_vertices(const std::string& folder, std::size_t vertices, const VatChoice& choice) {
     const std::string fewer =
-        "; treeconvert --max-bodies makes fewer, with leaves in clumps, --sides 3 and --leaf-detail kite simpler ones";
+        "; treeconvert --max-bodies makes fewer, with leaves in clumps; --sides 3 gives wood fewer corners";
     if (!choice.vertices)
         throw UsageError("-o is '" + folder + "': the mesh has " + std::to_string(vertices) +
                          " vertices, and a texture holds " + std::to_string(vat_side) + "; --vat-vertices " +

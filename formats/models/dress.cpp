@@ -47,6 +47,14 @@ OwnPlace placed(std::int32_t shape, std::size_t body, const Mat3& axes, const Ve
     return {shape, std::int32_t(body), (length * axes).cast<float>(), foot.cast<float>()};
 }
 
+// Sprays a leaf of the clumps: six leaves make one, more where a tree has many, so that sprays are of one size all over the crown.
+double sprays_of_a_leaf(const Tree& tree, int most) {
+    std::int64_t leaves = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        if (tree.kind[i] == Kind::leaf && is_clump(tree, i)) leaves += tree.leaf_count[i];
+    return std::min(1 / double(spray_leaves().size()), most / double(std::max<std::int64_t>(leaves, 1)));
+}
+
 // Leaves at their places, as blades or sprays.
 OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const DressOptions& o, const Vec3& color) {
     OwnPart part;
@@ -61,8 +69,8 @@ OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const
     mesh.shape.push_back(shape_of(spray));
     mesh.shape.push_back(shape_of(spray_card(species.leaf, width, true)));
     const DrawnPose pose = drawn_pose(tree);
-    const std::int32_t most = clump_leaves_drawn(tree);
-    const auto in_spray = double(spray_leaves().size());
+    const std::int32_t most = clump_leaves_drawn(tree, o.clump_leaves);
+    const double sprays = sprays_of_a_leaf(tree, o.sprays);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (tree.kind[i] != Kind::leaf) continue;
         const double area = foliage_area(tree, i);
@@ -70,8 +78,9 @@ OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const
             part.placed.push_back(placed(single, i, pose.R_wb[i], pose.x_w[i], std::sqrt(area / blade.area)));
             continue;
         }
-        const std::int32_t leaves = std::min(tree.leaf_count[i], most);
-        const std::int32_t count = card ? std::max(1, std::int32_t(std::lround(leaves / in_spray))) : leaves;
+        const std::int32_t leaves = tree.leaf_count[i];
+        const std::int32_t count =
+            card ? std::max(1, std::int32_t(std::lround(leaves * sprays))) : std::min(leaves, most);
         const double length = std::sqrt(area / count / (card ? spray.area : blade.area));
         const double drawn = clump_leaf_size(tree, i, count).x();
         std::int32_t other = 0; // of the two sprays
@@ -123,7 +132,7 @@ std::string leaf_material(OwnMesh& mesh, const Species& species, const std::vect
 
 OwnMesh dress(const Tree& tree, const Species& species, const DressOptions& o) {
     const std::vector<Vec3>& color = tree.color.empty() ? default_colors() : tree.color;
-    const Skin skin = build_skin(tree, {o.sides, true});
+    const Skin skin = build_skin(tree, {o.sides, true, o.clump_leaves});
     OwnMesh mesh;
     add_flat(mesh, skin, "bark");
     if (o.detail == LeafDetail::kite || species.leaf.none())

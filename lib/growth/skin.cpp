@@ -90,9 +90,9 @@ void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vect
 }
 
 // How many leaves each body is drawn as; empty: one each.
-std::vector<std::int32_t> find_blades(const Tree& tree) {
+std::vector<std::int32_t> find_blades(const Tree& tree, std::int64_t all) {
     std::vector<std::int32_t> blades = tree.leaf_count;
-    const std::int32_t most = clump_leaves_drawn(tree);
+    const std::int32_t most = clump_leaves_drawn(tree, all);
     for (std::int32_t& n : blades) n = std::min(n, most);
     return blades;
 }
@@ -125,7 +125,7 @@ Skin build_skin(const Tree& tree, const SkinOptions& options) {
     const DrawnPose pose = drawn_pose(tree);
     const Chains chains = find_chains(tree);
     const std::vector<int> sides = find_sides(tree, chains, options.sides);
-    const std::vector<std::int32_t> blades = find_blades(tree);
+    const std::vector<std::int32_t> blades = find_blades(tree, options.clump_leaves);
     Skin skin;
     reserve(skin, tree, chains, sides, blades);
     add_bark(skin, tree, pose, chains, sides);

@@ -17,7 +17,7 @@
 // vertex is some triangle's.
 // Errors  std::length_error beyond 2^31 - 1 vertices.
 #pragma once
-#include "../model/tree.h"
+#include "clump.h"
 #include <array>
 #include <string>
 #include <vector>
@@ -29,6 +29,7 @@ struct SkinOptions {
     // the distance between polygon and circle is about the same everywhere, never below 3.
     int sides = 8;
     bool leaves = true; // false: no leaves and petals (for programs that get them as instances)
+    std::int64_t clump_leaves = clump_leaves_all; // of all clumps together, but one each (clump.h)
 };
 
 struct SkinPart {
