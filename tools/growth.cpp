@@ -107,7 +107,8 @@ void add_growth_options(OptionList& list, GrowthOptions& o) {
         .takes("carry|file")
         .one_of({"carry", "file"});
     list.add("--bodies", o.bodies,
-             "Grow a tree that treeconvert makes N bodies of by default (within 10 %; leaves and fruit count)")
+             "How many bodies treeconvert makes of the tree by default (within 10 %; leaves and fruit count): the\n"
+             "same tree, more or less finely resolved")
         .takes("N")
         .check(whole_number(1));
     list.add("--age", o.age, "Years; the mature tree unless given").takes("YEARS").check(positive_number());

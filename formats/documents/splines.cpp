@@ -16,6 +16,7 @@ std::vector<Field> fields_of(Splines& s) {
     return {optional({"name", &s.name}),
             optional({"source", &s.source}),
             optional({"material", &s.material}),
+            optional({"bodies", &s.bodies}),
             optional(array("color", s.color, {})),
             array("parent", s.parent, {}),
             array("parent_at", s.parent_at, branch),
@@ -52,7 +53,9 @@ Splines read_splines(std::string_view content, const std::string& name) {
 }
 
 void write_splines(Output& output, const Splines& splines, Form form) {
-    write_document(output, form, splines_document, fields_of(const_cast<Splines&>(splines))); // a writer only looks
+    std::vector<Field> fields = fields_of(const_cast<Splines&>(splines)); // a writer only looks
+    if (splines.bodies == 0) std::erase_if(fields, [](const Field& field) { return field.name == "bodies"; });
+    write_document(output, form, splines_document, fields);
 }
 
 } // namespace bough

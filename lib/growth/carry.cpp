@@ -12,7 +12,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double gravity = 9.81;
 constexpr double safety = 4; // against toppling
 
 struct HungLoad {
@@ -68,7 +67,7 @@ void Carrier::raise(std::size_t k) {
     const Vec3 chord = s_.point[std::min(k + 1, last_)] - s_.point[k > first_ ? k - 1 : k];
     const Vec3 tangent = chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitY());
     const Vec3 arm = mass_ > 0 ? Vec3(moment_ / mass_ - s_.point[k]) : Vec3(Vec3::Zero());
-    const double weight = gravity * mass_;
+    const double weight = growing_gravity * mass_;
     const Vec3 torque = weight * arm.cross(Vec3::UnitY());
     const double along = torque.dot(tangent);
     const double E = wood_.youngs_modulus, twice_G = 2 * wood_.shear_modulus;

@@ -21,6 +21,9 @@
 
 namespace bough {
 
+// [m/s^2] Under which a tree stands as it is drawn, whatever a scene's is.
+constexpr double growing_gravity = 9.81;
+
 // most_sag [rad] for trees of other programs, which drew them for pictures.
 constexpr double foreign_sag = 0.5;
 

@@ -41,13 +41,13 @@ Vec3 direction_of(const Vec3& v, const Vec3& otherwise) {
 
 } // namespace
 
-std::int32_t clump_leaves_drawn(const Tree& tree) {
-    std::int64_t all = 0;
-    for (const std::int32_t n : tree.leaf_count) all += n > 1 ? std::min(n, clump_leaves_most) : 0;
-    if (all <= clump_leaves_all) return clump_leaves_most;
+std::int32_t clump_leaves_drawn(const Tree& tree, std::int64_t all) {
+    std::int64_t leaves = 0;
+    for (const std::int32_t n : tree.leaf_count) leaves += n > 1 ? std::min(n, clump_leaves_most) : 0;
+    if (leaves <= all) return clump_leaves_most;
     const auto clumps =
         std::count_if(tree.leaf_count.begin(), tree.leaf_count.end(), [](std::int32_t n) { return n > 1; });
-    return std::int32_t(std::clamp<std::int64_t>(clump_leaves_all / clumps, 1, clump_leaves_most));
+    return std::int32_t(std::clamp<std::int64_t>(all / clumps, 1, clump_leaves_most));
 }
 
 Vec3 clump_leaf_size(const Tree& tree, std::size_t body, std::int32_t count) {

@@ -1,15 +1,12 @@
 // clump.h: the leaves that a clump (is_clump in tree.h) is drawn as.
 //
-// A body that stands for n leaves is drawn as min(n, drawn_most) of them, each of the body's proportions and of its area (where the tree says a
-// leaf's size, of its proportions and of all
-// their area) over their number, so that what is drawn has the clump's area. Where a tree has so many clumps that this would come to
-// more than 200 000 leaves, each is drawn as so many fewer.
-// They fill the ellipsoid of axes (width, 0.6 width, length; where the tree says a leaf's size, twice the way from there to the
-// length's end) about the body's centre of mass, evenly: the middle
-// of leaf k
-// is point k of a sequence of low discrepancy (the additive recurrence of three irrationals). They point away from the
-// clump's joint and middle and droop a little; their upper faces look up and outward. All of it is drawn from the body's
-// index, so that the same tree looks the same whoever draws it.
+// A body that stands for n leaves is drawn as at most 64 of them, each of the body's proportions and of its area (where the tree says a leaf's
+// size, of its proportions and of all their area) over their number. So what is drawn has the clump's area. Where all clumps together would
+// come to more than `all` leaves, each is drawn as so many fewer.
+// They fill an ellipsoid about the body's centre of mass evenly. Its axes are width, 0.6 width, length; where the tree says a leaf's size, twice
+// the way from the centre to the length's end in place of the length. The middle of leaf k is point k of a sequence of low discrepancy (the
+// additive recurrence of three irrationals). Leaves point away from the clump's joint and middle and droop a little; their upper faces look up
+// and outward. All of it is drawn from the body's index, so that the same tree looks the same whoever draws it.
 #pragma once
 #include "../model/tree.h"
 
@@ -19,7 +16,7 @@ constexpr std::int32_t clump_leaves_most = 64;     // of one clump
 constexpr std::int64_t clump_leaves_all = 200'000; // of a tree
 
 // How many leaves each clump of the tree is drawn as at most, 1..64. O(bodies).
-std::int32_t clump_leaves_drawn(const Tree&);
+std::int32_t clump_leaves_drawn(const Tree&, std::int64_t all = clump_leaves_all);
 
 // A leaf of a clump, in the clump's body frame.
 struct ClumpLeaf {

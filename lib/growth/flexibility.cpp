@@ -1,53 +1,186 @@
 #include "flexibility.h"
-#include <Eigen/Cholesky>
+#include "carry.h"
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace bough {
+namespace {
+
+constexpr double of_sway = 0.95; // omega squared, over the estimate of the lowest frequency's
+constexpr double of_a_rod = 1.5; // omega squared of a rod on a joint, over m / S
+constexpr double lower = 0.93;   // what is tried next where a part of the tree is slower
+constexpr int most_slower = 40;
+
+// By its leading minors.
+bool positive_definite(const Mat3& W) {
+    return W(0, 0) > 0 && W(0, 0) * W(1, 1) - W(0, 1) * W(1, 0) > 0 && W.determinant() > 0;
+}
+
+// Behind it no body has children: leaves, which are most of a tree's bodies.
+std::size_t bodies_with_children(const Tree& tree) {
+    std::int32_t last = -1;
+    for (const std::int32_t p : tree.parent) last = std::max(last, p);
+    return std::size_t(last + 1);
+}
+
+// Whether flexibility() at omega would find that every joint stands.
+bool stands_at(const Tree& tree, const Flexibility& slow, double omega2) {
+    std::vector<Borne> on(bodies_with_children(tree));
+    for (std::size_t i = tree.size_bodies(); i-- > 0;) {
+        const Mat3& R = slow.pose.R_wb[i];
+        Borne all = own_part(tree, i, R, omega2);
+        if (i < on.size()) all += on[i];
+        const std::int32_t p = tree.parent[i];
+        const Vec3 arm = p < 0 ? Vec3(Vec3::Zero()) : Vec3(slow.pose.x_w[i] - slow.pose.x_w[std::size_t(p)]);
+        const Yielding y = yielding(stiffness_w(tree, i, R), slow.first[i], all, arm);
+        if (!y.stands) return false;
+        if (p >= 0) on[std::size_t(p)] += y.passed;
+    }
+    return true;
+}
+
+} // namespace
+
+Borne& Borne::operator+=(const Borne& more) {
+    aa += more.aa;
+    ad += more.ad;
+    dd += more.dd;
+    a += more.a;
+    d += more.d;
+    return *this;
+}
+
+Borne own_part(const Tree& tree, std::size_t i, const Mat3& R_wb, double omega2) {
+    const double m = tree.mass[i];
+    const Mat3 c = cross_matrix<double>(R_wb * tree.com[i]);
+    Borne own;
+    own.a = m * c;
+    own.d = m * Mat3::Identity();
+    if (!(omega2 > 0)) return own;
+    own.aa = -omega2 * (R_wb * tree.inertia[i] * R_wb.transpose() - m * c * c);
+    own.ad = -omega2 * m * c;
+    own.dd = -omega2 * own.d;
+    return own;
+}
 
 Mat3 stiffness_w(const Tree& tree, std::size_t i, const Mat3& R_wb) {
     constexpr double least = 1e-12; // [N m/rad] of a joint without stiffness
     return R_wb * tree.stiffness[i].cwiseMax(least).asDiagonal() * R_wb.transpose();
 }
 
-Yielding yielding(const Mat3& K, const Vec3& H, const Borne& on) {
-    const Vec3 g(0, -9.81, 0);
+Yielding yielding(const Mat3& K, const Vec3& H, const Borne& on, const Vec3& arm) {
+    const Vec3 g(0, -growing_gravity, 0);
     const Mat3 gH = g * H.transpose(), level = g.dot(H) * Mat3::Identity();
-    const Mat3 T = cross_matrix(H) + on.b;
     Yielding y;
-    Mat3 C = level - gH + on.A;
-    Eigen::LLT<Mat3> W(Mat3(K + level - 0.5 * (gH + gH.transpose()) + on.A));
-    y.stands = W.info() == Eigen::Success;
+    Mat3 C = level - gH + on.aa, Y = on.ad;
+    const Mat3 W = K + level - 0.5 * (gH + gH.transpose()) + on.aa;
+    y.stands = positive_definite(W);
     if (!y.stands) {
-        W.compute(K);
         C.setZero();
+        Y.setZero();
     }
-    y.turn = W.solve(T);
-    y.give = T.cwiseProduct(y.turn).sum();
-    y.passed.A = on.A - C.transpose() * W.solve(C);
-    y.passed.b = on.b - C.transpose() * y.turn;
+    const Mat3 gives = (y.stands ? W : K).inverse();
+    y.turn = gives * on.a;
+    y.follow = gives * C;
+    y.slide = gives * Y;
+    y.give = on.a.cwiseProduct(y.turn).sum();
+    Borne& p = y.passed;
+    p.aa = on.aa - C.transpose() * y.follow;
+    p.ad = on.ad - C.transpose() * y.slide;
+    p.dd = on.dd - Y.transpose() * y.slide;
+    p.a = on.a - C.transpose() * y.turn;
+    p.d = on.d - Y.transpose() * y.turn;
+    const Mat3 r = cross_matrix<double>(arm); // d = d_p - r phi_p
+    p.aa += -r.transpose() * p.ad.transpose() - p.ad * r + r.transpose() * p.dd * r;
+    p.ad -= r.transpose() * p.dd;
+    p.a -= r.transpose() * p.d;
     return y;
 }
 
-Flexibility flexibility(const Tree& tree) {
+Flexibility flexibility(const Tree& tree, double omega2) {
     const std::size_t n = tree.size_bodies();
-    Flexibility f{drawn_pose(tree),       tree.mass, std::vector<Vec3>(n), std::vector<double>(n),
-                  std::vector<double>(n), {}};
-    for (std::size_t i = 0; i < n; ++i) f.first[i] = f.pose.R_wb[i] * (tree.mass[i] * tree.com[i]);
-    std::vector<Borne> on(n);
+    Flexibility f;
+    f.pose = drawn_pose(tree);
+    f.omega2 = omega2;
+    f.mass = tree.mass;
+    f.first.resize(n);
+    f.give.resize(n);
+    f.turn.resize(n);
+    f.follow.resize(n);
+    f.slide.resize(n);
+    std::vector<Borne> on(bodies_with_children(tree));
+    for (std::size_t i = 0; i < n; ++i) {
+        f.first[i] = f.pose.R_wb[i] * (tree.mass[i] * tree.com[i]);
+        if (i < on.size()) on[i] = own_part(tree, i, f.pose.R_wb[i], omega2);
+    }
     for (std::size_t i = n; i-- > 0;) {
-        const Mat3 K = stiffness_w(tree, i, f.pose.R_wb[i]);
-        const Yielding y = yielding(K, f.first[i], on[i]);
+        const std::int32_t parent = tree.parent[i];
+        const auto p = std::size_t(parent < 0 ? 0 : parent);
+        const Vec3 arm = parent < 0 ? Vec3(Vec3::Zero()) : Vec3(f.pose.x_w[i] - f.pose.x_w[p]);
+        const Yielding y = yielding(stiffness_w(tree, i, f.pose.R_wb[i]), f.first[i],
+                                    i < on.size() ? on[i] : own_part(tree, i, f.pose.R_wb[i], omega2), arm);
+        f.stands &= y.stands;
         f.give[i] = y.give;
-        f.loss[i] = tree.damping[i] * y.turn.cwiseProduct(K * y.turn).sum();
-        if (tree.parent[i] < 0) continue;
-        const auto p = std::size_t(tree.parent[i]);
+        f.turn[i] = y.turn;
+        f.follow[i] = y.follow;
+        f.slide[i] = y.slide;
+        if (parent < 0) continue;
         f.mass[p] += f.mass[i];
-        f.first[p] += f.first[i] + f.mass[i] * (f.pose.x_w[i] - f.pose.x_w[p]);
+        f.first[p] += f.first[i] + f.mass[i] * arm;
         on[p] += y.passed;
     }
     f.whole = f.give;
     for (std::size_t i = n; i-- > 0;)
         if (tree.parent[i] >= 0) f.whole[std::size_t(tree.parent[i])] += f.whole[i];
+    return f;
+}
+
+void bends(const Tree& tree, const Flexibility& f, const std::vector<std::int32_t>& group,
+           const std::function<void(std::size_t, const Bend&)>& take) {
+    std::vector<Bend> kept(bodies_with_children(tree));
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        Bend b;
+        b.turn = b.turned = f.turn[i];
+        b.moved.setZero();
+        if (tree.parent[i] >= 0 && group[std::size_t(tree.parent[i])] == group[i]) {
+            const auto p = std::size_t(tree.parent[i]);
+            const Bend& on = kept[p];
+            b.moved = on.moved - cross_matrix<double>(f.pose.x_w[i] - f.pose.x_w[p]) * on.turned;
+            b.turn -= f.follow[i] * on.turned + f.slide[i] * b.moved;
+            b.turned = on.turned + b.turn;
+        }
+        b.center = b.moved - cross_matrix<double>(f.pose.R_wb[i] * tree.com[i]) * b.turned;
+        if (i < kept.size()) kept[i] = b;
+        take(i, b);
+    }
+}
+
+// With r the part of the lowest mode in the bend, S = r / (omega_1^2 - omega^2) and, Q being twice the kinetic energy at 1 rad/s, Q = dS / d omega^2.
+Flexibility flexibility_at_sway(const Tree& tree) {
+    Flexibility slow = flexibility(tree, 0);
+    slow.slow = slow.whole;
+    if (!slow.stands) return slow;
+    double S = 0, Q = 0;
+    bends(tree, slow, std::vector<std::int32_t>(tree.size_bodies(), 0), [&](std::size_t i, const Bend& b) {
+        const Mat3& R = slow.pose.R_wb[i];
+        S += slow.give[i];
+        Q += tree.mass[i] * b.center.squaredNorm() +
+             b.turned.cwiseProduct(R * tree.inertia[i] * R.transpose() * b.turned).sum();
+    });
+    for (std::vector<Mat3>* const gone : {&slow.turn, &slow.follow, &slow.slide})
+        std::vector<Mat3>().swap(*gone); // before as much again
+    double omega2 = of_sway * S / Q;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        if (tree.kind[i] == Kind::branch && !continues_parent(tree, i))
+            omega2 = std::min(omega2, of_a_rod * slow.mass[i] / slow.whole[i]);
+    for (int k = 0; k < most_slower; ++k, omega2 *= lower)
+        if (stands_at(tree, slow, omega2)) {
+            Flexibility f = flexibility(tree, omega2);
+            f.slow = std::move(slow.slow);
+            return f;
+        }
+    Flexibility f = flexibility(tree, 0);
+    f.slow = std::move(slow.slow);
     return f;
 }
 

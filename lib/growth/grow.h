@@ -104,8 +104,8 @@ struct GrowthParameters {
     double least_radius = 0;  // [m] 0..10, our own: no stem is thinner anywhere; wood carries its leaves down to 0.5 mm
     double most_slender = 0;  // 0 (off)..1e6, our own: no child is longer than this times its radius at the base
     double pipe_exponent = 0; // 0 (off) or 1..4, our own: radii are raised to carry their side branches (pipe.h)
-    // Our own: radii are raised until no branch is turned more than this by its load, 0 (off) or 0.01..3 [rad] (carry.h),
-    // made of this wood.
+    // Our own: radii are raised until no branch is turned more than this by its load, 0 (off) or 0.01..3 [rad] (carry.h), and until the whole tree
+    // stands and no branch sways more slowly than it (stand.h), made of this wood.
     double most_sag = 0;
     Material wood = wood_presets().front();
     std::string name = "tree";
@@ -124,14 +124,8 @@ GrowthParameters default_growth();
 // the tree comes to more than 5e7 branches, leaves and fruit. O(points).
 Splines grow(const GrowthParameters&, std::uint64_t seed, const Items&);
 
-// The same tree with numbers of children, leaves and fruit changed so that segment() with default options makes `bodies`
-// bodies of it, within 10 %. One factor f is searched: numbers of level n change by f^w, more for deeper levels; where one
-// bough more is too wide a step, those of the last level by a second factor; leaves and petals change in length by the
-// square root of their number's inverse, at most fourfold either way, so that the tree keeps its leaf area (leaf_count.h); where the deepest level would come to less
-// than one stem a parent it is left out, leaves then growing on the level above. Lengths, and so the height, stay.
-// Where that still misses, leaves of the next larger tree are left out one by one, or its twigs.
-// Neighbouring numbers give similar trees. Cost: some five to ten growths of up to that size. Throws
-// std::invalid_argument where the parameters cannot reach the number, or it exceeds 2e7.
+// The same tree, whatever the number, which it carries along (Splines::bodies): what segment() makes of it, within a tenth from 100 bodies on,
+// by fewer (resolve.h) or by cutting it more finely. Throws std::invalid_argument beyond 1 to 2e7 too, and where the tree is not to be had on so few.
 Splines grow_bodies(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t bodies);
 
 } // namespace bough

@@ -25,7 +25,7 @@ struct ChildPoint {
 class SaplingGrower {
 public:
     SaplingGrower(const GrowthParameters& p, Splines& out) : p_(p), s_(p.sapling), out_(out) {}
-    bool run(std::uint64_t seed, const Items&, std::int64_t most);
+    void run(std::uint64_t seed, const Items&);
 
 private:
     SaplingStem trunk(std::uint64_t seed) const;
@@ -67,7 +67,7 @@ SaplingStem SaplingGrower::trunk(std::uint64_t seed) const {
     return t;
 }
 
-bool SaplingGrower::run(std::uint64_t seed, const Items& items, std::int64_t most) {
+void SaplingGrower::run(std::uint64_t seed, const Items& items) {
     stack_ = {trunk(seed)};
     out_.first_point.push_back(0);
     while (!stack_.empty()) {
@@ -80,10 +80,8 @@ bool SaplingGrower::run(std::uint64_t seed, const Items& items, std::int64_t mos
             bear(stem, points(stem, pieces, branch));
         else if (items.leaves && p_.leaves != 0)
             leaves(stem, points(stem, pieces, branch));
-        if (out_.branches() + stack_.size() + out_.leaves() > static_cast<std::size_t>(most)) return false;
         check_size(out_, stack_.size());
     }
-    return true;
 }
 
 // Shortened by halving until its tips are inside the envelope, then lengthened by what prune_ratio leaves.
@@ -356,8 +354,8 @@ void SaplingGrower::leaf(const ChildPoint& c, double turn, double next_turn, dou
 
 } // namespace
 
-bool grow_sapling(const GrowthParameters& p, std::uint64_t seed, const Items& items, std::int64_t most, Splines& out) {
-    return SaplingGrower(p, out).run(seed, items, most);
+void grow_sapling(const GrowthParameters& p, std::uint64_t seed, const Items& items, Splines& out) {
+    SaplingGrower(p, out).run(seed, items);
 }
 
 } // namespace bough

@@ -46,7 +46,7 @@ class SegmentGrower {
 public:
     SegmentGrower(const GrowthParameters& p, Splines& out)
         : p_(p), out_(out), arbaro_(p.rules == GrowthRules::arbaro) {}
-    bool run(std::uint64_t seed, const Items&, std::int64_t most);
+    void run(std::uint64_t seed, const Items&);
 
 private:
     void plant(std::uint64_t seed);
@@ -116,7 +116,7 @@ void SegmentGrower::plant(std::uint64_t seed) {
     std::reverse(stack_.begin(), stack_.end());
 }
 
-bool SegmentGrower::run(std::uint64_t seed, const Items& items, std::int64_t most) {
+void SegmentGrower::run(std::uint64_t seed, const Items& items) {
     plant(seed);
     out_.first_point.push_back(0);
     while (!stack_.empty()) {
@@ -144,10 +144,8 @@ bool SegmentGrower::run(std::uint64_t seed, const Items& items, std::int64_t mos
             born_.push_back(clone);
         }
         stack_.insert(stack_.end(), born_.rbegin(), born_.rend());
-        if (out_.branches() + stack_.size() + out_.leaves() > static_cast<std::size_t>(most)) return false;
         check_size(out_, stack_.size());
     }
-    return true;
 }
 
 // Shortens a stem that leaves the envelope; false: it is left out.
@@ -270,8 +268,8 @@ SegmentStem SegmentGrower::child_of(const SegmentStem& stem, const GrownStem& gr
 
 } // namespace
 
-bool grow_segments(const GrowthParameters& p, std::uint64_t seed, const Items& items, std::int64_t most, Splines& out) {
-    return SegmentGrower(p, out).run(seed, items, most);
+void grow_segments(const GrowthParameters& p, std::uint64_t seed, const Items& items, Splines& out) {
+    SegmentGrower(p, out).run(seed, items);
 }
 
 } // namespace bough

@@ -10,7 +10,7 @@ namespace {
 class Grower {
 public:
     Grower(const GrowthParameters& parameters, Splines& out) : p_(parameters), out_(out) {}
-    bool run(std::uint64_t seed, const Items&, std::int64_t most);
+    void run(std::uint64_t seed, const Items&);
 
 private:
     void plant(std::uint64_t seed);
@@ -48,7 +48,7 @@ void Grower::plant(std::uint64_t seed) {
     height_ = trunk.length;
 }
 
-bool Grower::run(std::uint64_t seed, const Items& items, std::int64_t most) {
+void Grower::run(std::uint64_t seed, const Items& items) {
     plant(seed);
     out_.first_point.push_back(0);
     while (!stack_.empty()) {
@@ -65,11 +65,8 @@ bool Grower::run(std::uint64_t seed, const Items& items, std::int64_t most) {
             if (items.fruit) grow_fruits(p_, grown, out_);
         }
         stack_.insert(stack_.end(), born_.rbegin(), born_.rend());
-        const std::size_t made = out_.branches() + stack_.size() + out_.leaves() + out_.fruits();
-        if (made > static_cast<std::size_t>(most)) return false;
         check_size(out_, stack_.size());
     }
-    return true;
 }
 
 // Draws a stem as long as the envelope lets it be (grow.h).
@@ -291,8 +288,8 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
 
 } // namespace
 
-bool grow_stems(const GrowthParameters& p, std::uint64_t seed, const Items& items, std::int64_t most, Splines& out) {
-    return Grower(p, out).run(seed, items, most);
+void grow_stems(const GrowthParameters& p, std::uint64_t seed, const Items& items, Splines& out) {
+    Grower(p, out).run(seed, items);
 }
 
 } // namespace bough

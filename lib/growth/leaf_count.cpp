@@ -22,14 +22,10 @@ std::vector<std::int32_t> leaf_counts(const Splines& s) {
     return counts;
 }
 
-void say_leaf_count(Splines& s, double scale) {
-    const std::int32_t count = whole_count(scale * scale);
+void say_leaf_count(Splines& s) {
     s.leaf_count.clear();
-    bool silent = count == 1;
-    for (std::size_t k = 0; k < s.leaves() && silent; ++k) silent = s.is_petal(k) || s.leaf_length[k] <= longest_leaf;
-    if (silent) return;
-    s.leaf_count.resize(s.leaves());
-    for (std::size_t k = 0; k < s.leaves(); ++k) s.leaf_count[k] = s.is_petal(k) ? 1 : count;
+    for (std::size_t k = 0; k < s.leaves(); ++k)
+        if (!s.is_petal(k) && s.leaf_length[k] > longest_leaf) s.leaf_count.assign(s.leaves(), 1);
 }
 
 } // namespace bough

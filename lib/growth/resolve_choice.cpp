@@ -2,6 +2,7 @@
 #include "random.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -10,13 +11,14 @@ namespace bough {
 namespace {
 
 constexpr double own_clump = 0.25; // [1] of the threshold, at which a side branch has a clump of its own
-constexpr double bodies_power = 0.4;
-constexpr int most_tries = 60;
+constexpr double bodies_power = 0.75;
+constexpr std::size_t slowest_kept = 4;
+constexpr int most_halvings = 60;
 
 enum class ResolveDraw : std::uint8_t { item = 220 }; // apart from the draws of growth (stem.h)
 
 // A branch's pieces, in order; or a leaf, petal or fruit.
-struct Chain {
+struct Limb {
     std::int32_t first, pieces;
     std::int32_t on;     // the body that bears it, -1: the ground
     double weight;       // w
@@ -39,12 +41,13 @@ private:
     bool resolved(std::size_t chain, double t) const {
         return chain_[chain].on < 0 || chain_[chain].always || chain_[chain].weight >= t;
     }
+    void keep_slowest(const Flexibility&);
     void keep_top(const DrawnPose&);
-    std::int32_t bodies_of(const Chain&, double t) const;
+    std::int32_t bodies_of(const Limb&, double t) const;
     void place(double t);
 
     const Tree& tree_;
-    std::vector<Chain> chain_;
+    std::vector<Limb> chain_;
     std::vector<std::int32_t> chain_of_, piece_;
     std::vector<std::uint8_t> single_;
     std::vector<std::int32_t> wood_;  // of each body: the piece of wood, resolved, that carries it, or leads it
@@ -69,19 +72,34 @@ Chooser::Chooser(const Tree& tree, const Flexibility& give) : tree_(tree), chain
         // Leaves that are all alike come one after another, not all at once.
         const double spread =
             tree.kind[i] == Kind::branch ? 1 : std::exp2(random_sign(RandomKey{0}, ResolveDraw::item, i));
-        const double w = spread * give.mass[i] * std::pow(give.whole[i] / give.mass[i], 6);
+        const double w = spread * give.mass[i] * std::pow(give.slow[i] / give.mass[i], 6);
         chain_.push_back({std::int32_t(i), 1, p, w});
     }
+    keep_slowest(give);
     for (std::size_t c = chain_.size(); c-- > 0;) {
-        const Chain& chain = chain_[c];
+        const Limb& chain = chain_[c];
         const double pieces = chain.pieces;
         least_ = std::min(least_, chain.weight / std::pow(pieces, 1 / bodies_power));
         most_ = std::max(most_, chain.weight);
         if (chain.on < 0) continue;
-        Chain& on = chain_[std::size_t(chain_of_[std::size_t(chain.on)])];
+        Limb& on = chain_[std::size_t(chain_of_[std::size_t(chain.on)])];
         if (tree.kind[std::size_t(chain.first)] == Kind::branch) on.weight = std::max(on.weight, chain.weight);
     }
     keep_top(give.pose);
+}
+
+// The side branches that answer most to what shakes the tree: its lowest modes may be theirs.
+void Chooser::keep_slowest(const Flexibility& give) {
+    std::vector<std::pair<double, std::size_t>> slow;
+    double heaviest = 0;
+    for (std::size_t c = 0; c < chain_.size(); ++c) {
+        const auto i = std::size_t(chain_[c].first);
+        heaviest = std::max(heaviest, chain_[c].weight);
+        if (tree_.kind[i] == Kind::branch && chain_[c].on >= 0) slow.emplace_back(give.whole[i] / give.mass[i], c);
+    }
+    const std::size_t count = std::min(slowest_kept, slow.size());
+    std::partial_sort(slow.begin(), slow.begin() + std::ptrdiff_t(count), slow.end(), std::greater<>());
+    for (std::size_t k = 0; k < count; ++k) chain_[slow[k].second].weight = heaviest * std::exp2(-double(k));
 }
 
 // A tree keeps its height: the way to its highest wood is always resolved, if by one body a branch.
@@ -94,13 +112,13 @@ void Chooser::keep_top(const DrawnPose& pose) {
         if (y > height) height = y, top = std::int32_t(i);
     }
     while (top >= 0) {
-        Chain& chain = chain_[std::size_t(chain_of_[std::size_t(top)])];
+        Limb& chain = chain_[std::size_t(chain_of_[std::size_t(top)])];
         chain.always = true;
         top = chain.on;
     }
 }
 
-std::int32_t Chooser::bodies_of(const Chain& chain, double t) const {
+std::int32_t Chooser::bodies_of(const Limb& chain, double t) const {
     const double wanted = std::pow(chain.weight / t, bodies_power);
     return wanted >= chain.pieces ? chain.pieces : std::max(1, std::int32_t(wanted + 1e-9));
 }
@@ -115,7 +133,7 @@ void Chooser::place(double t) {
     bodies_ = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const auto c = std::size_t(chain_of_[i]);
-        const Chain& chain = chain_[c];
+        const Limb& chain = chain_[c];
         const bool item = tree_.kind[i] != Kind::branch, petal = tree_.kind[i] == Kind::petal;
         if (resolved(c, t)) {
             const std::int64_t k = piece_[i], p = chain.pieces, m = bodies_of(chain, t);
@@ -202,7 +220,7 @@ Resolution choose_bodies(const Tree& whole, const Flexibility& give, std::int64_
                                     " bodies (the way to its top, and a clump on each for the leaves)");
     std::int64_t held = least;
     const std::int64_t enough = bodies - bodies / 100;
-    for (int k = 0; k < most_tries && held < enough && high - low > 1e-9; ++k) {
+    for (int k = 0; k < most_halvings && held < enough && high - low > 1e-9; ++k) {
         const double middle = (low + high) / 2;
         const std::int64_t now = chooser.count(std::exp(middle));
         if (now > bodies)

@@ -8,11 +8,10 @@
 // ground and where a side branch leaves: the child's half only): bend 1/(E I), twist 1/(G J), K = (kx, ky, kz).
 // Damping. beta = 2 zeta / omega with omega the branch's own first bending frequency (branch_mode.h).
 // Budget. With max_bodies, or where the splines say a number (Splines::bodies; not with a segment_length), a tree of more bodies than that is
-// resolved by
-// fewer (resolve.h): the same tree, what is left out being part of what carries it. A tree of fewer is cut more finely, evenly, for Splines::bodies;
+// resolved by fewer (resolve.h): the same tree, what is left out being part of what carries it. A tree of fewer is cut more finely, evenly, for Splines::bodies;
 // leaves and fruit stay one body each. max_bodies never makes more.
 // Order. Bodies stand branch by branch, a branch's pieces in order, parents before children; leaves and fruit follow
-// all branches. Cost O(points + bodies), of the whole tree; some fifty times with a budget. A branch without length is left
+// all branches. Cost O(points + bodies), of the whole tree; some eighty times with a budget. A branch without length is left
 // out and counted (curves.h). The exact rules of cutting: cut.h.
 // Throws std::invalid_argument where max_bodies is less than the least number possible (says which), or where there
 // are more bodies than an index holds.

@@ -85,10 +85,10 @@ void add_flower(const GrowthParameters&, std::int32_t branch, double at, const V
 // Throws std::invalid_argument where a tree with `waiting` more stems is larger than grow() allows.
 void check_size(const Splines&, std::size_t waiting);
 
-// grow_up_to() by bough's rules, by Arbaro's and tree-gen's, by Sapling's (rules.h); thickening is left to it.
-bool grow_stems(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
-bool grow_segments(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
-bool grow_sapling(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
+// grow() by bough's rules, by Arbaro's and tree-gen's, by Sapling's (rules.h); thickening is left to it.
+void grow_stems(const GrowthParameters&, std::uint64_t seed, const Items&, Splines& out);
+void grow_segments(const GrowthParameters&, std::uint64_t seed, const Items&, Splines& out);
+void grow_sapling(const GrowthParameters&, std::uint64_t seed, const Items&, Splines& out);
 
 // Leaves, flowers and fruit of a stem of the last level, appended to `out`.
 void grow_leaves(const GrowthParameters&, const GrownStem&, Splines& out);

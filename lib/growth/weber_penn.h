@@ -42,7 +42,4 @@ std::int64_t whole_number(double count, double unit);
 // Throws std::invalid_argument for the first parameter out of its range (grow.h).
 void check_growth(const GrowthParameters&);
 
-// grow() that gives up, returning false, as soon as there are more than `most` branches, leaves and fruit together.
-bool grow_up_to(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t most, Splines& out);
-
 } // namespace bough

@@ -1,6 +1,8 @@
 #include "shelter.h"
 #include "../laws/air.h"
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -32,6 +34,16 @@ template <class T> Poses start_poses(const Plan<T>& plan) {
         pose.x[i] = root ? d : Vec3(pose.x[p] + pose.R[p] * d);
     }
     return pose;
+}
+
+// u_b of a clump that the column reaches with u_0^2: u_b^2 s(u_b) = u_0^2 (1 - exp(-s(u_b))), of which the left side grows with u_b, the right one falls.
+double within_clump(double u2, const std::function<double(double)>& share) {
+    double low = 0, high = std::sqrt(u2);
+    for (int k = 0; k < 60; ++k) {
+        const double u = (low + high) / 2, s = share(u);
+        (u * u * s < -u2 * std::expm1(-s) ? low : high) = u;
+    }
+    return high;
 }
 
 } // namespace
@@ -69,8 +81,15 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan) {
     std::map<std::pair<std::int64_t, std::int64_t>, double> left; // of each column: u^2 over the undisturbed
     for (const Obstacle& o : obstacles) {
         double& u2 = left.try_emplace(o.column, 1).first->second;
-        factors[o.body] = T(std::sqrt(u2));
-        if (u2 > 0) u2 *= 1 - share(o.body, std::sqrt(u2));
+        double u = std::sqrt(u2);
+        const auto own_share = [&](double at) { return share(o.body, at); };
+        if (plan.kind[o.body] != Kind::clump) {
+            u2 = std::max(u2 * (1 - own_share(u)), 0.0);
+        } else {
+            u = within_clump(u2, own_share);
+            u2 *= std::exp(-own_share(u));
+        }
+        factors[o.body] = T(u);
     }
     return factors;
 }

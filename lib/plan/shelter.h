@@ -5,7 +5,8 @@
 //   rho A d(u^2) = -F_b,   F_b = kappa rho A_b u_b^2 (f_b . e),   f_b the law of air.h over u_b^2 for a wind of u_b along e on the standing body
 // With u_b the column's speed before the body, u after it is u_b sqrt(1 - kappa A_b (f_b . e) / A): what is taken from the columns is the sum of
 // the bodies' drags exactly, the first body of a column has all of the wind, and a crown of many leaves thins it out exponentially, with
-// no constant of its own. A body counts in the column of its centre of mass, in the pose at the start; what is beside the columns does not mix in.
+// no constant of its own. A clump of leaves thins the air out within itself as its leaves would one after another: with s its share kappa A_b (f_b . e) / A,
+// u falls from u_0 to u_0 exp(-s / 2), and the clump feels u_b, at which its drag is what the column loses: u_b^2 s = u_0^2 (1 - exp(-s)). A body counts in the column of its centre of mass, in the pose at the start; what is beside the columns does not mix in.
 // The factor u_b over the undisturbed u multiplies all of the wind at the body, over all of the run.
 #pragma once
 #include "plan.h"

@@ -10,6 +10,7 @@ tried=0
 for page in $pages; do
     awk '/^```sh$/ { on = 1; next } /^```/ { on = 0 } on' "$top/$page" >commands
     [[ $draws == yes ]] || sed -i '/^picture /d' commands
+    sed -i 's/^\(picture .*--fps\) [0-9]*/\1 1/' commands # a second of a moving picture is drawn once: without a graphics card that takes 2 s
     [[ -s commands ]] || continue
     rm -rf project
     mkdir -p project/build

@@ -10,6 +10,8 @@ refused 1 "INPUT" treeconvert --strict
 refused 1 "--segment-length" treeconvert splines.json --segment-length -1
 refused 1 "--segment-length" treeconvert splines.json --segment-length nan
 refused 1 "--max-bodies" treeconvert splines.json --max-bodies 1
+sed 's/"bodies": *400/"bodies": 1/' splines.json >one.json
+refused 2 "/bodies: is 1, but this tree has at least" treeconvert one.json
 refused 1 "--sides" treeconvert splines.json --sides 8
 refused 1 "--sides" treeconvert splines.json --mesh x.obj --sides 2
 refused 1 "--mesh" treeconvert splines.json --mesh x.stl

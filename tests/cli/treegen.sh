@@ -13,22 +13,23 @@ refused 1 "--species" treegen --species baobab
 refused 1 "--units" treegen --import "$maple" --units furlong
 refused 1 "--bodies" treegen --bodies 0
 refused 1 "--bodies" treegen --bodies 1e3
+refused 1 "--bodies: is 1, but this tree has at least" treegen --bodies 1 --leaves
 refused 1 "--format" treegen --seed 1 --format xml
 refused 1 "one argument too many" treegen --seed 1 tree.json
 
 # Every listed name grows; the same seed gives the same bytes, another seed does not.
 expect 0 treegen --list-species
-while read -r name; do expect 0 treegen --species "$name" --bodies 200 -o "$name.json"; done < <(treegen --list-species)
-expect 0 treegen --species willow --bodies 500 --seed 7 --no-source --threads 1 -o a.json
-expect 0 treegen --species willow --bodies 500 --seed 7 --no-source --threads 3 -o b.json
+while read -r name; do expect 0 treegen --species "$name" --age 6 --bodies 200 -o "$name.json"; done < <(treegen --list-species)
+expect 0 treegen --species willow --age 8 --bodies 500 --seed 7 --no-source --threads 1 -o a.json
+expect 0 treegen --species willow --age 8 --bodies 500 --seed 7 --no-source --threads 3 -o b.json
 same a.json b.json
 
 # Ages and seasons: a young tree is lower, winter is bare, an item that the season lacks is said.
 top() { treeconvert "$1" --stats -q -o /dev/null 2>&1 | awk '$1 == "height" { print $2 }'; }
 expect 0 treegen --species oak --age 10 -o young.json
-expect 0 treegen --species oak --age 100 -o old.json
+expect 0 treegen --species oak --age 40 -o old.json
 awk -v young="$(top young.json)" -v old="$(top old.json)" 'BEGIN { exit !(young < old / 2) }' || fail "an oak of 10 years is not lower"
-expect 0 treegen --species cherry --season spring --bodies 2000 -o spring.json
+expect 0 treegen --species cherry --age 8 --season spring --bodies 2000 -o spring.json
 grep -q '"leaf_kind"' spring.json || fail "a cherry without petals in spring"
 expect 0 treegen --species cherry --season winter --leaves --bodies 500 -o winter.json
 grep -q 'cherry has no leaves in winter' err || fail "no word on the leaves that winter lacks"
@@ -54,8 +55,15 @@ expect 0 treegen --bodies 500 --seed 8 --no-source -o c.json
 same a.json b.json
 ! cmp -s a.json c.json || fail "two seeds gave one tree"
 
+# A number of bodies changes no branch and no leaf, and few of them hold leaves too.
+treegen --seed 7 --leaves --no-source -o whole.json
+treegen --seed 7 --leaves --no-source --bodies 60 -o few.json
+same <(sed 's/"bodies": *60,//' few.json | tr -d ' \n') <(tr -d ' \n' <whole.json)
+treeconvert few.json -q --stats -o few.tree.json 2>err
+grep -Eq '^bodies +[1-6][0-9]: [0-9]+ of branches, [1-9][0-9]* leaves' err || fail "60 bodies are more, or hold no leaves: $(cat err)"
+
 # The command line is recorded, and is not with --no-source.
-treegen --bodies 300 --seed 7 | grep -q 'treegen --bodies 300 --seed 7' || fail "the command line is not in the output"
+treegen --bodies 300 --seed 7 | grep 'treegen --bodies 300 --seed 7' >grepped || fail "the command line is not in the output"
 ! grep -q 'treegen --bodies' a.json || fail "--no-source left the command line in"
 
 # stdout, -o and both forms say the same; stdin is a file like another.

@@ -96,16 +96,16 @@ inline Wind gusts() {
     return wind;
 }
 
-// Several on one body, and on many bodies at once.
-inline std::vector<Pull> pulls() {
-    std::vector<Pull> all{coupled::pull_on(3, Vec3(1, 0, -4), Vec3(-8, 1, 2)),
-                          coupled::pull_on(3, Vec3(-1, 2, 0), Vec3(2, 2, 2)),
-                          coupled::pull_on(7, Vec3(0, -1, 1), Vec3(0, 1, 0))};
+// Several on one body, and on many bodies at once; `times` as strong, for trees that are firm.
+inline std::vector<Pull> pulls(double times = 1) {
+    std::vector<Pull> all{coupled::pull_on(3, Vec3(1, 0, -4), times * Vec3(-8, 1, 2)),
+                          coupled::pull_on(3, Vec3(-1, 2, 0), times * Vec3(2, 2, 2)),
+                          coupled::pull_on(7, Vec3(0, -1, 1), times * Vec3(0, 1, 0))};
     Pull level;
     level.on.by = Selector::By::level;
     level.on.level = 1;
     level.time = {0, 0.7, 3};
-    level.force = {Vec3(0, 0, 0.1), Vec3(0.1, 0.05, -0.2), Vec3::Zero()};
+    level.force = {times * Vec3(0, 0, 0.1), times * Vec3(0.1, 0.05, -0.2), Vec3::Zero()};
     all.push_back(level);
     return all;
 }

@@ -194,15 +194,20 @@ inline Tree forest(const std::vector<Tree>& trees) {
             t.inertia.push_back(more.inertia[i]);
             t.stiffness.push_back(more.stiffness[i]);
             t.damping.push_back(more.damping[i]);
-            if (!more.leaf_count.empty()) {
-                t.leaf_count.resize(t.parent.size(), 1);
-                t.leaf_count.back() = more.leaf_count[i];
-            }
             last_branch = std::max(last_branch, t.branch.back());
         }
         branches = last_branch + 1;
+        const auto add_some = [&](auto& to, const auto& from, auto otherwise) {
+            if (to.empty() && from.empty()) return;
+            to.resize(std::size_t(first), otherwise);
+            to.insert(to.end(), from.begin(), from.end());
+            to.resize(t.parent.size(), otherwise);
+        };
+        add_some(t.leaf_count, more.leaf_count, 1);
+        add_some(t.leaf_length, more.leaf_length, 0.0);
+        add_some(t.leaf_width, more.leaf_width, 0.0);
+        add_some(t.drag, more.drag, 1.0);
     }
-    if (!t.leaf_count.empty()) t.leaf_count.resize(t.parent.size(), 1);
     return t;
 }
 

@@ -1,4 +1,5 @@
 #include "engine.h"
+#include <Eigen/Eigenvalues>
 #include <cstring>
 #include <mujoco/mujoco.h>
 #include <sstream>
@@ -18,18 +19,26 @@ void attribute(std::ostream& out, const char* name, std::initializer_list<double
 }
 
 void open_body(std::ostream& out, const Tree& tree, std::size_t i) {
-    if (tree.inertia[i] != Mat3(tree.inertia[i].diagonal().asDiagonal()))
-        throw std::runtime_error("MuJoCo yardstick: inertia must be diagonal in the body's axes");
     const Vec3 &at = tree.joint_position[i], &com = tree.com[i];
     const Quat& q = tree.joint_rotation[i];
-    const Vec3 d = mass_scale * tree.inertia[i].diagonal();
+    const Mat3 I = mass_scale * tree.inertia[i];
     out << "<body name=\"b" << i << '"';
     attribute(out, "pos", {at.x(), at.y(), at.z()});
     attribute(out, "quat", {q.w(), q.x(), q.y(), q.z()});
     out << "><joint type=\"ball\"/><inertial";
     attribute(out, "pos", {com.x(), com.y(), com.z()});
     attribute(out, "mass", {mass_scale * tree.mass[i]});
-    attribute(out, "diaginertia", {d.x(), d.y(), d.z()});
+    if (I == Mat3(I.diagonal().asDiagonal())) {
+        attribute(out, "diaginertia", {I(0, 0), I(1, 1), I(2, 2)});
+    } else { // by principal axes; MuJoCo's own search for them ends at 1e-6
+        const Eigen::SelfAdjointEigenSolver<Mat3> principal(I);
+        Mat3 axes = principal.eigenvectors();
+        if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+        const Quat turn(axes);
+        const Vec3& d = principal.eigenvalues();
+        attribute(out, "quat", {turn.w(), turn.x(), turn.y(), turn.z()});
+        attribute(out, "diaginertia", {d.x(), d.y(), d.z()});
+    }
     out << "/>\n";
 }
 

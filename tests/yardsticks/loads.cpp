@@ -81,9 +81,10 @@ void compute_loads(const Tree& tree, const bough::Scene& scene, const std::vecto
         loads.moment[i].setZero();
         if (!scene.wind) continue;
         const Vec3 u = wind_at(*scene.wind, time) - bodies.com_velocity[i];
-        loads.force[i] = air_force(tree, i, scene.air_density, bodies.R_wb[i], u);
+        const double density = scene.air_density * (tree.drag.empty() ? 1 : tree.drag[i]);
+        loads.force[i] = air_force(tree, i, density, bodies.R_wb[i], u);
         if (tree.kind[i] != bough::Kind::leaf) continue;
-        const double area = 0.6 * scene.air_density * tree.size[i][0] * tree.size[i][1] / 2;
+        const double area = 0.6 * density * tree.size[i][0] * tree.size[i][1] / 2;
         const double rate = (!tree.leaf_count.empty() && tree.leaf_count[i] > 1 ? 1 : 6) * area / tree.mass[i] *
                             u.norm() / (1 + u.norm() / 7.5);
         const Mat3 I = bodies.R_wb[i] * tree.inertia[i] * bodies.R_wb[i].transpose();

@@ -1,5 +1,6 @@
 // Parameters of other programs: what is read, what is refused, and that a tree follows them. Numbers are worked out here
 // from the parameters in the fixtures.
+#include "lib/growth/segment.h"
 #include "tests/support/params_support.h"
 #include "tests/support/sanitized.h"
 
@@ -165,9 +166,11 @@ TEST_CASE("The same parameters by another program's rules are another tree") {
 TEST_CASE("Bodies asked for are met with other programs' parameters, too") {
     for (const char* name : {"arbaro_small.xml", "tree_gen_small.py", "sapling_old.json"}) {
         const GrowthParameters p = read_params(fixture(name), name).growth;
-        const Splines s = grow_bodies(p, 1, {true, false, false}, 3000);
-        CHECK(s.branches() > 100);
-        CHECK(s.leaves() > 100);
+        for (const std::int64_t bodies : {100, 3000}) { // fewer than the tree has, and more
+            INFO(name << ", " << bodies << " bodies");
+            const Tree tree = segment(grow_bodies(p, 1, {true, false, false}, bodies), wood_presets().front(), {});
+            CHECK(double(tree.size_bodies()) == Approx(double(bodies)).epsilon(0.1));
+        }
     }
 }
 

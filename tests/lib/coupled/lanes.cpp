@@ -19,8 +19,9 @@ std::vector<Case> cases() {
     all.push_back({"rest pose let go, many leaves", large, drop});
     all.push_back({"gusts, leaves and fruit", large, in_wind(gusts())});
     Scene pulled;
-    pulled.pulls = pulls();
+    pulled.pulls = pulls(20);
     all.push_back({"pulls", large, pulled});
+    pulled.pulls = pulls();
     pulled.wind = gusts();
     all.push_back({"pulls in gusts", leafy, pulled});
     Scene moved;

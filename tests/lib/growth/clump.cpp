@@ -101,6 +101,8 @@ TEST_CASE("very many clumps are drawn as fewer leaves each") {
     Tree tree;
     tree.leaf_count.assign(3000, 500);
     CHECK(clump_leaves_drawn(tree) == 64);
+    CHECK(clump_leaves_drawn(tree, 24'000) == 8);
+    CHECK(clump_leaves_drawn(tree, 500) == 1);
     tree.leaf_count.assign(20'000, 500);
     CHECK(clump_leaves_drawn(tree) == 10);
     tree.leaf_count.assign(20'000, 8);

@@ -351,6 +351,4 @@ TEST_CASE("Parameters out of range are refused by name") {
     p.level[3].down_angle = 1000;
     p.levels = 2;
     CHECK_NOTHROW(grow(p, 1, {true, false, true}));
-    Splines tree;
-    CHECK_FALSE(grow_up_to(p, 1, {}, 30, tree));
 }

@@ -4,7 +4,6 @@
 #include "formats/documents/tree.h"
 #include "lib/free/shown_tree.h"
 #include "lib/growth/grow.h"
-#include "lib/growth/lop.h"
 #include "lib/model/split.h"
 #include "lib/plan/reduce.h"
 #include "tests/support/hand_made.h"
@@ -58,50 +57,34 @@ TEST_CASE("what is said is said where it changes something") {
     Splines s = trunk_with_leaves({0.1, 0.15});
     say_leaf_count(s);
     CHECK(s.leaf_count.empty());
-    say_leaf_count(s, 2.95);
-    CHECK(s.leaf_count == std::vector<std::int32_t>{9, 9});
     s.leaf_length[1] = 0.25;
     say_leaf_count(s);
     CHECK(s.leaf_count == std::vector<std::int32_t>{1, 1});
     s.leaf_kind = {0, 1};
-    say_leaf_count(s, 0.5);
+    say_leaf_count(s);
     CHECK(s.leaf_count.empty());
-    say_leaf_count(s, 3);
-    CHECK(s.leaf_count == std::vector<std::int32_t>{9, 1});
 }
 
-TEST_CASE("trees of few bodies stand for as many leaves as have their leaf area") {
+TEST_CASE("trees of few bodies stand for all their leaves") {
     GrowthParameters p = default_growth();
-    p.leaf_scale = 0.07;
-    p.leaf_scale_v = 0.02;
     const Splines all = grow(p, 3, {true, false, false});
     CHECK(all.leaf_count.empty());
     for (const std::int64_t bodies : {300, 1500}) {
-        const Splines few = grow_bodies(p, 3, {true, false, false}, bodies);
-        REQUIRE(few.leaf_count.size() == few.leaves());
-        // A leaf's mean area: length is uniform about leaf_scale, width goes with it.
-        const double one = p.leaf_scale_x * (p.leaf_scale * p.leaf_scale + p.leaf_scale_v * p.leaf_scale_v / 3);
-        CHECK(double(sum(few.leaf_count)) == Approx(leaf_area(few) / one).epsilon(0.06));
-        CHECK(few.leaf_count[0] > 1);
-        const Tree tree = segment(few, wood(), {});
+        const Tree tree = segment(grow_bodies(p, 3, {true, false, false}, bodies), wood(), {});
         REQUIRE(tree.leaf_count.size() == tree.size_bodies());
-        CHECK(sum(tree.leaf_count) == sum(few.leaf_count) + std::int64_t(tree.size_bodies() - few.leaves()));
-        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        std::int64_t leaves = 0;
+        double area = 0;
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
             if (tree.kind[i] != Kind::leaf) REQUIRE(tree.leaf_count[i] == 1);
+            if (tree.kind[i] == Kind::leaf) leaves += tree.leaf_count[i], area += foliage_area(tree, i);
+        }
+        CHECK(leaves == std::int64_t(all.leaves()));
+        CHECK(area == Approx(leaf_area(all) / 2).epsilon(1e-9)); // triangles of that length and width
     }
     p.leaf_scale = 0.6; // a palm's
     const Splines long_ones = grow(p, 3, {true, false, false});
     CHECK(sum(long_ones.leaf_count) == std::int64_t(long_ones.leaves()));
     CHECK(segment(long_ones, wood(), {}).leaf_count.empty());
-}
-
-TEST_CASE("twigs that are lopped take their leaves' numbers along") {
-    Splines s = small_tree();
-    for (std::size_t k = 0; k < s.leaves(); ++k) s.leaf_count.push_back(10 + s.leaf_branch[k]);
-    const Splines less = without_twigs(s, 1, 1);
-    REQUIRE(less.leaves() < s.leaves());
-    REQUIRE(less.leaf_count.size() == less.leaves());
-    for (std::size_t k = 0; k < less.leaves(); ++k) CHECK(less.leaf_count[k] == 10 + less.leaf_branch[k]);
 }
 
 TEST_CASE("clumps keep through joining, splitting, reducing and what is shown") {

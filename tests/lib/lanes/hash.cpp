@@ -13,14 +13,14 @@ constexpr int frames = 6;
 
 // Large enough for several blocks beside the top.
 const Case& large() {
-    static const Case c{"grown", grown(20000), everything()};
+    static const Case c{"grown", grown(20500), everything()};
     return c;
 }
 
 // Leaves that turn fast: the energy guard has work.
 const Case& flapping() {
     static const Case c = [] {
-        Case made{"flapping", grown(20000), {}, 0.1, 20};
+        Case made{"flapping", grown(20500), {}, 0.1, 20};
         made.scene.wind = gusts();
         return made;
     }();
@@ -30,7 +30,7 @@ const Case& flapping() {
 // The analytic step's: gusts and pulls, leaves that the energy guard and half turns have to do with.
 const Case& paper() {
     static const Case c = [] {
-        Case made{"analytic", grown(20000), {}, 0.1, 20};
+        Case made{"analytic", grown(20500), {}, 0.1, 20};
         made.scene.wind = gusts();
         made.scene.pulls = pulls();
         made.solver = Solver::analytic;

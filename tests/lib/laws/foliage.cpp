@@ -227,21 +227,20 @@ TEST_CASE("In a steady wind of 3 m/s a birch's leaves come to rest") {
     CHECK(sway_of(tree, in_steady(3), 240, 1).fastest < 1e-3);
 }
 
-TEST_CASE("Clumps on thin twigs do not flutter in a storm where small steps show none") {
-    const Tree birch = species("birch", 1000, 1);
+TEST_CASE("Clumps on thin twigs flutter in a storm little more than small steps have them") {
     Scene scene;
     scene.wind = wind_preset("storm");
     // Share of leaves' frames, the first second left out, in which one turns by more than 30 degrees.
-    const auto share = [&](int substeps) {
-        const Plan<double> plan = plan_of(birch, scene, 1.0 / (30 * substeps), fast::best_target());
+    const auto share = [&](const Tree& tree, int substeps) {
+        const Plan<double> plan = plan_of(tree, scene, 1.0 / (30 * substeps), fast::best_target());
         State<double> state = make_state(plan);
         std::vector<Mat3> before;
         std::size_t fast = 0, all = 0;
         for (int f = 1; f <= (sanitized ? 45 : 100); ++f) {
             for (int k = 0; k < substeps; ++k) advance(plan, state);
             present(plan, state);
-            for (std::size_t i = 0; f > 30 && i < birch.size_bodies(); ++i) {
-                if (birch.kind[i] != Kind::leaf) continue;
+            for (std::size_t i = 0; f > 30 && i < tree.size_bodies(); ++i) {
+                if (tree.kind[i] != Kind::leaf) continue;
                 const double turn = Eigen::AngleAxisd(Mat3(before[i].transpose() * state.R_wb[i])).angle();
                 fast += turn > std::numbers::pi / 6;
                 ++all;
@@ -250,5 +249,10 @@ TEST_CASE("Clumps on thin twigs do not flutter in a storm where small steps show
         }
         return double(fast) / double(all);
     };
-    CHECK(share(1) < share(8) + 0.003);
+    // With twice extrapolated_turn they are 1.5 beside 0.4 % of the birch's, 1.3 beside 0 % of the willow's.
+    for (const char* const name : {"birch", "willow"}) {
+        const Tree tree = species(name, 1000, 1);
+        CAPTURE(name);
+        CHECK(share(tree, 1) < 2 * share(tree, 8) + 0.003);
+    }
 }

@@ -10,7 +10,11 @@ using namespace bough;
 namespace {
 
 Splines apple() {
-    static const Splines splines = grow_bodies(default_growth(), 5, {true, false, true}, 400);
+    static const Splines splines = [] { // small, and whole: by fewer bodies, what a material gives is matched anew
+        GrowthParameters p = default_growth();
+        p.levels = 2;
+        return grow(p, 5, {true, false, true});
+    }();
     return splines;
 }
 

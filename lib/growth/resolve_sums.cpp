@@ -1,0 +1,113 @@
+#include "resolve_sums.h"
+#include "../model/body_shape.h"
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace bough {
+namespace {
+
+constexpr double g = 1 / (1 + 8 / 7.5); // what folding leaves of leaves' speed at 8 m/s
+
+// A blade's drag over that of one that faces all ways (air.h), mean over horizontal winds: n its normal, (u.n)^2 is (1 - n_y^2) / 2 of |u|^2, which a quarter
+// of its drag does not ask for. At 8 m/s blades that stream give the same within a tenth, as they turn to the wind as often as from it.
+double met_by_wind(const Vec3& normal) {
+    return 0.5 + 0.75 * (1 - normal.y() * normal.y());
+}
+
+// Of a blade of normal n, over that of one that faces all ways: how the air damps its motion (air.h).
+Mat3 damped(const Vec3& normal) {
+    return 0.5 * damped_all_ways() + 1.5 * (1 + g / 2 * (1 - normal.y() * normal.y())) * (normal * normal.transpose());
+}
+
+// What a joint further out, whose load's first moment is `outer`, feels of a torque about the first joint of its branch, whose load's is `inner`: all loads
+// growing alike. Torques are across the moments under any acceleration; along them, that of the moment's own share. No more than all of it.
+Mat3 share_of_torque(const Vec3& outer, const Vec3& inner) {
+    const double square = inner.squaredNorm();
+    if (!(square > 0)) return Mat3::Identity();
+    const double share = std::clamp(outer.dot(inner) / square, 0.0, 1.0);
+    const Mat3 M =
+        (outer.dot(inner) * Mat3::Identity() - inner * outer.transpose() + share * inner * inner.transpose()) / square;
+    return M / std::max(1.0, M.norm() / std::sqrt(3.0));
+}
+
+void add_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen, std::vector<Sums>& sums) {
+    const std::size_t n = whole.size_bodies();
+    for (std::size_t i = 0; i < n; ++i) {
+        Sums& s = sums[std::size_t(chosen.body[i])];
+        const Vec3& size = whole.size[i];
+        s.mass += whole.mass[i];
+        s.first += whole.mass[i] * bend.pose.at(i, whole.com[i]);
+        s.give += bend.give[i];
+        ++s.parts;
+        if (is_flat(whole.kind[i])) {
+            const double area = foliage_area(whole, i);
+            s.leaves += area;
+            s.met += area * (is_clump(whole, i) ? 1 : met_by_wind(bend.pose.R_wb[i].col(1)));
+            s.thickness += area * size[2];
+            s.proportion += area * size[1] / size[0];
+            s.count += whole.leaf_count.empty() ? 1 : whole.leaf_count[i];
+        } else if (whole.kind[i] == Kind::branch) {
+            s.wood += frustum_section(size[0], size[1], size[2]) * met_by_wind_across(bend.pose.R_wb[i].col(2));
+        }
+        const std::int32_t p = whole.parent[i];
+        if (p < 0 || chosen.body[std::size_t(p)] != chosen.body[i]) {
+            s.joints += bend.mass[i] * bend.pose.x_w[i];
+            s.joined += bend.mass[i];
+        }
+        const auto first = std::size_t(chosen.first[std::size_t(chosen.body[i])]);
+        if (whole.kind[i] == Kind::branch && whole.kind[first] == Kind::branch &&
+            whole.branch[i] == whole.branch[first]) {
+            s.last = std::int32_t(i);
+            const Mat3 M = share_of_torque(bend.first[i], bend.first[first]);
+            s.yields += M.transpose() * stiffness_w(whole, i, bend.pose.R_wb[i]).inverse() * M;
+        }
+    }
+    for (Sums& s : sums) s.com = s.first / s.mass;
+    for (std::size_t i = 0; i < n; ++i) {
+        Sums& s = sums[std::size_t(chosen.body[i])];
+        const Mat3& R = bend.pose.R_wb[i];
+        const Mat3 d = cross_matrix<double>(bend.pose.at(i, whole.com[i]) - s.com);
+        s.inertia += R * whole.inertia[i] * R.transpose() - whole.mass[i] * d * d;
+    }
+}
+
+// How the parts of a body bend where what bears it is held.
+void add_bend(const Tree& whole, const Flexibility& bend, const Resolution& chosen, std::vector<Sums>& sums) {
+    bends(whole, bend, chosen.body, [&](std::size_t i, const Bend& b) {
+        Sums& s = sums[std::size_t(chosen.body[i])];
+        const Mat3& R = bend.pose.R_wb[i];
+        const Vec3& size = whole.size[i];
+        s.loss += whole.damping[i] * b.turn.cwiseProduct(stiffness_w(whole, i, R) * b.turn).sum();
+        s.swing += whole.mass[i] * b.center.squaredNorm() +
+                   b.turned.cwiseProduct(R * whole.inertia[i] * R.transpose() * b.turned).sum();
+        if (is_flat(whole.kind[i]))
+            s.braked +=
+                foliage_area(whole, i) *
+                b.center.cwiseProduct((is_clump(whole, i) ? damped_all_ways() : damped(R.col(1))) * b.center).sum();
+        else if (whole.kind[i] == Kind::branch)
+            s.braked += frustum_section(size[0], size[1], size[2]) * met_by_wind_across(R.col(2)) * wood_in_leaf *
+                        b.center.cwiseProduct(damped_all_ways() * b.center).sum();
+    });
+}
+
+} // namespace
+
+// Of (1 - c^2)^3/2, c = u.t, to second order in the axis' level part, and
+// exact for upright and level ones.
+double met_by_wind_across(const Vec3& axis) {
+    const double level = 1 - axis.y() * axis.y();
+    return 1 - 0.75 * level + 0.1744 * level * level;
+}
+
+Mat3 damped_all_ways() {
+    return Vec3(1 + g / 2, 1, 1 + g / 2).asDiagonal();
+}
+
+std::vector<Sums> sum_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen) {
+    std::vector<Sums> sums(chosen.size());
+    add_up(whole, bend, chosen, sums);
+    add_bend(whole, bend, chosen, sums);
+    return sums;
+}
+
+} // namespace bough
