@@ -8,6 +8,7 @@
 #include "lib/growth/segment.h"
 #include "lib/growth/species.h"
 #include "lib/model/wood.h"
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -47,10 +48,12 @@ std::vector<std::string> species_names() {
 Splines grow(const std::string& species, const GrowOptions& o) {
     const Species kind = species_named(species);
     const Items items{o.leaves, o.petals, o.fruit};
+    if (!(o.age == 0 || (o.age >= 0.1 && std::isfinite(o.age))))
+        throw SceneError("age: is " + std::to_string(o.age) + ", expected 0 (a mature tree) or 0.1 years or more");
     if (o.bodies < 0) throw SceneError("bodies: is " + std::to_string(o.bodies) + ", expected 0 or more");
     try {
-        Splines splines =
-            o.bodies > 0 ? grow_bodies(kind.growth, o.seed, items, o.bodies) : grow(kind.growth, o.seed, items);
+        const GrowthParameters growth = o.age > 0 ? at_age(kind, o.age) : kind.growth;
+        Splines splines = o.bodies > 0 ? grow_bodies(growth, o.seed, items, o.bodies) : grow(growth, o.seed, items);
         splines.material = kind.material;
         splines.color = kind.color;
         return splines;

@@ -25,10 +25,11 @@ struct GrowOptions {
     std::int64_t bodies =
         0; // of the tree that convert() makes of it, within 10 %, foliage included; 0: as many as the species has
     std::uint64_t seed = 0;
+    double age = 0; // [years], 0.1 or more; 0: a mature tree
     bool leaves = false, petals = false, fruit = false;
 };
 std::vector<std::string> species_names();
-// A mature tree of a species that comes with bough. The same as `treegen --species NAME`. Throws SceneError for another name.
+// A tree of a species that comes with bough. The same as `treegen --species NAME`. Throws SceneError for another name.
 Splines grow(const std::string& species, const GrowOptions& = {});
 // Rigid bodies of the splines' own wood, by treeconvert's defaults. Throws SceneError for splines without length.
 Tree convert(const Splines&);

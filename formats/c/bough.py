@@ -71,7 +71,7 @@ _size = ctypes.c_size_t
 
 class _Growth(ctypes.Structure):
     _fields_ = [("check", ctypes.c_uint64), ("species", ctypes.c_char_p), ("bodies", ctypes.c_int64), ("seed", ctypes.c_uint64),
-                ("leaves", ctypes.c_int32), ("petals", ctypes.c_int32), ("fruit", ctypes.c_int32)]
+                ("age", ctypes.c_double), ("leaves", ctypes.c_int32), ("petals", ctypes.c_int32), ("fruit", ctypes.c_int32)]
 
 
 class _Conversion(ctypes.Structure):
@@ -347,13 +347,14 @@ class Tree(_Handle, _HasBodies):
         pathlib.Path(file).write_bytes(self.to_bytes())
 
 
-def grow(species="broadleaf", bodies=0, seed=0, leaves=False, petals=False, fruit=False):
-    """A mature tree of a species, as `treegen --species SPECIES --bodies BODIES --seed SEED`. bodies: that convert() will make of it, within 10 %;
-    0: as many as the species has. Returns Splines."""
+def grow(species="broadleaf", bodies=0, seed=0, leaves=False, petals=False, fruit=False, age=0):
+    """A tree of a species, as `treegen --species SPECIES --bodies BODIES --seed SEED --age AGE`. bodies: that convert() will make of it, within
+    10 %; 0: as many as the species has. age [years]: 0.1 or more; 0: a mature tree. Returns Splines."""
     growth = _c.bough_default_growth()
     growth.species = _text(species)
     growth.bodies = _whole(bodies, "bodies", 0, 2**63 - 1)
     growth.seed = _whole(seed, "seed", 0, 2**64 - 1)
+    growth.age = _number(age, "age")
     growth.leaves, growth.petals, growth.fruit = bool(leaves), bool(petals), bool(fruit)
     return Splines(_made(_c.bough_grow, ctypes.byref(growth)))
 

@@ -33,7 +33,7 @@
 extern "C" {
 #endif
 
-#define BOUGH_ABI 2 /* of this header */
+#define BOUGH_ABI 3 /* of this header */
 /* Of the library that runs: where it is not BOUGH_ABI, this header is not for it. */
 int32_t bough_abi(void);
 const char* bough_version(void); /* "0.1.0" */
@@ -63,14 +63,15 @@ bough_result bough_free(void* handle); /* of any kind; NULL: nothing */
 typedef struct bough_growth {
     uint64_t check;                /* leave as it is */
     const char* species;           /* bough_species(); default "broadleaf" */
-    int64_t bodies;                /* that bough_convert will make, within 10 %; 0: the species' own (default) */
+    int64_t bodies;                /* that bough_convert makes of it, within 10 %; 0: as many as come (default) */
     uint64_t seed;                 /* default 0 */
+    double age;                    /* [years], 0.1 or more; 0: a mature tree (default) */
     int32_t leaves, petals, fruit; /* wanted where not 0 (default 0) */
 } bough_growth;
 bough_growth bough_default_growth(void);
 const char* bough_species(size_t k); /* names, k from 0 on; NULL behind the last */
 
-/* Some seconds for a million bodies. */
+/* Up to a second or two for the largest species, whatever `bodies`. */
 bough_result bough_grow(const bough_growth* growth, bough_splines** splines);
 
 /* A bough-splines document, JSON or safetensors. `name` stands in messages before what is wrong (NULL: "<memory>"), here and below. */

@@ -2,7 +2,7 @@
 # What is baked for engines and film pipelines: vertex animation textures (OpenVAT), USD text, influences fitted for Unreal's wind.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --species apple --bodies 120 --seed 2 --leaves -q -o splines.json
+treegen --species apple --age 6 --bodies 120 --seed 2 --leaves -q -o splines.json
 treeconvert splines.json -q -o tree.json
 gusty=(treesim tree.json --wind gusty --settle 0 --look none --sides 4)
 run=("${gusty[@]}" --frames 6)
@@ -29,7 +29,7 @@ assert info["os-remap"]["Frames"] == 12 and info["animations"]["Sway"] == {"star
 END
 
 # What does not fit is told of, with what helps; nothing is left.
-treegen --species oak --bodies 1500 --seed 2 --leaves -q | treeconvert - -q -o large.tree.json
+treegen --species oak --age 20 --bodies 1500 --seed 2 --leaves -q | treeconvert - -q -o large.tree.json
 refused 1 "--vat-vertices 8192 simplifies it" treesim large.tree.json --wind gusty --frames 2 --settle 0 -o large_vat/ --look none
 absent large_vat
 expect 0 treesim large.tree.json --wind gusty --frames 2 --settle 0 -o large_vat/ --look none --vat-vertices 8000

@@ -17,7 +17,7 @@ libraries=(-L"$build/formats" -L"$build/lib" -lbough_files -lbough -Wl,-rpath,"$
 [[ -z $sanitizers ]] || libraries+=(-fsanitize-link-c++-runtime -lstdc++) # clang's, which the libraries ask for
 treegen --species apple --bodies 10000 --seed 7 | treeconvert - -o apple.tree.json
 wanted=$(hash apple.tree.json --wind gusty --seconds 3 --precision float)
-treegen --species birch --bodies 400 --leaves | treeconvert - -o birch.safetensors
+treegen --species birch --age 8 --bodies 400 --leaves | treeconvert - -o birch.safetensors
 threaded=$(hash birch.safetensors --wind gusty --seconds 1 --precision float)
 ran=0
 for compiler in "${compilers[@]}"; do

@@ -3,7 +3,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 for k in 1 2 3; do
-    treegen --species apple --bodies $((300 * k)) --seed "$k" --leaves -q | treeconvert - -q -o "t$k.json"
+    treegen --species apple --age 8 --bodies $((300 * k)) --seed "$k" --leaves -q | treeconvert - -q -o "t$k.json"
 done
 cat >park.json <<'END'
 {"format": "bough-scene", "version": 1,

@@ -18,6 +18,7 @@ inline bough_tree* birch(bool leaves = true) {
     growth.species = "birch";
     growth.bodies = 300;
     growth.seed = 2;
+    growth.age = 8;
     growth.leaves = leaves;
     bough_splines* splines = nullptr;
     bough_tree* tree = nullptr;

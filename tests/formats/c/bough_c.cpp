@@ -13,7 +13,7 @@ using namespace bough::test;
 namespace {
 
 Tree own_birch() {
-    return convert(grow("birch", {.bodies = 300, .seed = 2, .leaves = true}));
+    return convert(grow("birch", {.bodies = 300, .seed = 2, .age = 8, .leaves = true}));
 }
 
 Scene own_scene(const char* wind) {
@@ -125,7 +125,7 @@ TEST_CASE("bodies and documents are those of the C++ door") {
     CHECK(std::memcmp(read.size, bodies.size, bodies.count * sizeof *bodies.size) == 0);
 
     // Other wood, longer pieces: as segment() makes them.
-    const Splines splines = grow("birch", {.bodies = 300, .seed = 2, .leaves = true});
+    const Splines splines = grow("birch", {.bodies = 300, .seed = 2, .age = 8, .leaves = true});
     write_splines(folder / "s.safetensors", splines);
     const std::string document = read_input(folder / "s.safetensors");
     bough_splines* read_back = nullptr;

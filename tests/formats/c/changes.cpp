@@ -10,7 +10,7 @@ namespace {
 
 Simulation own_in_wind(const char* wind, const SimulationOptions& options) {
     Scene scene;
-    scene.add(convert(grow("birch", {.bodies = 300, .seed = 2, .leaves = true})));
+    scene.add(convert(grow("birch", {.bodies = 300, .seed = 2, .age = 8, .leaves = true})));
     scene.wind = wind_preset(wind);
     return Simulation(scene, options);
 }

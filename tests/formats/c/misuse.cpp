@@ -272,6 +272,8 @@ TEST_CASE("numbers out of range are refused with the number") {
     refused(growing([](auto& g) { g.species = nullptr; }), BOUGH_USAGE, "species: is NULL");
     refused(growing([](auto& g) { g.bodies = -1; }), BOUGH_USAGE, "bodies: is -1");
     refused(growing([](auto& g) { g.bodies = INT64_MAX; }), BOUGH_USAGE, "");
+    for (const double age : {-1.0, 0.01, not_a_number, infinity})
+        refused(growing([age](auto& g) { g.age = age; }), BOUGH_USAGE, "age: is");
     const auto converting = [&](auto change) {
         bough_conversion c = bough_default_conversion();
         change(c);
