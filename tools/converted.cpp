@@ -28,6 +28,7 @@ TreeOfFile converted(const Splines& splines, ImportNotes found, const std::strin
     require_bodies(made.tree, name);
     for (const std::string& line : found.lines) made.notes.push_back(name + ": " + line);
     for (const std::string& line : repairs(report)) made.notes.push_back(name + ": " + line);
+    if (report.joined_fruit > 0) made.notes.push_back(name + ": " + joined_fruit(report));
     const std::string to = (file == "-" ? "tree" : stem_of(file)) + ".tree.json";
     const bool meshed = found.format.find("SpeedTree") != std::string::npos;
     made.notes.push_back(
@@ -59,6 +60,11 @@ std::vector<std::string> repairs(const SegmentReport& report) {
          "branches without length left out, what grows on them moved to their parent");
     note(report.thin_points, "radius raised to the least that has a mass", "radii raised to the least that has a mass");
     return lines;
+}
+
+std::string joined_fruit(const SegmentReport& report) {
+    return counted(report.joined_fruit, "fruit is", "fruit are") +
+           " one with the wood that bears it, and not drawn; more bodies show more";
 }
 
 void require_bodies(const Tree& tree, const std::string& name) {

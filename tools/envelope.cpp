@@ -122,7 +122,7 @@ std::string by_option(const std::string& error, const EnvelopeOptions& o) {
     std::string option = "--" + error.substr(0, error.find(':'));
     std::replace(option.begin(), option.end(), ' ', '-');
     std::vector<std::pair<std::string, bool>> options = o.given();
-    options.insert(options.end(), {{"--envelope", true}, {"--bodies", true}});
+    options.insert(options.end(), {{"--envelope", true}});
     for (const auto& [name, is_given] : options)
         if (name == option)
             return (is_given ? option + ":"
@@ -179,13 +179,11 @@ void add_envelope_options(OptionList& list, EnvelopeOptions& o) {
 
 Splines grow_in_envelope(const EnvelopeOptions& o, const ImportChoice& choice, const EnvelopeRun& run,
                          CommonOptions& common) {
-    if (run.bodies && o.attractors) throw UsageError("--attractors: not with --bodies, which chooses their number");
     const ColonizeParameters p = parameters(o, choice, common);
     ColonizeReport report;
     Splines tree;
     try {
-        tree = run.bodies ? colonize_bodies(p, run.seed, run.leaves, run.fruit, *run.bodies, &report)
-                          : colonize(p, run.seed, run.leaves, run.fruit, &report);
+        tree = colonize(p, run.seed, run.leaves, run.fruit, &report);
     } catch (const std::invalid_argument& error) {
         throw UsageError(by_option(error.what(), o));
     }

@@ -19,7 +19,6 @@ void add_envelope_options(OptionList&, EnvelopeOptions&);
 
 struct EnvelopeRun {
     std::uint64_t seed = 0;
-    std::optional<std::int64_t> bodies;
     bool leaves = false, fruit = false;
 };
 

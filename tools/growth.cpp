@@ -2,6 +2,7 @@
 #include "formats/documents/species.h"
 #include "formats/files.h"
 #include "lib/growth/carry.h"
+#include "lib/growth/segment.h"
 #include "parameters.h"
 #include <algorithm>
 
@@ -28,7 +29,6 @@ std::string raised(std::size_t branches, std::size_t all) {
 
 Splines grow_preset(const GrowthOptions& o, const ImportChoice& choice, EzTreeParameters preset,
                     CommonOptions& common) {
-    if (o.bodies) throw UsageError("--bodies: not with an ez-tree preset, whose numbers are its own");
     if (o.petals) common.notes.push_back(preset.name + " has no petals");
     if (o.fruit) common.notes.push_back(preset.name + " has no fruit");
     if (const auto unit = unit_in_metres(choice.units))
@@ -71,9 +71,7 @@ Splines grow_species(const GrowthOptions& o, const Species& species, CommonOptio
         common.notes.push_back(
             "branches are made thicker where wood must be to carry them (--radii file keeps the file's radii)");
     }
-    const std::uint64_t seed = o.seed.value_or(0);
-    const Items items = chosen_items(o);
-    Splines splines = o.bodies ? grow_bodies(growth, seed, items, *o.bodies) : grow(growth, seed, items);
+    Splines splines = grow(growth, o.seed.value_or(0), chosen_items(o));
     splines.material = species.material;
     splines.color = color;
     return splines;
@@ -151,9 +149,11 @@ void refuse_contradictions(const GrowthOptions& o, bool import) {
         if (is_given) throw UsageError(option + ": only with --envelope");
 }
 
-Splines grow_tree(const GrowthOptions& o, const ImportChoice& choice, CommonOptions& common) {
+namespace {
+
+Splines grow_whole(const GrowthOptions& o, const ImportChoice& choice, CommonOptions& common) {
     if (!o.envelope.envelope.empty())
-        return grow_in_envelope(o.envelope, choice, {o.seed.value_or(0), o.bodies, o.leaves, o.fruit}, common);
+        return grow_in_envelope(o.envelope, choice, {o.seed.value_or(0), o.leaves, o.fruit}, common);
     std::variant<Species, EzTreeParameters> chosen;
     if (o.params.empty())
         chosen = chosen_species(o);
@@ -164,11 +164,21 @@ Splines grow_tree(const GrowthOptions& o, const ImportChoice& choice, CommonOpti
     try {
         return preset ? grow_preset(o, choice, *preset, common) : grow_species(o, std::get<Species>(chosen), common);
     } catch (const std::invalid_argument& error) {
-        const std::string what = error.what(), own = "bodies: ";
-        if (what.starts_with(own)) throw UsageError("--" + what);
-        if (!o.params.empty()) throw InputError(input_name(o.params), what);
-        throw UsageError(what);
+        if (!o.params.empty()) throw InputError(input_name(o.params), error.what());
+        throw UsageError(error.what());
     }
+}
+
+} // namespace
+
+Splines grow_tree(const GrowthOptions& o, const ImportChoice& choice, CommonOptions& common) {
+    Splines splines = grow_whole(o, choice, common);
+    try {
+        if (o.bodies) ask_for_bodies(splines, *o.bodies);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--" + std::string(error.what()));
+    }
+    return splines;
 }
 
 } // namespace bough

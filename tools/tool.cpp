@@ -2,6 +2,7 @@
 #include "file_names.h"
 #include "formats/nearest_name.h"
 #include "formats/plain_text.h"
+#include "formats/temporary.h"
 #include "made_with.h"
 #include "progress.h"
 #include "signals.h"
@@ -9,6 +10,9 @@
 #include <algorithm>
 #include <clocale>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <fcntl.h>
 #include <filesystem>
 #include <iostream>
@@ -25,7 +29,26 @@ void hold_standard_streams() {
         if (::fcntl(fd, F_GETFD) < 0) (void)!::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
 }
 
+const char* tool_that_runs = "bough";
+
+// Memory may end where nothing can be thrown: nlohmann::json allocates as it is freed. That is no reason to dump core.
+[[noreturn]] void end_without_memory() {
+    try {
+        if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        constexpr const char* text = ": out of memory\n";
+        remove_unfinished_outputs();
+        (void)!::write(STDERR_FILENO, tool_that_runs, std::strlen(tool_that_runs));
+        (void)!::write(STDERR_FILENO, text, std::strlen(text));
+        ::_exit(exit_input);
+    } catch (...) {
+    }
+    std::abort();
+}
+
 void prepare_process(const ToolInfo& info) {
+    tool_that_runs = info.name;
+    std::set_terminate(end_without_memory);
     hold_standard_streams();
     std::setlocale(LC_ALL, "C");
     catch_signals(info.name);

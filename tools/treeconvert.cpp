@@ -24,6 +24,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <sstream>
 
 namespace {
@@ -205,7 +206,7 @@ std::string sway_text(const Tree& tree) {
     return text.str();
 }
 
-std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report, double leaf_density) {
+std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report, const Material& wood) {
     const auto [R_wb, x_w] = drawn_pose(tree);
     std::size_t kinds[4] = {0, 0, 0, 0}, roots = 0;
     double mass = 0, leaves = 0, fruit = 0, area = 0, top = 0, softest = INFINITY, stiffest = 0;
@@ -213,15 +214,15 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
         ++kinds[std::size_t(tree.kind[i])];
         roots += tree.parent[i] < 0;
         mass += tree.mass[i];
-        if (tree.kind[i] == Kind::fruit) fruit += tree.mass[i];
         if (is_flat(tree.kind[i])) {
             area += foliage_area(tree, i);
-            leaves += foliage_area(tree, i) * tree.size[i][2] * leaf_density;
+            leaves += foliage_area(tree, i) * tree.size[i][2] * wood.leaf_density;
         }
         top = std::max({top, x_w[i].y(), (x_w[i] + R_wb[i].col(2) * tree.size[i][0]).y()});
         softest = std::min(softest, tree.stiffness[i].minCoeff());
         stiffest = std::max(stiffest, tree.stiffness[i].maxCoeff());
     }
+    for (const double r : splines.fruit_radius) fruit += wood.fruit_density * 4 / 3 * std::numbers::pi * r * r * r;
     std::ostringstream text;
     text << "splines     " << splines.branches() << " branches, " << splines.points() << " points, " << splines.leaves()
          << " leaves, " << splines.fruits() << " fruit\n"
@@ -334,6 +335,7 @@ void work(Options& o) {
     if (o.root_stiffness) stand_on_springs(tree, *o.root_stiffness);
     for (std::string& line : repairs(report)) notes.push_back(std::move(line));
     if (o.strict && !notes.empty()) throw InputError(name, notes.front() + " (--strict)");
+    if (report.joined_fruit > 0) notes.push_back(joined_fruit(report));
     require_bodies(tree, name);
     std::string merged;
     if (o.merge.below) merged = merge_by_trial(tree, o.merge, o.common, o.input);
@@ -341,7 +343,7 @@ void work(Options& o) {
         write_each(split_roots(tree), o);
     else
         write_one(tree, o, o.common.output, o.mesh, o.wind_groups);
-    if (o.stats) std::cerr << statistics(splines, tree, report, material.leaf_density) << merged;
+    if (o.stats) std::cerr << statistics(splines, tree, report, material) << merged;
     for (std::size_t k = o.stats ? guesses : 0; k < notes.size(); ++k) // --stats has told of the guesses
         o.common.notes.push_back(name + ": " + notes[k]);
 }

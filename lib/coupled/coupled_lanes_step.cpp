@@ -1,7 +1,7 @@
 #include "coupled_lanes_step.h"
 #include "../base/parallel.h"
 #include "../lanes/shared_constants.h"
-#include "../laws/air_constants.h"
+#include "../model/air_constants.h"
 #include "../plan/pushes.h"
 #include "attachment.h"
 #include "attachment_lanes.h"

@@ -1,7 +1,7 @@
 // blade.h: a leaf as a surface, made of its outline: what is drawn at each leaf's place.
 //
-// In a leaf's own axes: x across, y the upper face's normal, z from the foot to the tip; its length is 1. Folded along the midrib and curled downward. Texture
-// coordinates run over the squares of a leaf picture (picture_*), v from the top of an image.
+// In a leaf's own axes: x across, y the upper face's normal, z from the foot to the tip; its length is 1. Folded along the midrib and
+// curled downward. Texture coordinates run over the squares of a leaf picture (picture_*), v from the top of an image.
 #pragma once
 #include "leaf_form.h"
 #include <array>
@@ -16,9 +16,9 @@ struct Blade {
     double area = 0; // [1] of the leaf that it shows, laid flat: of one face
 };
 
-// The picture of a species' leaves is four squares: a leaf's upper face at the top left, its lower one at the top right, a spray and another, which mirrors it, below them. In a square a leaf
-// is as long as picture_share of its side, its foot in the middle of the lower edge, and as wide: a leaf of picture_width [1] of its length across. Both
-// sides of a spray look alike.
+// The picture of a species' leaves is four squares: a leaf's upper face at the top left, its lower one at the top right, a spray and
+// another, which mirrors it, below them. In a square a leaf is as long as picture_share of its side, its foot in the middle of the lower
+// edge, and as wide: a leaf of picture_width [1] of its length across. Both sides of a spray look alike.
 constexpr double picture_share = 0.96;
 double picture_width(const LeafForm&, double width);
 

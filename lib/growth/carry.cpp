@@ -107,19 +107,6 @@ void Carrier::bear(std::vector<HungLoad>& loads) {
     }
 }
 
-void hang_items(const Splines& s, const Material& wood, std::vector<std::vector<HungLoad>>& loads) {
-    for (std::size_t i = 0; i < s.leaves(); ++i) {
-        const double thickness = s.is_petal(i) ? wood.petal_thickness : wood.leaf_thickness;
-        const MassProperties leaf = leaf_prism(s.leaf_length[i], s.leaf_width[i], thickness, wood.leaf_density);
-        loads[std::size_t(s.leaf_branch[i])].push_back(
-            {s.leaf_at[i], leaf.mass, leaf.mass * (s.leaf_position[i] + s.leaf_rotation[i] * leaf.com), 0});
-    }
-    for (std::size_t i = 0; i < s.fruits(); ++i) {
-        const double mass = wood.fruit_density * 4 / 3 * pi * std::pow(s.fruit_radius[i], 3);
-        loads[std::size_t(s.fruit_branch[i])].push_back({s.fruit_at[i], mass, mass * s.fruit_center[i], 0});
-    }
-}
-
 // What has none has the least that segmentation would give it, and a weight with it.
 void give_a_radius(Splines& s) {
     const std::vector<double> extent = tree_extents(s);
@@ -130,11 +117,27 @@ void give_a_radius(Splines& s) {
 
 } // namespace
 
+std::vector<HungItem> hung_items(const Splines& s, const Material& wood) {
+    std::vector<HungItem> items;
+    items.reserve(s.leaves() + s.fruits());
+    for (std::size_t i = 0; i < s.leaves(); ++i) {
+        const double thickness = s.is_petal(i) ? wood.petal_thickness : wood.leaf_thickness;
+        const MassProperties leaf = leaf_prism(s.leaf_length[i], s.leaf_width[i], thickness, wood.leaf_density);
+        items.push_back(
+            {s.leaf_branch[i], s.leaf_at[i], leaf.mass, s.leaf_position[i] + s.leaf_rotation[i] * leaf.com});
+    }
+    for (std::size_t i = 0; i < s.fruits(); ++i)
+        items.push_back({s.fruit_branch[i], s.fruit_at[i],
+                         wood.fruit_density * 4 / 3 * pi * std::pow(s.fruit_radius[i], 3), s.fruit_center[i]});
+    return items;
+}
+
 std::size_t thicken_to_carry(Splines& s, const Material& wood, double most_sag) {
     const std::vector<double> drawn = s.radius;
     give_a_radius(s);
     std::vector<std::vector<HungLoad>> loads(s.branches());
-    hang_items(s, wood, loads);
+    for (const HungItem& item : hung_items(s, wood))
+        loads[std::size_t(item.branch)].push_back({item.at, item.mass, item.mass * item.center, 0});
     for (std::size_t b = s.branches(); b-- > 0;) {
         Carrier carrier(s, wood, most_sag, b);
         carrier.bear(loads[b]);

@@ -13,8 +13,8 @@
 // A radius is also at least the next one out, where that was raised, and those of the branches that begin there.
 // Wood that has been raised is weighed as such: one sweep from the tips to the ground. Radii only grow.
 // A radius of 0 before a branch's last point is first made the least that segmentation would give it (curves.h).
-// Reads Splines whose branches stand parents before children; writes its radius; leaves and fruit stay on the bark (bark.h). most_sag [rad] > 0. Cost O(points +
-// items log items) a tree. Errors none.
+// Reads Splines whose branches stand parents before children; writes its radius; leaves and fruit stay on the bark (bark.h). most_sag [rad]
+// > 0. Cost O(points + items log items) a tree. Errors none.
 #pragma once
 #include "../model/splines.h"
 #include "../model/wood.h"
@@ -26,6 +26,15 @@ constexpr double growing_gravity = 9.81;
 
 // most_sag [rad] for trees of other programs, which drew them for pictures.
 constexpr double foreign_sag = 0.5;
+
+// A leaf, petal or fruit as what it weighs on the wood.
+struct HungItem {
+    std::int32_t branch;
+    double at;   // fraction of the branch's arc length
+    double mass; // [kg]
+    Vec3 center; // [m] world
+};
+std::vector<HungItem> hung_items(const Splines&, const Material&);
 
 // Returns how many branches were made thicker.
 std::size_t thicken_to_carry(Splines&, const Material&, double most_sag);

@@ -83,12 +83,4 @@ struct ColonizeReport {
 Splines colonize(const ColonizeParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit,
                  ColonizeReport* report = nullptr);
 
-// The tree that segment() with default options makes `bodies` bodies of, within 10 %: the number of points is searched
-// (and with it all lengths left at their defaults), then, where that misses and the tree is small (at most 30 000
-// points), its neighbours and the number of leaves. At most 12 growths, and 48 small ones. Where the lengths given leave no
-// room for more nodes, more points are not tried: a growth whose bodies rose by less than a tenth of what the points
-// did ends the search. Throws std::invalid_argument where no number gives that many.
-Splines colonize_bodies(const ColonizeParameters&, std::uint64_t seed, bool with_leaves, bool with_fruit,
-                        std::int64_t bodies, ColonizeReport* report = nullptr);
-
 } // namespace bough

@@ -104,6 +104,7 @@ Flexibility flexibility(const Tree& tree, double omega2) {
     f.omega2 = omega2;
     f.mass = tree.mass;
     f.first.resize(n);
+    f.upright.assign(n, 1);
     f.give.resize(n);
     f.turn.resize(n);
     f.follow.resize(n);
@@ -120,6 +121,7 @@ Flexibility flexibility(const Tree& tree, double omega2) {
         const Yielding y = yielding(stiffness_w(tree, i, f.pose.R_wb[i]), f.first[i],
                                     i < on.size() ? on[i] : own_part(tree, i, f.pose.R_wb[i], omega2), arm);
         f.stands &= y.stands;
+        f.upright[i] &= y.stands;
         f.give[i] = y.give;
         f.turn[i] = y.turn;
         f.follow[i] = y.follow;
@@ -127,6 +129,7 @@ Flexibility flexibility(const Tree& tree, double omega2) {
         if (parent < 0) continue;
         f.mass[p] += f.mass[i];
         f.first[p] += f.first[i] + f.mass[i] * arm;
+        f.upright[p] &= f.upright[i];
         on[p] += y.passed;
     }
     f.whole = f.give;

@@ -5,7 +5,6 @@
 #include "segment.h"
 #include "stand.h"
 #include "stem.h"
-#include <algorithm>
 #include <stdexcept>
 
 namespace bough {
@@ -14,18 +13,6 @@ namespace {
 
 constexpr std::size_t kMostItems = 50'000'000;     // branches, leaves and fruit
 constexpr std::size_t kMostPoints = 1'000'000'000; // what Splines::first_point can hold, and some room
-
-// No tree needs more: each trunk and each branch on the way to the top are a body, with a clump of leaves and one of petals each.
-std::int64_t most_of_the_least(const Splines& s) {
-    const auto roots = std::count(s.parent.begin(), s.parent.end(), -1);
-    std::vector<std::int32_t> depth(s.branches(), 0);
-    std::int32_t deepest = 0;
-    for (std::size_t b = 0; b < s.branches(); ++b) {
-        if (s.parent[b] >= 0) depth[b] = depth[std::size_t(s.parent[b])] + 1;
-        deepest = std::max(deepest, depth[b]);
-    }
-    return 3 * (roots + deepest);
-}
 
 } // namespace
 
@@ -49,19 +36,18 @@ Splines grow(const GrowthParameters& parameters, std::uint64_t seed, const Items
     if (parameters.pipe_exponent > 0) thicken_by_pipe_model(out, exponent_for_trunk(out, parameters.pipe_exponent));
     if (parameters.most_sag > 0) {
         thicken_to_carry(out, parameters.wood, parameters.most_sag);
-        thicken_to_stand(out, parameters.wood, parameters.most_sag);
+        if (const std::size_t falling = thicken_to_stand(out, parameters.wood, parameters.most_sag); falling > 0)
+            throw std::invalid_argument("most_sag: " + std::to_string(falling) +
+                                        " branches do not stand under twice their weight, however thick: expected "
+                                        "shorter ones, or stiffer wood");
     }
     say_leaf_count(out);
     return out;
 }
 
 Splines grow_bodies(const GrowthParameters& parameters, std::uint64_t seed, const Items& items, std::int64_t bodies) {
-    constexpr std::int64_t most = 20'000'000;
-    if (bodies < 1 || bodies > most)
-        throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " + std::to_string(most));
     Splines result = grow(parameters, seed, items);
-    result.bodies = bodies;
-    if (bodies < most_of_the_least(result)) count_bodies(result, {}); // which says what is the least
+    ask_for_bodies(result, bodies);
     return result;
 }
 

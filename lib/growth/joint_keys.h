@@ -3,10 +3,10 @@
 // A joint's key at a frame is its rotation from its parent joint's frame. Between keys a player turns at a constant rate
 // (slerp). thin() keeps the first and last frame of a joint and, in between, as few keys as a greedy search needs, so that
 // at every frame **the joint's world rotation**, as a player works it out from the keys of the whole path, is within
-// `tolerance` of the true one, but for the float keys' own rounding, 1e-7 rad a joint of the path. A joint's keys are chosen against what the keys already chosen make of its parent; so the
-// angles' errors do not add up along a path, and what stands at the end of a path of length l is misplaced by at most
-// 2 sin(tolerance / 2) l. A joint that one constant rotation serves has one key, or none where the drawn rotation does;
-// only joint 0 always keeps its first and last, which say how long the motion lasts.
+// `tolerance` of the true one, but for the float keys' own rounding, 1e-7 rad a joint of the path. A joint's keys are chosen against what
+// the keys already chosen make of its parent; so the angles' errors do not add up along a path, and what stands at the end of a path of
+// length l is misplaced by at most 2 sin(tolerance / 2) l. A joint that one constant rotation serves has one key, or none where the drawn
+// rotation does; only joint 0 always keeps its first and last, which say how long the motion lasts.
 // Rotations are kept in float, 16 bytes a joint and frame. thin() is O(joints * frames), times the logarithm of the distance of keys;
 // joints of one depth are worked out at once, each alone, so that the thread count cannot change the result.
 #pragma once

@@ -1,9 +1,9 @@
-// leaf_form.h: how a species' leaf looks: its outline as a curve, and what is made of it. Nothing of it moves a tree: a leaf's body stays the prism of
-// Splines' length and width, and what is drawn has its area.
+// leaf_form.h: how a species' leaf looks: its outline as a curve, and what is made of it. Nothing of it moves a tree: a leaf's body stays
+// the prism of Splines' length and width, and what is drawn has its area.
 //
-// Outline: half of the blade, from its foot (the first point, which may lie in a notch) to its tip, as pairs (along, across) with the blade's length and half its width as units; the other half
-// mirrors it. Across may rise and fall and along may turn back: lobes. A smooth curve goes through the points (Catmull and Rom's), sharp where two points
-// are the same.
+// Outline: half of the blade, from its foot (the first point, which may lie in a notch) to its tip, as pairs (along, across) with the
+// blade's length and half its width as units; the other half mirrors it. Across may rise and fall and along may turn back: lobes. A smooth
+// curve goes through the points (Catmull and Rom's), sharp where two points are the same.
 #pragma once
 #include "../base/math.h"
 #include <Eigen/Core>
@@ -30,8 +30,8 @@ struct LeafForm {
 // Throws std::invalid_argument for the first value out of its range, named as in the species document ("leaf_outline").
 void check_leaf_form(const LeafForm&);
 
-// The half outline of a leaf of length 1, petiole included, and `width` at the blade's widest: x across (0 and more), y along, from (0, 0) to (0, 1). `fine`
-// points between two of the outline's, 0: none, as a mesh has it; teeth as corners. The area of both halves is below 1.
+// The half outline of a leaf of length 1, petiole included, and `width` at the blade's widest: x across (0 and more), y along, from (0, 0)
+// to (0, 1). `fine` points between two of the outline's, 0: none, as a mesh has it; teeth as corners. The area of both halves is below 1.
 std::vector<Vec2> leaf_half(const LeafForm&, double width, int fine);
 
 // Twice the area between a half outline and its midrib.

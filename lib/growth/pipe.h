@@ -1,6 +1,7 @@
 // pipe.h: radii that carry what grows on them, by the pipe model: at every point of a branch r^exponent is at least
 // the sum of r^exponent of all tips, its own and its side branches', further out; exponent 2 is da Vinci's rule. Radii
-// only grow. Leaves and fruit stay on the bark (bark.h). Reads and writes Splines::radius (of a tree whose branches stand parents before children). O(points log points).
+// only grow. Leaves and fruit stay on the bark (bark.h). Reads and writes Splines::radius (of a tree whose branches stand parents before
+// children). O(points log points).
 #pragma once
 #include "../model/splines.h"
 

@@ -13,6 +13,7 @@ constexpr double most_stiffness = 1e12; // [N m/rad]
 constexpr double most_lever = 2;        // of a clump's joint, over its radius of gyration
 constexpr double least_narrowed = 0.2;  // of a clump's spread: no body is without inertia about any axis
 constexpr double most_droop = 0.8;      // [rad]
+constexpr double most_matched = 7;      // by how much a joint is stiffened or softened, as a power of e
 
 class Lumper {
 public:
@@ -73,19 +74,23 @@ void Lumper::wood(std::size_t b, std::size_t i) {
         tree_.stiffness[b] = (pose_.R_wb[b].transpose() * s.yields * pose_.R_wb[b]).diagonal().cwiseInverse();
 }
 
-// How much of a clump's wood is taken for held by what bears it, the rest with the leaves on a joint, so that a slow push bends the clump by as much, at as much
-// kinetic energy and as much of it taken by the air, as it does its parts: with c its centre's way, m what moves, r^2 = I / m across, L the joint's lever,
+// How much of a clump's wood is taken for held by what bears it, the rest with the leaves on a joint, so that a slow push bends the clump
+// by as much, at as much kinetic energy and as much of it taken by the air, as it does its parts: with c its centre's way, m what moves,
+// r^2 = I / m across, L the joint's lever,
 //   give S = 2 m c,   swing Q = 2 m c^2 (1 + r^2 / L^2),   braked D = A c^2 (T + 4 r^2 / L^2)
-// A the area of leaves that face all ways, T damped_all_ways() across the axis, 4 from how air takes a clump's turning (air.h). Between S^2 / 2 Q, where the
-// mass is a point, the leaves' own, and all of it.
+// A the area of leaves that face all ways, T damped_all_ways() across the axis, 4 from how air takes a clump's turning (air.h). c and L left out,
+//   D / A m^2 - 2 Q m + (4 - T) S^2 / 4 = 0
+// of which m is the larger root, between S^2 / 2 Q, where the mass is a point, and all of it. Where the parts brake more than any m does, D / Q is
+// that of a point: m = A T Q / 2 D.
 Lumper::Swinging Lumper::swinging(const Sums& s, const Vec3& z) const {
     Swinging w;
     const double A = s.met + s.wood * wood_in_leaf, S = s.give, Q = s.swing;
     if (!(S > 0 && Q > 0)) return {s.mass, 0, 0};
     const double T = damped_all_ways().trace() - z.dot(damped_all_ways() * z);
-    const double bow = (4 - T) * S * S / 4, square = Q * Q - bow * s.braked / A;
-    w.mass = square > 0 ? bow / (Q - std::sqrt(square)) : A * T * Q / (2 * s.braked);
-    w.mass = std::min(square > 0 ? std::max(w.mass, S * S / (2 * Q)) : w.mass, s.mass);
+    const double square = Q * Q - (4 - T) * S * S / 4 * s.braked / A;
+    w.mass =
+        square > 0 ? std::max((Q + std::sqrt(square)) * A / s.braked, S * S / (2 * Q)) : A * T * Q / (2 * s.braked);
+    w.mass = std::min(w.mass, s.mass);
     w.over_lever2 = std::max(2 * w.mass * Q / (S * S) - 1, 0.0);
     w.droop = growing_gravity * S / (2 * w.mass * most_droop);
     return w;
@@ -122,7 +127,7 @@ void Lumper::clump(std::size_t b) {
     const double bend = s.give > 0 ? 2 * first * first / s.give + give_.omega2 * swing : most_stiffness;
     tree_.stiffness[b] = {bend, bend, bend * spread(2, 2) / (lever * lever + across)};
     tree_.leaf_count[b] = std::int32_t(std::min<std::int64_t>(s.count, std::numeric_limits<std::int32_t>::max()));
-    const double one = s.leaves / double(s.count), slim = s.proportion / s.leaves;
+    const double one = s.leaves / double(tree_.leaf_count[b]), slim = s.proportion / s.leaves;
     tree_.leaf_length[b] = std::sqrt(2 * one / slim);
     tree_.leaf_width[b] = std::sqrt(2 * one * slim);
     tree_.drag[b] = (s.met + s.wood * wood_in_leaf) / leaf_area(tree_.size[b][0], tree_.size[b][1]);
@@ -142,11 +147,13 @@ void Lumper::hold(std::size_t on, std::size_t clump, double kept, double share) 
     s.inertia = inertia;
 }
 
-// From the tips inward: joints as soft as makes each body of several parts give what they gave together.
+// From the tips inward: joints as soft as makes each body of several parts give what they gave together. What does not stand, and what
+// bears it, is left as soft as its parts one after another: there is no give to meet.
 void Lumper::match() {
     const std::size_t n = chosen_.size();
     std::vector<Borne> on(n);
     std::vector<double> mass = tree_.mass;
+    std::vector<std::uint8_t> upright(n, 1); // all that it carries stands, as resolved
     std::vector<Vec3> first(n);
     for (std::size_t b = 0; b < n; ++b) {
         first[b] = pose_.R_wb[b] * (tree_.mass[b] * tree_.com[b]);
@@ -164,13 +171,13 @@ void Lumper::match() {
             if (chosen_.clump[b]) tree_.stiffness[b].z() = drawn.z();
             return stiffness_w(tree_, b, pose_.R_wb[b]);
         };
+        const auto gives_more = [&](double log_factor) {
+            const Yielding y = yielding(K_at(std::exp(log_factor)), first[b], on[b], arm);
+            return !y.stands || y.give > s.give;
+        };
         double factor = 1;
-        if (s.parts > 1 && s.give > 0) {
-            const auto gives_more = [&](double log_factor) {
-                const Yielding y = yielding(K_at(std::exp(log_factor)), first[b], on[b], arm);
-                return !y.stands || y.give > s.give;
-            };
-            double low = -20, high = 20;
+        double low = -most_matched, high = most_matched;
+        if (s.parts > 1 && s.give > 0 && s.upright && upright[b] && gives_more(low) && !gives_more(high)) {
             while (high - low > 1e-6) {
                 const double middle = (low + high) / 2;
                 (gives_more(middle) ? low : high) = middle;
@@ -180,8 +187,9 @@ void Lumper::match() {
         const Mat3 K = K_at(factor);
         const Yielding y = yielding(K, first[b], on[b], arm);
         const double strain = y.turn.cwiseProduct(K * y.turn).sum();
-        if (s.parts > 1 && strain > 0) tree_.damping[b] = s.loss / strain;
+        if (s.parts > 1 && strain > 0) tree_.damping[b] = std::min(s.loss / strain, s.damping);
         if (root) continue;
+        upright[p] &= std::uint8_t(upright[b] && y.stands);
         mass[p] += mass[b];
         first[p] += first[b] + mass[b] * arm;
         on[p] += y.passed;

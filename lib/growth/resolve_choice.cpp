@@ -15,21 +15,25 @@ constexpr double bodies_power = 0.75;
 constexpr std::size_t slowest_kept = 4;
 constexpr int most_halvings = 60;
 
-enum class ResolveDraw : std::uint8_t { item = 220 }; // apart from the draws of growth (stem.h)
+constexpr double branches_spread = 0.05; // [octaves]
+constexpr std::int64_t fruit_part = 4;   // what is left of the bodies over what is fruit
+
+enum class ResolveDraw : std::uint8_t { item = 220, fruit }; // apart from the draws of growth (stem.h)
 
 // A branch's pieces, in order; or a leaf, petal or fruit.
 struct Limb {
     std::int32_t first, pieces;
     std::int32_t on;     // the body that bears it, -1: the ground
     double weight;       // w
-    bool always = false; // resolved whatever the budget: a way to the tree's top
+    bool always = false; // resolved whatever the budget: a way to the tree's top, or fruit
 };
 
 class Chooser {
 public:
-    Chooser(const Tree& tree, const Flexibility& give);
+    Chooser(const Tree& tree, const Flexibility& give, std::int64_t bodies);
     std::int64_t count(double threshold);
     Resolution take(double threshold);
+    std::int64_t keep_fruit(std::int64_t most);
     double least() const { return least_; }
     double most() const { return most_; }
 
@@ -42,7 +46,7 @@ private:
         return chain_[chain].on < 0 || chain_[chain].always || chain_[chain].weight >= t;
     }
     void keep_slowest(const Flexibility&);
-    void keep_top(const DrawnPose&);
+    void keep_top(const DrawnPose&, std::int64_t bodies);
     std::int32_t bodies_of(const Limb&, double t) const;
     void place(double t);
 
@@ -57,7 +61,8 @@ private:
     std::int64_t bodies_ = 0;
 };
 
-Chooser::Chooser(const Tree& tree, const Flexibility& give) : tree_(tree), chain_of_(tree.size_bodies()) {
+Chooser::Chooser(const Tree& tree, const Flexibility& give, std::int64_t bodies)
+    : tree_(tree), chain_of_(tree.size_bodies()) {
     const std::size_t n = tree.size_bodies();
     piece_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -69,9 +74,9 @@ Chooser::Chooser(const Tree& tree, const Flexibility& give) : tree_(tree), chain
             continue;
         }
         chain_of_[i] = std::int32_t(chain_.size());
-        // Leaves that are all alike come one after another, not all at once.
-        const double spread =
-            tree.kind[i] == Kind::branch ? 1 : std::exp2(random_sign(RandomKey{0}, ResolveDraw::item, i));
+        // What is all alike comes one after another, not all at once.
+        const double octaves = tree.kind[i] == Kind::branch ? branches_spread : 1;
+        const double spread = std::exp2(octaves * random_sign(RandomKey{0}, ResolveDraw::item, i));
         const double w = spread * give.mass[i] * std::pow(give.slow[i] / give.mass[i], 6);
         chain_.push_back({std::int32_t(i), 1, p, w});
     }
@@ -85,7 +90,7 @@ Chooser::Chooser(const Tree& tree, const Flexibility& give) : tree_(tree), chain
         Limb& on = chain_[std::size_t(chain_of_[std::size_t(chain.on)])];
         if (tree.kind[std::size_t(chain.first)] == Kind::branch) on.weight = std::max(on.weight, chain.weight);
     }
-    keep_top(give.pose);
+    keep_top(give.pose, bodies);
 }
 
 // The side branches that answer most to what shakes the tree: its lowest modes may be theirs.
@@ -102,8 +107,8 @@ void Chooser::keep_slowest(const Flexibility& give) {
     for (std::size_t k = 0; k < count; ++k) chain_[slow[k].second].weight = heaviest * std::exp2(-double(k));
 }
 
-// A tree keeps its height: the way to its highest wood is always resolved, if by one body a branch.
-void Chooser::keep_top(const DrawnPose& pose) {
+// A tree keeps its height: the way to its highest wood is always resolved, if by one body a branch, unless it takes more than half of all bodies.
+void Chooser::keep_top(const DrawnPose& pose, std::int64_t bodies) {
     std::int32_t top = -1;
     double height = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < tree_.size_bodies(); ++i) {
@@ -111,11 +116,22 @@ void Chooser::keep_top(const DrawnPose& pose) {
         const double y = pose.at(i, Vec3(0, 0, tree_.size[i][0])).y();
         if (y > height) height = y, top = std::int32_t(i);
     }
-    while (top >= 0) {
-        Limb& chain = chain_[std::size_t(chain_of_[std::size_t(top)])];
-        chain.always = true;
-        top = chain.on;
-    }
+    std::vector<std::size_t> way;
+    for (; top >= 0; top = chain_[way.back()].on) way.push_back(std::size_t(chain_of_[std::size_t(top)]));
+    if (2 * std::int64_t(way.size()) > bodies) return;
+    for (const std::size_t c : way) chain_[c].always = true;
+}
+
+// Fruit hardly sways, but is seen: as many, drawn by lot. Returns how many there are.
+std::int64_t Chooser::keep_fruit(std::int64_t most) {
+    std::vector<std::pair<double, std::size_t>> lots;
+    for (std::size_t c = 0; c < chain_.size(); ++c)
+        if (tree_.kind[std::size_t(chain_[c].first)] == Kind::fruit)
+            lots.emplace_back(random_sign(RandomKey{0}, ResolveDraw::fruit, std::uint64_t(chain_[c].first)), c);
+    const auto kept = std::ptrdiff_t(std::min(std::int64_t(lots.size()), most));
+    std::nth_element(lots.begin(), lots.begin() + kept, lots.end());
+    for (std::ptrdiff_t k = 0; k < kept; ++k) chain_[lots[std::size_t(k)].second].always = true;
+    return kept;
 }
 
 std::int32_t Chooser::bodies_of(const Limb& chain, double t) const {
@@ -210,15 +226,15 @@ Resolution Chooser::take(double t) {
 } // namespace
 
 Resolution choose_bodies(const Tree& whole, const Flexibility& give, std::int64_t bodies) {
-    Chooser chooser(whole, give);
+    Chooser chooser(whole, give, bodies);
     // At the least threshold all is resolved, above the most nothing but the trunks.
     double low = std::log(chooser.least() * 0.99), high = std::log(chooser.most() * 4.1);
     const std::int64_t least = chooser.count(std::exp(high));
     if (least > bodies)
-        throw std::invalid_argument("is " + std::to_string(bodies) + ", but this tree has at least " +
-                                    std::to_string(least) +
-                                    " bodies (the way to its top, and a clump on each for the leaves)");
-    std::int64_t held = least;
+        throw std::invalid_argument(
+            "is " + std::to_string(bodies) + ", but this tree has at least " + std::to_string(least) +
+            " bodies (its trunks and the way to its top, and on each a clump for what leaves it bears)");
+    std::int64_t held = least + chooser.keep_fruit((bodies - least) / fruit_part);
     const std::int64_t enough = bodies - bodies / 100;
     for (int k = 0; k < most_halvings && held < enough && high - low > 1e-9; ++k) {
         const double middle = (low + high) / 2;

@@ -6,21 +6,31 @@
 namespace bough {
 namespace {
 
-constexpr double g = 1 / (1 + 8 / 7.5); // what folding leaves of leaves' speed at 8 m/s
+constexpr double unfolded_at_8 = 1 / (1 + 8 / fold_speed); // of leaves' speed at 8 m/s
 
-// A blade's drag over that of one that faces all ways (air.h), mean over horizontal winds: n its normal, (u.n)^2 is (1 - n_y^2) / 2 of |u|^2, which a quarter
-// of its drag does not ask for. At 8 m/s blades that stream give the same within a tenth, as they turn to the wind as often as from it.
+// A blade's drag over that of one that faces all ways (air.h), mean over horizontal winds: n its normal, (u.n)^2 is (1 - n_y^2) / 2 of
+// |u|^2, which a quarter of its drag does not ask for. At 8 m/s blades that stream give the same within a tenth, as they turn to the wind
+// as often as from it.
 double met_by_wind(const Vec3& normal) {
     return 0.5 + 0.75 * (1 - normal.y() * normal.y());
 }
 
 // Of a blade of normal n, over that of one that faces all ways: how the air damps its motion (air.h).
 Mat3 damped(const Vec3& normal) {
-    return 0.5 * damped_all_ways() + 1.5 * (1 + g / 2 * (1 - normal.y() * normal.y())) * (normal * normal.transpose());
+    return 0.5 * damped_all_ways() +
+           1.5 * (1 + unfolded_at_8 / 2 * (1 - normal.y() * normal.y())) * (normal * normal.transpose());
 }
 
-// What a joint further out, whose load's first moment is `outer`, feels of a torque about the first joint of its branch, whose load's is `inner`: all loads
-// growing alike. Torques are across the moments under any acceleration; along them, that of the moment's own share. No more than all of it.
+// [m^2] A branch's or a fruit's, as wood across the wind of the same drag in horizontal winds.
+double wood_across(const Tree& tree, std::size_t i, const Mat3& R) {
+    const Vec3& size = tree.size[i];
+    if (tree.kind[i] == Kind::fruit) return sphere_drag / cylinder_drag * sphere_section(size[1]);
+    return frustum_section(size[0], size[1], size[2]) * met_by_wind_across(R.col(2));
+}
+
+// What a joint further out, whose load's first moment is `outer`, feels of a torque about the first joint of its branch, whose load's is
+// `inner`: all loads growing alike. Torques are across the moments under any acceleration; along them, that of the moment's own share. No
+// more than all of it.
 Mat3 share_of_torque(const Vec3& outer, const Vec3& inner) {
     const double square = inner.squaredNorm();
     if (!(square > 0)) return Mat3::Identity();
@@ -38,6 +48,8 @@ void add_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen
         s.mass += whole.mass[i];
         s.first += whole.mass[i] * bend.pose.at(i, whole.com[i]);
         s.give += bend.give[i];
+        s.damping = std::max(s.damping, whole.damping[i]);
+        s.upright &= bend.upright[i] != 0;
         ++s.parts;
         if (is_flat(whole.kind[i])) {
             const double area = foliage_area(whole, i);
@@ -46,8 +58,8 @@ void add_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen
             s.thickness += area * size[2];
             s.proportion += area * size[1] / size[0];
             s.count += whole.leaf_count.empty() ? 1 : whole.leaf_count[i];
-        } else if (whole.kind[i] == Kind::branch) {
-            s.wood += frustum_section(size[0], size[1], size[2]) * met_by_wind_across(bend.pose.R_wb[i].col(2));
+        } else {
+            s.wood += wood_across(whole, i, bend.pose.R_wb[i]);
         }
         const std::int32_t p = whole.parent[i];
         if (p < 0 || chosen.body[std::size_t(p)] != chosen.body[i]) {
@@ -76,7 +88,6 @@ void add_bend(const Tree& whole, const Flexibility& bend, const Resolution& chos
     bends(whole, bend, chosen.body, [&](std::size_t i, const Bend& b) {
         Sums& s = sums[std::size_t(chosen.body[i])];
         const Mat3& R = bend.pose.R_wb[i];
-        const Vec3& size = whole.size[i];
         s.loss += whole.damping[i] * b.turn.cwiseProduct(stiffness_w(whole, i, R) * b.turn).sum();
         s.swing += whole.mass[i] * b.center.squaredNorm() +
                    b.turned.cwiseProduct(R * whole.inertia[i] * R.transpose() * b.turned).sum();
@@ -84,9 +95,9 @@ void add_bend(const Tree& whole, const Flexibility& bend, const Resolution& chos
             s.braked +=
                 foliage_area(whole, i) *
                 b.center.cwiseProduct((is_clump(whole, i) ? damped_all_ways() : damped(R.col(1))) * b.center).sum();
-        else if (whole.kind[i] == Kind::branch)
-            s.braked += frustum_section(size[0], size[1], size[2]) * met_by_wind_across(R.col(2)) * wood_in_leaf *
-                        b.center.cwiseProduct(damped_all_ways() * b.center).sum();
+        else
+            s.braked +=
+                wood_across(whole, i, R) * wood_in_leaf * b.center.cwiseProduct(damped_all_ways() * b.center).sum();
     });
 }
 
@@ -100,7 +111,7 @@ double met_by_wind_across(const Vec3& axis) {
 }
 
 Mat3 damped_all_ways() {
-    return Vec3(1 + g / 2, 1, 1 + g / 2).asDiagonal();
+    return Vec3(1 + unfolded_at_8 / 2, 1, 1 + unfolded_at_8 / 2).asDiagonal();
 }
 
 std::vector<Sums> sum_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen) {

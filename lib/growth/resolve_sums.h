@@ -1,5 +1,6 @@
 // resolve_sums.h: what the parts of each resolved body come to together (resolve.h). Private to resolve.
 #pragma once
+#include "../model/air_constants.h"
 #include "resolve_choice.h"
 
 namespace bough {
@@ -7,16 +8,18 @@ namespace bough {
 // What the parts of a resolved body come to, about its joint, in the world's axes.
 struct Sums {
     double mass = 0, give = 0, loss = 0;
-    // Of its bend where it is held and pushed by 1 m/s^2 along each axis, summed: twice the kinetic energy at 1 rad/s [kg s^4]; the area of leaves that face
-    // all ways, times its way squared, that damps as much [m^2 s^4].
+    double damping = 0;  // [s] the most of its joints
+    bool upright = true; // all of them stand, with all that they carry
+    // Of its bend where it is held and pushed by 1 m/s^2 along each axis, summed: twice the kinetic energy at 1 rad/s [kg s^4]; the area of
+    // leaves that face all ways, times its way squared, that damps as much [m^2 s^4].
     double swing = 0, braked = 0;
-    Vec3 first = Vec3::Zero();  // [kg m] about the world's origin
-    double leaves = 0;          // [m^2]
-    double met = 0;             // [m^2] of leaves that face all ways, of the same drag in horizontal winds
-    double wood = 0;            // [m^2] of wood across the wind, of the same drag in horizontal winds
-    double thickness = 0;       // [m] times the leaves' area
-    double proportion = 0;      // [1] likewise
-    std::int64_t count = 0;     // leaves
+    Vec3 first = Vec3::Zero(); // [kg m] about the world's origin
+    double leaves = 0;         // [m^2]
+    double met = 0;            // [m^2] of leaves that face all ways, of the same drag in horizontal winds
+    double wood = 0;        // [m^2] of wood across the wind, of the same drag as its wood and fruit in horizontal winds
+    double thickness = 0;   // [m] times the leaves' area
+    double proportion = 0;  // [1] likewise
+    std::int64_t count = 0; // leaves
     Vec3 joints = Vec3::Zero(); // [kg m] of what hangs directly on the wood, by its mass
     double joined = 0;          // [kg]
     std::int32_t parts = 0;
@@ -29,8 +32,9 @@ struct Sums {
 // Of each resolved body. O(bodies).
 std::vector<Sums> sum_up(const Tree& whole, const Flexibility&, const Resolution&);
 
-// A twig's drag in that of leaves that face all ways, of the same area (air.h): twice as much broadside, and leaves fold, which is made up for at 8 m/s.
-constexpr double wood_in_leaf = 2 * (1 + 8 / 7.5);
+// A twig's drag in that of leaves that face all ways, of the same area (air.h): twice as much broadside, and leaves fold, which is made up
+// for at 8 m/s.
+constexpr double wood_in_leaf = 2 * (1 + 8 / fold_speed);
 
 // A cylinder's drag over that of one across the wind, mean over horizontal winds.
 double met_by_wind_across(const Vec3& axis);

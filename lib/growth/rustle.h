@@ -7,10 +7,11 @@
 //   d phi / dt = 2 pi c f(U),   d psi / dt = 0.62 d phi / dt,   f(U) = 1.45 Hz sqrt(U / (1 m/s)), at most 4.2 Hz
 // c a leaf's own, 0.8 to 1.05, as are the phases at time 0. A is theta's root mean square: 0 in a calm, 2 degrees at 2 m/s, 12.6 at 6, 16.6 at 8,
 // never above 20. The two tones, whose ratio is no simple fraction, make it come and go as a leaf's fluttering does.
-// Sizes are those of leaves in wind tunnels and on trees, the curves our own: a leaf's torsional galloping begins at a low speed and grows (Tadrist, Julio, Saudreau,
-// de Langre 2015, J. Fluids Struct. 56, 1); at low wind leaves flutter at their own few Hz while their branches stand, and are carried by these at
-// high wind (Tadrist et al. 2018, J. R. Soc. Interface 15: 20180010); they reconfigure with speed (Vogel 1989, J. Exp. Bot. 40, 941), why A saturates. The ceiling
-// of f keeps a leaf from turning by more than 30 degrees between frames at 30 a second, beyond which leaves flicker.
+// Sizes are those of leaves in wind tunnels and on trees, the curves our own: a leaf's torsional galloping begins at a low speed and grows
+// (Tadrist, Julio, Saudreau, de Langre 2015, J. Fluids Struct. 56, 1); at low wind leaves flutter at their own few Hz while their branches
+// stand, and are carried by these at high wind (Tadrist et al. 2018, J. R. Soc. Interface 15: 20180010); they reconfigure with speed (Vogel
+// 1989, J. Exp. Bot. 40, 941), why A saturates. The ceiling of f keeps a leaf from turning by more than 30 degrees between frames at 30 a
+// second, beyond which leaves flicker.
 //
 // Phases are integrated over the frames (trapezoidal rule) from time 0 at each clump's place as drawn, so that they are continuous whatever
 // the wind does, and a run that is resumed, or made by other threads, has the same leaves. Where the wind repeats after a whole number of frames

@@ -83,6 +83,18 @@ Tree whole_tree(const Splines& splines, const Curves& curves, const Material& ma
     return tree;
 }
 
+// No tree needs more: each trunk and each branch on the way to the top are a body, with a clump of leaves and one of petals each.
+std::int64_t most_of_the_least(const Splines& s) {
+    const auto roots = std::count(s.parent.begin(), s.parent.end(), -1);
+    std::vector<std::int32_t> depth(s.branches(), 0);
+    std::int32_t deepest = 0;
+    for (std::size_t b = 0; b < s.branches(); ++b) {
+        if (s.parent[b] >= 0) depth[b] = depth[std::size_t(s.parent[b])] + 1;
+        deepest = std::max(deepest, depth[b]);
+    }
+    return 3 * (roots + deepest);
+}
+
 } // namespace
 
 std::int64_t count_bodies(const Splines& splines, const SegmentOptions& options) {
@@ -93,6 +105,14 @@ std::int64_t count_bodies(const Splines& splines, const SegmentOptions& options)
     const std::int64_t budget = budget_of(splines, options).bodies;
     if (budget == 0 || pieces + others <= budget) return pieces + others;
     return std::int64_t(segment(splines, wood_presets().front(), options).size_bodies());
+}
+
+void ask_for_bodies(Splines& splines, std::int64_t bodies) {
+    constexpr std::int64_t most = 20'000'000;
+    if (bodies < 1 || bodies > most)
+        throw std::invalid_argument("bodies: is " + std::to_string(bodies) + ", expected 1 to " + std::to_string(most));
+    splines.bodies = bodies;
+    if (bodies < most_of_the_least(splines)) count_bodies(splines, {}); // which says what is the least
 }
 
 Tree segment(const Splines& splines, const Material& material, const SegmentOptions& options, SegmentReport* report) {
@@ -108,10 +128,13 @@ Tree segment(const Splines& splines, const Material& material, const SegmentOpti
         }
     }
     if (report) {
-        *report = {curves.merged_points, curves.dropped_branches, curves.thin_points, 0};
-        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        *report = {curves.merged_points, curves.dropped_branches, curves.thin_points, std::int64_t(splines.fruits()),
+                   0};
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+            report->joined_fruit -= tree.kind[i] == Kind::fruit;
             if (tree.kind[i] == Kind::branch)
                 report->segment_length = std::max(report->segment_length, tree.size[i][0]);
+        }
     }
     return tree;
 }

@@ -8,8 +8,8 @@
 // ground and where a side branch leaves: the child's half only): bend 1/(E I), twist 1/(G J), K = (kx, ky, kz).
 // Damping. beta = 2 zeta / omega with omega the branch's own first bending frequency (branch_mode.h).
 // Budget. With max_bodies, or where the splines say a number (Splines::bodies; not with a segment_length), a tree of more bodies than that is
-// resolved by fewer (resolve.h): the same tree, what is left out being part of what carries it. A tree of fewer is cut more finely, evenly, for Splines::bodies;
-// leaves and fruit stay one body each. max_bodies never makes more.
+// resolved by fewer (resolve.h): the same tree, what is left out being part of what carries it. A tree of fewer is cut more finely, evenly,
+// for Splines::bodies; leaves and fruit stay one body each. max_bodies never makes more.
 // Order. Bodies stand branch by branch, a branch's pieces in order, parents before children; leaves and fruit follow
 // all branches. Cost O(points + bodies), of the whole tree; some eighty times with a budget. A branch without length is left
 // out and counted (curves.h). The exact rules of cutting: cut.h.
@@ -34,11 +34,17 @@ struct SegmentReport {
     std::int64_t merged_points = 0;    // near-coincident points
     std::int64_t dropped_branches = 0; // without length after merging, and whatever grows on them moved to the parent
     std::int64_t thin_points = 0;      // radii raised to the least radius that still gives a positive mass
+    std::int64_t joined_fruit = 0;     // that a number of bodies left to the wood that bears it
     double segment_length = 0;         // [m] longest piece, as used
 };
 
 // How many bodies segment() would make. O(points), with a budget as segment().
 std::int64_t count_bodies(const Splines&, const SegmentOptions&);
+
+// Has segment() make so many bodies of the splines, within a tenth from 100 on (Splines::bodies). Throws std::invalid_argument
+// ("bodies: is ...") for less than 1,
+// more than 2e7, and fewer than the tree can come to. O(branches), for a few bodies as segment().
+void ask_for_bodies(Splines&, std::int64_t bodies);
 
 Tree segment(const Splines&, const Material&, const SegmentOptions&, SegmentReport* report = nullptr);
 

@@ -1,15 +1,10 @@
 #include "stand.h"
-#include "../model/body_shape.h"
 #include "bark.h"
 #include "carry.h"
 #include "flexibility.h"
 #include "segment.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <numbers>
 
 namespace bough {
 namespace {
@@ -23,28 +18,6 @@ constexpr double raised = 7.0 / 6;  // a radius, where a branch does not stand
 constexpr double most_raised = 1.5; // at a time
 constexpr double hanging = 0.3;     // height of the load's centre below the base, over their distance
 constexpr int most_times = 40;
-
-// What hangs on the wood, at its places.
-struct Load {
-    std::int32_t branch;
-    double at, mass; // [1], [kg]
-    Vec3 center;     // [m] world
-};
-
-std::vector<Load> loads_of(const Splines& s, const Material& wood) {
-    std::vector<Load> loads;
-    for (std::size_t i = 0; i < s.leaves(); ++i) {
-        const double thickness = s.is_petal(i) ? wood.petal_thickness : wood.leaf_thickness;
-        const MassProperties leaf = leaf_prism(s.leaf_length[i], s.leaf_width[i], thickness, wood.leaf_density);
-        loads.push_back(
-            {s.leaf_branch[i], s.leaf_at[i], leaf.mass, s.leaf_position[i] + s.leaf_rotation[i] * leaf.com});
-    }
-    for (std::size_t i = 0; i < s.fruits(); ++i)
-        loads.push_back({s.fruit_branch[i], s.fruit_at[i],
-                         wood.fruit_density * 4 / 3 * std::numbers::pi * std::pow(s.fruit_radius[i], 3),
-                         s.fruit_center[i]});
-    return loads;
-}
 
 Splines bare(const Splines& s) {
     Splines wood;
@@ -76,11 +49,12 @@ public:
             first_[i] = pose_.R_wb[i] * (tree_.mass[i] * tree_.com[i]);
             on_[i] = own_part(tree_, i, pose_.R_wb[i], 0);
         }
-        hang(s, loads_of(s, wood));
+        hang(s, hung_items(s, wood));
         sweep();
         for (std::size_t b = 0; b < s.branches(); ++b)
             trunk_[b] = s.parent[b] < 0 ? std::int32_t(b) : trunk_[std::size_t(s.parent[b])];
     }
+    bool stands(std::size_t b) const { return own_[b].stands; }
     // What the branch's radii are to be raised by.
     double factor(std::size_t b) const {
         const Own& own = own_[b];
@@ -94,7 +68,7 @@ public:
     }
 
 private:
-    void hang(const Splines&, const std::vector<Load>&);
+    void hang(const Splines&, const std::vector<HungItem>&);
     void sweep();
 
     std::vector<Own> own_;
@@ -108,22 +82,22 @@ private:
 };
 
 // Bodies of a branch stand one after another.
-void Standing::hang(const Splines& s, const std::vector<Load>& loads) {
+void Standing::hang(const Splines& s, const std::vector<HungItem>& items) {
     std::vector<std::int32_t> begin(s.branches() + 1, 0);
     for (const std::int32_t b : tree_.branch) ++begin[std::size_t(b) + 1];
     for (std::size_t b = 0; b < s.branches(); ++b) begin[b + 1] += begin[b];
-    for (const Load& load : loads) {
-        std::size_t b = std::size_t(load.branch);
-        double at = load.at;
+    for (const HungItem& item : items) {
+        std::size_t b = std::size_t(item.branch);
+        double at = item.at;
         while (begin[b] == begin[b + 1] && s.parent[b] >= 0) at = s.parent_at[b], b = std::size_t(s.parent[b]);
         if (begin[b] == begin[b + 1]) continue; // a root without length
         const auto from = tree_.s.begin() + begin[b], to = tree_.s.begin() + begin[b + 1];
         const auto i = std::size_t(std::upper_bound(from + 1, to, at) - tree_.s.begin()) - 1;
-        mass_[i] += load.mass;
-        const Vec3 moment = load.mass * (load.center - pose_.x_w[i]);
+        mass_[i] += item.mass;
+        const Vec3 moment = item.mass * (item.center - pose_.x_w[i]);
         first_[i] += moment;
         on_[i].a += cross_matrix(moment);
-        on_[i].d += load.mass * Mat3::Identity();
+        on_[i].d += item.mass * Mat3::Identity();
     }
 }
 
@@ -160,17 +134,18 @@ std::size_t thicken_to_stand(Splines& s, const Material& wood, double most_sag) 
     for (int time = 0;; ++time) {
         const Standing standing(s, wood);
         const std::vector<double> drawn = s.radius;
-        std::size_t failing = 0;
+        std::size_t raised_now = 0, falling = 0;
         for (std::size_t b = 0; b < s.branches(); ++b) {
             const double factor = standing.factor(b);
             if (factor == 1) continue;
-            ++failing;
+            ++raised_now;
+            falling += !standing.stands(b);
             for (auto k = std::size_t(s.first_point[b]); k < std::size_t(s.first_point[b + 1]); ++k)
                 s.radius[k] *= factor;
         }
-        if (failing == 0 || time == most_times) {
+        if (raised_now == 0 || time == most_times) {
             s.radius = drawn;
-            return failing;
+            return falling;
         }
         seat_on_bark(s, drawn);
         thicken_to_carry(s, wood, most_sag);

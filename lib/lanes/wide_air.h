@@ -3,7 +3,7 @@
 // Written a second time: a kind is known for a whole group of rows, and speed and its inverse are worked out once and early for force, damping and
 // turning together; each of the scalar's functions takes a root and a quotient of its own. The lanes' tests hold the two together.
 #pragma once
-#include "../laws/air_constants.h"
+#include "../model/air_constants.h"
 #include "../model/kind.h"
 #include "wide_pair.h"
 

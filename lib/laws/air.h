@@ -19,15 +19,16 @@
 // clump and a crown's foliage within -0.5 and -1.
 // Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges: a torque
 //   -k g |u| (kappa rho A / m) I w,   I the inertia about the centre of mass
-// I / m being the blade's second moments of area over its area, k = 1 is the normal force (23) strip by strip. Thin plates have more: pi/2 rho |u| b^3
-// a unit of span, b half the chord, in potential flow without the circulation that a fast turn does not build up (Fung, Theory of Aeroelasticity,
-// 6.9): k = 3.9; and half as much again as they swing in their own wake, where plates' drag is 1.5 to 3 times the steady one (Keulegan, Carpenter,
-// J. Res. Natl. Bur. Stand. 60:423, 1958): k = 6. Of a clump, all of whose leaves' drag grows with |u|, 4/3 by the strips, half as much again: 2.
+// I / m being the blade's second moments of area over its area, k = 1 is the normal force (23) strip by strip. Thin plates have more: pi/2
+// rho |u| b^3 a unit of span, b half the chord, in potential flow without the circulation that a fast turn does not build up (Fung, Theory
+// of Aeroelasticity, 6.9): k = 3.9; and half as much again as they swing in their own wake, where plates' drag is 1.5 to 3 times the steady
+// one (Keulegan, Carpenter, J. Res. Natl. Bur. Stand. 60:423, 1958): k = 6. Of a clump, all of whose leaves' drag grows with |u|, 4/3 by
+// the strips, half as much again: 2.
 #pragma once
 #include "../base/math.h"
+#include "../model/air_constants.h"
 #include "../model/body_shape.h"
 #include "../model/tree.h"
-#include "air_constants.h"
 #include <algorithm>
 
 namespace bough {
@@ -121,8 +122,9 @@ template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, con
 }
 
 // [N m/rad] What the drag of all that a body carries, its own included, resists its turning by where it pulls outward: what hangs in a wind has
-// drag's stiffness as it has gravity's, whose form this is but for its part below zero. P: first moment of kappa rho A [kg], world (Plan::carried_drag);
-// u: the air's velocity past the body, taken for that past all it carries; folds: that is foliage. Symmetric, positive semidefinite.
+// drag's stiffness as it has gravity's, whose form this is but for its part below zero. P: first moment of kappa rho A [kg], world
+// (Plan::carried_drag); u: the air's velocity past the body, taken for that past all it carries; folds: that is foliage. Symmetric,
+// positive semidefinite.
 template <class T> Matrix3<T> streaming_stiffness(bool folds, const Vector3<T>& P, const Vector3<T>& u) {
     const T size = P.squaredNorm(), speed = u.norm();
     if (!(size > 0)) return Matrix3<T>::Zero();

@@ -257,7 +257,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.joint_limit = scene.joint_limit.has_value();
     if (plan.joint_limit) plan_joint_limit(plan, tree);
     plan_bodies(plan, tree, own);
-    if (plan.wind && scene.wind->shelter) plan.shelter = shelter_factors(plan);
+    if (plan.wind && scene.wind->shelter) plan.shelter = shelter_factors(plan, tree.drag);
     stepper.lay_out(plan, ranges);
     if (!plan.pose) give_back_bodies(plan);
     return plan;

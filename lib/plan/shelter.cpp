@@ -11,6 +11,8 @@
 namespace bough {
 namespace {
 
+constexpr double calm = 1e-12; // [1] of u^2: none is left
+
 struct Obstacle {
     double along; // [m] centre of mass along the wind
     std::size_t body;
@@ -36,8 +38,8 @@ template <class T> Poses start_poses(const Plan<T>& plan) {
     return pose;
 }
 
-// u_b of a clump that the column reaches with u_0^2: u_b^2 s(u_b) = u_0^2 (1 - exp(-s(u_b))), of which the left side grows with u_b, the right one falls.
-double within_clump(double u2, const std::function<double(double)>& share) {
+// u_b of what the column reaches with u_0^2: u_b^2 s(u_b) = u_0^2 (1 - exp(-s(u_b))), of which the left side grows with u_b, the right one falls.
+double within(double u2, const std::function<double(double)>& share) {
     double low = 0, high = std::sqrt(u2);
     for (int k = 0; k < 60; ++k) {
         const double u = (low + high) / 2, s = share(u);
@@ -48,7 +50,7 @@ double within_clump(double u2, const std::function<double(double)>& share) {
 
 } // namespace
 
-template <class T> std::vector<T> shelter_factors(const Plan<T>& plan) {
+template <class T> std::vector<T> shelter_factors(const Plan<T>& plan, const std::vector<double>& tree_drag) {
     std::vector<T> factors(plan.bodies, T(1));
     const double density = plan.scene.air_density, cell = plan.scene.wind->shelter->cell;
     if (density == 0) return factors;
@@ -63,12 +65,14 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan) {
         return double(plan.drag_area[i]) / density * air_force(plan.kind[i], pose.R[i], past).force.dot(e) /
                (past.squaredNorm() * cell * cell);
     };
+    const auto bodies_in = [&](std::size_t i) { return tree_drag.empty() ? 1.0 : std::max(tree_drag[i], 1.0); };
     std::vector<Obstacle> obstacles;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Vec3 place = pose.x[i] + pose.R[i] * plan.com[i].template cast<double>();
-        if (!(share(i, 1) < 1))
+        const double own = plan.kind[i] == Kind::clump ? 0 : share(i, 1) / bodies_in(i);
+        if (!(own < 1))
             throw std::domain_error("/wind/shelter/cell: is " + std::to_string(cell) + " m, but body " +
-                                    std::to_string(i) + " alone drags as much as " + std::to_string(share(i, 1)) +
+                                    std::to_string(i) + " alone drags as much as " + std::to_string(own) +
                                     " columns have; expected a larger one");
         obstacles.push_back(
             {place.dot(e),
@@ -83,18 +87,21 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan) {
         double& u2 = left.try_emplace(o.column, 1).first->second;
         double u = std::sqrt(u2);
         const auto own_share = [&](double at) { return share(o.body, at); };
-        if (plan.kind[o.body] != Kind::clump) {
-            u2 = std::max(u2 * (1 - own_share(u)), 0.0);
-        } else {
-            u = within_clump(u2, own_share);
+        const bool many = plan.kind[o.body] == Kind::clump || bodies_in(o.body) > 1;
+        if (u2 < calm) {
+            u = 0;
+        } else if (many || own_share(u) > 0.5) {
+            u = within(u2, own_share);
             u2 *= std::exp(-own_share(u));
+        } else {
+            u2 *= 1 - own_share(u);
         }
         factors[o.body] = T(u);
     }
     return factors;
 }
 
-template std::vector<float> shelter_factors(const Plan<float>&);
-template std::vector<double> shelter_factors(const Plan<double>&);
+template std::vector<float> shelter_factors(const Plan<float>&, const std::vector<double>&);
+template std::vector<double> shelter_factors(const Plan<double>&, const std::vector<double>&);
 
 } // namespace bough

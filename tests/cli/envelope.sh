@@ -38,15 +38,17 @@ sed '$d' cube.obj >open.obj
 expect 0 treegen --envelope open.obj --units cm -o open.json
 grep -q "warning: the mesh is not closed (4 open edges)" err || fail "no warning: $(cat err)"
 
-expect 0 treegen --envelope sphere --bodies 1500 --leaves -o bodies.json
+expect 0 treegen --envelope sphere --bodies 1500 --leaves --no-source -o bodies.json
 expect 0 treeconvert bodies.json --stats -o bodies.tree.json
 n=$(sed -n 's/.*bodies *\([0-9]*\):.*/\1/p' err | head -1)
 [[ $n -ge 1350 && $n -le 1650 ]] || fail "$n bodies, expected 1500 within a tenth"
+expect 0 treegen --envelope sphere --leaves --no-source -o whole.json
+cmp <(sed 's/"bodies": *1500, *//' bodies.json) whole.json || fail "another tree for another number of bodies"
 
 refused 1 "--species: not with --envelope" treegen --envelope sphere --species broadleaf
 refused 1 "--envelope: not with --import" treegen --envelope sphere --import x.swc
 refused 1 "--kill: only with --envelope" treegen --kill 1
-refused 1 "--attractors: not with --bodies" treegen --envelope box --bodies 100 --attractors 5
+refused 1 "--bodies: is 1, but this tree has at least" treegen --envelope box --leaves --bodies 1
 refused 1 "--envelope-size is '1,2', expected 3 numbers" treegen --envelope box --envelope-size 1,2
 refused 1 "--envelope-size is '1,2,-1', expected three lengths" treegen --envelope box --envelope-size 1,2,-1
 refused 1 "--kill: is 0.1, expected at least the step" treegen --envelope box --kill 0.1 --step 0.2
@@ -59,7 +61,6 @@ refused 1 "--envelope: the step that follows from what is given is 5e-10, expect
 awk '/^v/ { printf "v %g %g %g\n", $2 * 1e7, $3 * 1e7, $4 * 1e7; next } { print }' cube.obj >huge.obj
 refused 2 "huge.obj: is 4e+09 m large, expected its longest side" treegen --envelope huge.obj --units m
 refused 1 "--envelope-size is '1e9,1e9,1e9', expected its longest side" treegen --envelope box --envelope-size 1e9,1e9,1e9
-refused 1 "grows to with this kill is" treegen --envelope sphere --kill 0.5 --bodies 5000
 expect 0 treegen --envelope box --envelope-size 1,1,1 --crown-base 0 --attractors 1 --leaves --fruit -o one.json
 expect 0 treeconvert one.json -o one.tree.json
 

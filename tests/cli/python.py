@@ -98,6 +98,8 @@ assert alive() is not None and np.array_equal(part, expected)
 del part
 gc.collect()
 assert alive() is None
+young, grown = bough.convert(bough.grow("birch", age=8)), bough.convert(bough.grow("birch", age=16))
+assert len(young) < len(grown) and of(young).positions[:, 1].max() < 0.8 * of(grown).positions[:, 1].max()
 sizes = bough.convert(bough.grow("palm", bodies=50)).sizes  # the tree has gone, its numbers have not
 gc.collect()
 assert np.isfinite(sizes).all() and (sizes >= 0).all()
@@ -236,6 +238,7 @@ assert len(hashes) == 8 and len(set(hashes)) == 1
 # Refusals, each with its message.
 raises(bough.UsageError, "is 'yggdrasil', expected one of broadleaf, apple", lambda: bough.grow("yggdrasil"))
 raises(bough.UsageError, "bodies: is -1", lambda: bough.grow("apple", bodies=-1))
+raises(bough.UsageError, "age: is 0.05", lambda: bough.grow("apple", age=0.05))
 raises(bough.UsageError, "seed: is 1.5, expected a whole number", lambda: bough.grow("apple", seed=1.5))
 raises(bough.UsageError, "splines: is Tree, expected Splines", lambda: bough.convert(tree))
 raises(bough.UsageError, "material: is 'iron'", lambda: bough.convert(bough.grow("palm", bodies=50), material="iron"))

@@ -1,11 +1,13 @@
 // colonize.h: the nodes against a plain O(points * nodes) run of the same rules, and against what filling a volume means.
 #include "lib/growth/colonize.h"
 #include "lib/growth/segment.h"
+#include "lib/study/modes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/solids.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
+#include <numeric>
 
 using namespace bough;
 
@@ -352,34 +354,29 @@ TEST_CASE("Same seed, same tree; another seed, another") {
     CHECK(a.point != c.point);
 }
 
-TEST_CASE("The number of bodies asked for, within a tenth") {
-    for (const ColonizeParameters& p : {in_shape(EnvelopeShape::sphere, 1), in_mesh(solids::l_prism(), 1)})
-        for (const std::int64_t bodies : cases<std::int64_t>(3, {100, 777, 5000, 60000}))
-            for (const bool leaves : {false, true}) {
-                const Splines s = colonize_bodies(p, 5, leaves, leaves, bodies);
-                const auto found = static_cast<double>(count_bodies(s, SegmentOptions()));
-                CHECK(found == Approx(static_cast<double>(bodies)).epsilon(0.1));
+TEST_CASE("One tree, whatever the number of bodies: mass and first sway, within a tenth") {
+    for (const ColonizeParameters& p : {in_shape(EnvelopeShape::sphere, 800), in_mesh(solids::l_prism(), 800)})
+        for (const bool leaves : {false, true}) {
+            Splines s = colonize(p, 5, leaves, leaves);
+            const Tree whole = segment(s, wood_presets().front(), {});
+            for (const std::int64_t bodies : cases<std::int64_t>(2, {300, 1500, 20000})) {
+                ask_for_bodies(s, bodies);
+                const Tree tree = segment(s, wood_presets().front(), {});
+                INFO(bodies << " of " << whole.size_bodies() << ", leaves " << leaves);
+                CHECK(double(tree.size_bodies()) == Approx(double(bodies)).epsilon(0.1));
+                CHECK(std::accumulate(tree.mass.begin(), tree.mass.end(), 0.0) ==
+                      Approx(std::accumulate(whole.mass.begin(), whole.mass.end(), 0.0)).epsilon(0.01));
+                const auto first = [](const Tree& t) {
+                    ModeOptions one;
+                    one.count = 1;
+                    const SmallMotion small(t, Vec3(0, -9.81, 0), Pose::drawn);
+                    return natural_modes(small, t, Scene(), one).front().frequency;
+                };
+                // Cut more finely than a piece a bend, wood sways more slowly: nearer to the continuous rod.
+                const bool finer = bodies > std::int64_t(whole.size_bodies());
+                CHECK(first(tree) == Approx(first(whole)).epsilon(finer ? 0.16 : 0.1));
             }
-    CHECK_THROWS_WITH(colonize_bodies(in_shape(EnvelopeShape::box, 1), 5, true, true, 1), Catch::Contains("nearest"));
-    // A branch alone is a body at least.
-    CHECK_THROWS_WITH(colonize_bodies(in_shape(EnvelopeShape::box, 1), 5, false, false, 1),
-                      !Catch::Contains("grows to is 0"));
-}
-
-TEST_CASE("A number of bodies that the given lengths leave no room for is refused, in few growths") {
-    ColonizeParameters p = in_shape(EnvelopeShape::sphere, 1);
-    p.kill = 1;
-    // Nodes no nearer than a kill distance to what is reached: the most that any number of points gives.
-    double most = 0;
-    for (const std::int64_t points : {2000, 20000}) {
-        p.points = points;
-        most = std::max(most, static_cast<double>(count_bodies(colonize(p, 5, false, false), SegmentOptions())));
-    }
-    CHECK_THROWS_WITH(colonize_bodies(p, 5, false, false, static_cast<std::int64_t>(10 * most)),
-                      Catch::Contains("grows to with this kill is"));
-    const auto half = static_cast<std::int64_t>(most / 2);
-    CHECK(static_cast<double>(count_bodies(colonize_bodies(p, 5, false, false, half), SegmentOptions())) ==
-          Approx(static_cast<double>(half)).epsilon(0.1));
+        }
 }
 
 TEST_CASE("Parameters out of their range are named") {

@@ -1,5 +1,5 @@
-// lib/growth/resolve.h: one tree, whatever its number of bodies: what the whole tree weighs, how it sways and what the wind takes hold of, against the
-// whole tree's own, and a rod's closed forms.
+// lib/growth/resolve.h: one tree, whatever its number of bodies: what the whole tree weighs, how it sways and what the wind takes hold of,
+// against the whole tree's own, and a rod's closed forms.
 #include "lib/growth/resolve.h"
 #include "formats/documents/species.h"
 #include "lib/growth/segment.h"
@@ -127,8 +127,8 @@ TEST_CASE(
 }
 
 TEST_CASE("All eight species sway as the whole tree does: three frequencies, and their damping") {
-    // Young, for the whole tree's modes are to be found; a young palm's lowest are those of its softest leaves, one by one, which nothing but themselves stand
-    // for.
+    // Young, for the whole tree's modes are to be found; a young palm's lowest are those of its softest leaves, one by one, which nothing
+    // but themselves stand for.
     for (const SpeciesFile& file : species_files()) {
         const Species species = read_species(file.content, std::string(file.name));
         check_one_tree(at_age(species, (file.name == "palm" ? 1 : 0.2) * species.mature_age), wood_for(species),
@@ -149,4 +149,96 @@ TEST_CASE("A level rod of one body sways as the beam does") {
     CHECK(rod.stiffness[0].x() == Approx(bend).epsilon(0.02));
     CHECK(rod.stiffness[0].y() == Approx(bend).epsilon(0.02));
     CHECK(rod.size[0].x() == Approx(l));
+}
+
+TEST_CASE("Of branches that are all alike some are resolved, not all or none") {
+    Splines s;
+    add_branch(s, -1, 0, {{0, 0, 0}, {0, 10, 0}}, {0.2, 0.1});
+    for (int k = 0; k < 1000; ++k) {
+        const double at = 0.1 + 0.0008 * k, y = 10 * at, angle = 2.4 * k;
+        const Vec3 out(std::cos(angle), 0, std::sin(angle));
+        add_branch(s, 0, at, {Vec3(0, y, 0) + 0.1 * out, Vec3(0, y, 0) + 0.6 * out}, {0.004, 0.004});
+    }
+    const Tree whole = segment(s, wood(), length_of(0.25));
+    for (const std::int64_t bodies : {100, 500, 900, 1500}) {
+        INFO(bodies);
+        CHECK(double(resolve(whole, bodies).size_bodies()) == Approx(double(bodies)).epsilon(0.1));
+    }
+}
+
+TEST_CASE("What topples is not matched: joints keep to what their parts' are, and something still topples") {
+    // A mast of 4 m that cannot carry what it bears, on a trunk that can, among boughs.
+    Splines s;
+    add_branch(s, -1, 0, {{0, 0, 0}, {0, 2, 0}}, {0.06, 0.05});
+    add_branch(s, 0, 1, {{0, 2, 0}, {0.1, 6, 0}}, {0.006, 0.006});
+    for (int k = 0; k < 40; ++k) {
+        const double angle = 2.4 * k, y = 2.2 + 0.09 * k;
+        const Vec3 out(std::cos(angle), 0.2, std::sin(angle)), on(0.1 * (y - 2) / 4, y, 0);
+        add_branch(s, 1, (y - 2) / 4, {on, on + 0.4 * out}, {0.004, 0.003});
+        add_leaf(s, k + 2, 1, on + 0.42 * out);
+    }
+    const Tree whole = segment(s, wood(), length_of(0.2));
+    REQUIRE_FALSE(SmallMotion(whole, Vec3(0, -9.81, 0), Pose::drawn).buckled().empty());
+    double stiffest = 0, damping = 0;
+    for (std::size_t i = 0; i < whole.size_bodies(); ++i) {
+        stiffest = std::max(stiffest, whole.stiffness[i].maxCoeff());
+        damping = std::max(damping, whole.damping[i]);
+    }
+    for (const std::int64_t bodies : {120, 60, 20}) {
+        const Tree tree = resolve(whole, bodies);
+        INFO(bodies);
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+            CHECK(tree.stiffness[i].maxCoeff() <= stiffest * (1 + 1e-9));
+            CHECK(tree.damping[i] <= damping * (1 + 1e-9));
+        }
+        CHECK_FALSE(SmallMotion(tree, Vec3(0, -9.81, 0), Pose::drawn).buckled().empty());
+    }
+}
+
+TEST_CASE("Fruit is kept where there is room for it; what is not is still weight and drag") {
+    for (const SpeciesFile& file : species_files()) {
+        if (file.name != "apple") continue;
+        const Species species = read_species(file.content, std::string(file.name));
+        const Material& wood = wood_for(species);
+        const GrowthParameters young = at_age(species, 8);
+        const Items fruit{false, false, true};
+        const Splines splines = grow(young, 1, fruit);
+        const Measured whole = measured(segment(splines, wood, {}), wood);
+        for (const std::int64_t bodies : {100, 300, 1000}) {
+            SegmentReport report;
+            const Tree tree = segment(grow_bodies(young, 1, fruit, bodies), wood, {}, &report);
+            const Measured now = measured(tree, wood);
+            const auto kept = std::count(tree.kind.begin(), tree.kind.end(), Kind::fruit);
+            INFO(bodies << " bodies, " << splines.fruits() << " fruit, " << kept << " kept");
+            CHECK(kept >= std::min(std::ptrdiff_t(splines.fruits()), std::ptrdiff_t(bodies / 5)));
+            CHECK(std::ptrdiff_t(splines.fruits()) - kept == report.joined_fruit);
+            CHECK(now.wood == Approx(whole.wood).epsilon(1e-6)); // and fruit
+            CHECK(now.drag == Approx(whole.drag).epsilon(0.04));
+        }
+    }
+}
+
+TEST_CASE("A tree whose top is a thousand branches up has no more bodies than asked for") {
+    Splines s;
+    for (int k = 0; k < 1000; ++k) {
+        const Vec3 from(0, 0.01 * k, 0);
+        add_branch(s, k - 1, 1, {from, from + Vec3(0, 0.01, 0)}, {0.05, 0.05});
+    }
+    CHECK(resolve(segment(s, wood(), {}), 100).size_bodies() <= 100);
+}
+
+TEST_CASE("Clumps of more leaves than a body counts keep the leaves' area") {
+    Splines s;
+    add_branch(s, -1, 0, {{0, 0, 0}, {0, 2, 0}}, {0.1, 0.1});
+    for (int k = 0; k < 4; ++k) {
+        add_leaf(s, 0, 0.9, {0.1, 1.8, 0});
+        s.leaf_count.push_back(1'000'000'000);
+    }
+    const Tree whole = segment(s, wood(), {}), tree = resolve(whole, 2);
+    double before = 0, now = 0;
+    for (std::size_t i = 0; i < whole.size_bodies(); ++i)
+        if (is_flat(whole.kind[i])) before += foliage_area(whole, i);
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+        if (is_flat(tree.kind[i])) now += foliage_area(tree, i);
+    CHECK(now == Approx(before).epsilon(1e-9));
 }

@@ -63,9 +63,13 @@ TEST_CASE("the momentum taken from the columns is the sum of the drags on the st
                 const double u = plan.shelter[i] * velocity.norm();
                 const double held =
                     plan.drag_area[i] * air_force<double>(plan.kind[i], state.R_wb[i], u * e).force.dot(e);
-                // A clump's speed is one that the column has within it, and u^2 falls by exp(-s) from its one side to the other.
+                // A clump's speed is one that the column has within it, and u^2 falls by exp(-s) from its one side to the other; so is
+                // that of wood which stands for other wood.
+                const auto many = [&](std::size_t k) {
+                    return plan.kind[k] == Kind::clump || (!tree.drag.empty() && tree.drag[k] > 1);
+                };
                 const double own = 1.2 * u * u * cell * cell, s = held / own;
-                last = {place.dot(e), plan.kind[i] == Kind::clump ? held / std::expm1(s) : own - held};
+                last = {place.dot(e), many(i) ? held / std::expm1(s) : own - held};
             }
             double lost = 0;
             for (const auto& [column, last] : columns) {
@@ -140,4 +144,18 @@ TEST_CASE("columns that a body fills are refused; without air nothing shelters; 
     open.wind->shelter.reset();
     CHECK(solver::plan_of<double>(tree, open).shelter.capacity() == 0);
     CHECK_FALSE(solver::plan_of<double>(tree, open).field);
+}
+
+TEST_CASE("what takes nearly all leaves the rest a calm, not a speed that is no number") {
+    // A file of plates, each of which takes more than half of what a column has, and, unfolding, all of a slower wind.
+    Tree plates = make_tree::chain(1, 1, 0.01, 0.01);
+    for (int k = 0; k < 12; ++k)
+        make_tree::add_leaf(plates, 0, Vec3(0.3 * k, 0, 0.5), make_tree::turn(-1.57, Vec3::UnitZ()), 0.4, 0.6, 3e-4, 0,
+                            1, 0.5);
+    for (const double cell : {0.24, 0.28, 0.31, 1.0})
+        for (const double speed : {2.0, 25.0}) {
+            const Plan<double> plan = solver::plan_of<double>(plates, blowing(Vec3(speed, 0, 0), cell));
+            CAPTURE(cell, speed);
+            for (const double f : plan.shelter) CHECK((f >= 0 && f <= 1));
+        }
 }
