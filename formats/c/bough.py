@@ -35,7 +35,7 @@ import numpy as np
 __all__ = ["Error", "UsageError", "InputError", "NonFiniteError", "OutputError", "Splines", "Tree", "Scene", "Simulation", "Wind", "Report", "Events",
            "StepError", "Hit", "species", "grow", "convert", "read_splines", "read_tree", "read_scene", "wind_preset", "__version__"]
 
-_ABI = 2
+_ABI = 3
 
 
 class Error(Exception):

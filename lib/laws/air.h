@@ -13,10 +13,10 @@
 //                                     5 m/s    10 m/s   20 m/s   E from 5 to 20 m/s
 //   a leaf of 9 cm, all directions    0.0142   0.0311   0.0612   -0.94
 //   a clump of 14, 30 cm              0.170    0.486    1.24     -0.57
-//   maple of 20 000 bodies            3400     10100    27300    -0.50     its foliage alone -0.57
-//   maple of 1 000, birch of 1 000    511 146  1680 523 5380 1866 -0.30 -0.16, foliage -0.57
-// The fewer bodies a tree has, the fewer leaves and the more of its drag is bare wood's, which does not fold. tests/lib/laws/foliage.cpp holds leaf,
-// clump and a crown's foliage within -0.5 and -1.
+//   maple of 20 000 bodies            3030     9460     27700    -0.40     its foliage alone -0.57
+//   maple of 1 000, birch of 1 000    3130 840 9340 2550 25700 7190 -0.48 -0.45, foliage -0.57
+// Of 20 000 bodies more of the drag is bare wood's, which does not fold: clumps hold their twigs, as what folds (growth/resolve.h).
+// tests/lib/laws/foliage.cpp holds leaf, clump and a crown's foliage within -0.5 and -1.
 // Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges: a torque
 //   -k g |u| (kappa rho A / m) I w,   I the inertia about the centre of mass
 // I / m being the blade's second moments of area over its area, k = 1 is the normal force (23) strip by strip. Thin plates have more: pi/2

@@ -43,7 +43,7 @@ expect 0 treeconvert bodies.json --stats -o bodies.tree.json
 n=$(sed -n 's/.*bodies *\([0-9]*\):.*/\1/p' err | head -1)
 [[ $n -ge 1350 && $n -le 1650 ]] || fail "$n bodies, expected 1500 within a tenth"
 expect 0 treegen --envelope sphere --leaves --no-source -o whole.json
-cmp <(sed 's/"bodies": *1500, *//' bodies.json) whole.json || fail "another tree for another number of bodies"
+cmp <(grep -v '^"bodies"' bodies.json) whole.json || fail "another tree for another number of bodies"
 
 refused 1 "--species: not with --envelope" treegen --envelope sphere --species broadleaf
 refused 1 "--envelope: not with --import" treegen --envelope sphere --import x.swc

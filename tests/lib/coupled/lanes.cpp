@@ -125,7 +125,7 @@ TEST_CASE("what is too much for the caches and goes past them comes back the sam
 
 TEST_CASE("the energy guard takes in lanes what it takes on the plain path") {
     for (const bool windy : {false, true}) {
-        Case c{"", grown(600), solver::empty_scene(), 0.05, 3};
+        Case c{"", grown(600), solver::empty_scene(), 0.05, 5};
         if (windy) c.scene.wind = gusts();
         Run<> plain(c, std::nullopt), lanes(c, fast::best_target());
         const Apart d = run_apart(plain, lanes, 5);
