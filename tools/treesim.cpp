@@ -39,9 +39,12 @@ void run_frames(const TreesimOptions& o, Simulation& run, FrameSink* sink, Compa
     if (sink) queue.emplace(*sink, o.common.threads > 1 ? 2 : 1);
     Progress progress(o.common, "frame", range.last - range.first + 1);
     range.done = range.first - 1;
+    const auto any = [&] { return range.done >= range.first; };
     try {
         for (std::int64_t f = range.first; f <= range.last; ++f) {
-            if (interrupted()) throw Interrupted("interrupted after frame " + std::to_string(range.done));
+            if (interrupted())
+                throw Interrupted(any() ? "interrupted after frame " + std::to_string(range.done)
+                                        : "interrupted before the first frame: nothing is written");
             const auto start = std::chrono::steady_clock::now();
             if (f > 0) advance_frame(run, f, o.run.substeps);
             range.cost += std::chrono::steady_clock::now() - start;
@@ -55,10 +58,10 @@ void run_frames(const TreesimOptions& o, Simulation& run, FrameSink* sink, Compa
             progress.at(f - range.first + 1, queue ? queue->bytes() : 0);
         }
     } catch (const PromiseError&) {
-        if (queue && !o.watch) queue->finish(); // who watches keeps the last that was whole
+        if (queue && any() && !o.watch) queue->finish(); // who watches keeps the last that was whole
         throw;
     } catch (const Interrupted&) {
-        if (queue && !o.watch) queue->finish();
+        if (queue && any() && !o.watch) queue->finish();
         if (range.done >= 0) save(o, run, range.done);
         throw;
     }

@@ -93,8 +93,9 @@ bough_result bough_grow(const bough_growth* growth, bough_splines** splines) {
         const bough_growth& g = marked(growth, growth_mark, "growth", "bough_default_growth()");
         required(splines, "splines");
         required(g.species, "species");
-        give_splines(grow(std::string(g.species), {g.bodies, g.seed, g.age, g.leaves != 0, g.petals != 0, g.fruit != 0}),
-                     splines);
+        give_splines(
+            grow(std::string(g.species), {g.bodies, g.seed, g.age, g.leaves != 0, g.petals != 0, g.fruit != 0}),
+            splines);
     });
 }
 

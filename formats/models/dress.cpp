@@ -48,11 +48,19 @@ OwnPlace placed(std::int32_t shape, std::size_t body, const Mat3& axes, const Ve
 }
 
 // Sprays a leaf of the clumps: six leaves make one, more where a tree has many, so that sprays are of one size all over the crown.
-double sprays_of_a_leaf(const Tree& tree, int most) {
+double sprays_of_a_leaf(const Tree& tree, std::int64_t most) {
+    if (most == 0) most = std::max<std::int64_t>(5500, std::int64_t(tree.size_bodies()));
     std::int64_t leaves = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
         if (tree.kind[i] == Kind::leaf && is_clump(tree, i)) leaves += tree.leaf_count[i];
-    return std::min(1 / double(spray_leaves().size()), most / double(std::max<std::int64_t>(leaves, 1)));
+    return std::min(1 / double(spray_leaves().size()), double(most) / double(std::max<std::int64_t>(leaves, 1)));
+}
+
+constexpr double strand = 3;        // length over width
+constexpr double strand_leaves = 3; // in place of a spray
+
+bool is_strand(const Vec3& size) {
+    return size.x() > strand * size.y();
 }
 
 // Leaves at their places, as blades or sprays.
@@ -79,14 +87,16 @@ OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const
             continue;
         }
         const std::int32_t leaves = tree.leaf_count[i];
+        const bool sprayed = card && !is_strand(tree.size[i]);
+        const double cards = (sprayed ? 1 : strand_leaves) * leaves * sprays;
         const std::int32_t count =
-            card ? std::max(1, std::int32_t(std::lround(leaves * sprays))) : std::min(leaves, most);
-        const double length = std::sqrt(area / count / (card ? spray.area : blade.area));
+            card ? std::clamp(std::int32_t(std::lround(cards)), 1, leaves) : std::min(leaves, most);
+        const double length = std::sqrt(area / count / (sprayed ? spray.area : blade.area));
         const double drawn = clump_leaf_size(tree, i, count).x();
         std::int32_t other = 0; // of the two sprays
         for (const ClumpLeaf& leaf : clump_leaves(tree, i, pose.R_wb[i], count)) {
             const Vec3 foot = leaf.foot + 0.5 * (drawn - length) * leaf.axes.col(2); // the middle stays
-            part.placed.push_back(placed(single + (card ? 1 + (other++ + std::int32_t(i)) % 2 : 0), i,
+            part.placed.push_back(placed(single + (sprayed ? 1 + (other++ + std::int32_t(i)) % 2 : 0), i,
                                          pose.R_wb[i] * leaf.axes, pose.at(i, foot), length));
         }
     }

@@ -2,7 +2,8 @@
 //
 // Bark, fruit: build_skin's. Each leaf, or each leaf of a clump, is its species' blade (lib/growth/blade.h) at its place, of its body's area: as a mesh, or
 // as a card whose picture's alpha cuts it out. A clump as cards is some sprays of leaves, one at least. A spray shows six leaves. Where all of a tree's
-// clumps together would be more than `sprays` of them, each stands for more leaves and is larger, of one size all over the crown.
+// clumps together would be more than `sprays` of them, each stands for more leaves and is larger, of one size all over the crown. A clump three times as
+// long as wide, a willow's strand, is three leaves in place of each spray, so that it is in leaf along all of its length.
 // Its alpha's cutoff is such that thin leaves do not vanish from afar. Petals stay kites. Leaves are moved by their own bodies alone.
 #pragma once
 #include "formats/exports/own_mesh.h"
@@ -14,10 +15,10 @@ enum class LeafDetail : std::uint8_t { kite, card, mesh };
 
 struct DressOptions {
     LeafDetail detail = LeafDetail::card;
-    int textures = 512;                           // [pixels] sides of pictures; 0: none, parts have one colour each
-    int sides = 12;                               // SkinOptions
-    int sprays = 5500;                            // of all clumps together, as cards
-    std::int64_t clump_leaves = clump_leaves_all; // of all clumps together, else
+    int textures = 512;            // [pixels] sides of pictures; 0: none, parts have one colour each
+    int sides = 12;                // SkinOptions
+    std::int64_t sprays = 0;       // of all clumps together, as cards; 0: as many as bodies, 5500 at least
+    std::int64_t clump_leaves = 0; // of all clumps together, else; 0: clump.h's
 };
 
 // The tree's own colours; of the species the forms of leaf and bark. O(bodies + pixels). Throws std::length_error as build_skin does.

@@ -27,6 +27,8 @@
 //   Pruning. A stem of level 1 or more that leaves the envelope is drawn again, each time a tenth shorter, until it does
 //     not, at most 24 times (to 8 % of its length), then at prune_ratio of the way there; its radius is that of its new
 //     length. Parts that are split off are each pruned alone, their start kept.
+//   Ground. A stem of level 1 or more that comes nearer to it than 0.02 of the trunk's length, and lower than it begins, is drawn shorter
+//     likewise: a weeping willow's shoots end above it.
 //   Radii. A radius is at least 0.05 of the stem's radius at its base, so that no tip is zero; nothing is thicker where
 //     it starts than the stem it starts from. Flare acts on the lowest eighth of the trunk. Where flare, a rounded or
 //     periodic taper need them, points are added between the segments' ends.

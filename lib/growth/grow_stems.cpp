@@ -6,6 +6,8 @@ namespace bough {
 
 namespace {
 
+constexpr double above_ground = 0.02; // of the trunk's length
+
 // Grows stems from a stack, so that a stem's whole subtree follows it before its next sibling.
 class Grower {
 public:
@@ -15,7 +17,9 @@ public:
 private:
     void plant(std::uint64_t seed);
     void draw(const Stem&, std::int32_t branch);
-    void draw_pruned(Stem&, std::int32_t branch);
+    void draw_as_it_fits(Stem&, std::int32_t branch);
+    template <class Fits> void shorten(Stem&, std::int32_t branch, double share, const Fits&);
+    bool is_above(std::int32_t branch, double lowest) const;
     bool inside_envelope(std::int32_t branch) const;
     void undraw(std::int32_t branch);
     void draw_points(const Stem&, const std::vector<double>& marks, int segment);
@@ -55,7 +59,7 @@ void Grower::run(std::uint64_t seed, const Items& items) {
         Stem stem = stack_.back();
         stack_.pop_back();
         const auto branch = static_cast<std::int32_t>(out_.branches());
-        p_.prune_ratio > 0 && stem.level > 0 ? draw_pruned(stem, branch) : draw(stem, branch);
+        draw_as_it_fits(stem, branch);
         const GrownStem grown{stem, branch, segment_, p_.level[stem.level].curve_res};
         if (stem.level + 1 < p_.levels)
             bear(grown);
@@ -69,24 +73,37 @@ void Grower::run(std::uint64_t seed, const Items& items) {
     }
 }
 
-// Draws a stem as long as the envelope lets it be (grow.h).
-void Grower::draw_pruned(Stem& stem, std::int32_t branch) {
+// Draws a stem as long as the envelope and the ground let it be (grow.h).
+void Grower::draw_as_it_fits(Stem& stem, std::int32_t branch) {
+    draw(stem, branch);
+    if (stem.level == 0) return;
+    if (p_.prune_ratio > 0) shorten(stem, branch, p_.prune_ratio, [&] { return inside_envelope(branch); });
+    const double lowest = std::min(above_ground * height_, stem.position.y());
+    shorten(stem, branch, 1, [&] { return is_above(branch, lowest); });
+}
+
+// By `share` of what it is too long by, where it does not fit.
+template <class Fits> void Grower::shorten(Stem& stem, std::int32_t branch, double share, const Fits& fits) {
     constexpr double shorter = 0.9;
     constexpr int most_tries = 24;
+    if (fits()) return;
     const double length = stem.length, radius = stem.radius;
-    draw(stem, branch);
-    if (inside_envelope(branch)) return;
-    double fits = length;
-    for (int i = 0; i < most_tries && !inside_envelope(branch); ++i) {
+    double fitting = length;
+    for (int i = 0; i < most_tries && !fits(); ++i) {
         undraw(branch);
-        fits *= shorter;
-        stem.length = fits;
+        fitting *= shorter;
+        stem.length = fitting;
         draw(stem, branch);
     }
     undraw(branch);
-    stem.length = length + p_.prune_ratio * (fits - length);
+    stem.length = length + share * (fitting - length);
     stem.radius = std::max(radius * std::pow(stem.length / length, p_.ratio_power), std::min(radius, p_.least_radius));
     draw(stem, branch);
+}
+
+bool Grower::is_above(std::int32_t branch, double lowest) const {
+    const auto first = out_.point.begin() + out_.first_point[std::size_t(branch)];
+    return std::all_of(first, out_.point.end(), [&](const Vec3& at) { return at.y() >= lowest; });
 }
 
 bool Grower::inside_envelope(std::int32_t branch) const {

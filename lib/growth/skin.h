@@ -28,8 +28,8 @@ struct SkinOptions {
     // Corners of a ring on the thickest branch, at least 3. Others take sides * sqrt(radius / thickest radius), so that
     // the distance between polygon and circle is about the same everywhere, never below 3.
     int sides = 8;
-    bool leaves = true; // false: no leaves and petals (for programs that get them as instances)
-    std::int64_t clump_leaves = clump_leaves_all; // of all clumps together, but one each (clump.h)
+    bool leaves = true;            // false: no leaves and petals (for programs that get them as instances)
+    std::int64_t clump_leaves = 0; // of all clumps together, but one each; 0: clump.h's
 };
 
 struct SkinPart {

@@ -5,8 +5,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 treegen --bodies 3000 --seed 3 | treeconvert - -o tree.json
 
 # stop FILE COMMAND...: starts it as a shell starts a foreground job (SIGINT not ignored), interrupts it once FILE says
-# that it runs (it is not empty; `unfinished`: what it writes that has no name yet; a .glb is empty until its end, so 3 s after it is
-# there), and checks the code.
+# that frames are made (it is longer than it was at first, or a numbered one is there; `unfinished`: what it writes that has no name yet; a .glb is
+# empty until its end, so 3 s after it is there), and checks the code.
 stop() {
     local code=0
     python3 - "$@" <<'END' || code=$?
@@ -20,14 +20,17 @@ def unfinished(): # open, in this folder, and without a name or with a hidden on
         try:
             name = os.readlink(link)
             if name.startswith(os.getcwd()) and (name.endswith(" (deleted)") or "/.bough-" in name):
-                yield os.stat(link).st_size
+                yield name, os.stat(link).st_size
         except FileNotFoundError:
             pass
 def sizes():
-    return unfinished() if watched == "unfinished" else (os.path.getsize(f) for f in glob.glob(watched))
+    return unfinished() if watched == "unfinished" else ((f, os.path.getsize(f)) for f in glob.glob(watched))
+first = {}
+def grown():
+    return any("%" in " ".join(command) or size > first.setdefault(name, size or 1e9) for name, size in sizes() if size > 0)
 end = time.time() + 60
 empty_until_done = command[-1].endswith(".glb")
-while child.poll() is None and time.time() < end and not any(empty_until_done or size > 0 for size in sizes()):
+while child.poll() is None and time.time() < end and not (any(sizes()) if empty_until_done else grown()):
     time.sleep(0.01)
 time.sleep(3 if empty_until_done else 0.3)
 child.send_signal(signal.SIGINT)
@@ -61,6 +64,24 @@ stop 'frames/m_0003.obj' treesim -q tree.json --frames 1000000 -o frames/m_%04d.
 expect 0 treesim tree.json --resume state.json --frames 2 -o rest.jsonl
 last=$(find frames -name 'm_*.obj' | wc -l)
 grep -q "\"frame\": *$last[,}]" rest.jsonl || fail "the run does not go on with frame $last"
+absent
+
+# At whatever moment: some frames, or no file.
+python3 - <<'END' || fail "interrupted before the first frame"
+import os, signal, struct, subprocess, time
+for k in range(12):
+    child = subprocess.Popen(["treesim", "-q", "--settle", "0", "tree.json", "--frames", "1000000", "-o", "early.mdd"], stderr=subprocess.PIPE,
+                             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+    time.sleep(0.02 * k)
+    child.send_signal(signal.SIGINT)
+    told = child.communicate()[1]
+    if os.path.exists("early.mdd"):
+        frames = struct.unpack(">i", open("early.mdd", "rb").read(4))[0]
+        assert frames > 0 and b"after frame" in told, (frames, told)
+        os.remove("early.mdd")
+    else:
+        assert b"after frame" not in told, told
+END
 absent
 
 # A point cache tells its number of frames first: it is mended.

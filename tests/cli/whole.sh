@@ -59,10 +59,13 @@ signals, file, command = sys.argv[1].split(","), sys.argv[3], ["treesim", "-q", 
 def prepare():
     for s in signal.SIGINT, signal.SIGQUIT: signal.signal(s, signal.SIG_DFL)
 child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=open("err", "wb"), preexec_fn=prepare)
-def written():
+first = {}
+def written(): # more than it began with
     for link in glob.glob(f"/proc/{child.pid}/fd/*"):
         try:
-            if os.readlink(link).startswith(os.path.dirname(file)) and os.stat(link).st_size > 0: return True
+            if os.readlink(link).startswith(os.path.dirname(file)):
+                size = os.stat(link).st_size
+                if size > 0 and size > first.setdefault(link, size): return True
         except FileNotFoundError: pass
 end = time.time() + 60
 while child.poll() is None and time.time() < end and not written(): time.sleep(0.01)

@@ -115,6 +115,19 @@ TEST_CASE("Each species stands: height, diameter and buckling as in real trees")
     }
 }
 
+TEST_CASE("Nothing grows into the ground") {
+    for (const SpeciesFile& file : species_files()) {
+        const Species species = read_species(file.content, std::string(file.name));
+        for (const double part : cases<double>(1, {1, 0.4, 0.2})) {
+            const Splines s = grow(at_age(species, part * species.mature_age), 1, {true, true, true});
+            INFO(species.name << " at " << part << " of its age");
+            for (std::size_t b = 0; b < s.branches(); ++b)
+                for (auto i = std::size_t(s.first_point[b]); i < std::size_t(s.first_point[b + 1]); ++i)
+                    REQUIRE(s.point[i].y() >= 0);
+        }
+    }
+}
+
 TEST_CASE("Wood and leaves weigh what trees of that diameter weigh") {
     for (const auto& [name, source] : jenkins) {
         const Species species = named(name);
