@@ -42,7 +42,7 @@ Vec3 direction_of(const Vec3& v, const Vec3& otherwise) {
 } // namespace
 
 std::int32_t clump_leaves_drawn(const Tree& tree, std::int64_t all) {
-    if (all == 0) all = std::clamp<std::int64_t>(4 * std::int64_t(tree.leaf_count.size()), 10'000, 200'000);
+    if (all == 0) all = std::clamp<std::int64_t>(2 * std::int64_t(tree.leaf_count.size()), 10'000, 200'000);
     std::int64_t leaves = 0;
     for (const std::int32_t n : tree.leaf_count) leaves += n > 1 ? std::min(n, clump_leaves_most) : 0;
     if (leaves <= all) return clump_leaves_most;

@@ -2,7 +2,7 @@
 //
 // A body that stands for n leaves is drawn as at most 64 of them, each of the body's proportions and of its area (where the tree says a leaf's
 // size, of its proportions and of all their area) over their number. So what is drawn has the clump's area. Where all clumps together would
-// come to more than `all` leaves (four a body, 10 000 at least, 200 000 at most), each is drawn as so many fewer.
+// come to more than `all` leaves (two a body, 10 000 at least, 200 000 at most), each is drawn as so many fewer.
 // They fill an ellipsoid about the body's centre of mass evenly. Its axes are width, 0.6 width, length; where the tree says a leaf's size, twice
 // the way from the centre to the length's end in place of the length. The middle of leaf k is point k of a sequence of low discrepancy (the
 // additive recurrence of three irrationals). Leaves point away from the clump's joint and middle and droop a little; their upper faces look up

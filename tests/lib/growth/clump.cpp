@@ -102,10 +102,10 @@ TEST_CASE("very many clumps are drawn as fewer leaves each") {
     tree.leaf_count.assign(100, 500);
     CHECK(clump_leaves_drawn(tree) == 64);
     tree.leaf_count.assign(3000, 500);
-    CHECK(clump_leaves_drawn(tree) == 4);
+    CHECK(clump_leaves_drawn(tree) == 3);
     CHECK(clump_leaves_drawn(tree, 24'000) == 8);
     CHECK(clump_leaves_drawn(tree, 500) == 1);
-    tree.leaf_count.assign(20'000, 3);
+    tree.leaf_count.assign(20'000, 2);
     CHECK(clump_leaves_drawn(tree) == 64);
     tree.leaf_count.assign(1'000'000, 500);
     CHECK(clump_leaves_drawn(tree) == 1);

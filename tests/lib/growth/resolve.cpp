@@ -77,9 +77,11 @@ Sways sways(const Tree& tree) {
 void check_one_tree(const GrowthParameters& growth, const Material& wood, std::initializer_list<std::int64_t> numbers,
                     double damped_within) {
     const Items in_leaf{true, false, false};
-    const Sways whole = sways(segment(grow(growth, 1, in_leaf), wood, {}));
+    Splines splines = grow(growth, 1, in_leaf);
+    const Sways whole = sways(segment(splines, wood, {}));
     for (const std::int64_t bodies : cases<std::int64_t>(1, numbers)) {
-        const Sways now = sways(segment(grow_bodies(growth, 1, in_leaf, bodies), wood, {}));
+        ask_for_bodies(splines, bodies);
+        const Sways now = sways(segment(splines, wood, {}));
         INFO(growth.name << ", " << bodies << " bodies");
         for (std::size_t k = 0; k < whole.frequency.size(); ++k)
             CHECK(now.frequency[k] == Approx(whole.frequency[k]).epsilon(0.1));
@@ -100,9 +102,11 @@ TEST_CASE("All eight species are one tree from 300 bodies on: height, masses, le
         const Species species = read_species(file.content, std::string(file.name));
         const Material& wood = wood_for(species);
         const Items in_leaf{true, false, false};
-        const Measured whole = measured(segment(grow(species.growth, 1, in_leaf), wood, {}), wood);
+        Splines splines = grow(species.growth, 1, in_leaf);
+        const Measured whole = measured(segment(splines, wood, {}), wood);
         for (const std::int64_t bodies : cases<std::int64_t>(1, {300, 10000, 100000})) {
-            const Tree tree = segment(grow_bodies(species.growth, 1, in_leaf, bodies), wood, {});
+            ask_for_bodies(splines, bodies);
+            const Tree tree = segment(splines, wood, {});
             const Measured now = measured(tree, wood);
             INFO(species.name << ", " << tree.size_bodies() << " bodies");
             CHECK_FALSE(check(tree));
