@@ -66,7 +66,7 @@ private:
     void measure() {
         std::fill(low_.begin(), low_.end(), std::numeric_limits<double>::infinity());
         std::fill(high_.begin(), high_.end(), -std::numeric_limits<double>::infinity());
-        for (const Segment& s : pieces_.segment) {
+        for (const LineSegment& s : pieces_.segment) {
             length_[s.piece] += (pieces_.point[s.b] - pieces_.point[s.a]).norm();
             low_[s.piece] = std::min({low_[s.piece], up(s.a), up(s.b)});
             high_[s.piece] = std::max({high_[s.piece], up(s.a), up(s.b)});
@@ -91,13 +91,13 @@ private:
 
     static constexpr std::int32_t window = 8; // segments to either side
     struct Likely {                           // no container: what memory it lacked, a thread could tell nobody
-        std::array<Segment, 2 + 2 * window + window> segment;
+        std::array<LineSegment, 2 + 2 * window + window> segment;
         std::size_t count = 0;
-        std::span<const Segment> all() const { return {segment.data(), count}; }
+        std::span<const LineSegment> all() const { return {segment.data(), count}; }
     };
 
     // Segments near to where a piece was joined, and those of the next piece.
-    void set_likely(const Segment& found, Likely& likely) const {
+    void set_likely(const LineSegment& found, Likely& likely) const {
         likely.count = 0;
         if (found.a < 0) return;
         likely.segment[likely.count++] = found;
@@ -114,7 +114,7 @@ private:
         }
     }
 
-    Choice best_of(std::size_t p, std::int32_t group, std::span<const Segment> likely = {}) const {
+    Choice best_of(std::size_t p, std::int32_t group, std::span<const LineSegment> likely = {}) const {
         const std::int32_t* const all = pieces_.base[p] >= 0 ? &pieces_.base[p] : begin(p);
         const std::span<const std::int32_t> ends(all, pieces_.base[p] >= 0 ? all + 1 : end(p));
         Choice best{ends.front(), search_->nearest(ends.front(), group, infinity, likely)};

@@ -7,13 +7,13 @@
 namespace bough {
 
 struct Pieces {
-    std::vector<Vec3> point;        // [file unit]
-    std::vector<double> radius;     // [file unit] one a point, <= 0: unknown
-    std::vector<Segment> segment;   // of every piece at least one
-    std::vector<std::int32_t> end;  // points by which pieces may be joined to others, piece by piece
-    std::vector<std::size_t> first; // pieces + 1 entries into `end`; of every piece at least one
-    std::vector<std::int32_t> base; // of each piece: the one end it begins with, or -1: any of its ends
-    bool curves = false;            // each piece has two ends, and the segments from a point to the next between them
+    std::vector<Vec3> point;          // [file unit]
+    std::vector<double> radius;       // [file unit] one a point, <= 0: unknown
+    std::vector<LineSegment> segment; // of every piece at least one
+    std::vector<std::int32_t> end;    // points by which pieces may be joined to others, piece by piece
+    std::vector<std::size_t> first;   // pieces + 1 entries into `end`; of every piece at least one
+    std::vector<std::int32_t> base;   // of each piece: the one end it begins with, or -1: any of its ends
+    bool curves = false;              // each piece has two ends, and the segments from a point to the next between them
     std::size_t size() const { return base.size(); }
 };
 

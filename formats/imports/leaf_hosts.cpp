@@ -8,7 +8,7 @@ void find_hosts(const std::vector<ImportedBranch>& branches, std::vector<Importe
     const auto lacks_host = [](const ImportedLeaf& leaf) { return leaf.branch < 0; };
     if (std::none_of(leaves.begin(), leaves.end(), lacks_host)) return;
     std::vector<Vec3> point; // of all branches, then of the leaves
-    std::vector<Segment> segments;
+    std::vector<LineSegment> segments;
     for (std::size_t b = 0; b < branches.size(); ++b)
         for (std::size_t k = 0; k < branches[b].point.size(); ++k) {
             const auto at = std::int32_t(point.size());

@@ -67,7 +67,7 @@ Measured measured(const Pieces& pieces, char up) {
     const int axis = up == 'z' ? 2 : 1;
     Measured m{std::vector<double>(pieces.size(), 0), {}};
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Segment& s : pieces.segment) {
+    for (const LineSegment& s : pieces.segment) {
         m.wood[s.piece] += (pieces.point[s.b] - pieces.point[s.a]).norm();
         for (const std::int32_t p : {s.a, s.b}) {
             low = std::min(low, pieces.point[p][axis]);

@@ -33,7 +33,8 @@ float above(double v) {
 } // namespace
 
 SegmentSearch::SegmentSearch(const std::vector<Vec3>& point, const std::vector<double>& radius,
-                             const std::vector<std::int32_t>& base, std::vector<Segment> segments, std::size_t pieces)
+                             const std::vector<std::int32_t>& base, std::vector<LineSegment> segments,
+                             std::size_t pieces)
     : point_(point), radius_(radius), base_(base), segments_(std::move(segments)), group_(pieces) {
     sort_by_place(point_, radius_, segments_, pieces);
     std::iota(group_.begin(), group_.end(), 0);
@@ -175,7 +176,7 @@ struct SegmentSearch::Asked {
     }
 };
 
-void SegmentSearch::try_segment(const Segment& s, Asked& asked) const {
+void SegmentSearch::try_segment(const LineSegment& s, Asked& asked) const {
     const Vec3 &a = point_[s.a], &b = point_[s.b], &p = point_[asked.end];
     const double t = projected(a, b, p);
     const Vec3 place = a + t * (b - a);
@@ -218,9 +219,9 @@ constexpr std::size_t most_open = 17 * 4;
 } // namespace
 
 SegmentPlace SegmentSearch::nearest(std::int32_t end, std::int32_t group, double bound,
-                                    std::span<const Segment> likely) const {
+                                    std::span<const LineSegment> likely) const {
     Asked asked(end, group, point_[end], point_[end], radius_[end], bound);
-    for (const Segment& s : likely)
+    for (const LineSegment& s : likely)
         if (group_[s.piece] != group) try_segment(s, asked);
     std::array<Open, most_open> open;
     std::size_t count = 0;

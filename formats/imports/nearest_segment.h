@@ -9,7 +9,7 @@
 
 namespace bough {
 
-struct Segment {
+struct LineSegment {
     std::int32_t a = -1, b = -1; // points
     std::int32_t piece = -1;     // what it is part of
 };
@@ -18,8 +18,8 @@ struct Segment {
 // so that of several stems around a joint the one counts that holds it deepest. Ten times what the place is thinner than
 // the end that is to begin there comes on top, as wood does not begin on thinner wood.
 struct SegmentPlace {
-    Segment segment; // a: -1 for none
-    double t = 0;    // fraction of the way from a to b
+    LineSegment segment; // a: -1 for none
+    double t = 0;        // fraction of the way from a to b
     double distance = 0, cost = std::numeric_limits<double>::infinity();
 };
 
@@ -30,7 +30,7 @@ public:
     // if smaller, the base's own) of it: what begins at one place has the same parent. (Where more
     // than 256 begin, one of them is the parent: looking further would take a time that grows with their square.)
     SegmentSearch(const std::vector<Vec3>& point, const std::vector<double>& radius,
-                  const std::vector<std::int32_t>& base, std::vector<Segment> segments, std::size_t pieces);
+                  const std::vector<std::int32_t>& base, std::vector<LineSegment> segments, std::size_t pieces);
 
     // Pieces of one group are no places for one another. At first each piece is a group of its own. O(segments).
     void regroup(const std::vector<std::int32_t>& group);
@@ -39,7 +39,7 @@ public:
     // the segment whose points come first. `likely`: segments that may well be near; they change nothing but the time
     // taken. May be called by several threads at once.
     SegmentPlace nearest(std::int32_t point, std::int32_t group, double bound = std::numeric_limits<double>::infinity(),
-                         std::span<const Segment> likely = {}) const;
+                         std::span<const LineSegment> likely = {}) const;
 
     // False only where nearest() finds nothing for any of these points. What many points that lie close together ask is
     // answered in one search, if they lie far from all others.
@@ -60,13 +60,13 @@ private:
     void set_group(Node&, std::size_t at, std::size_t block) const;
     static void join_boxes(const Node& parts, Node&, std::size_t at);
     static std::int32_t common_group(const Node&);
-    void try_segment(const Segment&, Asked&) const;
+    void try_segment(const LineSegment&, Asked&) const;
     void try_block(std::size_t block, Asked&) const;
 
     const std::vector<Vec3>& point_;
     const std::vector<double>& radius_;
     const std::vector<std::int32_t>& base_;
-    std::vector<Segment> segments_;
+    std::vector<LineSegment> segments_;
     std::vector<std::vector<Node>> levels_; // from blocks of segments up to one node
     std::vector<std::int32_t> group_;       // of each piece
 };

@@ -19,7 +19,7 @@ std::uint64_t spread(std::uint64_t v) {
 }
 
 // The power of two that a segment's size has.
-std::int32_t exponent(const Segment& s, const std::vector<Vec3>& point, const std::vector<double>& radius) {
+std::int32_t exponent(const LineSegment& s, const std::vector<Vec3>& point, const std::vector<double>& radius) {
     const double size = std::max({(point[s.b] - point[s.a]).norm(), radius[s.a], radius[s.b]});
     return std::clamp(std::ilogb(size), -1100, 1100);
 }
@@ -41,23 +41,23 @@ struct MortonBox {
     }
 };
 
-Vec3 middle_of(const Segment& s, const std::vector<Vec3>& point) {
+Vec3 middle_of(const LineSegment& s, const std::vector<Vec3>& point) {
     return 0.5 * (point[s.a] + point[s.b]);
 }
 
 // Pieces of so many segments that they are sorted each for itself: rank + 1 of each, along a Morton curve; 0: all others.
 constexpr std::int32_t many_segments = 512, most_ranks = 1 << 15;
 
-std::vector<std::int32_t> rank_large(const std::vector<Segment>& segments, std::size_t pieces, const MortonBox& all,
+std::vector<std::int32_t> rank_large(const std::vector<LineSegment>& segments, std::size_t pieces, const MortonBox& all,
                                      const std::vector<Vec3>& point) {
     std::vector<std::int32_t> rank(pieces, 0);
-    for (const Segment& s : segments) ++rank[s.piece];
+    for (const LineSegment& s : segments) ++rank[s.piece];
     std::vector<std::pair<std::int32_t, MortonBox>> large;
     for (std::int32_t& r : rank) {
         if (r >= many_segments) large.emplace_back(std::int32_t(&r - rank.data()), MortonBox());
         r = r >= many_segments ? std::int32_t(large.size()) : 0;
     }
-    for (const Segment& s : segments)
+    for (const LineSegment& s : segments)
         if (rank[s.piece] > 0) large[rank[s.piece] - 1].second.add(middle_of(s, point));
     std::vector<std::pair<std::uint64_t, std::int32_t>> order;
     for (const auto& [piece, box] : large) order.emplace_back(all.morton(0.5 * (box.low + box.high), 19), piece);
@@ -68,12 +68,12 @@ std::vector<std::int32_t> rank_large(const std::vector<Segment>& segments, std::
 
 } // namespace
 
-void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& radius, std::vector<Segment>& segments,
-                   std::size_t pieces) {
+void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& radius,
+                   std::vector<LineSegment>& segments, std::size_t pieces) {
     constexpr std::size_t aligned = 64;
     MortonBox box;
     std::int32_t largest = std::numeric_limits<std::int32_t>::min();
-    for (const Segment& s : segments) {
+    for (const LineSegment& s : segments) {
         box.add(point[s.a]);
         box.add(point[s.b]);
         largest = std::max(largest, exponent(s, point, radius));
@@ -85,7 +85,7 @@ void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& ra
     const auto count = std::ptrdiff_t(segments.size());
 #pragma omp parallel for schedule(static) if (count > few_for_threads)
     for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const Segment& s = segments[std::size_t(i)];
+        const LineSegment& s = segments[std::size_t(i)];
         const auto size = std::uint64_t(std::min((largest - exponent(s, point, radius)) / size_class, 63));
         const Vec3 middle = middle_of(s, point);
         const auto large = std::uint64_t(rank[s.piece]);
@@ -94,7 +94,7 @@ void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& ra
                        : std::uint64_t(1) << 62 | (large - 1) << 47 | size << 41 | box.morton(middle, 19) >> (57 - 41);
     }
     const std::vector<std::uint32_t> order = radix_order(std::move(key));
-    std::vector<Segment> sorted;
+    std::vector<LineSegment> sorted;
     const auto ranks = std::size_t(rank.empty() ? 0 : *std::max_element(rank.begin(), rank.end()));
     sorted.reserve(segments.size() + ranks * aligned); // what is left free where one ends
     std::int32_t before = 0;

@@ -13,9 +13,9 @@ struct Range {
     double thin = std::numeric_limits<double>::infinity(), thick = 0;
 };
 
-Range radii(const std::vector<double>& radius, const std::vector<Segment>& segments) {
+Range radii(const std::vector<double>& radius, const std::vector<LineSegment>& segments) {
     Range range;
-    for (const Segment& s : segments)
+    for (const LineSegment& s : segments)
         for (const std::int32_t p : {s.a, s.b}) {
             if (!(radius[p] > 0)) continue;
             range.thin = std::min(range.thin, radius[p]);
@@ -25,9 +25,9 @@ Range radii(const std::vector<double>& radius, const std::vector<Segment>& segme
 }
 
 char along_trunks(const std::vector<Vec3>& point, const std::vector<double>& radius,
-                  const std::vector<Segment>& segments, double thick) {
+                  const std::vector<LineSegment>& segments, double thick) {
     Vec3 way = Vec3::Zero();
-    for (const Segment& s : segments)
+    for (const LineSegment& s : segments)
         if (std::min(radius[s.a], radius[s.b]) >= of_trunk * thick) way += (point[s.b] - point[s.a]).cwiseAbs();
     return way.z() > way.y() ? 'z' : 'y';
 }
@@ -35,14 +35,14 @@ char along_trunks(const std::vector<Vec3>& point, const std::vector<double>& rad
 } // namespace
 
 char likely_up(const std::vector<Vec3>& point, const std::vector<double>& radius,
-               const std::vector<Segment>& segments) {
+               const std::vector<LineSegment>& segments) {
     if (segments.empty()) return 'y';
     const Range range = radii(radius, segments);
     if (range.thick > clearly_thicker * range.thin) return along_trunks(point, radius, segments, range.thick);
     std::int32_t low[2] = {segments.front().a, segments.front().a};
     Vec3 middle = Vec3::Zero();
     double length = 0;
-    for (const Segment& s : segments) {
+    for (const LineSegment& s : segments) {
         const double l = (point[s.b] - point[s.a]).norm();
         middle += 0.5 * l * (point[s.a] + point[s.b]);
         length += l;

@@ -18,7 +18,7 @@ void add_twigs(std::vector<ImportedBranch>& branches, const std::vector<Twig>& t
     std::vector<Vec3> point;
     std::vector<double> radius;
     std::vector<std::int32_t> base;
-    std::vector<Segment> segment;
+    std::vector<LineSegment> segment;
     for (std::size_t b = 0; b < branches.size(); ++b) {
         base.push_back(std::int32_t(point.size()));
         for (std::size_t k = 0; k < branches[b].point.size(); ++k) {

@@ -6,7 +6,8 @@ namespace bough {
 
 // With as few digits as read back as the same number.
 std::string shortest_text(double);
-// Rounded to 4 digits.
+// Rounded to so many digits that count.
+std::string rounded_text(double, int digits);
 std::string four_digits(double);
 
 } // namespace bough

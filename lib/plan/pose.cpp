@@ -1,9 +1,9 @@
 #include "pose.h"
+#include "../base/shortest_text.h"
 #include "sag.h"
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -14,15 +14,12 @@ namespace {
 std::string what_would_carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     constexpr double sag = 0.5; // [rad]
     const double K = tree.stiffness[i].minCoeff();
-    std::ostringstream text;
-    text.precision(3);
-    text << "it bears " << tau.norm() << " N m on a spring of " << K << " N m/rad; ";
-    if (i >= tree.kind.size() || tree.kind[i] == Kind::branch) // of what only settles the kind is not known
-        text << "wood " << std::pow(std::max(1.0, tau.norm() / (sag * K)), 0.25)
-             << " times as thick would carry it: treeconvert --radii carry makes it so";
-    else
-        text << "a stiffer one would carry it: leaf_modulus of a --material FILE";
-    return text.str();
+    const auto digits = [](double value) { return rounded_text(value, 3); };
+    const std::string bears = "it bears " + digits(tau.norm()) + " N m on a spring of " + digits(K) + " N m/rad; ";
+    if (i < tree.kind.size() && tree.kind[i] != Kind::branch) // of what only settles the kind is not known
+        return bears + "a stiffer one would carry it: leaf_modulus of a --material FILE";
+    return bears + "wood " + digits(std::pow(std::max(1.0, tau.norm() / (sag * K)), 0.25)) +
+           " times as thick would carry it: treeconvert --radii carry makes it so";
 }
 
 // theta with K theta = J^T tau, the moment given in the body's frame, J the body rates' Jacobian at theta. The slope of

@@ -1,4 +1,5 @@
 #include "assembly.h"
+#include "../base/shortest_text.h"
 #include "../model/place.h"
 #include "../model/static_load.h"
 #include "../model/wood_overrides.h"
@@ -7,7 +8,6 @@
 #include "../plan/settling.h"
 #include <algorithm>
 #include <numbers>
-#include <sstream>
 
 namespace bough {
 namespace {
@@ -51,9 +51,7 @@ void change_wood(Assembly& assembly) {
     }
     if (assembly.scene.load) {
         const LoadLaid laid = lay_load(assembly.tree, *assembly.scene.load);
-        std::ostringstream kilograms;
-        kilograms << laid.mass;
-        assembly.changes.push_back("/load: " + kilograms.str() + " kg on " + count(laid.bodies, " bodies"));
+        assembly.changes.push_back("/load: " + rounded_text(laid.mass, 6) + " kg on " + count(laid.bodies, " bodies"));
         assembly.scene.load.reset();
     }
 }

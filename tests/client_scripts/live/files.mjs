@@ -10,7 +10,7 @@ const need = createRequire(path.join(process.env.BOUGH_NODE_MODULES, 'any.js'));
 export async function dropped_files_stand_and_move({ browser, url, top, work, tools }) {
     const page = await openPage(browser, url);
     const data = (name) => fs.readFileSync(path.join(top, 'data', name));
-    execFileSync('bash', ['-c', `treegen --species apple --bodies 400 -q | tee splines.json | treeconvert - -q -o apple.safetensors
+    execFileSync('bash', ['-c', `treegen --species apple --age 6 --bodies 400 -q | tee splines.json | treeconvert - -q -o apple.safetensors
         treeconvert splines.json -q -o apple.tree.json`], { cwd: work, env: { ...process.env, PATH: `${tools}:${process.env.PATH}` } });
     const made = (name) => fs.readFileSync(path.join(work, name));
     const files = [

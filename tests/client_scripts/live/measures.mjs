@@ -5,19 +5,21 @@ import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { closePage, expect, openPage, steps, still } from './browser.mjs';
 
+const most = 1.43e6; // bytes, gzipped: what it has, rounded up; 1.5 MB is the promise
+
 export async function the_page_is_small({ folder }) {
     const names = ['index.html', 'style.css', 'page.js', 'worker.js', 'bough.wasm'];
     const sizes = names.map((name) => gzipSync(fs.readFileSync(path.join(folder, name)), { level: 9 }).length);
     const all = sizes.reduce((a, b) => a + b, 0);
     console.log(`    gzipped: ${names.map((name, k) => `${name} ${sizes[k]}`).join(', ')}; all ${all} bytes`);
-    expect(all <= 1.5e6, `${all} bytes gzipped, expected at most 1.5 MB`);
+    expect(all <= most, `${all} bytes gzipped, expected at most ${most}: what was added is worth that, or is left out`);
 }
 
 export async function what_a_step_costs({ browser, url, work, tools }) {
     const page = await openPage(browser, url);
     const times = await page.evaluate(() => [bough.times.moved, bough.times.applied]);
     console.log(`    first motion ${(times[0] / 1000).toFixed(2)} s after the page was opened (first scene applied at ${(times[1] / 1000).toFixed(2)} s)`);
-    await page.evaluate(() => bough.grow({ species: 'maple', bodies: 10000, seed: 3, leaves: true, fruit: false, petals: false }));
+    await page.evaluate(() => bough.grow({ species: 'maple', age: 22, bodies: 10000, seed: 3, leaves: true, fruit: false, petals: false }));
     await page.evaluate(async () => {
         bough.change(({ wind }) => Object.assign(wind, { speed: 8, turbulence: 0.2, gustFactor: 1.6, gustPeriod: 6 }), true);
         bough.change((state) => { state.rate = 30; }, true);
@@ -39,7 +41,7 @@ export async function what_a_step_costs({ browser, url, work, tools }) {
         script.sort((a, b) => a - b);
         return { ms: sum / count, script: script[15], bodies: bough.bodies };
     });
-    execFileSync('bash', ['-c', 'treegen --species maple --bodies 10000 --seed 3 --leaves -q | treeconvert - -q -o maple.safetensors'],
+    execFileSync('bash', ['-c', 'treegen --species maple --age 22 --bodies 10000 --seed 3 --leaves -q | treeconvert - -q -o maple.safetensors'],
         { cwd: work, env: { ...process.env, PATH: `${tools}:${process.env.PATH}` } });
     const profile = () => {
         const table = execFileSync(path.join(tools, 'treeprofile'), ['maple.safetensors', '--wind', 'gusty', '--precision', 'float', '--simd', 'baseline',

@@ -107,7 +107,7 @@ export async function meters_say_what_it_costs({ browser, url }) {
 
 export async function what_is_too_large_says_so({ browser, url }) {
     const page = await openPage(browser, url);
-    await page.evaluate(() => bough.grow({ species: 'maple', bodies: 40000, seed: 3, leaves: true, fruit: false, petals: false }));
+    await page.evaluate(() => bough.grow({ species: 'maple', age: 22, bodies: 40000, seed: 3, leaves: true, fruit: false, petals: false }));
     const before = await page.evaluate(() => bough.bodies);
     await page.waitForSelector('.message.error .buttons', { timeout: 120000 });
     const [text] = await messages(page), offers = await page.$$eval('.message.error .buttons button', (all) => all.map((one) => one.textContent));

@@ -6,10 +6,12 @@ import * as files from './files.mjs';
 import * as measures from './measures.mjs';
 import * as promises from './promises.mjs';
 import * as scenes from './scenes.mjs';
+import * as sizes from './sizes.mjs';
+import * as stress from './stress.mjs';
 
 const { BOUGH_LIVE_URL: url, BOUGH_LIVE_PAGE: folder, BOUGH_TOP: top, BOUGH_WORK: work, BOUGH_TOOLS: tools } = process.env;
 const { calm: _, ...of_basics } = basics;
-const tests = { ...of_basics, ...scenes, ...promises, ...files, ...measures };
+const tests = { ...of_basics, ...scenes, ...promises, ...files, ...stress, ...sizes, ...measures };
 const sets = { one: ['opens_and_moves'], short: ['opens_and_moves', 'pulled_by_mouse'], all: Object.keys(tests) };
 const asked = process.argv.slice(2);
 const names = sets[asked[0] ?? 'all'] ?? asked;

@@ -19,7 +19,7 @@ struct Wood {
     std::vector<Vec3> point;
     std::vector<double> radius;
     std::vector<std::int32_t> base;
-    std::vector<Segment> segment;
+    std::vector<LineSegment> segment;
 };
 
 // Crooked curves of three points, of all sizes; many begin on another's point, some at the very same one as another; the
@@ -47,7 +47,7 @@ Wood random_wood(unsigned seed, int curves) {
 // The same by asking all.
 SegmentPlace nearest_of_all(const Wood& w, const std::vector<std::int32_t>& group, std::int32_t end, std::int32_t own) {
     SegmentPlace best;
-    for (const Segment& s : w.segment) {
+    for (const LineSegment& s : w.segment) {
         if (group[s.piece] == own) continue;
         const Vec3 d = w.point[s.b] - w.point[s.a];
         double t = d.squaredNorm() > 0 ? (w.point[end] - w.point[s.a]).dot(d) / d.squaredNorm() : 0;
@@ -72,7 +72,8 @@ void is_nearest(const Wood& w, const SegmentSearch& search, const std::vector<st
     for (std::int32_t end = 0; end < std::int32_t(w.point.size()); ++end) {
         const std::int32_t own = group[end / 3]; // three points a curve
         const SegmentPlace truth = nearest_of_all(w, group, end, own);
-        const std::vector<Segment> some{w.segment[random() % w.segment.size()], w.segment[random() % w.segment.size()]};
+        const std::vector<LineSegment> some{w.segment[random() % w.segment.size()],
+                                            w.segment[random() % w.segment.size()]};
         for (const std::size_t likely : {0, 1, 2}) {
             const SegmentPlace found =
                 search.nearest(end, own, std::numeric_limits<double>::infinity(), std::span(some).first(likely));
@@ -118,7 +119,7 @@ TEST_CASE("places in large pieces, asked one by one and many at once") {
     const SegmentSearch search(w.point, w.radius, w.base, w.segment, w.base.size());
     std::vector<std::int32_t> group(w.base.size()), piece_of(w.point.size());
     std::iota(group.begin(), group.end(), 0);
-    for (const Segment& s : w.segment) piece_of[s.a] = piece_of[s.b] = s.piece;
+    for (const LineSegment& s : w.segment) piece_of[s.a] = piece_of[s.b] = s.piece;
     for (std::int32_t end = 0; end < std::int32_t(w.point.size()); end += sanitized ? 150 : 3) {
         const SegmentPlace truth = nearest_of_all(w, group, end, piece_of[end]);
         const SegmentPlace found = search.nearest(end, piece_of[end]);

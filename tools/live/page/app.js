@@ -27,7 +27,7 @@ export class App {
         this.files = new Files(this);
         this.panel = new Panel(this, known);
         this.bar = new Bar(this);
-        this.pointers = new Pointers({ client, view: this.view, problem, picked: (body) => this.pick(body) });
+        this.pointers = new Pointers({ client, view: this.view, problem, say, picked: (body) => this.pick(body) });
         this.times = { opened: performance.now() };
         this.frames = 0;
         addEventListener('resize', () => this.fit());
@@ -70,8 +70,7 @@ export class App {
     }
     #remember() {
         this.history.add(this.state);
-        this.bar.show(this.history);
-        updateAddress(this.state);
+        this.#stand();
         unsay('slow');
         this.slow = 0;
     }
@@ -96,6 +95,11 @@ export class App {
         if (!state) return;
         this.state = state;
         await this.apply(false);
+        this.#stand();
+    }
+    // Where the history stands: what of it the Worker keeps, what can be undone, the address.
+    #stand() {
+        this.client.ask('retain', this.history.sources());
         this.bar.show(this.history);
         updateAddress(this.state);
     }
@@ -127,9 +131,10 @@ export class App {
             const { restart } = this.wanted, state = copyOf(this.state);
             this.wanted = null;
             try {
-                const { mesh, bodies, notes } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
+                const { mesh, bodies, notes, begun } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
                 this.good = state;
                 this.bodies = bodies;
+                if (begun) this.pointers.letGoAll(); // the run has: its bodies are others, or begin at rest
                 if (mesh) this.#shown(mesh);
                 if (mesh) this.panel.showNotes(notes);
                 if (!this.wanted) this.panel.show(this.state);
@@ -221,7 +226,7 @@ export class App {
         this.view.take(new Float32Array(answer.poses));
         if (answer.steps > 0) this.times.moved ??= performance.now();
         if (answer.hands?.length) document.getElementById('hint').classList.add('gone');
-        for (const [hand, message] of answer.lost ?? []) this.pointers.lost(hand, message);
+        for (const hand of answer.lost ?? []) this.pointers.lost(hand);
         this.answer = { ...answer, poses: null };
         if (this.frameTime)
             this.meters.add({ at: now / 1000, frame: this.frameTime, ms: answer.ms, steps: answer.steps, dropped: answer.dropped, bodies: this.bodies, estimate: answer.estimate });

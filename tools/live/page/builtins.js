@@ -1,9 +1,10 @@
 // builtins.js: the trees that the page brings: by species and seed, and a SpeedTree file of a young maple. Each in a wind that bends less than 2 % of its wood
-// beyond its strength (treesim, torque over the section, 10 s): it blows at once on a tree at rest.
+// beyond its strength (treesim, torque over the section, 10 s): it blows at once on a tree at rest. None is older than it grows within a second: a
+// tree is grown whole before it is resolved by fewer bodies.
 import { defaults } from './state.js';
 
 const at = (tree, x, z, yaw = 0, start = 0) => ({ tree, position: [x, 0, z], yaw, start });
-const species = (name, bodies, seed, more = {}) => ({ species: name, bodies, seed, leaves: false, petals: false, fruit: false, ...more });
+const species = (name, age, bodies, seed, more = {}) => ({ species: name, age, bodies, seed, leaves: false, petals: false, fruit: false, ...more });
 const wind = (speed, turbulence, gustFactor, gustPeriod) => ({ ...defaults.wind, speed, turbulence, gustFactor, gustPeriod });
 
 export const youngMaple = { file: 'young_maple', name: 'young_maple.xml' }; // its bytes come with the page
@@ -11,25 +12,25 @@ export const youngMaple = { file: 'young_maple', name: 'young_maple.xml' }; // i
 export const builtins = {
     maple: {
         label: 'Maple in leaf',
-        trees: [species('maple', 6000, 3, { leaves: true })], places: [at(0, 0, 0)], wind: wind(4, 0.2, 1.5, 5),
+        trees: [species('maple', 16, 6000, 3, { leaves: true })], places: [at(0, 0, 0)], wind: wind(4, 0.2, 1.5, 5),
     },
     willow: {
         label: 'Willow',
-        trees: [species('willow', 5000, 7)], places: [at(0, 0, 0)], wind: wind(6, 0.2, 1.5, 6),
+        trees: [species('willow', 8, 5000, 7)], places: [at(0, 0, 0)], wind: wind(6, 0.2, 1.5, 6),
     },
     apple: {
         label: 'Apple, with fruit',
-        trees: [species('apple', 3000, 2, { leaves: true, fruit: true })], places: [at(0, 0, 0)], wind: wind(4, 0.2, 1.5, 5),
+        trees: [species('apple', 8, 3000, 2, { leaves: true, fruit: true })], places: [at(0, 0, 0)], wind: wind(4, 0.2, 1.5, 5),
     },
     park: {
         label: 'Park of twelve',
         trees: [
-            species('willow', 1600, 4), species('cherry', 900, 1, { leaves: true, petals: true }), species('apple', 900, 3, { leaves: true }),
-            species('birch', 900, 2, { leaves: true }), species('maple', 1000, 5, { leaves: true }),
+            species('willow', 6, 1600, 4), species('cherry', 9, 900, 1, { leaves: true, petals: true }), species('apple', 7, 900, 3, { leaves: true }),
+            species('birch', 10, 900, 2, { leaves: true }), species('maple', 12, 1000, 5, { leaves: true }),
         ],
         places: [
-            at(0, -16, -10), at(0, 20, -14, 140, 5), at(1, 3, 5, 0, 3), at(1, 10, 8, 130, 11), at(1, -1, 13, 220, 7), at(2, -8, 6, 70, 2),
-            at(2, -13, 11, 200, 6), at(3, 8, -8, 0, 1), at(3, 12, -2, 80, 9), at(3, -4, -12, 200, 4), at(4, 22, 4, 30, 5), at(4, -22, 3, 250, 8),
+            at(0, -8, -5), at(0, 10, -7, 140, 5), at(1, 1.5, 2.5, 0, 3), at(1, 5, 4, 130, 11), at(1, -0.5, 6.5, 220, 7), at(2, -4, 3, 70, 2),
+            at(2, -6.5, 5.5, 200, 6), at(3, 4, -4, 0, 1), at(3, 6, -1, 80, 9), at(3, -2, -6, 200, 4), at(4, 11, 2, 30, 5), at(4, -11, 1.5, 250, 8),
         ],
         wind: wind(5, 0.15, 1.5, 6),
     },

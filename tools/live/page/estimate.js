@@ -19,7 +19,7 @@ export class Estimate {
     work() {
         const { library, state, clock } = this.run;
         if (this.wait-- > 0 || clock.cost > 3) return; // five steps of this size are too much for a frame
-        if (!this.handle) this.handle = library.handle('estimate', this.run.simulation);
+        if (!this.handle && !this.#begin()) return;
         library.call('estimate_step', this.handle, library.scratch);
         const [rms, worst, deflection, known, steps] = library.doubles(library.scratch, 5);
         if (steps * (1 / state.rate) < length) return;
@@ -27,5 +27,14 @@ export class Estimate {
         library.release(this.handle);
         this.handle = 0;
         this.wait = 10;
+    }
+    #begin() {
+        try {
+            this.handle = this.run.library.handle('estimate', this.run.simulation);
+        } catch (error) { // such as where wood may break: for as long as the run is this one
+            this.found = { refused: error.message };
+            this.wait = Infinity;
+        }
+        return this.handle !== 0;
     }
 }

@@ -34,6 +34,7 @@ export class Files {
     }
     // One tree, or a scene with the trees that it names; several trees stand side by side.
     async open(files) {
+        if (files.length === 0) return; // a text was dropped, or none was chosen
         try {
             const read = [];
             for (const file of files) {

@@ -16,8 +16,11 @@ export class Hands {
         this.all = new Map();
         this.gone = [];
     }
-    grab(hand, body, point) {
+    // Nothing where the body is one of a run that is over.
+    grab(hand, body, point, run) {
         const { library, simulation, state } = this.run;
+        if (run !== this.run.number) return null;
+        this.letGo(hand);
         const { compliance, most, at } = library.reach(simulation, body, point, state.stiffness);
         const stiffness = firm / compliance;
         const attachment = library.attach(simulation, body, point, stiffness, slow * stiffness);
@@ -27,11 +30,12 @@ export class Hands {
     letGo(hand) {
         const held = this.all.get(hand);
         this.all.delete(hand);
-        if (held) this.#try(hand, () => this.run.library.call('let_go', this.run.simulation, held.attachment));
+        if (held) this.#holds(() => this.run.library.call('let_go', this.run.simulation, held.attachment));
     }
-    // A new run has them from the one before, but where it begins again.
-    begin(restart) {
-        if (restart) this.all.clear();
+    // A new run has them from the one before; where it begins again, or is one of other trees, they have let go.
+    begin(restart, others) {
+        if (others && !restart) for (const hand of this.all.keys()) this.letGo(hand); // of a tree that is alike
+        if (restart || others) this.all.clear();
     }
     // Where pointers are by now: hands are there in so many steps.
     aim(targets, steps) {
@@ -52,13 +56,19 @@ export class Hands {
         return all;
     }
     lost() { return this.gone.splice(0); }
-    // A branch that broke off, or another tree's, has let go by itself.
     #try(hand, work) {
+        if (this.#holds(work)) return;
+        this.all.delete(hand);
+        this.gone.push(hand);
+    }
+    // Whether what is held is there: a branch that broke off has let go by itself.
+    #holds(work) {
         try {
             work();
+            return true;
         } catch (error) {
-            this.all.delete(hand);
-            this.gone.push([hand, error.message]);
+            if (!error.message.includes('is not there')) throw error;
+            return false;
         }
     }
 }

@@ -36,6 +36,7 @@ export class Meters {
         lines.dropped.textContent = `${lost.toFixed(2)} s`;
         lines.dropped.classList.toggle('bad', lost > 0.5);
         lines.error.textContent = !estimate ? (ms > 3 ? 'too large to measure beside' : 'measuring')
+            : estimate.refused ? `not known: ${estimate.refused}`
             : !estimate.known ? 'unknown: steps do not resolve it'
             : `${metres(estimate.rms)}${estimate.deflection > 0 ? `, ${(100 * estimate.rms / estimate.deflection).toPrecision(2)} %` : ''}`;
         this.draw(at);

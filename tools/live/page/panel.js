@@ -4,7 +4,7 @@ import { CurveEditor } from './curve.js';
 import { Dial } from './dial.js';
 import { button, choice, element, section, slider } from './widgets.js';
 
-const grown = { bodies: 3000, seed: 1 }; // of a species that is chosen
+const grown = { age: 10, bodies: 3000, seed: 1 }; // of a species that is chosen
 
 export class Panel {
     // app: { change(edit, done), open(name), grow(source), files, client, picked, ... }
@@ -36,6 +36,10 @@ export class Panel {
             change: (name) => name && app.open(name),
         });
         const kind = choice({ label: 'Grow', options: species.map((name) => [name, name]), change: () => grow() });
+        const age = slider({
+            label: 'Age', unit: 'years', min: 1, max: 40, digits: 2, allowed: [0, 1000], help: '0: a mature tree; what is older than 20 takes seconds to grow',
+            change: (_, done) => done && grow(),
+        });
         const bodies = slider({ label: 'Bodies', min: 100, max: 50000, log: true, digits: 2, allowed: [50, 1000000], change: (_, done) => done && grow() });
         const seed = slider({ label: 'Seed', min: 0, max: 100, allowed: [0, 2 ** 31], change: (_, done) => done && grow() });
         const with_ = (label, checked) => {
@@ -44,14 +48,16 @@ export class Panel {
         };
         const [leaves, leavesRow] = with_('Leaves', true), [fruit, fruitRow] = with_('Fruit', false), [petals, petalsRow] = with_('Petals', false);
         const grow = () => app.grow({
-            species: kind.select.value, bodies: Math.round(bodies.get()), seed: Math.round(seed.get()), leaves: leaves.checked, petals: petals.checked, fruit: fruit.checked,
+            species: kind.select.value, age: age.get(), bodies: Math.round(bodies.get()), seed: Math.round(seed.get()), leaves: leaves.checked, petals: petals.checked, fruit: fruit.checked,
         });
+        age.set(grown.age);
         bodies.set(grown.bodies);
         seed.set(grown.seed);
         this.controls.push((state) => {
             const one = state.trees.length === 1 ? state.trees[0].of ?? state.trees[0] : {};
             if (!one.species) return;
             kind.set(one.species);
+            age.set(one.age ?? 0);
             bodies.set(one.bodies);
             seed.set(one.seed);
             Object.assign(leaves, { checked: one.leaves });
@@ -62,7 +68,7 @@ export class Panel {
         return [
             this.builtin.row, element('div', { class: 'buttons' }, button('Open a file…', () => app.files.choose(), { id: 'open' })),
             element('p', { class: 'note' }, 'Or drop one anywhere: a bough tree or scene, SpeedTree XML, glTF, a scan\'s skeleton.'),
-            kind.row, bodies.row, seed.row, element('div', { class: 'buttons' }, leavesRow, fruitRow, petalsRow), this.notes,
+            kind.row, age.row, bodies.row, seed.row, element('div', { class: 'buttons' }, leavesRow, fruitRow, petalsRow), this.notes,
         ];
     }
     #wind() {

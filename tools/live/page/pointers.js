@@ -27,6 +27,7 @@ export class Pointers {
         const hand = event.pointerId;
         const pointer = { x: event.offsetX, y: event.offsetY, from: [event.offsetX, event.offsetY], at: performance.now(), does: 'asks' };
         this.all.set(hand, pointer);
+        const down = () => this.all.get(hand) === pointer; // another press may have followed meanwhile
         if (event.button > 0 || event.shiftKey || this.#beside().length > 0) {
             pointer.does = event.button > 0 || event.shiftKey ? 'shifts' : 'turns';
             return;
@@ -39,21 +40,18 @@ export class Pointers {
         pointer.body = hit ? hit.body : null;
         if (!hit) {
             pointer.does = 'turns';
-            if (!this.all.has(hand)) this.#pressed(pointer);
+            if (!down()) this.#pressed(pointer);
             return;
         }
-        if (!this.all.has(hand)) return this.#pressed(pointer);
+        if (!down()) return this.#pressed(pointer);
         pointer.does = 'holds';
         pointer.world = new THREE.Vector3(...hit.world);
         pointer.drawn = view.skinned.drawn(hit.body, pointer.world);
         pointer.plane = view.depthPlane(pointer.world);
         view.canvas.classList.add('holds');
-        const reach = await client.ask('grab', { hand, body: hit.body, point: hit.point }).catch((error) => {
-            pointer.does = 'nothing';
-            this.page.problem(error.message);
-        });
-        pointer.way = reach?.way; // [m] that the hand goes at most
-        if (!this.all.has(hand)) client.ask('letGo', { hand });
+        const reach = await client.ask('grab', { hand, body: hit.body, point: hit.point, run: hit.run }).catch((error) => this.page.problem(error.message));
+        if (!reach) this.#letGo(hand, pointer);
+        else pointer.way = reach.way; // [m] that the hand goes at most
     }
     move(event) {
         const pointer = this.all.get(event.pointerId);
@@ -77,12 +75,9 @@ export class Pointers {
         const pointer = this.all.get(event.pointerId);
         if (!pointer) return;
         this.all.delete(event.pointerId);
-        if (pointer.does === 'holds') {
-            this.page.client.ask('letGo', { hand: event.pointerId });
-            this.page.view.removeArrow(event.pointerId);
-            this.page.view.canvas.classList.remove('holds');
-        }
-        if (pointer.does !== 'asks' && event.type === 'pointerup') this.#pressed(pointer);
+        const did = pointer.does;
+        if (did === 'holds') this.#letGo(event.pointerId, pointer);
+        if (did !== 'asks' && event.type === 'pointerup') this.#pressed(pointer);
     }
     #beside() { return [...this.all.values()].filter(({ does }) => does === 'turns'); }
     #pressed(pointer) {
@@ -106,19 +101,21 @@ export class Pointers {
         for (const [hand, pointer] of this.all)
             if (pointer.does === 'holds' && pointer.target) view.arrow(hand, view.skinned.moved(pointer.body, pointer.drawn), pointer.target);
     }
-    lost(hand, message) {
+    // What was held broke off.
+    lost(hand) {
         const pointer = this.all.get(hand);
-        if (pointer) pointer.does = 'nothing';
-        this.page.view.removeArrow(hand);
-        this.page.problem(message);
+        if (pointer?.does !== 'holds') return;
+        this.#letGo(hand, pointer);
+        this.page.say('What was held broke off.');
     }
     letGoAll() {
-        for (const [hand, pointer] of this.all)
-            if (pointer.does === 'holds') {
-                pointer.does = 'nothing';
-                this.page.client.ask('letGo', { hand });
-                this.page.view.removeArrow(hand);
-            }
-        this.page.view.canvas.classList.remove('holds');
+        for (const [hand, pointer] of this.all) if (pointer.does === 'holds') this.#letGo(hand, pointer);
+    }
+    #letGo(hand, pointer) {
+        pointer.does = 'nothing';
+        if (this.all.get(hand) === pointer || !this.all.has(hand)) this.page.client.ask('letGo', { hand });
+        this.page.view.removeArrow(hand);
+        const holds = [...this.all.values()].some(({ does }) => does === 'holds');
+        this.page.view.canvas.classList.toggle('holds', holds);
     }
 }

@@ -9,10 +9,11 @@ const sides = 8; // of the thickest tube
 export class Run {
     constructor(library) {
         this.library = library;
-        this.files = new Map(); // id -> { name, bytes }
-        this.trees = new Map(); // key of a source -> { tree, model, notes }
+        this.files = new Map(); // id -> { name, bytes, used }
+        this.trees = new Map(); // key of a source -> { tree, model, notes, used: by a run }
         this.kept = 0;
         this.scene = this.simulation = this.mesh = 0;
+        this.number = 0; // of runs that began: the bodies of another are others
         this.hands = new Hands(this);
         this.clock = new Clock();
         this.estimate = new Estimate(this);
@@ -25,41 +26,47 @@ export class Run {
     tree(source) {
         const key = sourceKey(source);
         const found = this.trees.get(key);
-        if (found) return found;
+        if (found) return Object.assign(found, { used: true });
         let made;
         if (source.kept) throw new Error('the pose that was kept is no longer in memory');
         if (source.species) {
-            const tree = this.library.with(source.species, (name) => this.library.handle('grow', name, source.bodies,
+            const tree = this.library.with(source.species, (name) => this.library.handle('grow', name, source.age ?? 0, source.bodies,
                 source.seed, +source.leaves, +source.petals, +source.fruit));
-            made = { tree, model: 0, notes: [] };
+            made = { tree, model: 0, notes: [], used: true };
         } else {
             const file = this.files.get(source.file);
             if (!file) throw new Error(`${source.name}: is not here; drop the file on the page again`);
-            made = this.library.readTree(file.bytes, file.name, source);
+            file.used = true;
+            made = { ...this.library.readTree(file.bytes, file.name, source), used: true };
         }
         this.trees.set(key, made);
         return made;
     }
 
-    // The state from now on. What can change while it runs is changed; for all else a new run takes the motion over, but with restart.
+    // The state from now on. What can change while it runs is changed; for all else a new run takes the motion over, but with restart. Where
+    // something of it fails, all stays as it was.
     apply(state, restart) {
         const trees = state.trees.map((source) => this.tree(source));
         const change = restart || !this.simulation ? 'all' : changed(this.state, state);
         const notes = trees.flatMap((tree) => tree.notes);
-        if (change !== 'nothing') this.#renew(state, trees, change, restart);
+        const shape = shapeOf(state), drawn = shape !== this.shape, others = drawn && change === 'all';
+        if (change !== 'nothing' || drawn) this.#renew(state, trees, change, { restart, drawn });
         this.state = state;
-        const mesh = this.#renewMesh(state, trees, change);
+        this.shape = shape;
+        if (change === 'all') this.#begin(state, restart, others);
+        if (change === 'all' || drawn) this.library.call('take_poses', this.mesh, this.simulation, 0);
+        const mesh = drawn ? this.#shown() : null;
         return {
-            notes, mesh,
+            notes, mesh, begun: restart || others,
             bodies: this.bodies.count,
             transfer: mesh ? [mesh.vertex.buffer, mesh.color.buffer, mesh.index.buffer] : [],
         };
     }
 
-    #renew(state, trees, change, restart) {
-        const { library } = this;
-        const scene = this.#sceneOf(state, trees);
+    #renew(state, trees, change, { restart, drawn }) {
+        const { library } = this, made = {};
         try {
+            made.scene = this.#sceneOf(state, trees);
             if (change === 'wind') {
                 const { wind } = state, angle = wind.direction * Math.PI / 180;
                 library.call('set_wind', this.simulation, wind.speed * Math.cos(angle), 0, -wind.speed * Math.sin(angle),
@@ -67,27 +74,27 @@ export class Run {
             } else if (change === 'gravity') {
                 library.call('set_gravity', this.simulation, state.gravity);
             } else if (change === 'all') {
-                const simulation = library.handle('simulate', scene, 1 / state.rate, state.precision === 'double' ? 1 : 0,
+                made.simulation = library.handle('simulate', made.scene, 1 / state.rate, state.precision === 'double' ? 1 : 0,
                     restart ? 0 : this.simulation);
-                try {
-                    if (state.gravity !== state.drawnGravity) library.call('set_gravity', simulation, state.gravity);
-                } catch (error) {
-                    library.release(simulation);
-                    throw error;
-                }
-                library.release(this.simulation);
-                this.simulation = simulation;
-                this.bodies = library.bodies(simulation);
-                this.clock.begin(1 / state.rate, restart);
-                this.hands.begin(restart);
+                if (state.gravity !== state.drawnGravity) library.call('set_gravity', made.simulation, state.gravity);
             }
+            if (drawn) made.mesh = this.#meshOf(state, trees, made.simulation ?? this.simulation, made.scene);
         } catch (error) {
-            library.release(scene);
+            Object.values(made).forEach((handle) => library.release(handle));
             throw error;
         }
-        library.release(this.scene);
-        this.scene = scene;
         this.estimate.drop();
+        for (const [what, handle] of Object.entries(made)) {
+            library.release(this[what]);
+            this[what] = handle;
+        }
+    }
+    #begin(state, restart, others) {
+        this.bodies = this.library.bodies(this.simulation);
+        this.clock.begin(1 / state.rate, restart);
+        this.hands.begin(restart, others);
+        if (restart) this.time = 0;
+        if (restart || others) ++this.number;
     }
 
     #sceneOf(state, trees) {
@@ -104,19 +111,28 @@ export class Run {
     }
 
     // The mesh shows trees as they were first drawn; a pose that is kept moves the same one.
-    #renewMesh(state, trees, change) {
-        const { library } = this, shape = shapeOf(state);
-        if (shape === this.shape) {
-            if (change === 'all') library.call('take_poses', this.mesh, this.simulation, 0);
-            return null;
-        }
+    #meshOf(state, trees, simulation, scene) {
         const model = state.places.length === 1 && state.ownMesh ? trees[0].model : 0;
-        const mesh = library.handle('mesh', this.simulation, this.scene, model, sides);
-        library.release(this.mesh);
-        this.mesh = mesh;
-        this.shape = shape;
-        library.call('take_poses', mesh, this.simulation, 0);
-        return { ...library.meshArrays(mesh), parent: this.bodies.parent, kind: this.bodies.kind, size: this.bodies.size, first: this.bodies.first };
+        return this.library.handle('mesh', simulation, scene, model, sides);
+    }
+    #shown() {
+        const { parent, kind, size, first } = this.bodies;
+        return { ...this.library.meshArrays(this.mesh), parent, kind, size, first };
+    }
+
+    // Of trees and files those stay that the page can come back to: `known`, sources of all its history. Trees that can be made again stay where
+    // they are `near`. What no run has had yet is about to have one.
+    retain({ known, near }) {
+        const own = this.state?.trees ?? [], keys = (sources) => new Set([...sources, ...own].map(sourceKey));
+        const all = keys(known), soon = keys(near);
+        for (const [key, made] of this.trees) {
+            if (!made.used || soon.has(key) || (key.startsWith('kept ') && all.has(key))) continue;
+            this.library.release(made.tree);
+            this.library.release(made.model);
+            this.trees.delete(key);
+        }
+        const files = new Set([...known, ...own].map((source) => (source.of ?? source).file));
+        for (const [id, { used }] of this.files) if (used && !files.has(id)) this.files.delete(id);
     }
 
     // Steps for so many seconds of the page's time, poses into the buffer, and what the meters show.
@@ -146,22 +162,32 @@ export class Run {
         };
     }
 
-    // Where bodies are and how they are turned, in the numbers of the run: for tests.
+    // For tests: where bodies are, in the numbers of the run; what is held in memory.
     positions() {
         return this.library.positions(this.simulation);
     }
+    memory() {
+        return { ...this.library.memory(), trees: this.trees.size, files: this.files.size, hands: this.hands.all.size };
+    }
 
     pick(ray, aperture) {
-        return this.simulation ? this.library.pick(this.simulation, ray, aperture) : null;
+        const hit = this.simulation ? this.library.pick(this.simulation, ray, aperture) : null;
+        return hit && { ...hit, run: this.number };
     }
 
     // The tree of each place as it stands now, as sources that apply() knows.
     keepPose() {
         const { library, state } = this;
         const sources = state.places.map(({ tree }) => state.trees[tree]);
-        const made = state.places.map(({ yaw }, place) => ({
-            tree: library.handle('posed_tree', this.simulation, place, this.tree(sources[place]).tree, yaw), model: 0, notes: [],
-        }));
+        const made = [];
+        try {
+            state.places.forEach(({ yaw }, place) => made.push({
+                tree: library.handle('posed_tree', this.simulation, place, this.tree(sources[place]).tree, yaw), model: 0, notes: [],
+            }));
+        } catch (error) {
+            made.forEach(({ tree }) => library.release(tree));
+            throw error;
+        }
         return sources.map((source, k) => {
             const kept = { kept: ++this.kept, of: source.kept ? source.of : source };
             this.trees.set(sourceKey(kept), made[k]);

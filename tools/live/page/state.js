@@ -1,7 +1,7 @@
 // state.js: what the page's scene is, as plain data: what undo goes back to, the address holds and a scene document is made of.
 
 export const defaults = {
-    trees: [], // sources: {species, bodies, seed, leaves, petals, fruit}, {file: id, name, material, maxBodies, unit} or {kept, of}
+    trees: [], // sources: {species, age [years], bodies, seed, leaves, petals, fruit}, {file: id, name, material, maxBodies, unit} or {kept, of}
     places: [], // {tree: number in trees, position [m], yaw [deg], start [s]}
     base: {}, // fields of a scene document that the page has no controls for
     ownMesh: true, // a file's own mesh is shown where it has one
@@ -19,6 +19,10 @@ export const defaults = {
 
 export const copyOf = (state) => structuredClone(state);
 
+const mostKept = 20; // poses in a history: each is a tree in memory
+
+const keptIn = (states) => new Set(states.flatMap(({ trees }) => trees.filter(({ kept }) => kept).map(({ kept }) => kept))).size;
+
 // States that were, and that were undone.
 export class History {
     constructor(state) {
@@ -29,10 +33,15 @@ export class History {
     add(state) {
         if (JSON.stringify(state) === JSON.stringify(this.present)) return false;
         this.past.push(this.present);
-        if (this.past.length > 200) this.past.shift();
+        while (this.past.length > 200 || keptIn(this.past) > mostKept) this.past.shift();
         this.future = [];
         this.present = copyOf(state);
         return true;
+    }
+    // What trees all of it has, and those of the states beside the present one.
+    sources() {
+        const of = (states) => states.flatMap(({ trees }) => trees);
+        return { known: of([...this.past, this.present, ...this.future]), near: of([...this.past.slice(-1), this.present, ...this.future.slice(-1)]) };
     }
     undo() { return this.#go(this.past, this.future); }
     redo() { return this.#go(this.future, this.past); }

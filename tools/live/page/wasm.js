@@ -150,6 +150,7 @@ export class Library {
             first: Array.from(this.words(...array(5))),
         };
     }
+    memory() { return { heap: this.module.HEAPU8.length, used: this.module._live_memory() }; }
     positions(simulation) {
         this.call('positions', simulation, this.scratch);
         const [at, count] = this.words(this.scratch, 2);

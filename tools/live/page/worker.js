@@ -18,13 +18,15 @@ const answers = {
     file: ({ id, name, bytes }) => run.addFile(id, name, bytes),
     frame: (asked) => run.frame(asked),
     pick: ({ ray, aperture }) => run.pick(ray, aperture),
-    grab: ({ hand, body, point }) => run.hands.grab(hand, body, point),
+    grab: ({ hand, body, point, run: number }) => run.hands.grab(hand, body, point, number),
     letGo: ({ hand }) => run.hands.letGo(hand),
     curve: ({ x, y, from, to, samples }) => run.library.curve(x, y, from, to, samples),
     keep: () => run.keepPose(),
+    retain: (sources) => run.retain(sources),
     documents: () => run.documents(),
     glb: (asked) => run.glb(asked),
     positions: () => run.positions(),
+    memory: () => run.memory(),
 };
 
 onmessage = async ({ data: [number, name, asked] }) => {

@@ -1,6 +1,7 @@
 // live_runs.cpp: scenes and runs, with numbers in place of structs.
 #include "lib/simulation/run_error.h"
 #include "live.h"
+#include <malloc.h>
 
 using namespace bough;
 using namespace bough::c;
@@ -165,4 +166,9 @@ LIVE bough_result live_estimate_step(void* estimate, double* found) {
         found[0] = error.rms, found[1] = error.worst, found[2] = error.deflection, found[3] = error.known();
         found[4] = double(error.samples);
     });
+}
+
+// [B] What has been taken of the memory and not been given back.
+LIVE double live_memory() {
+    return double(std::size_t(mallinfo().uordblks));
 }

@@ -54,9 +54,11 @@ LIVE const char* live_materials() {
     return given_out(listed(names));
 }
 
-LIVE bough_tree* live_grow(const char* species, double bodies, double seed, int leaves, int petals, int fruit) {
+LIVE bough_tree* live_grow(const char* species, double age, double bodies, double seed, int leaves, int petals,
+                           int fruit) {
     bough_growth growth = bough_default_growth();
     growth.species = species;
+    growth.age = age;
     growth.bodies = std::int64_t(bodies);
     growth.seed = std::uint64_t(seed);
     growth.leaves = leaves, growth.petals = petals, growth.fruit = fruit;
@@ -93,14 +95,16 @@ LIVE bough_result live_read_tree(const char* bytes, std::size_t size, const char
         auto splines = std::make_shared<SplinesObject>();
         splines->splines = import_splines(text, options, found);
         notes = found.lines;
+        std::shared_ptr<ModelObject> mesh;
+        if (has_speedtree_mesh(text)) {
+            mesh = std::make_shared<ModelObject>();
+            mesh->model = read_speedtree_model(text, name, found, of_mesh);
+        }
         given[0] = converted(static_cast<bough_splines*>(give(splines)), material, segment_length, max_bodies);
         if (!given[0]) failed();
         notes.insert(notes.begin(), found.format);
-        if (!has_speedtree_mesh(text)) return;
-        auto mesh = std::make_shared<ModelObject>();
-        mesh->model = read_speedtree_model(text, name, found, of_mesh);
         notes.insert(notes.end(), of_mesh.lines.begin(), of_mesh.lines.end());
-        given[1] = give(mesh);
+        if (mesh) given[1] = give(mesh);
     });
 }
 
