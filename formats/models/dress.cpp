@@ -88,7 +88,7 @@ OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const
         }
         const std::int32_t leaves = tree.leaf_count[i];
         const bool sprayed = card && !is_strand(tree.size[i]);
-        const double cards = (sprayed ? 1 : strand_leaves) * leaves * sprays;
+        const double cards = (sprayed || o.sprays > 0 ? 1 : strand_leaves) * leaves * sprays;
         const std::int32_t count =
             card ? std::clamp(std::int32_t(std::lround(cards)), 1, leaves) : std::min(leaves, most);
         const double length = std::sqrt(area / count / (sprayed ? spray.area : blade.area));

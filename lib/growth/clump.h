@@ -12,7 +12,7 @@
 
 namespace bough {
 
-constexpr std::int32_t clump_leaves_most = 64;     // of one clump
+constexpr std::int32_t clump_leaves_most = 64; // of one clump
 
 // How many leaves each clump of the tree is drawn as at most, 1..64. all: 0 for the above. O(bodies).
 std::int32_t clump_leaves_drawn(const Tree&, std::int64_t all = 0);
