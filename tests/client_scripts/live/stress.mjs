@@ -162,6 +162,7 @@ class Monkey {
             const picture = document.querySelectorAll('.editor')[row];
             for (let up = picture.parentElement; up; up = up.parentElement) if (up.tagName === 'DETAILS') up.open = true;
             const [edit, clear] = picture.parentElement.querySelectorAll('button'), box = picture.getBoundingClientRect();
+            if (box.width === 0) return; // the panel is closed: nobody reaches it
             const at = { clientX: box.left + x * box.width, clientY: box.top + y * box.height, pointerId: 77, bubbles: true };
             const keys = picture.querySelectorAll('.key');
             if (keys.length === 0) return edit.click();
