@@ -38,7 +38,8 @@ void declare(OptionList& list, ScalingCommand& o) {
     list.add("--bodies", o.bodies, "Sizes, with commas (1000,10000,100000,1000000); trees come within 10 %")
         .takes("LIST");
     list.add("--shape", o.shape,
-             "Trees to grow, with commas: bushy (default; an apple tree), willow, chain (one unbranched pole)")
+             "Trees to grow, with commas: bushy (default; apple trees, as many as come to so many bodies), willow, "
+             "chain (one\nunbranched pole)")
         .takes("LIST");
     list.add("--tree", o.trees, "A tree of your own instead of grown ones; once for each")
         .takes("FILE")

@@ -7,10 +7,13 @@
 #include "threads.h"
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 
 namespace bough {
 namespace {
+
+constexpr double orchard = 20; // [m] from tree to tree
 
 double median(std::vector<double> values) {
     if (values.empty()) return NAN;
@@ -191,7 +194,15 @@ Tree scaling_tree(const std::string& shape, std::int64_t bodies) {
         return segment(pole, wood_presets().front(), options);
     }
     try {
-        return convert(grow(shape == "willow" ? "willow" : "apple", {.bodies = bodies, .seed = 1}));
+        const char* const species = shape == "willow" ? "willow" : "apple";
+        const auto whole = std::int64_t(convert(grow(species, {.seed = 1})).size_bodies());
+        const std::int64_t trees = (bodies + whole - 1) / whole,
+                           row = std::llround(std::ceil(std::sqrt(double(trees))));
+        const Tree one = convert(grow(species, {.bodies = std::max<std::int64_t>(bodies / trees, 1), .seed = 1}));
+        Tree all = one;
+        for (std::int64_t k = 1; k < trees; ++k)
+            append(all, one, orchard * Vec3(double(k % row), 0, double(k / row)), 0);
+        return all;
     } catch (const SceneError& error) {
         throw UsageError(std::string("--") + error.what());
     }

@@ -13,8 +13,9 @@ struct ScalingTree {
     Setting setting;
 };
 
-// bushy: an apple tree, willow: a willow, both bare, as `treegen --species NAME --bodies N --seed 1 | treeconvert -` makes them; chain: a straight
-// upright pole of 20 m and 0.2 m radius, cut into `bodies` pieces. Throws UsageError for a number that cannot be grown.
+// bushy: an apple tree, willow: a willow, both bare, as `treegen --species NAME --bodies N --seed 1 | treeconvert -` makes them, or, of more bodies
+// than the whole tree has, as many whole trees side by side as come to that; chain: a straight upright pole of 20 m and 0.2 m radius, cut into
+// `bodies` pieces. Throws UsageError for a number that cannot be grown.
 Tree scaling_tree(const std::string& shape, std::int64_t bodies);
 
 struct ScalingChoice {
