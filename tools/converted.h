@@ -13,7 +13,6 @@ namespace bough {
 Material own_material(const Splines&, const std::string& name);
 // What segment() put right, a line each.
 std::vector<std::string> repairs(const SegmentReport&);
-
 // What a number of bodies left of the fruit, where it did of some.
 std::string joined_fruit(const SegmentReport&);
 // Throws InputError for a tree without bodies.

@@ -122,7 +122,7 @@ std::string by_option(const std::string& error, const EnvelopeOptions& o) {
     std::string option = "--" + error.substr(0, error.find(':'));
     std::replace(option.begin(), option.end(), ' ', '-');
     std::vector<std::pair<std::string, bool>> options = o.given();
-    options.insert(options.end(), {{"--envelope", true}});
+    options.emplace_back("--envelope", true);
     for (const auto& [name, is_given] : options)
         if (name == option)
             return (is_given ? option + ":"

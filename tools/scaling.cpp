@@ -194,16 +194,17 @@ Tree scaling_tree(const std::string& shape, std::int64_t bodies) {
         return segment(pole, wood_presets().front(), options);
     }
     try {
-        const char* const species = shape == "willow" ? "willow" : "apple";
-        const auto whole = std::int64_t(convert(grow(species, {.seed = 1})).size_bodies());
+        Splines splines = grow(shape == "willow" ? "willow" : "apple", {.seed = 1});
+        const std::int64_t whole = count_bodies(splines, {});
         const std::int64_t trees = (bodies + whole - 1) / whole,
                            row = std::llround(std::ceil(std::sqrt(double(trees))));
-        const Tree one = convert(grow(species, {.bodies = std::max<std::int64_t>(bodies / trees, 1), .seed = 1}));
+        ask_for_bodies(splines, std::max<std::int64_t>(bodies / trees, 1));
+        const Tree one = convert(splines);
         Tree all = one;
         for (std::int64_t k = 1; k < trees; ++k)
             append(all, one, orchard * Vec3(double(k % row), 0, double(k / row)), 0);
         return all;
-    } catch (const SceneError& error) {
+    } catch (const std::invalid_argument& error) {
         throw UsageError(std::string("--") + error.what());
     }
 }

@@ -62,7 +62,7 @@ void run_frames(const TreesimOptions& o, Simulation& run, FrameSink* sink, Compa
         throw;
     } catch (const Interrupted&) {
         if (queue && any() && !o.watch) queue->finish();
-        if (range.done >= 0) save(o, run, range.done);
+        if (any()) save(o, run, range.done);
         throw;
     }
     if (queue) queue->finish();
