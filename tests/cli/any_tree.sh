@@ -12,7 +12,7 @@ for file in "$maple" "$fixtures/cylinder_small.txt" "$fixtures/shrub.mtg" "$fixt
     [[ $moved == "$(cat err)" ]] || fail "$file moves otherwise than converted by hand: $moved, $(cat err)"
 done
 # Splines are one of them, from a pipe too; what treegen makes moves without a step between.
-treegen --bodies 300 --seed 3 -q -o splines.json
+treegen --age 12 --bodies 300 --seed 3 -q -o splines.json
 expect 0 treesim splines.json --wind gusty --frames 5 --no-output --report hash -q
 hash=$(cat err)
 [[ $(treesim - --wind gusty --frames 5 --no-output --report hash -q <splines.json 2>&1) == "$hash" ]] || fail "splines from a pipe move otherwise"

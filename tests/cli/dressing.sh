@@ -24,7 +24,7 @@ END
 
 # 5 000 bodies in leaf with pictures of 1024 are at most 6 MB; each leaf is a few corners.
 for species in maple pine; do
-    treegen --species $species --bodies 5000 --seed 7 --leaves -q | treeconvert -q - -o $species.json
+    treegen --species $species --age 12 --bodies 5000 --seed 7 --leaves -q | treeconvert -q - -o $species.json
     treesim $species.json --wind gusty --frames 20 --textures 1024 -q -o $species.glb
     read -r bytes leaf _ pictures <<<"$(python3 shown.py $species.glb)"
     [[ $bytes -le 6000000 && $leaf -gt 1000 ]] || fail "$species: $bytes bytes, $leaf corners of leaves"
@@ -32,7 +32,7 @@ for species in maple pine; do
 done
 
 # The motion is the same however leaves are drawn; the pictures are the same on any number of threads.
-treegen --species birch --bodies 300 --seed 7 --leaves -q | treeconvert -q - -o birch.json
+treegen --species birch --age 12 --bodies 300 --seed 7 --leaves -q | treeconvert -q - -o birch.json
 for look in "" "--look none" "--leaf-detail mesh" "--textures none"; do
     # shellcheck disable=SC2086
     [[ $(hash birch.json --wind gusty --frames 5 -o look.glb $look) == "$(hash birch.json --wind gusty --frames 5)" ]] || fail "hash with $look"
@@ -59,7 +59,7 @@ sed 's/"name": "oak"/"name": "mine"/' "$top/data/species/oak.json" >mine.json
 treegen --params mine.json --bodies 200 --leaves -q | treeconvert -q - -o mine.tree.json
 treesim mine.tree.json --frames 2 -q -o mine.glb --look mine.json
 [[ $(python3 shown.py mine.glb) == *"mask:leaf" ]] || fail "--look mine.json: $(python3 shown.py mine.glb)"
-treegen --species birch --bodies 300 --seed 7 --leaves -q | treeconvert -q - -o /dev/null --mesh birch.obj --leaf-detail mesh --sides 12
+treegen --species birch --age 12 --bodies 300 --seed 7 --leaves -q | treeconvert -q - -o /dev/null --mesh birch.obj --leaf-detail mesh --sides 12
 [[ $(grep -c '^v ' birch.obj) -eq $((mesh + bark)) ]] || fail "the OBJ has $(grep -c '^v ' birch.obj) vertices, the .glb $((mesh + bark))"
 
 refused 1 "no species whose leaves are known" treesim young.json --frames 2 -o young.glb --leaf-detail mesh

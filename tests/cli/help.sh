@@ -57,7 +57,7 @@ if command -v fish >/dev/null; then
 fi
 
 # Old names say the new ones.
-treegen --bodies 60 --leaves -q | treeconvert - -q -o tree.json
+treegen --age 12 --bodies 60 --leaves -q | treeconvert - -q -o tree.json
 for old in "--hash:--report hash" "--explain:--report plan" "--report-error:--report error" "--report-cost:--report cost" \
     "--report-rigid:--report rigid" "--pose drawn:--set pose=" "--joint-limit=3:--set joint_limit=" "--stiffness-scale 2:--set stiffness_scale=" \
     "--damping-scale 2:--set damping_scale=" "--joint-inertia paper:--set joint_inertia=" "--join part.json:treesim join"; do

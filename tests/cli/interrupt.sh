@@ -2,7 +2,7 @@
 # Ctrl-C ends a run at a frame boundary with a shorter, valid output and exit code 130.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 3000 --seed 3 | treeconvert - -o tree.json
+treegen --age 12 --bodies 3000 --seed 3 | treeconvert - -o tree.json
 
 # stop FILE COMMAND...: starts it as a shell starts a foreground job (SIGINT not ignored), interrupts it once FILE says
 # that frames are made (it is longer than it was at first, or a numbered one is there; `unfinished`: what it writes that has no name yet; a .glb is

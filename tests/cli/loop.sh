@@ -50,7 +50,7 @@ END
 done
 
 # A tree, plain and in lanes, float and double: it closes, and one hash for any threads and output.
-treegen --bodies 300 --seed 3 | treeconvert - -o tree.json
+treegen --age 12 --bodies 300 --seed 3 | treeconvert - -o tree.json
 hash() { treesim tree.json --wind gusty --loop 4 "$@" --report hash 2>&1 >/dev/null | grep '^hash [0-9a-f]\{16\}$'; }
 for run in "" "--simd off" "--precision float --loop-tolerance 1e-3" "--solver analytic --substeps 2"; do
     # shellcheck disable=SC2086
@@ -90,7 +90,7 @@ END
 python3 ends.py || fail "the .glb does not end as it begins"
 
 # What does not repeat: nothing is written; with --loop-blend the ends meet.
-treegen --bodies 300 --seed 3 --leaves | treeconvert - -o leafy.json
+treegen --age 12 --bodies 300 --seed 3 --leaves | treeconvert - -o leafy.json
 storm=(leafy.json --wind storm --loop 2 --loop-periods 2 --loop-tolerance 1e-9)
 refused 3 "the motion does not repeat after 2 periods" treesim "${storm[@]}" -o never.glb
 absent never.glb

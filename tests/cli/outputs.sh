@@ -81,7 +81,7 @@ grep -aq EXT_mesh rest.glb || fail "treeconvert wrote no instances"
 refused 1 "--leaves-as" "${run[@]}" -o x.glb --leaves-as cards
 refused 1 "--leaves-as" "${run[@]}" -o x_%d.obj --leaves-as instances
 refused 1 "--leaves-as" treeconvert splines.json --mesh x.obj --leaves-as instances
-treegen --bodies 60 -q | treeconvert - -q -o bare.json
+treegen --age 12 --bodies 60 -q | treeconvert - -q -o bare.json
 expect 0 treesim bare.json --frames 2 -o bare.glb --leaves-as instances
 grep -q "no leaves" err || fail "nothing is said of a tree without leaves: $(cat err)"
 

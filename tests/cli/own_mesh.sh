@@ -121,7 +121,7 @@ refused 1 "--mesh: only with a mesh" treesim art/tree.xml --frames 2 --mesh own
 refused 1 "--mesh: not with --skin" treesim own.json --skin art/tree.xml --frames 2 --mesh made -o x.glb
 refused 1 "has no mesh that could be moved" treesim "$maple" --frames 2 --mesh own -o x.glb
 refused 2 "has no mesh of its own" treesim own.json --skin "$maple" --frames 2 -o x.glb
-treegen --bodies 300 -q | treeconvert - -q -o other.json
+treegen --age 12 --bodies 300 -q | treeconvert - -q -o other.json
 refused 2 "expected the model that the tree was made from" treesim other.json --skin art/tree.xml --frames 2 -o x.glb
 refused 1 "would replace" treesim own.json --skin art/tree.xml --frames 2 --save-tree art/tree.xml -o x.glb
 broken() { # SED TEXT

@@ -2,7 +2,7 @@
 # What a scene makes of its trees, and a pose made the tree's own.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 150 --seed 3 | treeconvert - -q -o tree.json
+treegen --age 12 --bodies 150 --seed 3 | treeconvert - -q -o tree.json
 hash() { treesim "$@" --no-output -q --report hash 2>&1 | grep '^hash [0-9a-f]\{16\}$'; }
 scene() { # NAME FIELDS
     echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"file\": \"tree.json\"}]${2:+, $2}}" >"$1.json"

@@ -3,7 +3,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 mkdir -p own/below
-treegen --bodies 60 --seed 3 -q | treeconvert - -q -o secret.json
+treegen --age 12 --bodies 60 --seed 3 -q | treeconvert - -q -o secret.json
 cp secret.json own/tree.json
 ln -s ../secret.json own/link.json
 scene() { echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"file\": \"$1\"}]}" >own/scene.json; }

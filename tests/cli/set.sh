@@ -2,7 +2,7 @@
 # --set: a field of the scene replaced gives the run of the scene that says so itself, and comes after all other options.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 120 --seed 3 --leaves | treeconvert - -o tree.json
+treegen --age 12 --bodies 120 --seed 3 --leaves | treeconvert - -o tree.json
 hash() { treesim "$@" --frames 8 --no-output --report hash 2>&1 | grep '^hash [0-9a-f]\{16\}$'; }
 scene() { echo "{\"format\": \"bough-scene\", \"version\": 1, \"trees\": [{\"file\": \"tree.json\"}], $1}" >"$2"; }
 

@@ -27,7 +27,7 @@ END
 done
 
 # By default where a wind blows, and said; as long for any precision and number of threads. --settle 0 is the start at rest.
-treegen --bodies 300 --seed 3 -q | treeconvert - -o tree.json -q
+treegen --age 12 --bodies 300 --seed 3 -q | treeconvert - -o tree.json -q
 treesim tree.json --wind gusty --frames 20 -o settled.jsonl --no-source 2>note
 frames=$(sed -n 's/^treesim: \([0-9]*\) frames ([0-9.]* s) of this wind were run before frame 0, .*(--settle 0: it begins at rest)$/\1/p' note)
 [[ $frames -ge 60 && $frames -le 600 && $(wc -l <note) -eq 1 ]] || fail "note: $(cat note)"
@@ -73,7 +73,7 @@ expect 0 treesim tree.json --wind gusty --frames 20 --no-output -q --report rigi
 grep -q '^rigid ' err || fail "--report rigid of a settled run: $(cat err)"
 
 # The parts of a scene wait for the same time, that of the tree that takes longest, and end as the whole.
-treegen --bodies 900 --species pine --seed 1 -q | treeconvert - -o pine.json -q
+treegen --age 12 --bodies 900 --species pine --seed 1 -q | treeconvert - -o pine.json -q
 python3 - <<'END'
 import json
 trees = [{"file": "tree.json", "position": [20.0 * k, 0, 0]} for k in range(3)] + [{"file": "pine.json", "position": [80.0, 0, 0]}]

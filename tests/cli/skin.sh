@@ -47,7 +47,7 @@ refused 2 "none.glb" "${run[@]}" --skin none.glb -o x.glb
 head -c 900 a.glb >cut.glb
 refused 2 "cut off" "${run[@]}" --skin cut.glb -o x.glb
 refused 2 "cut off" treegen --import cut.glb
-treegen --bodies 300 -q | treeconvert - -q -o other.json
+treegen --age 12 --bodies 300 -q | treeconvert - -q -o other.json
 refused 2 "expected the model that the tree was made from" treesim other.json --frames 3 --skin "$twig" -o x.glb
 # A texture beside the model that is no image.
 python3 - "$twig" <<'END'

@@ -2,7 +2,7 @@
 # Parts of a tree: a scene's /simulate, a tree's /rigid, treeconvert --merge-below: what is written, what it costs, what is refused.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --species apple --bodies 600 --seed 3 --leaves -q >apple.splines
+treegen --species apple --age 12 --bodies 600 --seed 3 --leaves -q >apple.splines
 treeconvert apple.splines -q -o apple.json
 scene() { printf '{"format": "bough-scene", "version": 1, "trees": [{"file": "apple.json"}], "wind": "gusty", %s}' "$1" >"${2:-part.json}"; }
 hash() { treesim "$@" --no-output --report hash 2>&1 | grep '^hash '; }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 400 --seed 3 --leaves --no-source -o splines.json
+treegen --age 12 --bodies 400 --seed 3 --leaves --no-source -o splines.json
 wrong_use treeconvert splines.json
 bad_input splines.json treeconvert
 bad_input "$maple" treeconvert
@@ -22,7 +22,7 @@ refused 1 "--units" treeconvert splines.json --units cm
 absent x.obj x.mtl
 
 # A pipe and a file give the same; both forms hold the same tree; a tree is not an input.
-treegen --bodies 400 --seed 3 --leaves --no-source | treeconvert - --no-source >pipe.json
+treegen --age 12 --bodies 400 --seed 3 --leaves --no-source | treeconvert - --no-source >pipe.json
 treeconvert splines.json --no-source -o file.json
 same pipe.json file.json
 treeconvert splines.json --no-source -o file.safetensors

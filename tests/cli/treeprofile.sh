@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 300 --seed 3 | treeconvert - -o tree.json
+treegen --age 12 --bodies 300 --seed 3 | treeconvert - -o tree.json
 wrong_use treeprofile tree.json --frames 5 --repeat 1
 bad_input tree.json treeprofile --frames 5
 refused 1 "--frames" treeprofile tree.json --frames 2

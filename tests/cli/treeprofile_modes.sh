@@ -2,7 +2,7 @@
 # treeprofile modes: figures, reports, pictures and what is refused.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --species maple --bodies 300 --leaves --seed 3 | treeconvert - -o tree.json
+treegen --species maple --age 12 --bodies 300 --leaves --seed 3 | treeconvert - -o tree.json
 wrong_use treeprofile modes tree.json --modes 3
 bad_input tree.json treeprofile modes
 refused 1 "--modes" treeprofile modes tree.json --modes 0

@@ -2,7 +2,7 @@
 # treeprofile error and stability: what they write adds up, and wrong use is said.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 100 --seed 3 | treeconvert - -q -o small.json
+treegen --age 12 --bodies 100 --seed 3 | treeconvert - -q -o small.json
 refused 1 "--steps" treeprofile error small.json --wind gusty --steps 3
 refused 1 "--steps" treeprofile error small.json --wind gusty --steps 1/0
 refused 1 "--substeps" treeprofile error small.json --substeps 2
@@ -46,7 +46,7 @@ series() { treeprofile error small.json --wind gusty --seconds 0.3 --steps 1 "$@
 refused 1 "--scheme" treeprofile error small.json --wind gusty --solver analytic --scheme P12
 
 # With leaves: statistics beside the truth's, and another truth, which agrees.
-treegen --bodies 150 --leaves --seed 3 | treeconvert - -q -o leaf.json
+treegen --age 12 --bodies 150 --leaves --seed 3 | treeconvert - -q -o leaf.json
 refused 1 "--tolerance" treeprofile error leaf.json --wind breeze --truth fine --tolerance 1e-6
 refused 1 "--truth" treeprofile error leaf.json --wind breeze --truth finest
 for truth in reference fine; do

@@ -2,7 +2,7 @@
 # treesim --report error: what a run tells of its own error.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 60 --seed 3 | treeconvert - -o small.json
+treegen --age 12 --bodies 60 --seed 3 | treeconvert - -o small.json
 
 # The error that a run tells of itself: one line, also with -q, whatever is written; the run is none the wiser. What it is
 # worth is tests/lib/simulation/error_estimate.cpp's and tests/goals' row i; here the line is held against two runs of small.json at the two steps.

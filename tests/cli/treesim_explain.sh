@@ -2,7 +2,7 @@
 # treesim --report plan: what runs, and what is left out.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
+treegen --age 12 --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
 
 # --report plan says what is left out.
 treesim tree.json --frames 3 --report plan --no-output 2>still

@@ -2,7 +2,7 @@
 # treesim writes one animated mesh.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
+treegen --age 12 --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
 
 # One animated mesh: whole, from stdout the same bytes, with what merging and leaving out keys cost.
 cat >glb.py <<'END'

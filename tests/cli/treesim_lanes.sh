@@ -2,7 +2,7 @@
 # treesim --simd: the fast path.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
+treegen --age 12 --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
 
 # The fast path: one hash a target, said by --report plan; what it does not hold runs the plain step.
 for simd in auto off baseline; do

@@ -2,7 +2,7 @@
 # treesim with a scene: its trees, and their roots moved.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
+treegen --age 12 --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
 
 # A scene beside its tree, run from elsewhere.
 mkdir -p place/trees

@@ -2,7 +2,7 @@
 # treesim --sleep: what rests is left out.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
+treegen --age 12 --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
 
 # Sleep: a still tree is left out after a second, and from a saved state goes on sleeping; wrong rates are refused.
 treesim tree.json --frames 90 --no-output --report hash,guards 2>err && grep -q '^guards asleep [1-9][0-9]* left out at rest below 1e-05 rad/s$' err ||

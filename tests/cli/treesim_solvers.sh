@@ -2,8 +2,8 @@
 # treesim --solver: solvers, their schemes, precisions and saved states, joint limits.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
-treegen --bodies 60 --seed 3 | treeconvert - -o small.json
+treegen --age 12 --bodies 300 --seed 3 --leaves | treeconvert - -o tree.json
+treegen --age 12 --bodies 60 --seed 3 | treeconvert - -o small.json
 
 # Solvers: each another motion, one motion however cut; what they do not take is refused. The help marks one as default.
 default=$(treesim --help | grep -o '[a-z-]* (default): ' | head -n 1)

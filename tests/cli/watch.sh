@@ -2,7 +2,7 @@
 # --watch: a run for each change of what it reads, an error that can be mended, Ctrl-C.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 40 --seed 3 | treeconvert - -o tree.json
+treegen --age 12 --bodies 40 --seed 3 | treeconvert - -o tree.json
 cp tree.json other.json
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "tree.json"}]}' >scene.json
 

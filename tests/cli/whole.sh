@@ -3,7 +3,7 @@
 # the work is done.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-treegen --bodies 60 --seed 3 -q -o splines.json
+treegen --age 12 --bodies 60 --seed 3 -q -o splines.json
 treeconvert splines.json -q -o tree.json
 run=(treesim tree.json --frames 3)
 

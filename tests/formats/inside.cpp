@@ -13,10 +13,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void put(const fs::path& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
 // own/ with a file in it and one below, and what it is not to reach: a secret beside it, by four links too.
 struct Places {
     Folder folder;

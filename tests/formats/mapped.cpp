@@ -11,10 +11,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
+struct MappedFolder {
     fs::path path = fs::temp_directory_path() / ("bough_mapped_" + std::to_string(::getpid()));
-    Folder() { fs::create_directory(path); }
-    ~Folder() { fs::remove_all(path); }
+    MappedFolder() { fs::create_directory(path); }
+    ~MappedFolder() { fs::remove_all(path); }
 };
 
 // [kB] of the mapping that begins at `address` that are in memory for this process, as the system says; -1: there is none.
@@ -40,7 +40,7 @@ std::string written(const Splines& splines, const fs::path& file) {
 } // namespace
 
 TEST_CASE("pages that are given back are in memory no more, and come back when they are looked at") {
-    const Folder folder;
+    const MappedFolder folder;
     std::string text(1 << 20, 'a');
     for (std::size_t i = 0; i < text.size(); ++i) text[i] = char('a' + i % 23);
     std::ofstream(folder.path / "input") << text;
@@ -55,7 +55,7 @@ TEST_CASE("pages that are given back are in memory no more, and come back when t
 }
 
 TEST_CASE("a file whose pages are given back when it has been taken in gives the tree that it gives from memory") {
-    const Folder folder;
+    const MappedFolder folder;
     std::size_t files = 0, gave = 0;
     for (const auto& entry : fs::directory_iterator(std::string(BOUGH_DATA_DIR) + "/fixtures")) {
         const std::string name = entry.path().filename(), content = content_of(entry.path());
@@ -85,7 +85,7 @@ TEST_CASE("a file whose pages are given back when it has been taken in gives the
 }
 
 TEST_CASE("an input written to while it is read is refused when all has been read") {
-    const Folder folder;
+    const MappedFolder folder;
     const std::string input = folder.path / "input";
     std::ofstream(input) << "of three"; // within a page, of which a cut leaves zeros
     {

@@ -29,10 +29,6 @@ extern "C" ssize_t read(int file, void* to, std::size_t count) {
 
 namespace {
 
-void put(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
 void overwrite(const std::string& path, const std::string& text) {
     std::fstream(path, std::ios::binary | std::ios::in | std::ios::out) << text;
 }

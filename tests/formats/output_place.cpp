@@ -12,10 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void put(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
 bool same(const std::string& one, const std::string& other) {
     return same_output(output_place(one), output_place(other));
 }

@@ -16,10 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void put(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
 void write_to(const Temporary& file, const std::string& text) {
     REQUIRE(::write(file.file(), text.data(), text.size()) == ssize_t(text.size()));
 }

@@ -15,10 +15,10 @@ using namespace bough;
 
 constexpr std::array<Scheme, 4> extrapolating{Scheme::p12, Scheme::p25, Scheme::p50, Scheme::p34};
 
-template <class T = double> struct Run {
+template <class T = double> struct CoupledRun {
     Plan<T> plan;
     State<T> state;
-    Run(const Tree& tree, const Scene& scene, Scheme scheme = Scheme::p12, double dt = 1.0 / 30)
+    CoupledRun(const Tree& tree, const Scene& scene, Scheme scheme = Scheme::p12, double dt = 1.0 / 30)
         : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, dt, Solver::coupled, scheme)),
           state(make_state(plan)) {}
     void steps(int n) {

@@ -23,17 +23,17 @@ inline std::string name(const Way& way) {
     return std::string(solver_name(way.solver)) + (way.simd ? ", in lanes" : ", plain");
 }
 
-template <class T = double> struct Run {
+template <class T = double> struct FreeRun {
     Tree tree;
     std::vector<TreeRange> ranges;
     Plan<T> plan;
     State<T> state;
     World<T> world;
-    Run(const Tree& t, const Scene& scene, const Way& way, double dt = 1.0 / 30)
+    FreeRun(const Tree& t, const Scene& scene, const Way& way, double dt = 1.0 / 30)
         : tree(t), ranges{{0, t.size_bodies(), 0}},
           plan(make_plan<T>(tree, ranges, scene, {}, dt, way.solver, Scheme::p12, way.simd)), state(make_state(plan)),
           world(make_world(plan, tree, ranges)) {}
-    Run(const Run&) = delete;
+    FreeRun(const FreeRun&) = delete;
     void steps(int n) {
         for (int k = 0; k < n; ++k) advance(plan, state, world);
     }

@@ -3,12 +3,13 @@
 #include "lib/growth/grow.h"
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace bough::measure {
 
-inline constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 inline std::size_t first(const Splines& s, std::size_t b) {
     return static_cast<std::size_t>(s.first_point[b]);

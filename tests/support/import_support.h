@@ -2,6 +2,7 @@
 #pragma once
 #include "formats/error.h"
 #include "formats/imports/import.h"
+#include "replaced.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -71,12 +72,6 @@ inline std::string error_of(const std::string& content, const std::string& name)
         return text;
     }
     return {};
-}
-
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
 }
 
 // Cuts the content at every `step`th byte and flips bytes at random: each variant must be read or refused in one line.

@@ -28,11 +28,11 @@ struct Case {
     }
 };
 
-template <class T = double> struct Run {
+template <class T = double> struct LanesRun {
     Plan<T> plan;
     State<T> state;
-    Run(const Case& c, Simd simd, Scheme scheme = Scheme::p12, const Wishes& wishes = {},
-        std::optional<Solver> solver = std::nullopt, double sleep = 0)
+    LanesRun(const Case& c, Simd simd, Scheme scheme = Scheme::p12, const Wishes& wishes = {},
+             std::optional<Solver> solver = std::nullopt, double sleep = 0)
         : plan(make_plan<T>(c.tree, c.all_ranges(), c.scene, wishes, 1.0 / 30, solver.value_or(c.solver), scheme, simd,
                             sleep)),
           state(make_state(plan)) {
@@ -163,7 +163,7 @@ template <class T> double most(const std::vector<Vector3<T>>& a, const std::vect
     return d;
 }
 
-template <class T> Apart run_apart(Run<T>& a, Run<T>& b, int frames) {
+template <class T> Apart run_apart(LanesRun<T>& a, LanesRun<T>& b, int frames) {
     Apart d;
     for (int k = 0; k < frames; ++k) {
         a.frame();
@@ -179,8 +179,8 @@ template <class T> Apart run_apart(Run<T>& a, Run<T>& b, int frames) {
 // In float the lanes stay within twice of what the plain step's float is off by: bodies' places against the plain step in double,
 // RMS and the most over `frames`.
 inline void check_float_drift(const Case& c, int frames) {
-    Run<> plain(c, std::nullopt);
-    Run<float> plain_float(c, std::nullopt), lanes_float(c, fast::best_target());
+    LanesRun<> plain(c, std::nullopt);
+    LanesRun<float> plain_float(c, std::nullopt), lanes_float(c, fast::best_target());
     double plain_off = 0, lanes_off = 0, plain_worst = 0, lanes_worst = 0;
     const auto off = [](const std::vector<Vector3<float>>& a, const std::vector<Vec3>& b, double& worst) {
         double sum = 0;
@@ -192,7 +192,7 @@ inline void check_float_drift(const Case& c, int frames) {
         return sum / double(b.size());
     };
     // The lanes' float against the lanes' double, which is the plain one's to rounding.
-    Run<> lanes_double(c, fast::best_target());
+    LanesRun<> lanes_double(c, fast::best_target());
     for (int k = 0; k < frames; ++k) {
         plain.frame();
         lanes_double.frame();
@@ -208,8 +208,8 @@ inline void check_float_drift(const Case& c, int frames) {
 
 // The wider two targets are compiled from the same source with the same fused operations.
 inline void check_same_bits(const Case& c) {
-    Run<> half(c, Target::avx2), full(c, Target::avx512);
-    Run<float> half_float(c, Target::avx2), full_float(c, Target::avx512);
+    LanesRun<> half(c, Target::avx2), full(c, Target::avx512);
+    LanesRun<float> half_float(c, Target::avx2), full_float(c, Target::avx512);
     half.steps(30), full.steps(30), half_float.steps(30), full_float.steps(30);
     CAPTURE(c.name);
     CHECK(half.hash() == full.hash());
@@ -220,8 +220,8 @@ inline void check_same_bits(const Case& c) {
 inline void check_targets_agree(const Case& c, double most_in_float) {
     for (const Target target : targets()) {
         if (target == Target::baseline) continue;
-        Run<> one(c, Target::baseline), other(c, target);
-        Run<float> one_float(c, Target::baseline), other_float(c, target);
+        LanesRun<> one(c, Target::baseline), other(c, target);
+        LanesRun<float> one_float(c, Target::baseline), other_float(c, target);
         const Apart d = run_apart(one, other, 60), f = run_apart(one_float, other_float, 60);
         CAPTURE(c.name, fast::target_name(target));
         CHECK(d.theta < 1e-11);

@@ -5,9 +5,11 @@
 #include "lib/model/scene.h"
 #include "lib/model/splines.h"
 #include "lib/model/tree.h"
+#include "replaced.h"
 #include <bit>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <unistd.h>
@@ -29,6 +31,10 @@ struct Folder {
     }
 };
 
+inline void put(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
 // What `write(Output&)` writes.
 template <class Write> std::string written(Write write) {
     const Folder folder;
@@ -46,12 +52,6 @@ template <class Read> std::string error_of(Read read) {
         return e.what();
     }
     return "";
-}
-
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
 }
 
 struct Random {

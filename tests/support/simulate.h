@@ -9,10 +9,10 @@ namespace simulate {
 
 using namespace bough;
 
-template <class T> struct Run {
+template <class T> struct PlainRun {
     Plan<T> plan;
     State<T> state;
-    Run(const Tree& tree, const Scene& scene, double dt = 1.0 / 30, const Wishes& wishes = {})
+    PlainRun(const Tree& tree, const Scene& scene, double dt = 1.0 / 30, const Wishes& wishes = {})
         : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, wishes, dt)), state(make_state(plan)) {}
     void steps(int n) {
         for (int k = 0; k < n; ++k) advance(plan, state);

@@ -18,14 +18,14 @@ inline Key key(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-struct Pose {
+struct SkinPose {
     std::vector<Mat3> R_wb;
     std::vector<Vec3> x_w;
 };
 
 // Every joint turned by theta(i), by forward kinematics of our own.
-template <class Theta> Pose posed(const Tree& tree, Theta theta) {
-    Pose pose;
+template <class Theta> SkinPose posed(const Tree& tree, Theta theta) {
+    SkinPose pose;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const Mat3 R_pb = tree.joint_rotation[i].toRotationMatrix() * rotation_from_vector<double>(theta(i));
         const std::int32_t p = tree.parent[i];
@@ -37,7 +37,7 @@ template <class Theta> Pose posed(const Tree& tree, Theta theta) {
 }
 
 // A bend of up to `most` radians about a random axis across each joint.
-inline Pose bent(const Tree& tree, double most, unsigned seed) {
+inline SkinPose bent(const Tree& tree, double most, unsigned seed) {
     make_tree::Dice dice{std::mt19937(seed)};
     return posed(tree, [&](std::size_t) {
         const double angle = dice(0, most), around = dice(-std::numbers::pi, std::numbers::pi);
@@ -110,7 +110,7 @@ inline double winding(const Triangles& mesh, const std::vector<Vec3>& p, const V
     return sum / (4 * std::numbers::pi);
 }
 
-inline double from_axis(const Tree& tree, const Pose& pose, std::size_t body, const Vec3& p) {
+inline double from_axis(const Tree& tree, const SkinPose& pose, std::size_t body, const Vec3& p) {
     const Vec3 d = pose.R_wb[body].transpose() * (p - pose.x_w[body]);
     const double z = std::clamp(d.z(), 0.0, tree.size[body].x());
     return (d - Vec3(0, 0, z)).norm();

@@ -9,7 +9,7 @@ std::string with(const std::string& fields) {
     return "{\"format\": \"bough-material\", \"version\": 1" + (fields.empty() ? "" : ", " + fields) + "}";
 }
 
-std::string error_of(const std::string& content) {
+std::string material_error(const std::string& content) {
     try {
         read_material(content, "my.json");
     } catch (const InputError& e) {
@@ -48,18 +48,20 @@ TEST_CASE("a material file's fields replace those of the preset it is like") {
 }
 
 TEST_CASE("what is wrong in a material file is said in one line with its place") {
-    CHECK_THAT(error_of(""), Catch::StartsWith("my.json:1: "));
-    CHECK_THAT(error_of("{\n\"format\": \"bough-material\",\n\"version\" 1}"), Catch::StartsWith("my.json:3: "));
-    CHECK_THAT(error_of("[1]"), Catch::Contains("expected an object"));
-    CHECK_THAT(error_of("{\"version\": 1}"), Catch::StartsWith("my.json: /format: "));
-    CHECK_THAT(error_of("{\"format\": \"bough-tree\", \"version\": 1}"), Catch::Contains("bough-material"));
-    CHECK_THAT(error_of("{\"format\": \"bough-material\", \"version\": 2}"), Catch::StartsWith("my.json: /version: "));
-    CHECK_THAT(error_of(with("\"densty\": 900")), Catch::StartsWith("my.json: /densty: "));
-    CHECK_THAT(error_of(with("\"density\": \"900\"")), Catch::Contains("/density: is string, expected a number"));
-    CHECK_THAT(error_of(with("\"density\": 900, \"density\": 901")), Catch::Contains("/density: is given twice"));
-    CHECK_THAT(error_of(with("\"density\": -900")), Catch::Contains("/density: is not a finite number above 0"));
-    CHECK_THAT(error_of(with("\"density\": 1e999")), Catch::Contains("too large"));
-    CHECK_THAT(error_of(with("\"name\": 3")), Catch::Contains("/name: is number, expected text"));
-    CHECK_THAT(error_of(with("\"like\": \"granite\"")), Catch::Contains("expected one of red-maple, sugar-maple"));
-    CHECK_THAT(error_of(with("\"density\": 900") + "x"), Catch::StartsWith("my.json:1: "));
+    CHECK_THAT(material_error(""), Catch::StartsWith("my.json:1: "));
+    CHECK_THAT(material_error("{\n\"format\": \"bough-material\",\n\"version\" 1}"), Catch::StartsWith("my.json:3: "));
+    CHECK_THAT(material_error("[1]"), Catch::Contains("expected an object"));
+    CHECK_THAT(material_error("{\"version\": 1}"), Catch::StartsWith("my.json: /format: "));
+    CHECK_THAT(material_error("{\"format\": \"bough-tree\", \"version\": 1}"), Catch::Contains("bough-material"));
+    CHECK_THAT(material_error("{\"format\": \"bough-material\", \"version\": 2}"),
+               Catch::StartsWith("my.json: /version: "));
+    CHECK_THAT(material_error(with("\"densty\": 900")), Catch::StartsWith("my.json: /densty: "));
+    CHECK_THAT(material_error(with("\"density\": \"900\"")), Catch::Contains("/density: is string, expected a number"));
+    CHECK_THAT(material_error(with("\"density\": 900, \"density\": 901")), Catch::Contains("/density: is given twice"));
+    CHECK_THAT(material_error(with("\"density\": -900")), Catch::Contains("/density: is not a finite number above 0"));
+    CHECK_THAT(material_error(with("\"density\": 1e999")), Catch::Contains("too large"));
+    CHECK_THAT(material_error(with("\"name\": 3")), Catch::Contains("/name: is number, expected text"));
+    CHECK_THAT(material_error(with("\"like\": \"granite\"")),
+               Catch::Contains("expected one of red-maple, sugar-maple"));
+    CHECK_THAT(material_error(with("\"density\": 900") + "x"), Catch::StartsWith("my.json:1: "));
 }

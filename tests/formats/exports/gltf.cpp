@@ -27,14 +27,14 @@ struct File {
 };
 
 // Every joint swings, at a rate and with a phase of its own.
-Pose swinging(const Tree& tree, std::size_t frame) {
+SkinPose swinging(const Tree& tree, std::size_t frame) {
     return posed(tree, [&](std::size_t i) {
         const double t = double(frame) / fps, a = 0.15 * std::sin(2 + double(i) + t * (1 + double(i % 5)));
         return Vec3(a, 0.5 * a * std::cos(double(i)), 0.2 * a);
     });
 }
 
-MotionFrame as_frame(const Pose& pose, std::size_t number) {
+MotionFrame as_frame(const SkinPose& pose, std::size_t number) {
     MotionFrame frame;
     frame.frame = std::int64_t(number);
     frame.time = double(number) / fps;
@@ -81,15 +81,15 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return most;
 }
 
-std::vector<Vec3> deformed(const Written& w, const Pose& pose) {
+std::vector<Vec3> deformed(const Written& w, const SkinPose& pose) {
     std::vector<Vec3> position, normal;
     SkinDeformer(w.skin, w.tree).deform(pose.R_wb, pose.x_w, position, normal);
     return position;
 }
 
 // The pose in which each body stands as its group takes it.
-Pose as_groups(const Written& w, const Pose& is) {
-    const Pose drawn = posed(w.tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+SkinPose as_groups(const Written& w, const SkinPose& is) {
+    const SkinPose drawn = posed(w.tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     std::vector<Mat3> turn(w.groups.size());
     std::vector<Vec3> place(w.groups.size()); // of the group's joint
     for (std::size_t g = 0; g < w.groups.size(); ++g) {
@@ -100,7 +100,7 @@ Pose as_groups(const Written& w, const Pose& is) {
         const std::size_t p = std::size_t(w.groups.parent[g]);
         place[g] = place[p] + turn[p] * (drawn.x_w[first] - drawn.x_w[std::size_t(w.groups.first[p])]);
     }
-    Pose pose;
+    SkinPose pose;
     for (std::size_t i = 0; i < w.tree.size_bodies(); ++i) {
         const std::size_t g = std::size_t(w.groups.group[i]);
         pose.R_wb.push_back(turn[g] * drawn.R_wb[i]);
@@ -337,7 +337,8 @@ TEST_CASE("far from the origin the mesh keeps its digits") {
     // In the armature's frame: out there a weight's rounding alone, 3e-8 of 5000 km, is 0.15 m.
     armature.erase("translation");
     for (const double time : {-1.0, 2 / fps}) {
-        const Pose pose = time < 0 ? posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); }) : swinging(tree, 2);
+        const SkinPose pose =
+            time < 0 ? posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); }) : swinging(tree, 2);
         std::vector<Vec3> wanted = deformed(w, pose);
         for (Vec3& p : wanted) p -= away;
         CHECK(farthest(gltf_reader::skinned(w.glb, time), wanted) < 1e-5 * w.height());
@@ -357,7 +358,7 @@ TEST_CASE("roots that leave their places are moved in every frame, the others no
     GltfOptions options;
     options.fps = fps;
     GltfWriter writer(output, w.skin, w.tree, w.groups, options);
-    std::vector<Pose> poses;
+    std::vector<SkinPose> poses;
     for (std::size_t f = 0; f < 5; ++f) {
         poses.push_back(swinging(tree, f));
         for (std::size_t i = second; i < tree.size_bodies(); ++i)

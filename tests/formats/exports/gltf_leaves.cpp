@@ -13,15 +13,15 @@ using make_tree::random_tree;
 
 namespace {
 
-struct File {
+struct LeafFile {
     std::string path =
         (std::filesystem::temp_directory_path() / ("bough_test_leaves_" + std::to_string(getpid()) + ".glb")).string();
-    ~File() { std::filesystem::remove(path); }
+    ~LeafFile() { std::filesystem::remove(path); }
 };
 
 // Written at rest and, as the one frame, in the given pose.
-Glb written(const Tree& tree, const Pose& pose, GltfOptions options, std::size_t joints = 10000) {
-    const File file;
+Glb written(const Tree& tree, const SkinPose& pose, GltfOptions options, std::size_t joints = 10000) {
+    const LeafFile file;
     const Skin skin = build_skin(tree, {8, !options.leaf_instances});
     const JointGroups groups = merge_joints(tree, joints, !options.leaf_instances);
     Output output(file.path);
@@ -63,7 +63,7 @@ std::vector<Vec3> instanced(const Glb& glb, double time) {
 }
 
 // Where leaves and petals are in a skin that has them in it.
-std::vector<Vec3> in_skin(const Tree& tree, const Pose& pose) {
+std::vector<Vec3> in_skin(const Tree& tree, const SkinPose& pose) {
     const Skin skin = build_skin(tree, {});
     std::vector<Vec3> position, normal, all;
     SkinDeformer(skin, tree).deform(pose.R_wb, pose.x_w, position, normal);
@@ -94,12 +94,12 @@ Tree with_petals(Tree tree) {
     return tree;
 }
 
-Pose still(const Tree& tree) {
+SkinPose still(const Tree& tree) {
     return posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
 }
 
 // All joints of wood bent, none of leaves.
-Pose bent_wood(const Tree& tree) {
+SkinPose bent_wood(const Tree& tree) {
     return posed(tree, [&](std::size_t i) {
         return is_flat(tree.kind[i]) ? Vec3(Vec3::Zero()) : Vec3(0.1 * std::sin(double(i)), 0.07, 0.02);
     });
@@ -118,7 +118,7 @@ TEST_CASE("instances stand where the skin's leaves do, drawn and moved with what
         for (const bool x_along : {false, true}) {
             GltfOptions options = instances();
             options.x_along = x_along;
-            const Pose pose = bent_wood(tree);
+            const SkinPose pose = bent_wood(tree);
             const Glb glb = written(tree, pose, options);
             CHECK(apart(instanced(glb, -1), in_skin(tree, still(tree))) < 1e-6);
             CHECK(apart(instanced(glb, 0), in_skin(tree, pose)) < 1e-5);
@@ -170,7 +170,7 @@ TEST_CASE("no leaf has a joint of its own, unless it stands alone") {
 
 TEST_CASE("with x along the branch the joints' x axes are what their z axes were, and the mesh moves alike") {
     const Tree tree = random_tree(200, 3);
-    const Pose pose = bent_wood(tree);
+    const SkinPose pose = bent_wood(tree);
     GltfOptions options;
     const Glb z = written(tree, pose, options);
     options.x_along = true;

@@ -14,7 +14,7 @@ using gltf_reader::Glb;
 
 namespace {
 
-constexpr double fps = 30;
+constexpr double rate = 30;
 
 // A random tree whose leaves are clumps.
 Tree clumps(unsigned seed) {
@@ -24,7 +24,7 @@ Tree clumps(unsigned seed) {
     return tree;
 }
 
-MotionFrame frame_of(const Pose& pose, std::int64_t number) {
+MotionFrame frame_of(const SkinPose& pose, std::int64_t number) {
     MotionFrame frame;
     frame.frame = number;
     frame.position = pose.x_w;
@@ -32,20 +32,20 @@ MotionFrame frame_of(const Pose& pose, std::int64_t number) {
     return frame;
 }
 
-struct Written {
+struct Rustled {
     Skin skin;
     Glb glb;
     std::string path;
-    Written(const Tree& tree, const std::vector<Pose>& poses, double wind, bool instances = false)
+    Rustled(const Tree& tree, const std::vector<SkinPose>& poses, double wind, bool instances = false)
         : skin(build_skin(tree, {8, !instances})),
           path((std::filesystem::temp_directory_path() / ("bough_test_rustle_" + std::to_string(getpid()) + ".glb"))
                    .string()) {
         const JointGroups groups = merge_joints(tree, 1000, !instances);
         GltfOptions options;
-        options.fps = fps;
+        options.fps = rate;
         options.leaf_instances = instances;
         Rustle rustle(skin, [wind](double, std::vector<double>& all) { std::fill(all.begin(), all.end(), wind); },
-                      {fps, {}, true});
+                      {rate, {}, true});
         Output output(path);
         GltfWriter writer(output, skin, tree, groups, options, instances ? nullptr : &rustle);
         for (std::size_t f = 0; f < poses.size(); ++f) writer.write(frame_of(poses[f], std::int64_t(f)));
@@ -53,23 +53,23 @@ struct Written {
         output.finish();
         glb = gltf_reader::parse(read_input(path));
     }
-    ~Written() { std::filesystem::remove(path); }
+    ~Rustled() { std::filesystem::remove(path); }
 };
 
 } // namespace
 
 TEST_CASE("leaves of clumps rustle in a .glb as the law has it, to first order") {
     const Tree tree = clumps(7);
-    std::vector<Pose> poses;
+    std::vector<SkinPose> poses;
     for (unsigned f = 0; f < 12; ++f) poses.push_back(bent(tree, 0.2, f));
     const double wind = 1.2;
-    const Written w(tree, poses, wind);
+    const Rustled w(tree, poses, wind);
     CHECK(w.glb.json["skins"][0]["joints"].size() == tree.size_bodies());
     REQUIRE(w.glb.json["meshes"].size() == 2);
     CHECK(w.glb.json["meshes"][1]["primitives"][0]["targets"].size() == Rustle::targets);
 
     Rustle rustle(w.skin, [wind](double, std::vector<double>& all) { std::fill(all.begin(), all.end(), wind); },
-                  {fps, {}, true});
+                  {rate, {}, true});
     const SkinDeformer deformer(w.skin, tree);
     // In the file the leaves come behind what does not rustle, which is fruit here.
     const SkinPart leaf = *part(w.skin, "leaf");
@@ -82,7 +82,7 @@ TEST_CASE("leaves of clumps rustle in a .glb as the law has it, to first order")
         const std::vector<Vec3> still = position;
         rustle.go_to(std::int64_t(f));
         rustle.turn(position, normal);
-        const auto read = gltf_reader::skinned(w.glb, double(f) / fps);
+        const auto read = gltf_reader::skinned(w.glb, double(f) / rate);
         REQUIRE(read.size() == position.size());
         double off = 0, moved = 0, size = 0;
         for (std::size_t k = 0; k < leaves; ++k) {
@@ -100,9 +100,9 @@ TEST_CASE("leaves of clumps rustle in a .glb as the law has it, to first order")
 
 TEST_CASE("in still air, and at rest, a .glb has no morph targets") {
     const Tree tree = clumps(7);
-    const Pose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
-    const Written calm(tree, {drawn, drawn}, 0), rest(tree, {}, 8);
-    for (const Written* w : {&calm, &rest}) {
+    const SkinPose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+    const Rustled calm(tree, {drawn, drawn}, 0), rest(tree, {}, 8);
+    for (const Rustled* w : {&calm, &rest}) {
         CHECK(w->glb.json["meshes"].size() == 1);
         CHECK_FALSE(w->glb.json["meshes"][0].contains("weights"));
         CHECK(w->glb.json.dump().find("targets") == std::string::npos);
@@ -111,8 +111,8 @@ TEST_CASE("in still air, and at rest, a .glb has no morph targets") {
 
 TEST_CASE("another program reads a .glb whose leaves rustle") {
     const Tree tree = clumps(7);
-    const Pose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
-    const Written w(tree, {drawn, drawn, drawn}, 8);
+    const SkinPose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+    const Rustled w(tree, {drawn, drawn, drawn}, 8);
     Assimp::Importer importer;
     const aiScene* const scene = importer.ReadFile(w.path, 0);
     INFO(importer.GetErrorString());
@@ -126,7 +126,7 @@ TEST_CASE("another program reads a .glb whose leaves rustle") {
 
 TEST_CASE("as instances a clump is its leaves too, of the clump's area") {
     const Tree tree = clumps(7);
-    const Written w(tree, {}, 8, true);
+    const Rustled w(tree, {}, 8, true);
     double area = 0, truth = 0;
     std::size_t count = 0;
     for (const auto& node : w.glb.json["nodes"]) {

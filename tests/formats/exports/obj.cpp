@@ -14,15 +14,15 @@ using namespace bough;
 
 namespace {
 
-struct Folder {
+struct ObjFolder {
     std::filesystem::path path =
         std::filesystem::temp_directory_path() / ("bough_test_obj_" + std::to_string(getpid()));
-    Folder() { std::filesystem::create_directories(path); }
-    ~Folder() { std::filesystem::remove_all(path); }
+    ObjFolder() { std::filesystem::create_directories(path); }
+    ~ObjFolder() { std::filesystem::remove_all(path); }
     std::string file(const std::string& name) const { return (path / name).string(); }
 };
 
-void write(const Folder& folder, const Skin& skin) {
+void write(const ObjFolder& folder, const Skin& skin) {
     Output obj(folder.file("tree.obj"));
     write_obj(obj, skin, skin.position, skin.normal, "tree.mtl");
     obj.finish();
@@ -67,7 +67,7 @@ void compare(const aiScene& scene, const Skin& skin, double largest) {
 } // namespace
 
 TEST_CASE("assimp reads back the mesh, its texture and its materials") {
-    const Folder folder;
+    const ObjFolder folder;
     for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(2000, 1), make_tree::chain(1, 1e-3, 1e-4, 0),
                              make_tree::chain(3, 1e5, 1e3, 10)}) {
         const Skin skin = build_skin(tree, {});
@@ -82,7 +82,7 @@ TEST_CASE("assimp reads back the mesh, its texture and its materials") {
 }
 
 TEST_CASE("colours reach assimp and differ between bark, leaf and fruit") {
-    const Folder folder;
+    const ObjFolder folder;
     write(folder, build_skin(make_tree::branched(), {}));
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(folder.file("tree.obj"), 0);
@@ -101,7 +101,7 @@ TEST_CASE("colours reach assimp and differ between bark, leaf and fruit") {
 }
 
 TEST_CASE("coordinates far from the origin keep the mesh's own precision") {
-    const Folder folder;
+    const ObjFolder folder;
     Tree tree = make_tree::branched();
     tree.joint_position[0] = {500000.25, 254.5, -4200000.125}; // metres of a national grid
     const Skin skin = build_skin(tree, {});
@@ -122,7 +122,7 @@ TEST_CASE("coordinates far from the origin keep the mesh's own precision") {
 }
 
 TEST_CASE("numbers are written alike in every locale") {
-    const Folder folder;
+    const ObjFolder folder;
     const Skin skin = build_skin(make_tree::branched(), {});
     write(folder, skin);
     const std::string before = read_input(folder.file("tree.obj"));
@@ -137,7 +137,7 @@ TEST_CASE("numbers are written alike in every locale") {
 }
 
 TEST_CASE("an empty skin is a valid file") {
-    const Folder folder;
+    const ObjFolder folder;
     write(folder, Skin());
     CHECK(read_input(folder.file("tree.obj")) == "mtllib tree.mtl\n");
     CHECK(read_input(folder.file("tree.mtl")).empty());
@@ -175,7 +175,7 @@ TEST_CASE("an add-on that plays sequences finds the frames in their order, and o
         for (const std::int64_t f : {0, 8, 9, 98, 99, 999, 9999})
             CHECK(key(sequence_name(pattern, f)) < key(sequence_name(pattern, f + 1)));
 
-    const Folder folder;
+    const ObjFolder folder;
     const Tree tree = make_tree::branched();
     const Skin skin = build_skin(tree, {});
     std::vector<Vec3> moved = skin.position;

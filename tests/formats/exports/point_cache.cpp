@@ -7,10 +7,10 @@ using namespace bough;
 
 namespace {
 
-struct File {
+struct CacheFile {
     std::string path =
         (std::filesystem::temp_directory_path() / ("bough_test_cache_" + std::to_string(getpid()))).string();
-    ~File() { std::filesystem::remove(path); }
+    ~CacheFile() { std::filesystem::remove(path); }
 };
 
 std::string bytes_of(const char* hex) {
@@ -32,7 +32,7 @@ void write(PointCacheWriter& writer, const std::vector<Vec3>& frame) {
 
 std::string written(PointCache kind, std::int64_t promised, const std::vector<std::vector<Vec3>>& frames,
                     double fps = 25, std::int64_t number = 3) {
-    const File file;
+    const CacheFile file;
     Output output(file.path);
     PointCacheShape shape;
     shape.vertices = frames.empty() ? 2 : frames[0].size();
@@ -69,7 +69,7 @@ TEST_CASE("fewer frames than promised make the file of so many") {
 }
 
 TEST_CASE("an end that does not fit a block is moved up whole") {
-    const File file;
+    const CacheFile file;
     Output output(file.path);
     std::string all;
     for (int i = 0; all.size() < 5000000; ++i) all += std::to_string(i) + ",";

@@ -85,14 +85,14 @@ std::vector<Mat4> matrices(const std::string& text) {
     return list;
 }
 
-struct Written {
+struct WrittenUsda {
     Tree tree;
     Skin skin;
     std::map<std::string, std::string> at;
     std::string root;
 };
 
-MotionFrame as_frame(const skin_checks::Pose& pose, std::size_t number, const Vec3& moved = Vec3::Zero()) {
+MotionFrame as_frame(const skin_checks::SkinPose& pose, std::size_t number, const Vec3& moved = Vec3::Zero()) {
     MotionFrame frame;
     frame.frame = std::int64_t(number);
     for (const Vec3& x : pose.x_w) frame.position.push_back(x + moved);
@@ -100,8 +100,9 @@ MotionFrame as_frame(const skin_checks::Pose& pose, std::size_t number, const Ve
     return frame;
 }
 
-Written written(const Tree& tree, const std::vector<skin_checks::Pose>& poses, const Vec3& step = Vec3::Zero()) {
-    Written w{tree, build_skin(tree, {}), {}, "/" + tree.name};
+WrittenUsda written_usda(const Tree& tree, const std::vector<skin_checks::SkinPose>& poses,
+                         const Vec3& step = Vec3::Zero()) {
+    WrittenUsda w{tree, build_skin(tree, {}), {}, "/" + tree.name};
     const JointGroups groups = merge_joints(tree, 100000);
     std::vector<OwnLook> look;
     for (const SkinPart& part : w.skin.part) look.push_back(look_of(gltf_material(part.name, part.color)));
@@ -117,7 +118,7 @@ Written written(const Tree& tree, const std::vector<skin_checks::Pose>& poses, c
 }
 
 // Linear blend skinning as OpenUSD describes it: of a mesh's points at a frame, -1: at rest.
-std::vector<Vec3> skinned(const Written& w, const std::string& mesh, int frame) {
+std::vector<Vec3> skinned(const WrittenUsda& w, const std::string& mesh, int frame) {
     const auto& at = w.at;
     const std::string skeleton = w.root + "/skeleton", motion = skeleton + "/motion";
     const std::vector<std::string> joint = strings(at.at(skeleton + ".joints"));
@@ -169,7 +170,7 @@ std::vector<Vec3> skinned(const Written& w, const std::string& mesh, int frame) 
 }
 
 // All meshes, one after another, beside what the deformer gives.
-double off(const Written& w, int frame, const std::vector<Vec3>& wanted) {
+double off(const WrittenUsda& w, int frame, const std::vector<Vec3>& wanted) {
     std::vector<Vec3> found;
     for (const SkinPart& part : w.skin.part)
         for (const Vec3& p : skinned(w, part.name, frame)) found.push_back(p);
@@ -183,10 +184,10 @@ double off(const Written& w, int frame, const std::vector<Vec3>& wanted) {
 
 TEST_CASE("joints, weights and time samples move the meshes as the deformer does") {
     for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(150, 3)}) {
-        std::vector<skin_checks::Pose> poses;
+        std::vector<skin_checks::SkinPose> poses;
         for (unsigned f = 0; f < 4; ++f) poses.push_back(bent(tree, 0.2 * f, f));
         for (const Vec3& step : {Vec3(0, 0, 0), Vec3(0.1, 0, -0.2)}) {
-            const Written w = written(tree, poses, step);
+            const WrittenUsda w = written_usda(tree, poses, step);
             CHECK(w.at.contains(w.root + "/skeleton/motion.translations.timeSamples") == !step.isZero());
             CHECK(off(w, -1, w.skin.position) < 1e-5);
             for (std::size_t f = 0; f < poses.size(); ++f) {
@@ -202,7 +203,7 @@ TEST_CASE("joints, weights and time samples move the meshes as the deformer does
 
 TEST_CASE("what a reader looks for first: units, axes, times, the root, types of prims, faces, materials") {
     const Tree tree = make_tree::branched();
-    const Written w = written(tree, {bent(tree, 0, 1), bent(tree, 0.1, 1)});
+    const WrittenUsda w = written_usda(tree, {bent(tree, 0, 1), bent(tree, 0.1, 1)});
     const auto& at = w.at;
     for (const auto& [name, value] : std::map<std::string, std::string>{{".metersPerUnit", "1"},
                                                                         {".upAxis", "\"Y\""},
@@ -240,9 +241,9 @@ TEST_CASE("what a reader looks for first: units, axes, times, the root, types of
 
 TEST_CASE("without frames there is no animation; far from the origin the root is moved") {
     Tree tree = make_tree::branched();
-    CHECK_FALSE(written(tree, {}).at.contains("/branched/skeleton/motion"));
+    CHECK_FALSE(written_usda(tree, {}).at.contains("/branched/skeleton/motion"));
     tree.joint_position[0] += Vec3(1e6, 0, 0);
-    const Written w = written(tree, {bent(tree, 0, 1)});
+    const WrittenUsda w = written_usda(tree, {bent(tree, 0, 1)});
     const std::vector<double> moved = numbers(w.at.at("/branched.xformOp:translate"));
     std::vector<Vec3> near = w.skin.position;
     for (Vec3& p : near) p -= Vec3(moved[0], moved[1], moved[2]);

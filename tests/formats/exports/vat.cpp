@@ -89,7 +89,7 @@ Frames swung(const Skin& skin, const Tree& tree, std::size_t count) {
     Frames frames;
     const SkinDeformer deformer(skin, tree);
     for (std::size_t f = 0; f < count; ++f) {
-        const skin_checks::Pose pose = bent(tree, 0.05 * double(f), unsigned(f));
+        const skin_checks::SkinPose pose = bent(tree, 0.05 * double(f), unsigned(f));
         deformer.deform(pose.R_wb, pose.x_w, frames.position.emplace_back(), frames.normal.emplace_back());
     }
     return frames;

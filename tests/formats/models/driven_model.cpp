@@ -12,14 +12,14 @@
 
 using namespace bough;
 using namespace bough::test;
-using Json = nlohmann::json;
+using OrderedJson = nlohmann::json;
 using gltf_reader::Glb;
 
 namespace {
 
 const std::string fixtures = std::string(BOUGH_DATA_DIR) + "/fixtures/";
 
-struct Pose {
+struct BonePose {
     std::vector<Mat3> R;
     std::vector<Vec3> x;
     MotionFrame frame() const {
@@ -30,7 +30,7 @@ struct Pose {
     }
 };
 
-Pose drawn(const Tree& tree) {
+BonePose drawn(const Tree& tree) {
     const DrawnPose pose = bough::drawn_pose(tree);
     return {pose.R_wb, pose.x_w};
 }
@@ -49,18 +49,19 @@ Tree tree_of(const std::string& file, double segment_length, double unit = 0) {
 }
 
 // The written file, after these frames at 1 a second.
-Glb driven(const std::string& file, const Tree& tree, const std::vector<Pose>& poses, const DrivenOptions& asked = {}) {
+Glb driven(const std::string& file, const Tree& tree, const std::vector<BonePose>& poses,
+           const DrivenOptions& asked = {}) {
     DrivenOptions options = asked;
     options.fps = 1;
     ImportNotes notes;
     std::vector<std::string> lines;
     DrivenModel model(read_user_model(file, notes), tree, options, lines);
-    for (const Pose& pose : poses) model.write(pose.frame());
+    for (const BonePose& pose : poses) model.write(pose.frame());
     return gltf_reader::parse(model.finish("out.glb"));
 }
 
 // The bodies whose names begin at `first` on branch b turned about a place in the world.
-void turn_branch(const Tree& tree, std::int32_t branch, const Mat3& R, const Vec3& about, Pose& pose) {
+void turn_branch(const Tree& tree, std::int32_t branch, const Mat3& R, const Vec3& about, BonePose& pose) {
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (branch >= 0 && tree.branch[i] != branch) continue;
         pose.R[i] = R * pose.R[i];
@@ -97,8 +98,8 @@ std::vector<Vec3> ring_corners() {
 TEST_CASE("a model at rest is as it was drawn, and a branch that turns takes its vertices along") {
     for (const double piece : {0.0, 0.07}) {
         const Tree tree = tree_of(twig, piece);
-        const Pose rest = drawn(tree);
-        Pose bent = rest, whole = rest;
+        const BonePose rest = drawn(tree);
+        BonePose bent = rest, whole = rest;
         turn_branch(tree, 1, about_z(0.7), joint_of_side, bent);
         turn_branch(tree, -1, about_z(-0.4), Vec3::Zero(), whole);
         const Glb glb = driven(twig, tree, {rest, bent, whole});
@@ -118,7 +119,7 @@ TEST_CASE("what is not the motion stays as it is in the file") {
     DrivenOptions options;
     options.source = "treesim twig.json";
     const Glb glb = driven(twig, tree, {drawn(tree), drawn(tree)}, options);
-    const Json before = Json::parse(content_of(twig));
+    const OrderedJson before = OrderedJson::parse(content_of(twig));
     for (const char* part : {"asset", "scenes", "nodes", "meshes", "materials", "skins", "extensionsUsed"})
         CHECK(glb.json[part] == before[part]);
     // The file's own animation moved the same bones: it goes, with its two arrays (the last) and their 40 bytes.
@@ -127,7 +128,7 @@ TEST_CASE("what is not the motion stays as it is in the file") {
     CHECK(glb.binary.compare(0, bytes.size() - 40, bytes, 0, bytes.size() - 40) == 0);
     REQUIRE(glb.json["animations"].size() == 1);
     std::set<std::size_t> named;
-    for (const Json& sampler : glb.json["animations"][0]["samplers"]) {
+    for (const OrderedJson& sampler : glb.json["animations"][0]["samplers"]) {
         named.insert(sampler["input"].get<std::size_t>());
         named.insert(sampler["output"].get<std::size_t>());
     }
@@ -196,7 +197,7 @@ TEST_CASE("why assimp could not turn a model is said, and what to do") {
 TEST_CASE("a tree that lies is as large as its bones") {
     const std::string folder = std::filesystem::temp_directory_path() / ("bough_lying_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
-    Json json = Json::parse(content_of(twig));
+    OrderedJson json = OrderedJson::parse(content_of(twig));
     json["nodes"][0]["rotation"] = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}; // all bones in the plane y = 0
     std::ofstream(folder + "/t.gltf") << json.dump();
     std::filesystem::copy_file(fixtures + "twig_bark.bin", folder + "/twig_bark.bin",
@@ -209,7 +210,7 @@ TEST_CASE("a tree that lies is as large as its bones") {
 TEST_CASE("animations of other nodes stay, those of the bones are named as left out; meshes that nothing moves, too") {
     const std::string folder = std::filesystem::temp_directory_path() / ("bough_driven_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
-    Json json = Json::parse(content_of(twig));
+    OrderedJson json = OrderedJson::parse(content_of(twig));
     json["animations"].push_back(json["animations"][0]);
     json["animations"][1]["name"] = "leaf fall";
     json["animations"][1]["channels"][0]["target"]["node"] = 6; // the control
@@ -236,9 +237,9 @@ TEST_CASE("animations of other nodes stay, those of the bones are named as left 
     CHECK(noted("1 mesh stays still"));
     REQUIRE(read.lines.size() == 1);
     CHECK(read.lines[0].find("\"gone.png\"") != std::string::npos);
-    const Json& image = glb.json["images"][0];
+    const OrderedJson& image = glb.json["images"][0];
     CHECK(image["mimeType"] == "image/png");
-    const Json& view = glb.json["bufferViews"][std::size_t(image["bufferView"])];
+    const OrderedJson& view = glb.json["bufferViews"][std::size_t(image["bufferView"])];
     CHECK(glb.binary.substr(view["byteOffset"], view["byteLength"]) == "\x89PNG\r\n, nearly");
     CHECK(glb.json["images"][1]["uri"] == "gone.png");
     std::filesystem::remove_all(folder);
@@ -246,8 +247,8 @@ TEST_CASE("animations of other nodes stay, those of the bones are named as left 
 
 TEST_CASE("a bone along several bodies turns as the middle one and begins where the first has been taken") {
     const Tree tree = tree_of(twig, 0.1);
-    const Pose rest = drawn(tree);
-    Pose bent = rest;
+    const BonePose rest = drawn(tree);
+    BonePose bent = rest;
     // An arc: each body of the trunk turns 0.02 rad further than the one before it; the side branch stands still.
     std::vector<std::size_t> trunk;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
@@ -281,7 +282,7 @@ TEST_CASE("a bone along several bodies turns as the middle one and begins where 
 TEST_CASE("scaled nodes, a matrix, and a tree that a scene has moved") {
     const std::string file =
         std::filesystem::temp_directory_path() / ("bough_scaled_" + std::to_string(::getpid()) + ".gltf");
-    Json json = Json::parse(content_of(twig));
+    OrderedJson json = OrderedJson::parse(content_of(twig));
     json["buffers"][0]["uri"] = "file"; // put in below
     json["nodes"][0]["scale"] = {0.01, 0.01, 0.01};
     json["nodes"][0]["rotation"] = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
@@ -297,8 +298,8 @@ TEST_CASE("scaled nodes, a matrix, and a tree that a scene has moved") {
     const double yaw = 0.9;
     Tree moved;
     append(moved, tree, position, yaw);
-    const Pose rest = drawn(moved);
-    Pose bent = rest;
+    const BonePose rest = drawn(moved);
+    BonePose bent = rest;
     const Mat3 to_world = Eigen::AngleAxisd(yaw, Vec3::UnitY()).toRotationMatrix();
     turn_branch(moved, 1, to_world * about_z(0.5) * to_world.transpose(), position + to_world * joint_of_side, bent);
     DrivenOptions options;
@@ -344,8 +345,8 @@ TEST_CASE("the users' own trees at rest, from glTF and FBX") {
     for (const char* kind : {"glb", "fbx"}) {
         INFO(kind);
         const Tree tree = tree_of(sapling + kind, 0);
-        const Pose rest = drawn(tree);
-        Pose tilted = rest;
+        const BonePose rest = drawn(tree);
+        BonePose tilted = rest;
         turn_branch(tree, -1, about_z(0.3), Vec3::Zero(), tilted);
         const Glb glb = driven(sapling + kind, tree, {rest, tilted});
         const std::vector<Vec3> at_rest = gltf_reader::skinned(glb, 0), after = gltf_reader::skinned(glb, 1);

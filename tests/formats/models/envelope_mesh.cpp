@@ -97,7 +97,7 @@ std::string fbx(int up, int up_sign, int front, int front_sign, double unit) {
            "Connections:  {\n\tC: \"OO\",2000,0\n\tC: \"OO\",1000,2000\n}\n";
 }
 
-bool near(const Vec3& a, const Vec3& b) {
+bool close_to(const Vec3& a, const Vec3& b) {
     return (a - b).norm() < 1e-5;
 }
 
@@ -127,40 +127,40 @@ TEST_CASE("An OBJ keeps its shape; polygons, also concave ones, are triangulated
 
 TEST_CASE("Units and up axes of OBJ: guessed from the height, or given") {
     const std::string tall = solids::obj_text(solids::moved(solids::l_prism(), 100, Vec3::Zero()));
-    CHECK(near(extent(read(tall)), {4, 6, 2})); // 600 units high: centimetres
-    CHECK(near(extent(read(tall, "x", 0.001)), {0.4, 0.6, 0.2}));
+    CHECK(close_to(extent(read(tall)), {4, 6, 2})); // 600 units high: centimetres
+    CHECK(close_to(extent(read(tall, "x", 0.001)), {0.4, 0.6, 0.2}));
     const MeshInterior turned = interior(read(tall, "x", 0.01, 'z'));
-    CHECK(near(turned.lower(), {0, 0, -8}));
-    CHECK(near(turned.upper(), {4, 2, -2}));
+    CHECK(close_to(turned.lower(), {0, 0, -8}));
+    CHECK(close_to(turned.upper(), {4, 2, -2}));
     CHECK(turned.closure().volume == Approx(32));
 }
 
 TEST_CASE("COLLADA's unit and axis are applied once, and overridden") {
     const solids::Solid l = solids::l_prism();
-    CHECK(near(extent(read(dae(l, R"(<unit name="meter" meter="1"/>)", "Y_UP"))), {4, 6, 2}));
-    CHECK(near(extent(read(dae(l, R"(<unit name="decimeter" meter="0.1"/>)", "Y_UP"))), {0.4, 0.6, 0.2}));
+    CHECK(close_to(extent(read(dae(l, R"(<unit name="meter" meter="1"/>)", "Y_UP"))), {4, 6, 2}));
+    CHECK(close_to(extent(read(dae(l, R"(<unit name="decimeter" meter="0.1"/>)", "Y_UP"))), {0.4, 0.6, 0.2}));
     const MeshInterior z_up = interior(read(dae(l, R"(<unit meter="1"/>)", "Z_UP")));
-    CHECK(near(z_up.lower(), {0, 0, -8}));
-    CHECK(near(z_up.upper(), {4, 2, -2}));
-    CHECK(near(extent(read(dae(l, R"(<unit meter="0.1"/>)", "Z_UP"), "x", 0.5, 'y')), {2, 3, 1}));
+    CHECK(close_to(z_up.lower(), {0, 0, -8}));
+    CHECK(close_to(z_up.upper(), {4, 2, -2}));
+    CHECK(close_to(extent(read(dae(l, R"(<unit meter="0.1"/>)", "Z_UP"), "x", 0.5, 'y')), {2, 3, 1}));
 }
 
 TEST_CASE("A binary glTF: metres, its node's place applied") {
     const MeshInterior m = interior(read(glb(solids::l_prism()), "crown.glb"));
-    CHECK(near(m.lower(), {0, 7, 0}));
-    CHECK(near(m.upper(), {4, 13, 2}));
+    CHECK(close_to(m.lower(), {0, 7, 0}));
+    CHECK(close_to(m.upper(), {4, 13, 2}));
     CHECK(m.closure().alike);
 }
 
 TEST_CASE("FBX says its unit and axes in its settings") {
     const MeshInterior y_up = interior(read(fbx(1, 1, 2, 1, 100)));
-    CHECK(near(y_up.lower(), {0, 0, 0}));
-    CHECK(near(y_up.upper(), {1, 2, 3}));
+    CHECK(close_to(y_up.lower(), {0, 0, 0}));
+    CHECK(close_to(y_up.upper(), {1, 2, 3}));
     const MeshInterior z_up = interior(read(fbx(2, 1, 1, -1, 1)));
-    CHECK(near(z_up.lower(), {0, 0, -0.02}));
-    CHECK(near(z_up.upper(), {0.01, 0.03, 0}));
+    CHECK(close_to(z_up.lower(), {0, 0, -0.02}));
+    CHECK(close_to(z_up.upper(), {0.01, 0.03, 0}));
     const MeshInterior given = interior(read(fbx(2, 1, 1, -1, 1), "x", 2, 'y'));
-    CHECK(near(given.upper(), {2, 4, 6}));
+    CHECK(close_to(given.upper(), {2, 4, 6}));
 }
 
 TEST_CASE("What is no closed mesh of the four is refused in one line that says what was expected") {

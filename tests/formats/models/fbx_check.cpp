@@ -79,7 +79,7 @@ std::string file_of(const Numbers& n, bool wide) {
     return file + std::string(wide ? 25 : 13, '\0');
 }
 
-std::string refusal(const std::string& content) {
+std::string fbx_refusal(const std::string& content) {
     try {
         bough::check_fbx(content);
     } catch (const std::runtime_error& error) {
@@ -91,9 +91,9 @@ std::string refusal(const std::string& content) {
 std::string with(const std::function<void(Numbers&)>& change) {
     Numbers numbers;
     change(numbers);
-    const std::string first = refusal(file_of(numbers, false));
+    const std::string first = fbx_refusal(file_of(numbers, false));
     numbers.packed = true;
-    CHECK(refusal(file_of(numbers, true)) == first);
+    CHECK(fbx_refusal(file_of(numbers, true)) == first);
     return first;
 }
 
@@ -101,8 +101,8 @@ std::string with(const std::function<void(Numbers&)>& change) {
 
 TEST_CASE("binary FBX that is whole passes, and text is left to its reader") {
     CHECK(with([](Numbers&) {}) == "");
-    CHECK(refusal("; FBX 7.4.0 project file\n") == "");
-    CHECK(refusal("") == "");
+    CHECK(fbx_refusal("; FBX 7.4.0 project file\n") == "");
+    CHECK(fbx_refusal("") == "");
 }
 
 TEST_CASE("FBX indices and numbers that are out of range are named with their place") {
@@ -130,12 +130,12 @@ TEST_CASE("FBX that is cut anywhere, or says that it is longer, is refused by it
     for (const bool wide : {false, true}) {
         const std::string whole = file_of({}, wide);
         for (std::size_t size = 28; size < whole.size() - (wide ? 25 : 13); ++size)
-            CHECK_THAT(refusal(std::string(whole.data(), size)), Catch::StartsWith("byte "));
+            CHECK_THAT(fbx_refusal(std::string(whole.data(), size)), Catch::StartsWith("byte "));
         for (std::size_t at = 27; at < whole.size(); ++at) // whatever it says, it ends
             for (const char other : {'\xff', '\x7f', '\0'}) {
                 std::string changed = whole;
                 changed[at] = other;
-                refusal(changed);
+                fbx_refusal(changed);
             }
     }
 }

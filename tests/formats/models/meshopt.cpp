@@ -24,7 +24,7 @@ std::string_view bytes_of(const GltfDocument& document, const Json& view) {
         .substr(view.value("byteOffset", std::size_t(0)), view["byteLength"].get<std::size_t>());
 }
 
-void refuses(const std::function<void(Json&)>& change, const std::string& text) {
+void decoder_refuses(const std::function<void(Json&)>& change, const std::string& text) {
     GltfDocument document = document_of(fixture("meshopt_views.gltf"));
     change(document.json["bufferViews"][1]);
     std::string error;
@@ -88,27 +88,34 @@ TEST_CASE("an envelope may be quantized and compressed") {
 
 TEST_CASE("a view that is not what its extension says is refused") {
     const std::string of = " (EXT_meshopt_compression)";
-    refuses([](Json& v) { packed(v)["mode"] = "POINTS"; },
-            of + ": mode is \"POINTS\", expected ATTRIBUTES, TRIANGLES or INDICES");
-    refuses([](Json& v) { packed(v)["filter"] = "COLOR"; },
-            of + ": filter is \"COLOR\", expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
-    refuses([](Json& v) { packed(v)["filter"] = "QUATERNION"; },
-            of + ": byteStride is 4, which QUATERNION does not allow");
-    refuses([](Json& v) { packed(v)["byteStride"] = 6; }, of + ": byteStride is 6, which ATTRIBUTES does not allow");
-    refuses([](Json& v) { packed(v)["byteStride"] = 0; }, of + ": byteStride is 0, which ATTRIBUTES does not allow");
-    refuses([](Json& v) { packed(v)["mode"] = "TRIANGLES"; }, of + ": count is 40, expected three a triangle");
-    refuses([](Json& v) { packed(v)["count"] = 41; }, of + " has 41 elements of 4 bytes, but its view 160 bytes");
-    refuses([](Json& v) { packed(v)["count"] = 4611686018427387944u; }, // 2^62 more: so many bytes are 160 again
-            of + " has 4611686018427387944 elements of 4 bytes, but its view 160 bytes");
-    refuses([](Json& v) { packed(v)["byteLength"] = 9; },
-            of + ": 9 bytes are no array of 40 elements compressed as ATTRIBUTES; the file is damaged or of a newer "
-                 "version");
-    refuses([](Json& v) { packed(v)["count"] = 250000000, v["byteLength"] = 1000000000; },
-            of + ": 148 bytes cannot hold 1000000000");
-    refuses([](Json& v) { packed(v)["byteLength"] = 1.5; }, of + ": byteLength is 1.5, expected a whole number");
-    refuses([](Json& v) { v["extensions"]["KHR_meshopt_compression"] = packed(v); },
-            " is compressed by KHR_meshopt_compression, which is not read here; expected EXT_meshopt_compression "
-            "(gltfpack -ce ext)");
+    decoder_refuses([](Json& v) { packed(v)["mode"] = "POINTS"; },
+                    of + ": mode is \"POINTS\", expected ATTRIBUTES, TRIANGLES or INDICES");
+    decoder_refuses([](Json& v) { packed(v)["filter"] = "COLOR"; },
+                    of + ": filter is \"COLOR\", expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
+    decoder_refuses([](Json& v) { packed(v)["filter"] = "QUATERNION"; },
+                    of + ": byteStride is 4, which QUATERNION does not allow");
+    decoder_refuses([](Json& v) { packed(v)["byteStride"] = 6; },
+                    of + ": byteStride is 6, which ATTRIBUTES does not allow");
+    decoder_refuses([](Json& v) { packed(v)["byteStride"] = 0; },
+                    of + ": byteStride is 0, which ATTRIBUTES does not allow");
+    decoder_refuses([](Json& v) { packed(v)["mode"] = "TRIANGLES"; }, of + ": count is 40, expected three a triangle");
+    decoder_refuses([](Json& v) { packed(v)["count"] = 41; },
+                    of + " has 41 elements of 4 bytes, but its view 160 bytes");
+    decoder_refuses(
+        [](Json& v) { packed(v)["count"] = 4611686018427387944u; }, // 2^62 more: so many bytes are 160 again
+        of + " has 4611686018427387944 elements of 4 bytes, but its view 160 bytes");
+    decoder_refuses(
+        [](Json& v) { packed(v)["byteLength"] = 9; },
+        of + ": 9 bytes are no array of 40 elements compressed as ATTRIBUTES; the file is damaged or of a newer "
+             "version");
+    decoder_refuses([](Json& v) { packed(v)["count"] = 250000000, v["byteLength"] = 1000000000; },
+                    of + ": 148 bytes cannot hold 1000000000");
+    decoder_refuses([](Json& v) { packed(v)["byteLength"] = 1.5; },
+                    of + ": byteLength is 1.5, expected a whole number");
+    decoder_refuses(
+        [](Json& v) { v["extensions"]["KHR_meshopt_compression"] = packed(v); },
+        " is compressed by KHR_meshopt_compression, which is not read here; expected EXT_meshopt_compression "
+        "(gltfpack -ce ext)");
 }
 
 TEST_CASE("damaged bytes of a compressed view are refused or read, within their size") {

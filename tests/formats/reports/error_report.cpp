@@ -59,7 +59,7 @@ ErrorRun make_run(const char* solver, const char* scheme, const char* precision,
     return run;
 }
 
-ErrorReport make_report() {
+ErrorReport error_report() {
     ErrorReport report;
     report.runs = {
         make_run("analytic", "branch", "double", 4, 0.05),     make_run("analytic", "branch", "double", 1, 0.2),
@@ -81,13 +81,14 @@ ErrorReport make_report() {
     return report;
 }
 
-const ReportMeta meta = {"treeprofile", "0.1.0", "GNU 12.2", "-O3", 2, "treegen <a>\ntreeprofile error 'a & b.json'"};
+const ReportMeta error_meta = {"treeprofile", "0.1.0", "GNU 12.2",
+                               "-O3",         2,       "treegen <a>\ntreeprofile error 'a & b.json'"};
 
 } // namespace
 
 TEST_CASE("every figure of an error report is in its JSON, what is not finite as null") {
-    const ErrorReport report = make_report();
-    const auto j = nlohmann::json::parse(written([&](Output& o) { write_error_json(o, report, meta); }));
+    const ErrorReport report = error_report();
+    const auto j = nlohmann::json::parse(written([&](Output& o) { write_error_json(o, report, error_meta); }));
     CHECK(j.at("format") == "bough-error-report");
     CHECK(j.at("version") == 1);
     CHECK(j.at("tool") == "treeprofile");
@@ -95,7 +96,7 @@ TEST_CASE("every figure of an error report is in its JSON, what is not finite as
     CHECK(j.at("compiler") == "GNU 12.2");
     CHECK(j.at("flags") == "-O3");
     CHECK(j.at("threads") == 2);
-    CHECK(j.at("source") == meta.source);
+    CHECK(j.at("source") == error_meta.source);
     CHECK(j.at("bodies") == 1003);
     CHECK(j.at("tips") == 214);
     CHECK(j.at("frames") == 301);
@@ -188,7 +189,7 @@ TEST_CASE("every figure of an error report is in its JSON, what is not finite as
 TEST_CASE("infinity is null, a source is left out, texts that are no UTF-8 are made so") {
     ErrorReport report;
     report.runs = {make_run("a\xff\n", "", "double", 1, INFINITY)};
-    ReportMeta none = meta;
+    ReportMeta none = error_meta;
     none.source.clear();
     const auto j = nlohmann::json::parse(written([&](Output& o) { write_error_json(o, report, none); }));
     CHECK(j["runs"][0]["error_rms"].is_null());
@@ -198,7 +199,7 @@ TEST_CASE("infinity is null, a source is left out, texts that are no UTF-8 are m
 }
 
 TEST_CASE("CSV has a line a run under the names of the JSON") {
-    const auto lines = lines_of(written([](Output& o) { write_error_csv(o, make_report()); }));
+    const auto lines = lines_of(written([](Output& o) { write_error_csv(o, error_report()); }));
     REQUIRE(lines.size() == 7);
     const std::string names =
         "solver,scheme,steps_per_frame,precision,finite,seconds_per_simulated_second,error_rms,error_max,"
@@ -217,7 +218,7 @@ TEST_CASE("CSV has a line a run under the names of the JSON") {
 }
 
 TEST_CASE("the error table summarises, has a row a run by steps, and fits 120 columns") {
-    const auto lines = lines_of(error_table(make_report()));
+    const auto lines = lines_of(error_table(error_report()));
     for (const std::string& line : lines) CHECK(line.size() <= 120);
     const auto find = [&](const std::string& text) {
         const auto found = std::find_if(lines.begin(), lines.end(),
@@ -253,7 +254,7 @@ TEST_CASE("the error table summarises, has a row a run by steps, and fits 120 co
 }
 
 TEST_CASE("a figure wider than its column keeps one digit, and the columns stay apart") {
-    ErrorReport report = make_report();
+    ErrorReport report = error_report();
     report.runs = {make_run("coupled", "P12", "double", 1, 0.2)};
     report.runs[0].error_frequency = -1.62e-7;
     report.runs[0].error_decay = -1.23e-6;
@@ -263,7 +264,7 @@ TEST_CASE("a figure wider than its column keeps one digit, and the columns stay 
 
 TEST_CASE("the plot is well-formed SVG that names each line and what could not be drawn") {
     if (!has_gnuplot()) return;
-    ErrorReport report = make_report();
+    ErrorReport report = error_report();
     const std::string svg = error_svg(report, "plot.svg");
     pugi::xml_document xml;
     REQUIRE(xml.load_string(svg.c_str()));
@@ -307,7 +308,7 @@ TEST_CASE("the plot is well-formed SVG that names each line and what could not b
 
 TEST_CASE("the page holds plot and figures, escaped, and loads nothing") {
     if (!has_gnuplot()) return;
-    const std::string page = written([](Output& o) { write_error_html(o, make_report(), meta); });
+    const std::string page = written([](Output& o) { write_error_html(o, error_report(), error_meta); });
     for (const char* part : {"<svg", "analytic, branch, float", "explicit &lt;&amp;&#39;&quot;, euler", "320%",
                              "Wood by branch level", "level 1 max of peak", "Motion", "flap std deg", "<td>10.8</td>",
                              "treegen &lt;a&gt;\ntreeprofile error &#39;a &amp; b.json&#39;", "GNU 12.2"})
@@ -320,20 +321,20 @@ TEST_CASE("the ending of a report's name chooses its form; another is refused an
     const ReportFolder folder;
     for (const char* name : {"a.txt", "a", "-", ".json.gz"}) {
         CHECK_THROWS_AS(require_report(name), UsageError);
-        CHECK_THROWS_WITH(write_error_report(name, make_report(), meta),
+        CHECK_THROWS_WITH(write_error_report(name, error_report(), error_meta),
                           Catch::Contains(".json") && Catch::Contains(".csv") && Catch::Contains(".svg") &&
                               Catch::Contains(".html"));
     }
     CHECK_NOTHROW(require_report(""));
-    write_error_report(folder.file("a.JSON"), make_report(), meta);
+    write_error_report(folder.file("a.JSON"), error_report(), error_meta);
     CHECK(nlohmann::json::parse(read_input(folder.file("a.JSON")))["runs"].size() == 6);
-    write_error_report(folder.file("a.csv"), make_report(), meta);
+    write_error_report(folder.file("a.csv"), error_report(), error_meta);
     CHECK(read_input(folder.file("a.csv")).rfind("solver,", 0) == 0);
     if (!has_gnuplot()) return;
-    write_error_report(folder.file("a.svg"), make_report(), meta);
+    write_error_report(folder.file("a.svg"), error_report(), error_meta);
     pugi::xml_document xml;
     CHECK(xml.load_file(folder.file("a.svg").c_str()));
-    write_error_report(folder.file("a.html"), make_report(), meta);
+    write_error_report(folder.file("a.html"), error_report(), error_meta);
     CHECK(read_input(folder.file("a.html")).rfind("<!DOCTYPE html>", 0) == 0);
 }
 
@@ -342,7 +343,7 @@ TEST_CASE("without gnuplot a picture is an output error that says what to do, an
     const NoPrograms none;
     for (const char* name : {"a.svg", "a.html"}) {
         CHECK_THROWS_AS(require_report(folder.file(name)), OutputError);
-        CHECK_THROWS_WITH(write_error_report(folder.file(name), make_report(), meta),
+        CHECK_THROWS_WITH(write_error_report(folder.file(name), error_report(), error_meta),
                           folder.file(name) + ": gnuplot was not found: install gnuplot, or ask for .json or .csv");
     }
     CHECK_NOTHROW(require_report(folder.file("a.json")));

@@ -60,7 +60,7 @@ ScalingLimits make_limits() {
     return limits;
 }
 
-ScalingReport make_report() {
+ScalingReport scaling_report() {
     ScalingReport report;
     report.wind = "gusty";
     report.repeat = 3;
@@ -76,7 +76,8 @@ ScalingReport make_report() {
     return report;
 }
 
-const ReportMeta meta = {"treeprofile", "0.1.0", "GNU 12.2", "-O3", 2, "treeprofile scaling --wind 'a & b.json'"};
+const ReportMeta scaling_meta = {"treeprofile", "0.1.0", "GNU 12.2",
+                                 "-O3",         2,       "treeprofile scaling --wind 'a & b.json'"};
 
 } // namespace
 
@@ -102,7 +103,7 @@ TEST_CASE("the limit is the longer of the time for bytes and the time for operat
 }
 
 TEST_CASE("memory a body is the slope from the next smaller size of the same series") {
-    const ScalingReport report = make_report();
+    const ScalingReport report = scaling_report();
     CHECK(std::isnan(report.runs[0].memory_slope));
     CHECK(report.runs[2].memory_slope == Approx(500));
     CHECK(report.runs[3].memory_slope == Approx(500));
@@ -110,13 +111,13 @@ TEST_CASE("memory a body is the slope from the next smaller size of the same ser
 }
 
 TEST_CASE("every figure of a scaling report is in its JSON, what is not known as null") {
-    const ScalingReport report = make_report();
-    const auto j = nlohmann::json::parse(written([&](Output& o) { write_scaling_json(o, report, meta); }));
+    const ScalingReport report = scaling_report();
+    const auto j = nlohmann::json::parse(written([&](Output& o) { write_scaling_json(o, report, scaling_meta); }));
     CHECK(j.at("format") == "bough-scaling-report");
     CHECK(j.at("version") == 1);
     CHECK(j.at("tool") == "treeprofile");
     CHECK(j.at("threads") == 2);
-    CHECK(j.at("source") == meta.source);
+    CHECK(j.at("source") == scaling_meta.source);
     CHECK(j.at("wind") == "gusty");
     CHECK(j.at("repeat") == 3);
     CHECK(j.at("array") == 268435456);
@@ -174,13 +175,13 @@ TEST_CASE("every figure of a scaling report is in its JSON, what is not known as
         CHECK(row.at("memory_per_body").is_null() == (k < 2 || k == 4));
     }
     CHECK(j["runs"][2].at("over_limit") == 90.0 / 40);
-    ReportMeta none = meta;
+    ReportMeta none = scaling_meta;
     none.source.clear();
     CHECK(nlohmann::json::parse(written([&](Output& o) { write_scaling_json(o, {}, none); }))["runs"].empty());
 }
 
 TEST_CASE("CSV of scaling has a line a run under the names of the JSON") {
-    const auto lines = lines_of(written([](Output& o) { write_scaling_csv(o, make_report()); }));
+    const auto lines = lines_of(written([](Output& o) { write_scaling_csv(o, scaling_report()); }));
     REQUIRE(lines.size() == 6);
     CHECK(lines[0] == "shape,bodies,solver,scheme,precision,simd,threads,frames,ns_per_body_frame,ns_least,ns_most,"
                       "limit_ns,limited_by,over_limit,memory,memory_per_body,hash");
@@ -189,7 +190,7 @@ TEST_CASE("CSV of scaling has a line a run under the names of the JSON") {
 }
 
 TEST_CASE("the scaling table has limits, counts and a row a run by size, and fits 120 columns") {
-    const std::string table = scaling_table(make_report());
+    const std::string table = scaling_table(scaling_report());
     const auto lines = lines_of(table);
     for (const std::string& line : lines) CHECK(line.size() <= 120);
     for (const char* part : {"memory over 256 MB (last cache 32 MB, a core's 2 MB)", "median of 3 runs; wind gusty",
@@ -205,7 +206,7 @@ TEST_CASE("the scaling table has limits, counts and a row a run by size, and fit
 
 TEST_CASE("the plot of scaling is well-formed SVG that names each line; the page holds it") {
     if (!has_gnuplot()) return;
-    ScalingReport report = make_report();
+    ScalingReport report = scaling_report();
     pugi::xml_document xml;
     REQUIRE(xml.load_string(scaling_svg(report, "plot.svg").c_str()));
     std::string text;
@@ -216,7 +217,7 @@ TEST_CASE("the plot of scaling is well-formed SVG that names each line; the page
         CHECK(text.find(name) != std::string::npos);
     }
     CHECK(xml.load_string(scaling_svg({}, "plot.svg").c_str()));
-    const std::string page = written([&](Output& o) { write_scaling_html(o, report, meta); });
+    const std::string page = written([&](Output& o) { write_scaling_html(o, report, scaling_meta); });
     for (const char* part : {"<svg", "avx512, 2 threads", "20, 10, 16 GB/s", "&#39;a &amp; b.json&#39;", "2.25"})
         CHECK(page.find(part) != std::string::npos);
     for (const char* part : {"src=", "<link", "<script", "<?xml"}) CHECK(page.find(part) == std::string::npos);
@@ -224,15 +225,15 @@ TEST_CASE("the plot of scaling is well-formed SVG that names each line; the page
 
 TEST_CASE("the ending of a scaling report's name chooses its form") {
     const ReportFolder folder;
-    CHECK_THROWS_AS(write_scaling_report(folder.file("a.txt"), make_report(), meta), UsageError);
-    write_scaling_report(folder.file("a.json"), make_report(), meta);
+    CHECK_THROWS_AS(write_scaling_report(folder.file("a.txt"), scaling_report(), scaling_meta), UsageError);
+    write_scaling_report(folder.file("a.json"), scaling_report(), scaling_meta);
     CHECK(nlohmann::json::parse(read_input(folder.file("a.json")))["runs"].size() == 5);
-    write_scaling_report(folder.file("a.csv"), make_report(), meta);
+    write_scaling_report(folder.file("a.csv"), scaling_report(), scaling_meta);
     CHECK(read_input(folder.file("a.csv")).rfind("shape,", 0) == 0);
     if (!has_gnuplot()) return;
-    write_scaling_report(folder.file("a.svg"), make_report(), meta);
+    write_scaling_report(folder.file("a.svg"), scaling_report(), scaling_meta);
     pugi::xml_document xml;
     CHECK(xml.load_file(folder.file("a.svg").c_str()));
-    write_scaling_report(folder.file("a.html"), make_report(), meta);
+    write_scaling_report(folder.file("a.html"), scaling_report(), scaling_meta);
     CHECK(read_input(folder.file("a.html")).rfind("<!DOCTYPE html>", 0) == 0);
 }

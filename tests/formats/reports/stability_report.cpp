@@ -25,7 +25,7 @@ StabilityCell make_cell(const char* group, const char* name, const char* precisi
 }
 
 // Held, failed though promised, outside, unbounded, not run; held; bounded but not as the truth moves.
-StabilityReport make_report() {
+StabilityReport stability_report() {
     StabilityReport report;
     report.bodies = 21;
     report.fps = 30;
@@ -52,13 +52,13 @@ StabilityReport make_report() {
     return report;
 }
 
-const ReportMeta meta = {"treeprofile", "0.1.0", "GNU 12.2", "-O3", 1, "treeprofile stability <a>.json"};
+const ReportMeta stability_meta = {"treeprofile", "0.1.0", "GNU 12.2", "-O3", 1, "treeprofile stability <a>.json"};
 
 } // namespace
 
 TEST_CASE("every figure of a stability report is in its JSON, what is not finite as null") {
-    const StabilityReport report = make_report();
-    const auto j = nlohmann::json::parse(written([&](Output& o) { write_stability_json(o, report, meta); }));
+    const StabilityReport report = stability_report();
+    const auto j = nlohmann::json::parse(written([&](Output& o) { write_stability_json(o, report, stability_meta); }));
     CHECK(j.at("format") == "bough-stability-report");
     CHECK(j.at("version") == 1);
     CHECK(j.at("tool_version") == "0.1.0");
@@ -66,7 +66,7 @@ TEST_CASE("every figure of a stability report is in its JSON, what is not finite
     CHECK(j.at("fps") == 30);
     CHECK(j.at("promised") == 4);
     CHECK(j.at("promised_held") == 2);
-    CHECK(j.at("source") == meta.source);
+    CHECK(j.at("source") == stability_meta.source);
     REQUIRE(j.at("cells").size() == report.cells.size());
     for (std::size_t k = 0; k < report.cells.size(); ++k) {
         const StabilityCell& cell = report.cells[k];
@@ -98,7 +98,7 @@ TEST_CASE("every figure of a stability report is in its JSON, what is not finite
 }
 
 TEST_CASE("CSV of a stability report has a line a cell, quoted where it must be") {
-    const auto lines = lines_of(written([](Output& o) { write_stability_csv(o, make_report()); }));
+    const auto lines = lines_of(written([](Output& o) { write_stability_csv(o, stability_report()); }));
     REQUIRE(lines.size() == 8);
     CHECK(lines[0] == "group,case,solver,precision,finite,bounded,compared,moves,energy_drift,ringing,max_angle,"
                       "rms_growth,lean_error,std_error,still_frames,guards,promised,outside,frames,note");
@@ -107,7 +107,7 @@ TEST_CASE("CSV of a stability report has a line a cell, quoted where it must be"
 }
 
 TEST_CASE("a cell is judged by what it did, what is promised and what is assumed") {
-    StabilityReport report = make_report();
+    StabilityReport report = stability_report();
     CHECK(cell_state(report.cells[0]) == CellState::held);
     CHECK(cell_state(report.cells[1]) == CellState::failed);
     CHECK(cell_state(report.cells[2]) == CellState::outside);
@@ -125,7 +125,7 @@ TEST_CASE("a cell is judged by what it did, what is promised and what is assumed
 }
 
 TEST_CASE("the stability table groups the cells and ends with the count of the promised ones") {
-    const auto lines = lines_of(stability_table(make_report()));
+    const auto lines = lines_of(stability_table(stability_report()));
     for (const std::string& line : lines) CHECK(line.size() <= 120);
     CHECK(lines.front().find("bodies 21") == 0);
     CHECK(lines.back() == "promised 2 of 4 hold");
@@ -143,7 +143,7 @@ TEST_CASE("the stability table groups the cells and ends with the count of the p
 
 TEST_CASE("the grid is well-formed SVG with each case, column and verdict in words") {
     if (!has_gnuplot()) return;
-    const std::string svg = stability_svg(make_report(), "grid.svg");
+    const std::string svg = stability_svg(stability_report(), "grid.svg");
     pugi::xml_document xml;
     REQUIRE(xml.load_string(svg.c_str()));
     std::vector<std::string> texts;
@@ -165,7 +165,7 @@ TEST_CASE("the grid is well-formed SVG with each case, column and verdict in wor
 
 TEST_CASE("the stability page holds grid and figures, escaped, and loads nothing") {
     if (!has_gnuplot()) return;
-    const std::string page = written([](Output& o) { write_stability_html(o, make_report(), meta); });
+    const std::string page = written([](Output& o) { write_stability_html(o, stability_report(), stability_meta); });
     for (const char* part : {"<svg", "K x &lt;&amp;&gt;", "class=\"failed\"", "class=\"outside\"", "class=\"not-run\"",
                              "2 of 4", "&lt;a&gt;.json", "<td>-75%</td>", "<td>31</td>"})
         CHECK(page.find(part) != std::string::npos);
@@ -175,14 +175,14 @@ TEST_CASE("the stability page holds grid and figures, escaped, and loads nothing
 
 TEST_CASE("a stability report is written in the form of its name") {
     const ReportFolder folder;
-    CHECK_THROWS_AS(write_stability_report(folder.file("a.pdf"), make_report(), meta), UsageError);
+    CHECK_THROWS_AS(write_stability_report(folder.file("a.pdf"), stability_report(), stability_meta), UsageError);
     CHECK(folder.files() == 0);
-    write_stability_report(folder.file("a.json"), make_report(), meta);
+    write_stability_report(folder.file("a.json"), stability_report(), stability_meta);
     CHECK(nlohmann::json::parse(read_input(folder.file("a.json")))["cells"].size() == 7);
-    write_stability_report(folder.file("a.csv"), make_report(), meta);
+    write_stability_report(folder.file("a.csv"), stability_report(), stability_meta);
     CHECK(read_input(folder.file("a.csv")).rfind("group,", 0) == 0);
     if (!has_gnuplot()) return;
-    write_stability_report(folder.file("a.svg"), make_report(), meta);
+    write_stability_report(folder.file("a.svg"), stability_report(), stability_meta);
     pugi::xml_document xml;
     CHECK(xml.load_file(folder.file("a.svg").c_str()));
 }

@@ -11,7 +11,7 @@ TEST_CASE("In a steady wind the tree comes to rest where wind, weight and spring
     const Tree tree = make_tree::branched();
     Scene scene;
     scene.wind = steady(10);
-    Run<double> run(tree, scene);
+    PlainRun<double> run(tree, scene);
     run.steps(9000);
     const State<double>& s = run.state;
     const std::size_t n = tree.size_bodies();
@@ -51,7 +51,7 @@ TEST_CASE("A rod on a free joint slows in still air as the equation of motion sa
     const double l = tree.com[0].z(), I = tree.inertia[0](0, 0) + tree.mass[0] * l * l;
     const double c = 0.6 * 1.2 * 0.003 * l * l * l, w0 = 6;
     const auto speed = [&](double dt) {
-        Run<double> run(tree, scene, dt);
+        PlainRun<double> run(tree, scene, dt);
         run.state.theta_dot[0] = Vec3(w0, 0, 0);
         parts::scaled_rate(run.state)[0] = Vec3(std::sqrt(I) * w0, 0, 0);
         state_update(run.plan, run.state);
@@ -73,7 +73,7 @@ TEST_CASE("A twig in a gale is dragged along, never past the wind") {
     const Tree tree = make_tree::chain(20, 0.5, 0.0005, 0.0002, 0, soft);
     Scene scene = nothing();
     scene.wind = steady(60);
-    Run<float> run(tree, scene);
+    PlainRun<float> run(tree, scene);
     for (int k = 0; k < 900; ++k) {
         run.steps(1);
         for (const auto& v : run.state.v_w) {

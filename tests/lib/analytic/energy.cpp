@@ -12,14 +12,14 @@ using namespace simulate;
 namespace {
 
 // A chain tilted by 0.7 rad and thrown out of rest: every joint bent and turning.
-Run<double> thrown_chain(int n, double youngs, double beta, const Scene& scene) {
+PlainRun<double> thrown_chain(int n, double youngs, double beta, const Scene& scene) {
     make_tree::Wood wood;
     wood.youngs = youngs;
     wood.shear = youngs / 15;
     wood.damping = beta;
     Tree tree = make_tree::chain(n, 2, 0.01, 0.01, 0, wood);
     tree.joint_rotation[0] = make_tree::turn(0.7, Vec3::UnitZ()) * tree.joint_rotation[0];
-    Run<double> run(tree, scene);
+    PlainRun<double> run(tree, scene);
     for (int i = 0; i < n; ++i)
         run.state.theta[std::size_t(i)] = 2.0 / n * Vec3(std::sin(1 + 0.7 * i), std::cos(2.0 * i), 0);
     state_update(run.plan, run.state);
@@ -27,7 +27,7 @@ Run<double> thrown_chain(int n, double youngs, double beta, const Scene& scene) 
 }
 
 // The largest rise of the energy in one step, relative to the start's.
-double largest_rise(Run<double>& run, int steps) {
+double largest_rise(PlainRun<double>& run, int steps) {
     const double first = run.total_energy();
     double before = first, rise = 0;
     for (int k = 0; k < steps; ++k) {
@@ -48,7 +48,7 @@ TEST_CASE("A chain in still air loses energy in every step") {
     CAPTURE(n, beta);
     Scene scene = nothing();
     scene.wind = still_air();
-    Run<double> run = thrown_chain(n, 1e9, beta, scene);
+    PlainRun<double> run = thrown_chain(n, 1e9, beta, scene);
     const double first = run.total_energy();
     CHECK(largest_rise(run, 300) <= 1e-12);
     CHECK(run.total_energy() < first);
@@ -62,7 +62,7 @@ TEST_CASE("A chain under gravity, without and with air, gains no energy") {
     Scene scene = nothing();
     scene.gravity = Vec3(0, -9.81, 0);
     if (air) scene.wind = still_air();
-    Run<double> run = thrown_chain(n, 1e9, beta, scene);
+    PlainRun<double> run = thrown_chain(n, 1e9, beta, scene);
     // One rod swings by half a radian a step: what is left over is of third order in that.
     CHECK(largest_rise(run, 300) <= (n == 1 ? 1e-3 : 1e-9));
 }
@@ -70,7 +70,7 @@ TEST_CASE("A chain under gravity, without and with air, gains no energy") {
 TEST_CASE("Without damping, air and gravity the joints keep their energy") {
     const int n = GENERATE(1, 3, 20, 400);
     CAPTURE(n);
-    Run<double> run = thrown_chain(n, 1e9, 0, nothing());
+    PlainRun<double> run = thrown_chain(n, 1e9, 0, nothing());
     const double first = run.total_energy();
     run.steps(1000);
     CHECK(run.total_energy() == Approx(first).epsilon(1e-9));
@@ -90,7 +90,7 @@ TEST_CASE("Energy does not rise at any stiffness") {
         scene.gravity = Vec3(0, -9.81, 0);
         tree = segment(grow_bodies(default_growth(), 2, {true, false, true}, 300), wood_presets().front(), {});
     }
-    Run<double> run(tree, scene);
+    PlainRun<double> run(tree, scene);
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
     // Kicks of a tenth of a joule in all, shared out by inertia.
@@ -121,7 +121,7 @@ TEST_CASE("A single pendulum keeps its energy to second order of the step") {
     Scene scene = nothing();
     scene.gravity = Vec3(0, -9.81, 0);
     const auto change = [&](double dt) {
-        Run<double> run(tree, scene, dt);
+        PlainRun<double> run(tree, scene, dt);
         const double lowest = -moment; // hanging straight down
         const double first = run.total_energy();
         double most = 0;

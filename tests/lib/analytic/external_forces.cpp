@@ -4,13 +4,14 @@
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace bough;
 using namespace solver;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // One body of the kind, upright at the origin: body z is world y, body y is world -z, body x is world x.
 Tree one_body(Kind kind) {

@@ -34,8 +34,8 @@ RootMotion swung() {
 }
 
 // In the midst of the ground's motion, the joints as shaken or at rest, accelerations up to date.
-Run<double> shaken(const Tree& tree, const Scene& scene, double rate) {
-    Run<double> run(tree, scene, 1e-5);
+PlainRun<double> shaken(const Tree& tree, const Scene& scene, double rate) {
+    PlainRun<double> run(tree, scene, 1e-5);
     make_tree::Dice dice{std::mt19937(7)};
     run.state.step = 45000;
     for (Vec3& spin : parts::joints(run.state).spin_dot) spin = solver::random_vector(dice, 10 * rate);
@@ -53,7 +53,7 @@ TEST_CASE("accelerations are the derivatives of the velocities, of every body, o
     const std::size_t n = tree.size_bodies();
     Scene scene = lagged(1, 0, 0);
     scene.root_motion = {swung()};
-    Run<double> run(tree, scene, 1e-5, {true, false});
+    PlainRun<double> run(tree, scene, 1e-5, {true, false});
     make_tree::Dice dice{std::mt19937(3)};
     std::vector<std::array<Vec3, 3>> path; // theta(t) = p0 + p1 t + p2 t^2 / 2 about 0.3 s
     for (std::size_t i = 0; i < n; ++i) {
@@ -99,7 +99,7 @@ TEST_CASE("a joint's own acceleration is that of its rate at the step's end") {
     const Tree tree =
         make_tree::chain(1, 1, 0.02, 0.015, 0, wood); // its inertia about the joint stays, in its own axes
     const double dt = 2e-5;
-    Run<double> run(tree, lagged(1, 1, 0), dt); // of a root on a ground at rest these are nothing
+    PlainRun<double> run(tree, lagged(1, 1, 0), dt); // of a root on a ground at rest these are nothing
     run.state.theta[0] = Vec3(0.2, -0.1, 0.05);
     restart(run.plan, run.state);
     const auto rate = [&] { return Vec3(body_rate_jacobian(run.state.theta[0]) * run.state.theta_dot[0]); };
@@ -122,7 +122,7 @@ TEST_CASE("the terms are what carrying the bodies with the joint takes, body by 
     const Tree tree = make_tree::branched();
     Scene scene = lagged(1, 1, 1);
     scene.root_motion = {swung()};
-    Run<double> run = shaken(tree, scene, 2);
+    PlainRun<double> run = shaken(tree, scene, 2);
     parts::fictitious_torques(run.plan, run.state);
     const State<double>& s = run.state;
     const Ground g = ground_at(run.plan.splines[0], 0.45);
@@ -167,7 +167,7 @@ TEST_CASE("the terms are what carrying the bodies with the joint takes, body by 
 TEST_CASE("a ground's own motion is not counted twice: carried rigidly, the terms are nothing") {
     Scene scene = lagged(1, 1, 1);
     scene.root_motion = {swung()};
-    Run<double> run = shaken(make_tree::branched(), scene, 0);
+    PlainRun<double> run = shaken(make_tree::branched(), scene, 0);
     parts::fictitious_torques(run.plan, run.state);
     REQUIRE(parts::joints(run.state).alpha_w[5].norm() > 1);
     REQUIRE(parts::joints(run.state).a_w[5].norm() > 1);
@@ -244,8 +244,8 @@ TEST_CASE("the terms are for the analytic solver, on the plain path; all 0 is no
     CHECK(none.stepper->in_lanes());
     Scene plain = lagged(0, 0, 0), absent = plain;
     absent.fictitious.reset();
-    Run<double> a(tree, plain), b(tree, absent), c(tree, scene);
-    for (Run<double>* run : {&a, &b, &c}) {
+    PlainRun<double> a(tree, plain), b(tree, absent), c(tree, scene);
+    for (PlainRun<double>* run : {&a, &b, &c}) {
         run->state.theta[0] = Vec3(0.1, 0, 0.05);
         restart(run->plan, run->state);
         run->steps(30);
@@ -259,7 +259,7 @@ TEST_CASE("a run with the terms that is cut and gone on with is the run in one")
     Scene scene = lagged(0.3, 0.3, 0.3);
     scene.gravity = Vec3(0, -9.81, 0);
     scene.root_motion = {swung()};
-    Run<double> whole(tree, scene), first(tree, scene), second(tree, scene);
+    PlainRun<double> whole(tree, scene), first(tree, scene), second(tree, scene);
     whole.steps(30);
     first.steps(13);
     second.state.theta = first.state.theta;

@@ -37,7 +37,7 @@ Scene falling() {
     return scene;
 }
 
-template <class T> void shake(Run<T>& run, double size, unsigned seed) {
+template <class T> void shake(PlainRun<T>& run, double size, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     const double share = size / std::sqrt(double(run.state.theta.size()));
@@ -46,7 +46,7 @@ template <class T> void shake(Run<T>& run, double size, unsigned seed) {
 }
 
 // How far beyond its limit the furthest angle is [rad].
-template <class T> double excess(const Run<T>& run) {
+template <class T> double excess(const PlainRun<T>& run) {
     double most = -1e9;
     for (std::size_t i = 0; i < run.plan.bodies; ++i)
         most = std::max(most, double((run.state.theta[i].cwiseAbs() - run.plan.theta_limit[i]).maxCoeff()));
@@ -67,7 +67,7 @@ std::string refusal(const Tree& tree, const Scene& scene, Solver solver = Solver
 TEMPLATE_TEST_CASE("a rod falls onto its limit and rests there", "", float, double) {
     Scene scene = falling();
     scene.joint_limit = all(30);
-    Run<TestType> run(lying_rod(), scene), unlimited(lying_rod(), falling());
+    PlainRun<TestType> run(lying_rod(), scene), unlimited(lying_rod(), falling());
     double furthest = 0;
     for (int k = 0; k < 60; ++k) {
         run.steps(1);
@@ -90,14 +90,14 @@ TEMPLATE_TEST_CASE("a rod falls onto its limit and rests there", "", float, doub
 TEST_CASE("a rod that gravity no longer holds swings back from its limit as one that starts there") {
     Scene scene = falling();
     scene.joint_limit = all(30);
-    Run<double> run(lying_rod(1e7, 0.02), scene);
+    PlainRun<double> run(lying_rod(1e7, 0.02), scene);
     run.steps(60);
     Scene free = nothing();
-    Run<double> fresh(lying_rod(1e7, 0.02), free);
+    PlainRun<double> fresh(lying_rod(1e7, 0.02), free);
     fresh.state.theta[0] = Vec3(30 * degree, 0, 0);
     state_update(fresh.plan, fresh.state);
     free.joint_limit = all(30);
-    Run<double> released(lying_rod(1e7, 0.02), free);
+    PlainRun<double> released(lying_rod(1e7, 0.02), free);
     released.state.theta = run.state.theta;
     released.state.theta_dot = run.state.theta_dot;
     parts::scaled_rate(released.state) = parts::scaled_rate(run.state);
@@ -123,7 +123,7 @@ TEST_CASE("limits take energy from a shaken tree and give it none") {
     scene.damping_scale = 0;
     scene.stiffness_scale = stiffness;
     scene.joint_inertia = inertia;
-    Run<double> run(make_tree::branched(), scene);
+    PlainRun<double> run(make_tree::branched(), scene);
     shake(run, 3, seed);
     const double first = run.total_energy();
     double before = first, rise = 0;
@@ -183,13 +183,13 @@ TEMPLATE_TEST_CASE("a limit that is never reached changes no bit and no array", 
     const Tree tree = make_tree::branched();
     Scene scene = nothing();
     scene.wind = steady(1);
-    Run<TestType> without(tree, scene);
+    PlainRun<TestType> without(tree, scene);
     scene.joint_limit = all(170);
-    Run<TestType> with(tree, scene);
+    PlainRun<TestType> with(tree, scene);
     CHECK(without.plan.theta_limit.capacity() == 0);
     CHECK_FALSE(without.plan.joint_limit);
     CHECK(with.plan.theta_limit.size() == tree.size_bodies());
-    for (Run<TestType>* run : {&without, &with}) run->steps(50);
+    for (PlainRun<TestType>* run : {&without, &with}) run->steps(50);
     CHECK(without.largest_angle() > 1e-3);
     CHECK(without.largest_angle() < 170 * degree);
     CHECK(with.state.flags.limited == 0);
@@ -211,7 +211,7 @@ TEMPLATE_TEST_CASE("a limited run cut in two goes on as if it had not been", "",
     Scene scene = falling();
     scene.joint_limit = all(2);
     scene.wind = wind_preset("storm");
-    Run<TestType> whole(make_tree::branched(), scene), second(make_tree::branched(), scene);
+    PlainRun<TestType> whole(make_tree::branched(), scene), second(make_tree::branched(), scene);
     whole.steps(30);
     CHECK(whole.state.flags.limited > 0);
     second.state.theta = whole.state.theta;
@@ -228,7 +228,7 @@ TEST_CASE("limits are by kind and axis, and 180 degrees is none") {
     Scene scene = nothing();
     scene.joint_limit = JointLimit{Vec3(10, 20, 180), Vec3::Constant(180), Vec3(1, 2, 3)};
     Tree tree = make_tree::branched();
-    const Run<double> run(tree, scene);
+    const PlainRun<double> run(tree, scene);
     constexpr double none = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         const Vec3 expected = tree.kind[i] == Kind::branch  ? Vec3(10 * degree, 20 * degree, none)
@@ -245,7 +245,7 @@ TEST_CASE("what limits cannot do is refused with its place") {
     Tree tree = make_tree::chain(3, 3, 0.01, 0.01);
     tree.joint_rotation[0] = make_tree::turn(0.5, Vec3::UnitX()) * tree.joint_rotation[0];
     Scene scene;
-    const Run<double> drawn(tree, scene);
+    const PlainRun<double> drawn(tree, scene);
     const double start = drawn.plan.theta_start[0].cwiseAbs().maxCoeff() / degree;
     REQUIRE(start > 0.1);
     scene.joint_limit = all(0.9 * start);

@@ -9,9 +9,9 @@ using namespace lanes;
 
 namespace {
 
-template <class T = double> struct AnalyticRun : Run<T> {
+template <class T = double> struct AnalyticRun : LanesRun<T> {
     AnalyticRun(const Case& c, Simd simd, const Wishes& wishes = {})
-        : Run<T>(c, simd, Scheme::p12, wishes, Solver::analytic) {}
+        : LanesRun<T>(c, simd, Scheme::p12, wishes, Solver::analytic) {}
 };
 
 Scene pulled(Scene scene, double times = 1) {

@@ -12,7 +12,7 @@ using namespace simulate;
 
 namespace {
 
-RootMotion two_keys() {
+RootMotion root_keys() {
     RootMotion m;
     m.time = {0, 1};
     m.position.assign(2, Vec3::Zero());
@@ -22,9 +22,10 @@ RootMotion two_keys() {
 
 // A run whose one spline is replaced by a hand-built one, which keys with their rest at both ends could not give.
 template <class T = double>
-Run<T> run_on(const Tree& tree, Scene scene, const RootSpline& spline, double dt = 1.0 / 30, const Wishes& w = {}) {
-    scene.root_motion = {two_keys()};
-    Run<T> run(tree, scene, dt, w);
+PlainRun<T> run_on(const Tree& tree, Scene scene, const RootSpline& spline, double dt = 1.0 / 30,
+                   const Wishes& w = {}) {
+    scene.root_motion = {root_keys()};
+    PlainRun<T> run(tree, scene, dt, w);
     run.plan.splines = {spline};
     run.state = make_state(run.plan);
     return run;
@@ -85,9 +86,9 @@ TEST_CASE("A root that accelerates steadily is gravity tilted the other way, in 
     for (const Tree& tree : {make_tree::chain(6, 2, 0.03, 0.015, 0.1, wood), make_tree::branched()}) {
         Scene scene = at_rest(g);
         scene.damping_scale = tree.size_bodies() > 6 ? 10 : 1;
-        Run<double> moved = run_on(tree, scene, driven(Vec3::Zero(), a));
+        PlainRun<double> moved = run_on(tree, scene, driven(Vec3::Zero(), a));
         scene.gravity = g - a;
-        Run<double> still(tree, scene);
+        PlainRun<double> still(tree, scene);
         moved.steps(15000);
         still.steps(15000);
         REQUIRE(still.largest_angle() > 0.01);
@@ -105,7 +106,7 @@ TEST_CASE("A rod on a turning table leans to the balance of spring, gravity and 
     Tree tree = rod(2e8, 0.03);
     tree.joint_position[0] = Vec3(r, 0, 0);
     const Vec3 pivot(0, 0, 0);
-    Run<double> run = run_on(tree, at_rest(Vec3(0, -gravity, 0)), spun(Vec3(0, omega, 0), pivot));
+    PlainRun<double> run = run_on(tree, at_rest(Vec3(0, -gravity, 0)), spun(Vec3(0, omega, 0), pivot));
     run.steps(9000);
     const double m = tree.mass[0], c = tree.com[0].z(), K = tree.stiffness[0].x();
     const double along = tree.inertia[0](2, 2), across = tree.inertia[0](0, 0) + m * c * c;
@@ -125,10 +126,10 @@ TEST_CASE("A rod on a turning table leans to the balance of spring, gravity and 
 TEST_CASE("The term is the moment that carrying every body with the ground takes, summed body by body") {
     // A ground in general motion, the tree in a general pose: sum of r x m a + I alpha + omega x I omega over the bodies.
     const Tree tree = make_tree::branched();
-    RootMotion m = two_keys();
+    RootMotion m = root_keys();
     m.position = {{0, 0, 0}, {1, -0.5, 2}};
     m.rotation = {make_tree::turn(0.3, Vec3(1, 0, 1)), make_tree::turn(1.9, Vec3(0, 1, 0.4))};
-    Run<double> run = run_on(tree, at_rest(Vec3(0.3, -9.81, 0)), make_root_spline(m, Vec3(0.4, 0, -0.7)), 1e-7);
+    PlainRun<double> run = run_on(tree, at_rest(Vec3(0.3, -9.81, 0)), make_root_spline(m, Vec3(0.4, 0, -0.7)), 1e-7);
     make_tree::Dice dice{std::mt19937(3)};
     for (Vec3& theta : run.state.theta) theta = Vec3(dice(-0.5, 0.5), dice(-0.5, 0.5), dice(-0.5, 0.5));
     run.state.step = 3500000; // t = 0.35 s
@@ -216,7 +217,7 @@ TEST_CASE("A rod whose root is moved sideways answers as its equation says, to s
     REQUIRE(largest < 0.3);
     std::vector<double> errors;
     for (const int steps : {125, 250, 500, 1000}) {
-        Run<double> run(tree, scene, 2.0 / steps);
+        PlainRun<double> run(tree, scene, 2.0 / steps);
         double worst = 0;
         for (int k = 1; k <= steps; ++k) {
             advance(run.plan, run.state);
@@ -236,11 +237,11 @@ TEMPLATE_TEST_CASE("Equal keys change nothing, to the bit", "", float, double) {
     scene.gravity = GENERATE(Vec3(0, -9.81, 0), Vec3(0, 0, 0));
     scene.pose = Pose::rest;
     if (GENERATE(false, true)) scene.wind = wind_preset("gusty");
-    Run<TestType> still(tree, scene);
-    RootMotion m = two_keys();
+    PlainRun<TestType> still(tree, scene);
+    RootMotion m = root_keys();
     if (GENERATE(false, true)) m.position.assign(2, Vec3(0, 0, 0.25)), m.rotation.clear();
     scene.root_motion = {m};
-    Run<TestType> moved(tree, scene);
+    PlainRun<TestType> moved(tree, scene);
     still.steps(60);
     moved.steps(60);
     CHECK(state_hash(moved.state) == state_hash(still.state));
@@ -252,10 +253,10 @@ TEST_CASE("A tree driven through still air is a tree that stands in the wind") {
     const Tree tree = make_tree::branched();
     Scene scene = at_rest(Vec3(0, -9.81, 0));
     scene.wind = still_air();
-    Run<double> moved = run_on(tree, scene, driven(Vec3(-9, 0, 2), Vec3::Zero()));
+    PlainRun<double> moved = run_on(tree, scene, driven(Vec3(-9, 0, 2), Vec3::Zero()));
     scene.wind = steady(9);
     scene.wind->velocity = Vec3(9, 0, -2);
-    Run<double> blown(tree, scene);
+    PlainRun<double> blown(tree, scene);
     moved.steps(200);
     blown.steps(200);
     REQUIRE(blown.largest_angle() > 1e-3);
@@ -264,13 +265,13 @@ TEST_CASE("A tree driven through still air is a tree that stands in the wind") {
 
 TEST_CASE("Velocities on a moving ground are the derivatives of the places") {
     const Tree tree = make_tree::branched();
-    RootMotion m = two_keys();
+    RootMotion m = root_keys();
     m.position = {{0, 0, 0}, {0.5, 0.2, -0.3}};
     m.rotation = {Quat::Identity(), make_tree::turn(1.5, Vec3(0.3, 1, 0))};
     Scene scene;
     scene.root_motion = {m};
     const double dt = 1e-5;
-    Run<double> run(tree, scene, dt, {true, false});
+    PlainRun<double> run(tree, scene, dt, {true, false});
     run.state.step = 45000;
     move_ground(run.plan, run.state, 0.45);
     state_update(run.plan, run.state);
@@ -295,7 +296,7 @@ TEST_CASE("Of two trees the one that is named moves, and the wind's table covers
     Scene scene;
     scene.trees = {{"a", Vec3::Zero(), 0}, {"b", Vec3::Zero(), 0}};
     scene.wind = wind_preset("breeze");
-    RootMotion m = two_keys();
+    RootMotion m = root_keys();
     m.tree = 1;
     m.position[1] = Vec3(1, 7, 0);
     scene.root_motion = {m};
@@ -315,12 +316,12 @@ TEST_CASE("Of two trees the one that is named moves, and the wind's table covers
 
 TEST_CASE("A run that is cut and gone on with is the run in one") {
     Scene scene;
-    RootMotion m = two_keys();
+    RootMotion m = root_keys();
     m.position[1] = Vec3(1, 0, 0);
     m.rotation[1] = make_tree::turn(1, Vec3::UnitY());
     scene.root_motion = {m};
     const Tree tree = make_tree::branched();
-    Run<double> whole(tree, scene), first(tree, scene), second(tree, scene);
+    PlainRun<double> whole(tree, scene), first(tree, scene), second(tree, scene);
     whole.steps(40);
     first.steps(17);
     second.state.theta = first.state.theta;
@@ -335,7 +336,7 @@ TEST_CASE("A run that is cut and gone on with is the run in one") {
 }
 
 TEST_CASE("Without root motion there is no ground") {
-    const Run<double> run(make_tree::branched(), Scene{});
+    const PlainRun<double> run(make_tree::branched(), Scene{});
     CHECK(run.state.ground.capacity() + parts::joints(run.state).root_load.capacity() + run.plan.splines.capacity() +
               run.plan.moved.capacity() ==
           0);

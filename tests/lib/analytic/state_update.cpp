@@ -8,7 +8,7 @@ using namespace solver;
 
 namespace {
 
-std::vector<Tree> trees() {
+std::vector<Tree> updated_trees() {
     return {make_tree::branched(), make_tree::random_tree(200, 5),
             make_tree::forest({make_tree::branched(), make_tree::chain(20, 3, 0.1, 0.01, 0.1)})};
 }
@@ -22,7 +22,7 @@ const Wishes with_velocity{true, false};
 } // namespace
 
 TEST_CASE("bodies are turned by the product of all rotations of their path and stay on their parents") {
-    for (const Tree& tree : trees()) {
+    for (const Tree& tree : updated_trees()) {
         const auto plan = plan_of(tree, empty_scene());
         State<double> state = make_state(plan);
         shake(plan, state, 1, 1.0, 0);
@@ -48,7 +48,7 @@ TEST_CASE("bodies are turned by the product of all rotations of their path and s
 }
 
 TEST_CASE("velocities are the rates of the poses") {
-    for (const Tree& tree : trees()) {
+    for (const Tree& tree : updated_trees()) {
         const auto plan = plan_of(tree, empty_scene(), 1.0 / 30, with_velocity);
         State<double> state = make_state(plan);
         shake(plan, state, 2, 1.5, 2.0);

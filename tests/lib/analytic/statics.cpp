@@ -3,13 +3,14 @@
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace bough;
 using namespace simulate;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // A horizontal chain of n rods along +x; gravity bends it in the x-y plane.
 Tree level_chain(int n, double youngs) {
@@ -72,14 +73,14 @@ TEST_CASE("The sag that steps settle to is the exact discrete static solution") 
     Scene scene;
     scene.pose = Pose::rest;
     scene.damping_scale = 4;
-    Run<double> run(tree, scene);
+    PlainRun<double> run(tree, scene);
     run.steps(6000);
     const std::vector<double> found = rod_angles(run.state);
     for (std::size_t k = 0; k < truth.size(); ++k) CHECK(found[k] == Approx(truth[k]).margin(1e-9));
 
     SECTION("and the settled pose starts there") {
         scene.pose = Pose::settled;
-        Run<double> settled(tree, scene);
+        PlainRun<double> settled(tree, scene);
         const std::vector<double> start = rod_angles(settled.state);
         for (std::size_t k = 0; k < truth.size(); ++k) CHECK(start[k] == Approx(truth[k]).margin(1e-9));
     }
@@ -105,7 +106,7 @@ TEST_CASE("The sag of a cantilever approaches w L^4 / 8 E I with the square of t
         REQUIRE(tree.size_bodies() == std::size_t(5 << k));
         Scene scene;
         scene.pose = Pose::settled;
-        Run<double> run(tree, scene);
+        PlainRun<double> run(tree, scene);
         const std::size_t tip = tree.size_bodies() - 1;
         const Vec3 end = run.state.x_w[tip] + run.state.R_wb[tip].col(2) * tree.size[tip][0];
         error[k] = std::abs(-end.y() / beam - 1);
@@ -120,8 +121,8 @@ TEST_CASE("The drawn pose stays where it was drawn") {
     const Tree tree =
         segment(grow_bodies(default_growth(), seed, {true, false, true}, 800), wood_presets().front(), {});
     Scene scene;
-    Run<double> run(tree, scene);
-    Run<double> drawn(tree, nothing());
+    PlainRun<double> run(tree, scene);
+    PlainRun<double> drawn(tree, nothing());
     run.steps(1000);
     double moved = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
@@ -137,11 +138,11 @@ TEST_CASE("Poses that gravity does not allow are refused by name") {
     Scene scene;
     scene.gravity = Vec3(-1, -9.81, 0);
     tree.stiffness[2] = Vec3(0, 0, 1);
-    CHECK_THROWS_WITH(Run<double>(tree, scene), Catch::Contains("body 2 of branch 0"));
+    CHECK_THROWS_WITH(PlainRun<double>(tree, scene), Catch::Contains("body 2 of branch 0"));
     // A column well above its buckling load, exactly upright.
     Tree column = make_tree::chain(8, 4, 0.01, 0.01);
     scene.gravity = Vec3(0, -9.81, 0);
     scene.pose = Pose::settled;
     scene.stiffness_scale = 0.05;
-    CHECK_THROWS_WITH(Run<double>(column, scene), Catch::Contains("buckles"));
+    CHECK_THROWS_WITH(PlainRun<double>(column, scene), Catch::Contains("buckles"));
 }

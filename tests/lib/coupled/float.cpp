@@ -166,8 +166,8 @@ TEST_CASE("a step in float leaves a residual of 1e-6 of the moments at most: 1e4
         Scene scene;
         scene.pose = Pose::rest;
         scene.wind = wind_preset("breeze");
-        Run<double> run(tree, scene);
-        Run<float> single(tree, scene);
+        CoupledRun<double> run(tree, scene);
+        CoupledRun<float> single(tree, scene);
         take_constants(run.plan, single.plan);
         run.steps(20);
         take_state(single.state, run.state);

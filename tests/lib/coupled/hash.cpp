@@ -10,12 +10,12 @@ using namespace coupled;
 
 namespace {
 
-Tree grown(std::int64_t bodies) {
+Tree grown_tree(std::int64_t bodies) {
     return segment(grow_bodies(default_growth(), 7, {true, false, true}, bodies), wood_presets().front(), {});
 }
 
 // Gravity, gusts with leaves, pulls and a moving ground.
-Scene everything() {
+Scene scene_of_all() {
     Scene scene;
     scene.wind = wind_preset("gusty");
     scene.wind->turbulence = 0.2;
@@ -34,7 +34,8 @@ constexpr std::array<Scheme, 3> kinds{Scheme::p12, Scheme::p34, Scheme::lie}; //
 
 TEMPLATE_TEST_CASE("the same run twice is the same", "", float, double) {
     for (const Scheme scheme : kinds) {
-        Run<TestType> one(grown(300), everything(), scheme), other(grown(300), everything(), scheme);
+        CoupledRun<TestType> one(grown_tree(300), scene_of_all(), scheme),
+            other(grown_tree(300), scene_of_all(), scheme);
         const std::uint64_t start = state_hash(one.state);
         one.steps(10);
         other.steps(10);
@@ -46,12 +47,12 @@ TEMPLATE_TEST_CASE("the same run twice is the same", "", float, double) {
 }
 
 TEMPLATE_TEST_CASE("a run cut in two goes on as if it had not been", "", float, double) {
-    const Tree tree = grown(300);
+    const Tree tree = grown_tree(300);
     for (const Scheme scheme : kinds) {
-        Run<TestType> whole(tree, everything(), scheme), resumed(tree, everything(), scheme),
-            forgetful(tree, everything(), scheme);
+        CoupledRun<TestType> whole(tree, scene_of_all(), scheme), resumed(tree, scene_of_all(), scheme),
+            forgetful(tree, scene_of_all(), scheme);
         whole.steps(10);
-        for (Run<TestType>* run : {&resumed, &forgetful}) {
+        for (CoupledRun<TestType>* run : {&resumed, &forgetful}) {
             run->state.step = whole.state.step;
             run->state.theta = whole.state.theta;
             run->state.theta_dot = whole.state.theta_dot;
@@ -73,12 +74,12 @@ TEMPLATE_TEST_CASE("a run cut in two goes on as if it had not been", "", float, 
 }
 
 TEMPLATE_TEST_CASE("the number of threads does not change a bit", "", float, double) {
-    const Tree tree = grown(5000); // enough for the step to use several
+    const Tree tree = grown_tree(5000); // enough for the step to use several
     for (const Scheme scheme : kinds) {
         std::uint64_t one_thread = 0;
         for (const int threads : {1, 2, 3, 8}) {
             const ThreadLimit limit(threads);
-            Run<TestType> run(tree, everything(), scheme);
+            CoupledRun<TestType> run(tree, scene_of_all(), scheme);
             run.steps(10);
             CAPTURE(scheme_of(scheme).name, threads);
             if (threads == 1) {

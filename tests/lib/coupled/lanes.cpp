@@ -51,7 +51,7 @@ TEST_CASE("in double, lanes and the plain step are the same to rounding") {
     for (const Case& c : cases())
         for (const Scheme scheme : {Scheme::p12, Scheme::p25, Scheme::p50, Scheme::p34}) {
             if (scheme != Scheme::p12 && c.tree.size_bodies() > 1000) continue;
-            Run<> plain(c, std::nullopt, scheme), lanes(c, fast::best_target(), scheme);
+            LanesRun<> plain(c, std::nullopt, scheme), lanes(c, fast::best_target(), scheme);
             CAPTURE(c.name, scheme_of(scheme).name);
             REQUIRE(lanes.plan.stepper->in_lanes());
             const std::vector<Vec3> start = plain.state.theta;
@@ -78,7 +78,8 @@ TEST_CASE("in double, lanes and the plain step are the same to rounding") {
 
 TEST_CASE("velocities and torques that were asked for are the plain step's") {
     Case c{"", firm(grown(600)), everything()};
-    Run<> plain(c, std::nullopt, Scheme::p12, {true, true}), lanes(c, fast::best_target(), Scheme::p12, {true, true});
+    LanesRun<> plain(c, std::nullopt, Scheme::p12, {true, true}),
+        lanes(c, fast::best_target(), Scheme::p12, {true, true});
     for (int k = 0; k < 30; ++k) {
         plain.frame();
         lanes.frame();
@@ -108,15 +109,16 @@ TEST_CASE("AVX2 and AVX-512 give the same bits") {
 TEST_CASE("what is too much for the caches and goes past them comes back the same") {
     if (sanitized) return; // many bodies; and the sanitizers' builds have no target that does
     const Case c{"", firm(grown(90000)), in_wind(gusts())};
-    REQUIRE_FALSE(fast::streams(parts::lanes(Run<>({"small", grown(20000), {}}, fast::best_target()).plan).layout));
+    REQUIRE_FALSE(
+        fast::streams(parts::lanes(LanesRun<>({"small", grown(20000), {}}, fast::best_target()).plan).layout));
     for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
-        Run<> plain(c, std::nullopt, scheme), lanes(c, fast::best_target(), scheme);
+        LanesRun<> plain(c, std::nullopt, scheme), lanes(c, fast::best_target(), scheme);
         REQUIRE(fast::streams(parts::lanes(lanes.plan).layout));
         const Apart d = run_apart(plain, lanes, 3);
         CHECK(d.theta < 1e-11);
         CHECK(d.theta_dot < 1e-9);
         if (!fast::available(Target::avx512)) continue; // which alone writes whole lines past them
-        Run<> narrow(c, Target::avx2, scheme), wide(c, Target::avx512, scheme);
+        LanesRun<> narrow(c, Target::avx2, scheme), wide(c, Target::avx512, scheme);
         narrow.steps(3);
         wide.steps(3);
         CHECK(narrow.hash() == wide.hash());
@@ -127,7 +129,7 @@ TEST_CASE("the energy guard takes in lanes what it takes on the plain path") {
     for (const bool windy : {false, true}) {
         Case c{"", grown(600), solver::empty_scene(), 0.05, 5};
         if (windy) c.scene.wind = gusts();
-        Run<> plain(c, std::nullopt), lanes(c, fast::best_target());
+        LanesRun<> plain(c, std::nullopt), lanes(c, fast::best_target());
         const Apart d = run_apart(plain, lanes, 5);
         CAPTURE(windy);
         REQUIRE(plain.state.flags.energy_guard > 0);
@@ -145,7 +147,7 @@ TEST_CASE("float lanes stay as near to double as the plain step's float does") {
 TEST_CASE("what lanes do not hold is refused with its reason and steps on the plain path") {
     Case c{"", coupled::leafy(1e9, 0.01), in_wind(gusts())};
     const auto refused = [&](Solver solver, Scheme scheme, const std::string& reason) {
-        Run<> asked(c, fast::best_target(), scheme, {}, solver), plain(c, std::nullopt, scheme, {}, solver);
+        LanesRun<> asked(c, fast::best_target(), scheme, {}, solver), plain(c, std::nullopt, scheme, {}, solver);
         CAPTURE(reason);
         CHECK_FALSE(asked.plan.stepper->in_lanes());
         CHECK(asked.plan.stepper->plainly() == reason);
@@ -167,8 +169,8 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
     refused(Solver::coupled, Scheme::p12, "/joint_limit");
 
     c.scene.joint_limit.reset();
-    CHECK(Run<>(c, fast::best_target()).plan.stepper->plainly().empty());
-    CHECK(Run<>(c, std::nullopt).plan.stepper->plainly() == "not asked for");
+    CHECK(LanesRun<>(c, fast::best_target()).plan.stepper->plainly().empty());
+    CHECK(LanesRun<>(c, std::nullopt).plan.stepper->plainly() == "not asked for");
 }
 
 // Bodies on joints of no stiffness, each spinning about an axis of its own: theta = w t, taken the shorter way round.
@@ -185,8 +187,8 @@ TEMPLATE_TEST_CASE("half turns of free bodies are those of a rigid body", "", fl
         c.ranges.push_back({k, 1, std::int32_t(k)});
     }
     c.tree = make_tree::forest(bodies);
-    Run<T> plain(c, std::nullopt), lanes(c, fast::best_target());
-    for (Run<T>* run : {&plain, &lanes}) {
+    LanesRun<T> plain(c, std::nullopt), lanes(c, fast::best_target());
+    for (LanesRun<T>* run : {&plain, &lanes}) {
         for (std::size_t k = 0; k < spin.size(); ++k) run->state.theta_dot[k] = spin[k].cast<T>();
         restart(run->plan, run->state);
     }
@@ -215,7 +217,7 @@ TEMPLATE_TEST_CASE("half turns are counted about whatever axis they are", "", fl
         Case c{"free body", make_tree::chain(1, 0.5, 0.03, 0.02), solver::empty_scene()};
         c.tree.stiffness[0].setZero();
         c.tree.joint_rotation[0] = Quat::Identity();
-        Run<TestType> lanes(c, fast::best_target());
+        LanesRun<TestType> lanes(c, fast::best_target());
         lanes.state.theta_dot[0] = spin.cast<TestType>();
         restart(lanes.plan, lanes.state);
         lanes.steps(120); // 10 rad: past pi and 3 pi

@@ -2,13 +2,15 @@
 #include "lib/growth/segment.h"
 #include "lib/study/ring_down.h"
 #include "tests/support/coupled_support.h"
+#include <numbers>
 
 using namespace bough;
 using namespace coupled;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, length = 2, diameter = 0.04;
+using std::numbers::pi;
+constexpr double length = 2, diameter = 0.04;
 
 // A uniform cantilever of f1 = 0.1399 D / L^2 sqrt(E / rho) = 1 Hz, cut into n pieces.
 Tree cantilever(int n) {
@@ -53,7 +55,7 @@ double rods_frequency(const Tree& tree) {
 RingDown ring(const Tree& tree, double beta, Scheme scheme = Scheme::p12) {
     Tree damped = tree;
     for (double& b : damped.damping) b = beta;
-    Run<double> run(damped, solver::empty_scene(), scheme);
+    CoupledRun<double> run(damped, solver::empty_scene(), scheme);
     const std::size_t n = run.plan.bodies;
     for (std::size_t i = 0; i < n; ++i) {
         const double s = 1 - double(i) / double(n);
@@ -107,7 +109,7 @@ TEST_CASE("energy of a large undamped swing after 10 s at 1/30 s") {
         Scene scene;
         scene.damping_scale = 0;
         scene.pose = Pose::settled;
-        Run<double> run(paper_trees::chain(2e9, 0), scene, scheme);
+        CoupledRun<double> run(paper_trees::chain(2e9, 0), scene, scheme);
         const double rest = run.total_energy();
         for (Vec3& theta : run.state.theta) theta.setZero();
         state_update(run.plan, run.state);

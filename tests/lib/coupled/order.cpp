@@ -28,7 +28,7 @@ Scene gravity() {
     return scene;
 }
 
-Scene gusts() {
+Scene order_gusts() {
     Scene scene = empty_scene();
     scene.wind = Wind();
     scene.wind->velocity = Vec3(8, 0, 2.4);
@@ -83,8 +83,8 @@ TEST_CASE("order 2, gravity switched on") {
 }
 
 TEST_CASE("order 2, wind with drag") {
-    has_order({paper_trees::chain(2e9, 0.01), gusts(), 20}, 8, 1.9, second_order);
-    has_order({paper_trees::branched(2e8, 0.01), gusts(), 20}, 8, 1.9, second_order);
+    has_order({paper_trees::chain(2e9, 0.01), order_gusts(), 20}, 8, 1.9, second_order);
+    has_order({paper_trees::branched(2e8, 0.01), order_gusts(), 20}, 8, 1.9, second_order);
 }
 
 TEST_CASE("order 2, moving root: going and turning, the tree off the pivot") {
@@ -96,10 +96,10 @@ TEST_CASE("order 2, pulls that change") {
     has_order({paper_trees::branched(2e9, 0.01), pulled(), 20}, 8, 1.9, second_order);
 }
 
-// What is stiff follows a changing load with a lag where R(infinity) = 0: the thin end of a bent chain in gusts, first order
+// What is stiff follows a changing load with a lag where R(infinity) = 0: the thin end of a bent chain in order_gusts, first order
 // in h and small.
 TEST_CASE("wind on a bent chain of E = 2e9: the L-stable schemes fall to order 1 below an error of 2e-4") {
-    coupled::Motion motion{paper_trees::chain(2e9, 0.01), gusts(), 20};
+    coupled::Motion motion{paper_trees::chain(2e9, 0.01), order_gusts(), 20};
     motion.scene.gravity = Vec3(0, -9.81, 0);
     motion.scene.pose = Pose::settled;
     const Track truth = truth_of(motion);
@@ -116,14 +116,15 @@ TEST_CASE(
     "small steps go to the reference: within 1e-6 of the deflection under each load, on chain and branched tree") {
     for (const bool branched : {false, true}) {
         const Tree tree = branched ? paper_trees::branched(2e8, 0.01) : paper_trees::chain(2e8, 0.01);
-        Scene all = gusts();
+        Scene all = order_gusts();
         all.pulls = pulled().pulls;
         all.gravity = gravity().gravity;
         coupled::Motion everything = driven(tree);
         everything.scene = all;
         everything.frames = 10;
-        for (const coupled::Motion& motion : {coupled::Motion{tree, gravity(), 20}, coupled::Motion{tree, gusts(), 20},
-                                              coupled::Motion{tree, pulled(), 20}, driven(tree), everything}) {
+        for (const coupled::Motion& motion :
+             {coupled::Motion{tree, gravity(), 20}, coupled::Motion{tree, order_gusts(), 20},
+              coupled::Motion{tree, pulled(), 20}, driven(tree), everything}) {
             const Track truth = truth_of(motion);
             CAPTURE(branched, motion.scene.wind.has_value(), motion.scene.gravity.norm(), motion.scene.pulls.size());
             // (A strong pull bends the thin end: order 1, as above.)

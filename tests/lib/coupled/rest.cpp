@@ -22,7 +22,7 @@ double largest(const std::vector<Vec3>& v) {
     return most;
 }
 
-double imbalance(const Run<double>& run) {
+double imbalance(const CoupledRun<double>& run) {
     const std::vector<Vec3> none(run.plan.bodies, Vec3::Zero());
     const double time = double(run.state.step) * run.plan.dt;
     return inverse_dynamics(run.plan, run.state.theta, none, none, time).relative();
@@ -36,7 +36,7 @@ TEST_CASE("the drawn pose and the settled pose stay where they are, a thousand f
             for (const Scheme scheme : all_schemes) {
                 Scene scene;
                 scene.pose = pose;
-                Run<double> run(tree, scene, scheme);
+                CoupledRun<double> run(tree, scene, scheme);
                 const auto R = run.state.R_wb;
                 const auto x = run.state.x_w;
                 REQUIRE(largest(run.state.theta) > 1e-3);
@@ -57,7 +57,7 @@ TEST_CASE("in a steady wind the tree comes to rest where wind, weight and spring
     scene.wind = Wind();
     scene.wind->velocity = Vec3(6, 0.5, 2); // with its profile over height
     for (const Scheme scheme : {Scheme::p12, Scheme::p34, Scheme::lie}) {
-        Run<double> run(tree, scene, scheme);
+        CoupledRun<double> run(tree, scene, scheme);
         CHECK(imbalance(run) > 1e-2);
         run.steps(3000);
         CAPTURE(scheme_of(scheme).name);
@@ -79,7 +79,7 @@ TEST_CASE("so it does on a steadily accelerated ground, and on one that turns st
             QuinticSpline{{0, T}, {Vec3::Zero(), omega * T}, {omega, omega}, {Vec3::Zero(), Vec3::Zero()}};
         Tree tree = paper_trees::branched(2e8, 0.05);
         tree.joint_position[0] = Vec3(0.7, 0.2, -0.4);
-        Run<double> run(tree, scene);
+        CoupledRun<double> run(tree, scene);
         run.plan.splines = {ground};
         run.steps(2000);
         CAPTURE(turns);

@@ -102,7 +102,7 @@ TEMPLATE_TEST_CASE("a ringing rod on a ground that jumps within a step: its clos
                     std::vector<lanes::Simd> paths{std::nullopt};
                     for (const fast::Target target : lanes::targets()) paths.push_back(target);
                     for (const lanes::Simd path : paths) {
-                        lanes::Run<T> run(c_case, path, scheme);
+                        lanes::LanesRun<T> run(c_case, path, scheme);
                         for (int k = 0; k < 6; ++k) run.frame();
                         const double amplitude = turned ? phi : tree.mass[0] * c * d / I;
                         const Vec3 theta = run.state.theta[0].template cast<double>();
@@ -166,13 +166,13 @@ TEST_CASE("a jump in lanes is the plain step's: a tree, beside one whose ground 
     jumps.tree = 1;
     carried.tree = 2;
     c.scene.root_motion = {jumps, carried};
-    lanes::Run<> plain(c, std::nullopt);
+    lanes::LanesRun<> plain(c, std::nullopt);
     plain.steps(12);
     double largest = 0;
     for (std::size_t i = 0; i < 3 * n; ++i) largest = std::max(largest, plain.state.theta[i].norm());
     CHECK(largest > 0.05);
     for (const fast::Target target : lanes::targets()) {
-        lanes::Run<> run(c, target);
+        lanes::LanesRun<> run(c, target);
         run.steps(12);
         present(run.plan, run.state);
         for (std::size_t i = 0; i < 3 * n; ++i) {

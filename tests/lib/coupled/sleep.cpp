@@ -21,8 +21,8 @@ Case damped(double angle) {
     return c;
 }
 
-template <class T = double> Run<T> sleeping(const Case& c, double r = rate) {
-    return Run<T>(c, fast::best_target(), Scheme::p12, {}, Solver::coupled, r);
+template <class T = double> LanesRun<T> sleeping(const Case& c, double r = rate) {
+    return LanesRun<T>(c, fast::best_target(), Scheme::p12, {}, Solver::coupled, r);
 }
 
 // [rad] Largest distance between two runs' angles.
@@ -60,7 +60,7 @@ Pull on_body(std::int32_t body, double start, double end, const Vec3& force) {
 
 TEST_CASE("a tree that was bent and let go falls asleep at its equilibrium, and costs nothing from then on") {
     const Case c = damped(1e-3);
-    Run<> run = sleeping(c);
+    LanesRun<> run = sleeping(c);
     REQUIRE(parts::lanes(run.plan).sleep.on);
     REQUIRE(parts::lanes(run.plan).layout.blocks.size() > 4);
     run.steps(20);
@@ -85,7 +85,8 @@ TEST_CASE("a tree that was bent and let go falls asleep at its equilibrium, and 
 
 TEST_CASE("nothing sleeps where it was not asked for, or where forces never rest; steady wind lets it") {
     const auto plan = [](const Scene& scene, double r) {
-        return Run<>({"", make_tree::branched(), scene}, fast::best_target(), Scheme::p12, {}, Solver::coupled, r).plan;
+        return LanesRun<>({"", make_tree::branched(), scene}, fast::best_target(), Scheme::p12, {}, Solver::coupled, r)
+            .plan;
     };
     Scene scene;
     CHECK(parts::lanes(plan(scene, rate)).sleep.on);
@@ -109,7 +110,7 @@ TEST_CASE("a pull on a twig wakes its block and what carries it, a strong one th
     Case c = damped(0);
     const auto twig = std::int32_t(c.tree.size_bodies() - 1);
     c.scene.pulls = {on_body(twig, 2, 3, Vec3(1e-6, 0, 0)), on_body(5, 12, 13, Vec3(50, 0, 0))};
-    Run<> run = sleeping(c), sleepless = sleeping(c, 0);
+    LanesRun<> run = sleeping(c), sleepless = sleeping(c, 0);
     const std::size_t block = block_of(run.plan, std::size_t(twig)), blocks = parts::lanes(run.state).rest.size();
     REQUIRE(block > 0);
     run.steps(58);
@@ -136,7 +137,7 @@ TEMPLATE_TEST_CASE("sleep's bits: any number of threads, a run cut anywhere", ""
     c.scene.pulls = {on_body(twig, 2, 3, Vec3(1e-6, 0, 0))};
     const T loose = T(5e-3); // [rad/s] blocks fall asleep one after the other
     constexpr int frames = 150;
-    Run<T> run = sleeping<T>(c, loose);
+    LanesRun<T> run = sleeping<T>(c, loose);
     std::vector<std::uint64_t> hashes;
     std::set<std::size_t> sleepers; // how many at a time
     for (int k = 0; k < frames; ++k) {
@@ -149,11 +150,11 @@ TEMPLATE_TEST_CASE("sleep's bits: any number of threads, a run cut anywhere", ""
     REQUIRE(sleepers.size() > 2);
     for (const int threads : ::cases<int>(2, {3, 1, 2, 8, 15})) {
         const ThreadLimit limit(threads);
-        Run<T> other = sleeping<T>(c, loose);
+        LanesRun<T> other = sleeping<T>(c, loose);
         other.steps(frames);
         CHECK(other.hash() == hashes.back());
     }
-    Run<T> first = sleeping<T>(c, loose);
+    LanesRun<T> first = sleeping<T>(c, loose);
     for (int cut = 1; cut < frames; ++cut) {
         first.steps(1);
         if (cut % 13 != 0 && parts::lanes(first.state).rest[0].rest != fast::Rest::settling) continue;
@@ -161,7 +162,7 @@ TEMPLATE_TEST_CASE("sleep's bits: any number of threads, a run cut anywhere", ""
         present(first.plan, first.state);
         Case still = c;
         still.angle = 0;
-        Run<T> resumed = sleeping<T>(still, loose);
+        LanesRun<T> resumed = sleeping<T>(still, loose);
         resumed.state.step = first.state.step;
         resumed.state.theta = first.state.theta;
         resumed.state.theta_dot = first.state.theta_dot;
@@ -177,14 +178,14 @@ TEMPLATE_TEST_CASE("sleep's bits: any number of threads, a run cut anywhere", ""
 
 TEST_CASE("a state that slept and is started anew steps as one that did not") {
     const Case c = damped(1e-3);
-    Run<> slept = sleeping(c), fresh = sleeping(c);
+    LanesRun<> slept = sleeping(c), fresh = sleeping(c);
     for (int k = 0; k < 3000 && !fast::all_asleep(parts::lanes(slept.state)); ++k) slept.steps(1);
     REQUIRE(fast::all_asleep(parts::lanes(slept.state)));
     present(slept.plan, slept.state);
     fresh.state.theta = slept.state.theta;
     parts::theta_change(fresh.state) = parts::theta_change(slept.state);
     parts::theta_dot_change(fresh.state) = parts::theta_dot_change(slept.state);
-    for (Run<>* run : {&slept, &fresh}) {
+    for (LanesRun<>* run : {&slept, &fresh}) {
         run->state.step = 0;
         for (Vec3& theta_dot : run->state.theta_dot) theta_dot = Vec3(0.1, -0.2, 0.05);
         restart(run->plan, run->state);
@@ -195,11 +196,11 @@ TEST_CASE("a state that slept and is started anew steps as one that did not") {
 
 TEST_CASE("what is no sleep of this plan's is refused") {
     const Case c = damped(1e-3);
-    Run<> run = sleeping(c);
+    LanesRun<> run = sleeping(c);
     for (int k = 0; k < 3000 && count(run.state, fast::Rest::asleep) == 0; ++k) run.steps(1);
     const std::vector<double> good = parts::saved_sleep(run.plan, run.state);
     REQUIRE(good.size() > 2);
-    Run<> other = sleeping(c);
+    LanesRun<> other = sleeping(c);
     CHECK_NOTHROW(parts::restore_sleep(other.plan, other.state, good));
     CHECK_NOTHROW(parts::restore_sleep(other.plan, other.state, {}));
     std::vector<double> wrong = good;
@@ -214,6 +215,6 @@ TEST_CASE("what is no sleep of this plan's is refused") {
     wrong = good;
     wrong[2] = 0.5;
     CHECK_THROWS_AS(parts::restore_sleep(other.plan, other.state, wrong), std::invalid_argument);
-    Run<> sleepless = sleeping(c, 0);
+    LanesRun<> sleepless = sleeping(c, 0);
     CHECK_THROWS_AS(parts::restore_sleep(sleepless.plan, sleepless.state, good), std::invalid_argument);
 }

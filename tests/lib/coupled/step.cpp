@@ -98,8 +98,8 @@ std::vector<Named> scenes() {
 }
 
 // In random motion at 0.7 s, with random last changes.
-struct Bench : Run<double> {
-    Bench(const Tree& tree, const Named& named, Scheme scheme) : Run(tree, moved(named), scheme, h) {
+struct Bench : CoupledRun<double> {
+    Bench(const Tree& tree, const Named& named, Scheme scheme) : CoupledRun(tree, moved(named), scheme, h) {
         if (plan.root_motion)
             plan.splines = {steady_ground(named.ground.v.cast<double>(), named.ground.a.cast<double>(),
                                           named.ground.omega.cast<double>())};

@@ -60,7 +60,7 @@ TEST_CASE("A ball on the ground bounces back with its restitution, and rests at 
     const double e = GENERATE(0.0, 0.5, 1.0);
     scene.contact->restitution = e;
     scene.balls = {ball(Vec3(3, 1, 0), Vec3(1, 0, 0))};
-    Run<> run(hinged_rod(), scene, ways[0], 1.0 / 300);
+    FreeRun<> run(hinged_rod(), scene, ways[0], 1.0 / 300);
     double before = 0, after = 0;
     for (int k = 0; k < 3000 && after <= 0; ++k) {
         before = run.ball().motion.v.y();
@@ -80,7 +80,7 @@ TEST_CASE("A sliding ball is braked by friction until it rolls with 5/7 of its s
     scene.contact->ground = true;
     scene.contact->friction = 0.3;
     scene.balls = {ball(Vec3(3, 0.1, 0), Vec3(5, 0, 0))};
-    Run<> run(hinged_rod(), scene, ways[0], 1.0 / 120);
+    FreeRun<> run(hinged_rod(), scene, ways[0], 1.0 / 120);
     run.steps(12);
     CHECK(run.ball().motion.v.x() == Approx(5 - 0.3 * 9.81 * 0.1).epsilon(1e-3));
     CHECK(run.ball().motion.omega.z() == Approx(-0.3 * 9.81 * 0.1 * 0.1 / (0.4 * 0.01)).epsilon(1e-3));
@@ -98,7 +98,7 @@ TEST_CASE("A ball against a hinged rod: the impulse formula, and the moment abou
     scene.joint_inertia = JointInertia::paper;
     scene.contact->restitution = e;
     scene.balls = {ball(Vec3(0, 0.14, arm), Vec3(0, -speed, 0), 0.1, 0.7)};
-    Run<> run(hinged_rod(), scene, way);
+    FreeRun<> run(hinged_rod(), scene, way);
     const Mat3 com = cross_matrix(run.tree.com[0]);
     const double inertia = Mat3(run.tree.inertia[0] - run.tree.mass[0] * com * com)(0, 0);
     run.steps(1);
@@ -121,7 +121,7 @@ TEST_CASE("What the trees take is what the balls lose") {
     scene.contact->restitution = 0.3;
     for (int k = 0; k < 3; ++k)
         scene.balls.push_back(ball(Vec3(0.05 * k, 0.14, 0.5 + 0.3 * k), Vec3(1, -2 - k, 0.5), 0.1, 1 + k));
-    Run<> run(hinged_rod(), scene, way);
+    FreeRun<> run(hinged_rod(), scene, way);
     Vec3 before = Vec3::Zero(), after = Vec3::Zero(), given = Vec3::Zero();
     for (const FreeBody& free : run.world.free) before += free.mass * free.motion.v;
     run.steps(1);
@@ -135,7 +135,7 @@ TEST_CASE("A tree answers impulses as one dense solve of M + h beta K + h^2 K do
     const Tree tree = make_tree::branched();
     Scene scene = empty_scene();
     scene.balls = {ball(Vec3(9, 9, 9), Vec3::Zero())};
-    Run<> run(tree, scene, ways[0]);
+    FreeRun<> run(tree, scene, ways[0]);
     run.world.poses.begin(run.plan, run.state);
     const std::size_t n = tree.size_bodies();
     // J_i: velocity of body i's point p by the joints' rates, drawn pose: (x - x_k) crossed from the axes of joint k.
@@ -220,7 +220,7 @@ TEST_CASE("A ball at 10 m/s never gets through a branch 5 cm thick at 30 frames 
             Scene scene = empty_scene();
             const double start = 0.2 + 0.0251 * k; // at which part of a step it comes
             scene.balls = {ball(Vec3(0.01 * (k % 3), start, 1.2), Vec3(0, -speed, 0), radius, 0.2)};
-            Run<> run(tree, scene, way);
+            FreeRun<> run(tree, scene, way);
             INFO(radius << " " << k);
             TreePoses<double> poses;
             double beside = 1, aside = 0;
@@ -257,7 +257,7 @@ TEST_CASE("Neither pruning by reach nor looking for all at once changes what is 
             ball(Vec3(dice(-1, 1), dice(0.5, 3), dice(-1, 1)), Vec3(dice(-3, 3), dice(-6, 0), dice(-3, 3)), 0.03, 0.1));
     const Way way = GENERATE(ways[0], ways[1], ways[3]);
     INFO(name(way));
-    Run<> pruned(tree, scene, way), all(tree, scene, way);
+    FreeRun<> pruned(tree, scene, way), all(tree, scene, way);
     all.world.brute_force = true;
     for (int k = 0; k < 40; ++k) {
         pruned.steps(1);
@@ -276,7 +276,7 @@ TEST_CASE("The paper's pair: a penalty on the tree, the tree's velocity for the 
     scene.contact->penalty = 2;
     scene.balls = {ball(Vec3(0, 0.14, 1.5), Vec3(0, -3, 0), 0.1, 0.7)};
     const Way way = GENERATE(from_range(ways));
-    Run<> run(hinged_rod(), scene, way);
+    FreeRun<> run(hinged_rod(), scene, way);
     const Mat3 com = cross_matrix(run.tree.com[0]);
     const double inertia = Mat3(run.tree.inertia[0] - run.tree.mass[0] * com * com)(0, 0);
     run.steps(1);
@@ -299,7 +299,7 @@ TEST_CASE("Contacts of many balls with a tree give no energy, however heavy they
     for (int k = 0; k < 30; ++k)
         scene.balls.push_back(ball(Vec3(dice(-0.5, 0.5), dice(0, 2), dice(-0.5, 0.5)),
                                    Vec3(dice(-3, 3), dice(-3, 3), dice(-3, 3)), 0.05, mass));
-    Run<> run(tree, scene, way);
+    FreeRun<> run(tree, scene, way);
     const auto of_balls = [&] {
         double sum = 0;
         for (const FreeBody& free : run.world.free)
@@ -348,7 +348,7 @@ TEST_CASE("A ball against an undamped sprung rod: what a step of the rod's own p
             scene.contact->restitution = restitution;
             scene.joint_inertia = JointInertia::paper;
             scene.balls = {ball(Vec3(0, 0.14, 1.5), Vec3(0, -3, 0), 0.1, ratio * I / 2.25)};
-            Run<> run(tree, scene, way);
+            FreeRun<> run(tree, scene, way);
             const double start = 4.5 * scene.balls[0].mass;
             TreePoses<double> poses;
             for (int k = 0; k < 90; ++k) {
@@ -384,7 +384,7 @@ TEST_CASE("A stick that falls comes to rest on the ground, and not in it") {
     pull.time = {0, 0.1};
     pull.force = {Vec3(0.1, 0, 0), Vec3(0.1, 0, 0)};
     scene.pulls = {pull};
-    Run<> run(tree, scene, ways[0]);
+    FreeRun<> run(tree, scene, ways[0]);
     run.steps(450); // 15 s
     REQUIRE(run.world.free.size() == 1);
     const FreeBody& stick = run.world.free[0];
@@ -402,7 +402,7 @@ TEST_CASE("A ball that rolls comes to rest after v^2 / 2 a, a = c g / (1 + I / m
     const double r = 0.1, v = 2;
     scene.balls = {ball(Vec3(3, r, 0), Vec3(v, 0, 0), r)};
     scene.balls[0].angular_velocity = Vec3(0, 0, -v / r);
-    Run<> run(hinged_rod(), scene, ways[0], 1.0 / 240);
+    FreeRun<> run(hinged_rod(), scene, ways[0], 1.0 / 240);
     run.steps(240 * 12);
     CHECK(run.ball().at_rest);
     const double a = scene.contact->rolling * 9.81 / 1.4;

@@ -33,7 +33,7 @@ struct Momentum {
     }
 };
 
-template <class T> Momentum momentum(const Run<T>& run) {
+template <class T> Momentum momentum(const FreeRun<T>& run) {
     Momentum sum;
     TreePoses<T> poses;
     poses.begin(run.plan, run.state);
@@ -60,7 +60,7 @@ TEST_CASE("A fruit breaks off at the moment that its weight has about the joint,
     Scene scene = still();
     {
         TreePoses<double> poses; // the fruit's lever in the drawn pose
-        Run<> run(tree, scene, way);
+        FreeRun<> run(tree, scene, way);
         poses.begin(run.plan, run.state);
         const BodyPose pose = poses.of(4);
         const Vec3 lever = pose.R * tree.com[4];
@@ -69,7 +69,7 @@ TEST_CASE("A fruit breaks off at the moment that its weight has about the joint,
         scene.fracture = Fracture();
         for (const double factor : {0.999, 1.001}) {
             scene.fracture->fruit = factor * torque;
-            Run<> with(tree, scene, way);
+            FreeRun<> with(tree, scene, way);
             with.steps(3);
             CHECK(with.world.free.size() == (factor < 1 ? 1 : 0));
             if (factor > 1) continue;
@@ -92,7 +92,7 @@ TEST_CASE("Momentum is kept at the moment of breaking, linear and angular, of si
     pull.force = {Vec3(30, 10, -20), Vec3(30, 10, -20)};
     scene.pulls = {pull};
     scene.fracture = Fracture();
-    Run<> run(tree, scene, way);
+    FreeRun<> run(tree, scene, way);
     run.steps(5);
     REQUIRE(run.world.free.empty());
     const Momentum before = momentum(run);
@@ -135,10 +135,10 @@ TEST_CASE("What is left moves as a tree does that never had what fell") {
     Scene scene = still(Pose::rest);
     scene.joint_inertia = JointInertia::paper;                                    // its factors are of the whole tree
     if (windy && way.solver == Solver::coupled) scene.wind = simulate::steady(6); // analytic: weights of the whole tree
-    Run<> bare(pruned, scene, way);
+    FreeRun<> bare(pruned, scene, way);
     scene.fracture = Fracture();
     scene.fracture->joints = {{{Selector::By::body, 0, 9, {}}, 0}, {{Selector::By::body, 0, 13, {}}, 0}};
-    Run<> broken(tree, scene, way);
+    FreeRun<> broken(tree, scene, way);
     const std::vector<std::uint32_t> joints{9, 13};
     detach(broken.plan, broken.state, broken.world.subtrees, joints, broken.world.remaining);
     broken.world.breakable.clear();
@@ -163,7 +163,7 @@ TEST_CASE("A free piece keeps its angular momentum, and its centre of mass flies
     Scene scene = still(Pose::rest);
     scene.fracture = Fracture();
     scene.fracture->joints = {{{Selector::By::body, 0, 4, {}}, 0.0}};
-    Run<> run(tree, scene, ways[0]);
+    FreeRun<> run(tree, scene, ways[0]);
     run.steps(1);
     REQUIRE(run.world.free.size() == 1);
     FreeBody& free = run.world.free[0];
@@ -191,7 +191,7 @@ TEST_CASE("Everything may break in one step: every body is free, nothing is left
     scene.contact->trees = true;
     scene.fracture = Fracture();
     scene.fracture->branch = scene.fracture->leaf = scene.fracture->petal = scene.fracture->fruit = 0;
-    Run<> run(tree, scene, way);
+    FreeRun<> run(tree, scene, way);
     run.steps(2);
     CHECK(run.world.free.size() == 80);
     CHECK(run.world.breakable.empty());
@@ -263,7 +263,7 @@ Scene lively() {
 TEST_CASE("Lanes and plain path break the same joints, and fall alike") {
     const Solver solver = GENERATE(Solver::coupled, Solver::analytic);
     const Tree tree = make_tree::random_tree(150, 8);
-    Run<> plain(tree, lively(), {solver, std::nullopt}), lanes(tree, lively(), {solver, fast::Target::baseline});
+    FreeRun<> plain(tree, lively(), {solver, std::nullopt}), lanes(tree, lively(), {solver, fast::Target::baseline});
     plain.steps(2); // before rounding grows: leaves that turn over in a storm are chaotic
     lanes.steps(2);
     CHECK(plain.world.broken.size() > 5);
@@ -279,7 +279,7 @@ TEMPLATE_TEST_CASE("A run that is cut goes on in the same bits", "", float, doub
     const Way way = GENERATE(from_range(ways));
     INFO(name(way));
     const Tree tree = make_tree::random_tree(150, 8);
-    Run<TestType> whole(tree, lively(), way), first(tree, lively(), way), second(tree, lively(), way);
+    FreeRun<TestType> whole(tree, lively(), way), first(tree, lively(), way), second(tree, lively(), way);
     whole.steps(40);
     first.steps(17);
     REQUIRE(first.world.broken.size() > 2);
@@ -300,11 +300,11 @@ TEMPLATE_TEST_CASE("A run that is cut goes on in the same bits", "", float, doub
 
 TEST_CASE("A saved world that does not fit is refused") {
     const Tree tree = make_tree::branched();
-    Run<> run(tree, lively(), ways[0]);
+    FreeRun<> run(tree, lively(), ways[0]);
     run.steps(20);
     const std::vector<double> good = saved_world(run.state, run.world);
     const auto refused = [&](const std::vector<double>& saved) {
-        Run<> fresh(tree, lively(), ways[0]);
+        FreeRun<> fresh(tree, lively(), ways[0]);
         CHECK_THROWS_AS(restore_world(fresh.plan, fresh.state, fresh.world, saved), std::invalid_argument);
     };
     refused({});
@@ -322,7 +322,7 @@ TEST_CASE("Without fracture and balls there is nothing: no calls, no bytes, the 
     Scene scene;
     scene.wind = *wind_preset("gusty");
     for (const Way& way : ways) {
-        Run<> run(tree, scene, way);
+        FreeRun<> run(tree, scene, way);
         CHECK(!run.world.on());
         CHECK(run.world.bytes() == 0);
         run.steps(3);
@@ -353,7 +353,7 @@ TEST_CASE("What a ball gave a branch that breaks in the same step goes with the 
     pull.time = {0, 1};
     pull.force = {Vec3(0.01, 0, 0), Vec3(0.01, 0, 0)};
     scene.pulls = {pull};
-    Run<> run(tree, scene, way);
+    FreeRun<> run(tree, scene, way);
     const double before = 0.7 * -3;
     run.steps(1);
     REQUIRE(run.world.free.size() == 2);

@@ -7,7 +7,7 @@ using namespace free_bodies;
 
 namespace {
 
-const Vec3 gravity(0, -9.81, 0);
+const Vec3 down(0, -9.81, 0);
 
 // Two trees, three metres apart: trunks of two pieces, a level branch each, toward the other.
 Tree two_trees() {
@@ -35,7 +35,7 @@ Walker::Stop on(std::int64_t body, double z, double time, bool leap = false) {
 }
 
 Walk walk_of(const Tree& tree, const Walker& walker) {
-    return make_walk(tree, {{0, tree.size_bodies(), 0}}, walker, gravity, "/walkers/0");
+    return make_walk(tree, {{0, tree.size_bodies(), 0}}, walker, down, "/walkers/0");
 }
 
 Walker squirrel(std::vector<Walker::Stop> stops) {
@@ -59,7 +59,7 @@ TEST_CASE("over a walk with corners and a leap the trees give what gravity takes
     for (const double h : {1.0 / 30, 1.0 / 300, 0.1}) {
         // From 0.1 s on, when all of its weight is there, and it is at rest again at the end; the walk from 0 has begun by then.
         const Vec3 begun = 0.4 * walker_velocity(walk, 0.1);
-        CHECK((impulse(walk, 0.1, 4.1, h) - (0.4 * 4.0 * gravity + begun)).norm() < 1e-9);
+        CHECK((impulse(walk, 0.1, 4.1, h) - (0.4 * 4.0 * down + begun)).norm() < 1e-9);
     }
     CHECK_FALSE(walker_load(walk, -1, 0.5));
     // A leap at once takes all of its recoil, though the weight is still being set down.
@@ -123,7 +123,7 @@ TEST_CASE("who stands on a level branch bends it by the weight's lever, on both 
     const Way way = GENERATE(from_range(ways));
     CAPTURE(name(way));
     scene.pose = Pose::drawn;
-    Run<> run(tree, scene, way);
+    FreeRun<> run(tree, scene, way);
     const Vec3 start = run.plan.theta_start[2];
     run.steps(900);
     present(run.plan, run.state);
@@ -141,10 +141,10 @@ TEST_CASE("walkers and what may break are refused together, and so is a walker o
     Scene scene = empty_scene();
     scene.walkers = {squirrel({on(2, 0.2, 0), on(2, 0.9, 1)})};
     scene.fracture.emplace();
-    CHECK_THROWS_WITH(Run<>(tree, scene, ways[0]), Catch::Contains("/fracture"));
+    CHECK_THROWS_WITH(FreeRun<>(tree, scene, ways[0]), Catch::Contains("/fracture"));
     scene.fracture.reset();
     scene.walkers[0].stops[1].on.body = 6;
-    CHECK_THROWS_WITH(Run<>(tree, scene, ways[0]), Catch::Contains("/walkers/0/stops/1/on"));
+    CHECK_THROWS_WITH(FreeRun<>(tree, scene, ways[0]), Catch::Contains("/walkers/0/stops/1/on"));
 }
 
 TEST_CASE("a leap's two events are noted in the steps they fall into, also one that begins with the run") {
@@ -155,7 +155,7 @@ TEST_CASE("a leap's two events are noted in the steps they fall into, also one t
         CAPTURE(push);
         scene.walkers = {squirrel({on(2, 0.9, 0), on(5, 0.9, 1, true)})};
         scene.walkers[0].push = push;
-        Run<> run(tree, scene, ways[0]);
+        FreeRun<> run(tree, scene, ways[0]);
         std::vector<double> leapt, landed;
         for (int k = 0; k < 60; ++k) {
             const std::size_t before = run.world.events.what.size();

@@ -44,8 +44,8 @@ std::set<std::int32_t> firsts(const JointGroups& groups) {
 }
 
 // The distance between far ends by kinematics of its own: from the root down, each group turned as its leading body.
-std::pair<double, double> off_by_hand(const Tree& tree, const JointGroups& groups, const Pose& is) {
-    const Pose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+std::pair<double, double> off_by_hand(const Tree& tree, const JointGroups& groups, const SkinPose& is) {
+    const SkinPose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     double squares = 0, most = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         Vec3 p = drawn.x_w[i] + drawn.R_wb[i].col(2) * tree.size[i].x();
@@ -164,7 +164,7 @@ TEST_CASE("a chain a hundred thousand deep is merged") {
 
 TEST_CASE("groups' frames are the drawn pose") {
     const Tree tree = random_tree(400, 6);
-    const Pose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+    const SkinPose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     const JointGroups groups = merge_joints(tree, 60);
     const GroupFrames frames = drawn_frames(tree, groups);
     std::vector<Mat3> R(groups.size());
@@ -186,7 +186,7 @@ TEST_CASE("the error of merging is what kinematics by hand gives") {
         MergeError error(tree, groups);
         double squares = 0, largest = 0;
         for (const unsigned seed : {1u, 2u, 3u}) {
-            const Pose pose = bent(tree, 0.2, seed);
+            const SkinPose pose = bent(tree, 0.2, seed);
             std::vector<Quat> rotation;
             for (const Mat3& R : pose.R_wb) rotation.emplace_back(R);
             error.add(rotation, pose.x_w);
@@ -206,7 +206,7 @@ TEST_CASE("the error of merging is what kinematics by hand gives") {
 TEST_CASE("a branch that bends evenly is followed by its groups") {
     // A circle's arc of 1 rad, cut into n rigid groups that turn as their middles: off by about (1/n)^2 / 24 of its length.
     const Tree tree = chain(64, 2, 0.02, 0.02);
-    const Pose pose = posed(tree, [](std::size_t i) { return Vec3(i == 0 ? 0 : 1.0 / 63, 0, 0); });
+    const SkinPose pose = posed(tree, [](std::size_t i) { return Vec3(i == 0 ? 0 : 1.0 / 63, 0, 0); });
     std::vector<Quat> rotation;
     for (const Mat3& R : pose.R_wb) rotation.emplace_back(R);
     for (const std::size_t n : {1u, 2u, 4u, 8u}) {

@@ -63,7 +63,7 @@ TEST_CASE("v is arc length over the base's circumference, u goes once around wit
     const double length = 3, r0 = 0.1;
     const Tree tree = chain(6, length, r0, 0.02, 0.2);
     const Skin skin = build_skin(tree, {8});
-    const Pose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+    const SkinPose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     std::map<float, std::vector<std::size_t>> rings; // by v
     for (std::size_t v = 0; v < skin.position.size(); ++v) rings[skin.texture[v][1]].push_back(v);
     double arc = 0;

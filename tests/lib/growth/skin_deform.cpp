@@ -10,7 +10,7 @@ using make_tree::random_tree;
 TEST_CASE("drawn_pose agrees with the sweep written out") {
     const Tree tree = random_tree(400, 3);
     const DrawnPose got = drawn_pose(tree);
-    const Pose want = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+    const SkinPose want = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         CHECK((got.R_wb[i] - want.R_wb[i]).norm() < 1e-12);
         CHECK((got.x_w[i] - want.x_w[i]).norm() < 1e-12);
@@ -45,7 +45,7 @@ TEST_CASE("weights sum to 1 and joints are the piece, its parent or the next pie
 TEST_CASE("the drawn pose deforms to the drawn positions") {
     const Tree tree = random_tree(600, 5);
     const Skin skin = build_skin(tree, {});
-    const Pose pose = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+    const SkinPose pose = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     std::vector<Vec3> position, normal;
     SkinDeformer(skin, tree).deform(pose.R_wb, pose.x_w, position, normal);
     double worst = 0, worst_normal = 0;
@@ -62,7 +62,7 @@ TEST_CASE("a rigid motion of the whole tree moves the skin rigidly") {
     const Skin skin = build_skin(tree, {});
     const Mat3 turn = make_tree::turn(1.1, {1, 2, 3}).toRotationMatrix();
     const Vec3 shift(4, -5, 6);
-    Pose pose = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+    SkinPose pose = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         pose.R_wb[i] = turn * pose.R_wb[i];
         pose.x_w[i] = turn * pose.x_w[i] + shift;
@@ -78,7 +78,7 @@ TEST_CASE("a rigid motion of the whole tree moves the skin rigidly") {
 TEST_CASE("normals are unit and outward, drawn and bent") {
     for (const Tree& tree : {branched(), random_tree(600, 6)}) {
         const Skin skin = build_skin(tree, {});
-        const Pose pose = bent(tree, 0.5, 7);
+        const SkinPose pose = bent(tree, 0.5, 7);
         std::vector<Vec3> position, normal;
         SkinDeformer(skin, tree).deform(pose.R_wb, pose.x_w, position, normal);
         using Vectors = const std::vector<Vec3>*;
@@ -98,7 +98,7 @@ TEST_CASE("normals are unit and outward, drawn and bent") {
             CHECK(double(inward) <= 0.01 * double(all));
         }
         // Drawn, every ring corner's normal points away from its body's axis.
-        const Pose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
+        const SkinPose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
         for (const auto& t : triangles(skin, "bark"))
             for (const std::int32_t index : t) {
                 const std::size_t v = std::size_t(index), b = std::size_t(skin.joint[v][0]);
@@ -115,7 +115,7 @@ TEST_CASE("bent joints keep the tube whole: edges keep their length, vertices st
     for (const unsigned seed : {1u, 2u, 3u}) {
         const Tree tree = random_tree(600, seed);
         const Skin skin = build_skin(tree, {});
-        const Pose pose = bent(tree, 0.5, seed + 10);
+        const SkinPose pose = bent(tree, 0.5, seed + 10);
         std::vector<Vec3> position, normal;
         SkinDeformer(skin, tree).deform(pose.R_wb, pose.x_w, position, normal);
         double longest = 0, farthest = 0;
@@ -138,7 +138,7 @@ TEST_CASE("a bend of 0.5 rad at every joint costs little volume") {
     const Skin skin = build_skin(tree, {16});
     const double drawn = volume(triangles(skin, "bark"), skin.position);
     for (const double angle : {0.1, 0.5}) {
-        const Pose pose = posed(tree, [&](std::size_t i) { return Vec3(i == 0 ? 0 : angle, 0, 0); });
+        const SkinPose pose = posed(tree, [&](std::size_t i) { return Vec3(i == 0 ? 0 : angle, 0, 0); });
         std::vector<Vec3> position, normal;
         SkinDeformer(skin, tree).deform(pose.R_wb, pose.x_w, position, normal);
         const double bent_volume = volume(triangles(skin, "bark"), position);
@@ -152,7 +152,7 @@ TEST_CASE("a bend of 0.5 rad at every joint costs little volume") {
 TEST_CASE("a bent joint's ring halves the angle, mid rings follow their piece alone") {
     const Tree tree = chain(2, 2, 0.05, 0.05);
     const Skin skin = build_skin(tree, {8});
-    const Pose pose = posed(tree, [&](std::size_t i) { return Vec3(i == 0 ? 0 : 0.5, 0, 0); });
+    const SkinPose pose = posed(tree, [&](std::size_t i) { return Vec3(i == 0 ? 0 : 0.5, 0, 0); });
     std::vector<Vec3> position, normal;
     SkinDeformer(skin, tree).deform(pose.R_wb, pose.x_w, position, normal);
     const Vec3 along = pose.R_wb[0].col(2) + pose.R_wb[1].col(2);
@@ -179,7 +179,7 @@ TEST_CASE("a side branch starts inside its parent, drawn and bent either way") {
         const Skin skin = build_skin(tree, {});
         const std::map<std::int32_t, Triangles> all = tubes_by_branch(tree, skin);
         for (const unsigned seed : {0u, 1u, 2u}) {
-            const Pose pose = bent(tree, seed == 0 ? 0 : 0.4, seed);
+            const SkinPose pose = bent(tree, seed == 0 ? 0 : 0.4, seed);
             std::vector<Vec3> position, normal;
             SkinDeformer(skin, tree).deform(pose.R_wb, pose.x_w, position, normal);
             for (const std::int32_t start : branch_starts(tree)) {

@@ -193,7 +193,7 @@ TEST_CASE("Each species stays where it was drawn") {
             INFO(species.name << " " << bodies);
             const Tree tree = segment(grow_bodies(species.growth, std::uint64_t(bodies), {true, false, true}, bodies),
                                       species.growth.wood, {});
-            simulate::Run<double> run(tree, Scene());
+            simulate::PlainRun<double> run(tree, Scene());
             const std::vector<Vec3> drawn = run.state.x_w;
             run.steps(300);
             double moved = 0;

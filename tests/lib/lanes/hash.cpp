@@ -39,8 +39,8 @@ const Case& paper() {
     return c;
 }
 
-template <class T> Run<T> run_of(const Case& c) {
-    return Run<T>(c, fast::best_target());
+template <class T> LanesRun<T> run_of(const Case& c) {
+    return LanesRun<T>(c, fast::best_target());
 }
 
 } // namespace
@@ -48,7 +48,7 @@ template <class T> Run<T> run_of(const Case& c) {
 TEMPLATE_TEST_CASE("the same run in lanes twice is the same", "", float, double) {
     for (const Case* c : {&large(), &flapping(), &paper()}) {
         CAPTURE(c->name);
-        Run<TestType> one = run_of<TestType>(*c), other = run_of<TestType>(*c);
+        LanesRun<TestType> one = run_of<TestType>(*c), other = run_of<TestType>(*c);
         REQUIRE(one.plan.stepper->in_lanes());
         REQUIRE(one.plan.bodies >= 20000);
         REQUIRE(parts::lanes(one.plan).layout.blocks.size() > 4);
@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE("the same run in lanes twice is the same", "", float, double)
 TEMPLATE_TEST_CASE("reading the arrays at each step changes nothing", "", float, double) {
     for (const Case* c : {&large(), &paper()}) {
         CAPTURE(c->name);
-        Run<TestType> watched = run_of<TestType>(*c), alone = run_of<TestType>(*c);
+        LanesRun<TestType> watched = run_of<TestType>(*c), alone = run_of<TestType>(*c);
         for (int k = 0; k < frames; ++k) watched.frame();
         alone.steps(frames);
         CHECK(watched.hash() == alone.hash());
@@ -80,13 +80,13 @@ TEMPLATE_TEST_CASE("reading the arrays at each step changes nothing", "", float,
 TEMPLATE_TEST_CASE("a run in lanes cut in two goes on as if it had not been", "", float, double) {
     for (const Case* c : {&large(), &flapping(), &paper()}) {
         CAPTURE(c->name);
-        Run<TestType> whole = run_of<TestType>(*c), forgetful = run_of<TestType>(*c);
+        LanesRun<TestType> whole = run_of<TestType>(*c), forgetful = run_of<TestType>(*c);
         Case calm = *c; // a fresh state, not shaken
         calm.angle = calm.rate = 0;
-        Run<TestType> resumed = run_of<TestType>(calm);
+        LanesRun<TestType> resumed = run_of<TestType>(calm);
         whole.steps(frames);
         const std::uint64_t cut = whole.hash();
-        for (Run<TestType>* run : {&resumed, &forgetful}) {
+        for (LanesRun<TestType>* run : {&resumed, &forgetful}) {
             run->state.step = whole.state.step;
             run->state.theta = whole.state.theta;
             run->state.theta_dot = whole.state.theta_dot;
@@ -116,7 +116,7 @@ TEMPLATE_TEST_CASE("the number of threads does not change a bit of what lanes fi
         std::uint64_t one_thread = 0, guarded = 0;
         for (const int threads : {1, 2, 3, 8, 15}) {
             const ThreadLimit limit(threads);
-            Run<TestType> run = run_of<TestType>(*c);
+            LanesRun<TestType> run = run_of<TestType>(*c);
             run.steps(frames);
             CAPTURE(c->name, threads);
             if (threads == 1) {

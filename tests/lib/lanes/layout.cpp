@@ -29,7 +29,7 @@ struct Shape {
     Layout layout(int lanes) const { return make_layout(parent, kind, ground, grounds, lanes); }
 };
 
-Tree grown(std::int64_t bodies) {
+Tree grown_tree(std::int64_t bodies) {
     return segment(grow_bodies(default_growth(), 7, {true, false, true}, bodies), wood_presets().front(), {});
 }
 
@@ -91,8 +91,8 @@ std::vector<Shape> shapes() {
                            {"random 1000", make_tree::random_tree(1000, 2)},
                            {"random 7000", make_tree::random_tree(7000, 3)},
                            {"chain", make_tree::chain(20, 2, 0.03, 0.01)},
-                           {"grown 500", grown(500)},
-                           {"grown 20000", grown(20000)},
+                           {"grown 500", grown_tree(500)},
+                           {"grown 20000", grown_tree(20000)},
                            {"one body", {-1}, {Kind::branch}},
                            {"one leaf", {-1}, {Kind::leaf}},
                            star(5000),
@@ -435,11 +435,11 @@ TEST_CASE("the layout is the same when it is made twice") {
 TEST_CASE("a large tree is cut into several blocks, a small one into one") {
     CHECK(Shape("", make_tree::branched()).layout(8).blocks.size() == 2); // with the empty top
     CHECK(Shape("", make_tree::branched()).layout(8).blocks[0].end_row == 0);
-    CHECK(Shape("", grown(20000)).layout(16).blocks.size() >= 8);
+    CHECK(Shape("", grown_tree(20000)).layout(16).blocks.size() >= 8);
 }
 
-TEST_CASE("few lanes of a grown tree are pads") {
-    const Shape shape("", grown(20000));
+TEST_CASE("few lanes of a grown_tree tree are pads") {
+    const Shape shape("", grown_tree(20000));
     for (const int lanes : {8, 16}) {
         const Layout layout = shape.layout(lanes);
         const double fill = double(shape.parent.size()) / double(layout.body.size());

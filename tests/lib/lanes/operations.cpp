@@ -31,7 +31,7 @@ template <class Work> Count counted_in(Work&& work) {
 // Operations of one step of a chain of rods, one lane: the second.
 Count of_chain(int rods, const Scene& scene) {
     lanes::Case c{"chain", make_tree::chain(rods, 0.1 * rods, 0.03, 0.02), scene};
-    lanes::Run<double> run(c, counted_target);
+    lanes::LanesRun<double> run(c, counted_target);
     run.steps(1);
     return counted_in([&] { run.steps(1); });
 }
@@ -66,7 +66,7 @@ TEMPLATE_TEST_CASE("the step that is counted is baseline's, bit for bit", "", fl
                                   {"still", lanes::grown(700), Scene{}, 0.1, 1},
                                   {"grown, analytic", lanes::grown(1500), rooted, 0.3, 2, {}, Solver::analytic}}) {
         CAPTURE(c.name);
-        lanes::Run<TestType> baseline(c, Target::baseline), counting(c, counted_target);
+        lanes::LanesRun<TestType> baseline(c, Target::baseline), counting(c, counted_target);
         REQUIRE(counting.plan.stepper->in_lanes());
         baseline.steps(5);
         counting.steps(5);

@@ -12,14 +12,14 @@ namespace {
 using Names = std::set<std::string>;
 
 // Leaves that do not turn too fast for a step to resolve.
-Tree firm() {
+Tree firm_tree() {
     Tree tree = make_tree::branched();
     for (Vec3& K : tree.stiffness) K *= 1e4;
     return tree;
 }
 
 std::vector<Case> cases() {
-    const Tree tree = firm();
+    const Tree tree = firm_tree();
     Scene windy, moved;
     windy.wind = gusts();
     moved.root_motion = {shifted()};
@@ -62,7 +62,7 @@ TEMPLATE_TEST_CASE("lanes run alone and leave the plain step's arrays empty", ""
     for (const Case& c : cases())
         for (const Wishes& wishes : {Wishes{}, Wishes{true, false}, Wishes{false, true}}) {
             CAPTURE(c.name, wishes.velocity, wishes.torque);
-            Run<T> run(c, fast::best_target(), Scheme::p12, wishes);
+            LanesRun<T> run(c, fast::best_target(), Scheme::p12, wishes);
             for (int k = 0; k < 10; ++k) run.frame();
             REQUIRE(explain(run.plan).stages.size() == stage_count);
             for (std::size_t k = 0; k < stage_count; ++k) {
@@ -97,7 +97,7 @@ TEMPLATE_TEST_CASE("a state in lanes is as large as its plan says", "", float, d
     using T = TestType;
     for (const Case& c : cases()) {
         CAPTURE(c.name);
-        Run<T> run(c, fast::best_target());
+        LanesRun<T> run(c, fast::best_target());
         for (int k = 0; k < 10; ++k) run.frame();
         std::size_t sum = 0;
         for (const PlannedArray& array : explain(run.plan).arrays) sum += array.on ? array.bytes : 0;
@@ -107,8 +107,8 @@ TEMPLATE_TEST_CASE("a state in lanes is as large as its plan says", "", float, d
 
 TEMPLATE_TEST_CASE("what was wished for is there when it is presented, and only then", "", float, double) {
     using T = TestType;
-    const Case c{"", firm(), everything()};
-    Run<T> run(c, fast::best_target(), Scheme::p12, {true, true});
+    const Case c{"", firm_tree(), everything()};
+    LanesRun<T> run(c, fast::best_target(), Scheme::p12, {true, true});
     run.frame();
     const auto v = run.state.v_w, omega = run.state.omega_w, torque = run.state.torque_j;
     run.steps(3);
@@ -128,14 +128,14 @@ TEMPLATE_TEST_CASE("what was wished for is there when it is presented, and only 
         CHECK(run.state.torque_j[i].norm() > 0);
         CHECK(std::abs(run.state.torque_j[i].norm() / law.norm() - 1) < 0.05); // to the map's first order
     }
-    Run<T> bare(c, fast::best_target());
+    LanesRun<T> bare(c, fast::best_target());
     bare.frame();
     CHECK(bare.state.v_w.capacity() + bare.state.omega_w.capacity() + bare.state.torque_j.capacity() == 0);
 }
 
 TEST_CASE("a plan without lanes holds none, and presenting it does nothing") {
     const Case c{"", make_tree::branched(), everything()};
-    Run<> plain(c, std::nullopt);
+    LanesRun<> plain(c, std::nullopt);
     plain.steps(2);
     const std::uint64_t hash = state_hash(plain.state);
     const auto x = plain.state.x_w;
@@ -154,7 +154,7 @@ TEMPLATE_TEST_CASE("where nobody reads poses, a run in lanes keeps nothing in do
     using T = TestType;
     for (const Case& c : cases()) {
         CAPTURE(c.name);
-        Run<T> full(c, fast::best_target()), bare(c, fast::best_target(), Scheme::p12, {false, false, false});
+        LanesRun<T> full(c, fast::best_target()), bare(c, fast::best_target(), Scheme::p12, {false, false, false});
         const Plan<T>& plan = bare.plan;
         CHECK(full.plan.pose);
         const bool points = c.solver == Solver::coupled && !c.scene.pulls.empty(); // are placed by what poses need
@@ -199,10 +199,10 @@ TEMPLATE_TEST_CASE("where nobody reads poses, a run in lanes keeps nothing in do
         full.steps(10);
         CHECK(state_hash(plan, bare.state) == full.hash());
         // Velocities and torques need them.
-        CHECK(Run<T>(c, fast::best_target(), Scheme::p12, {true, false, false}).plan.pose);
-        CHECK(Run<T>(c, fast::best_target(), Scheme::p12, {false, true, false}).plan.pose);
-        CHECK(
-            Run<T>(c, std::nullopt, Scheme::p12, {false, false, false}).plan.pose); // the plain step reads them itself
+        CHECK(LanesRun<T>(c, fast::best_target(), Scheme::p12, {true, false, false}).plan.pose);
+        CHECK(LanesRun<T>(c, fast::best_target(), Scheme::p12, {false, true, false}).plan.pose);
+        CHECK(LanesRun<T>(c, std::nullopt, Scheme::p12, {false, false, false})
+                  .plan.pose); // the plain step reads them itself
     }
 }
 
@@ -218,7 +218,7 @@ TEMPLATE_TEST_CASE("the rows' hash is that of the arrays they are presented in",
         for (const Scheme scheme : {Scheme::p12, Scheme::p34})
             for (const Simd simd : {Simd(fast::best_target()), Simd()}) {
                 CAPTURE(c.name, scheme_of(scheme).name, simd.has_value());
-                Run<T> run(c, simd, scheme);
+                LanesRun<T> run(c, simd, scheme);
                 for (int k = 0; k < 3; ++k) {
                     run.frame();
                     CHECK(state_hash(run.plan, run.state) == state_hash(run.state));
@@ -235,7 +235,7 @@ TEMPLATE_TEST_CASE("a tree that is handed over gives the same run, and is given 
         for (const Solver solver : {Solver::coupled, Solver::analytic})
             for (const Simd simd : {Simd(fast::best_target()), Simd()}) {
                 CAPTURE(solver_name(solver), simd.has_value(), scene.stiffness_scale);
-                const Tree tree = firm();
+                const Tree tree = firm_tree();
                 Tree own = tree;
                 const std::vector<TreeRange> range{{0, tree.size_bodies(), 0}};
                 const auto lent = make_plan<T>(tree, range, scene, {}, 1.0 / 30, solver, Scheme::p12, simd);

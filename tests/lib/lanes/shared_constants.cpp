@@ -85,7 +85,7 @@ TEMPLATE_TEST_CASE("a thousand instances keep one tree's constants, and a row ea
     const Solver solver = GENERATE(Solver::coupled, Solver::analytic);
     Case alone{"alone", small(), {}};
     alone.solver = solver;
-    const Run<T> one(alone, fast::best_target());
+    const LanesRun<T> one(alone, fast::best_target());
     const std::size_t rows = parts::lanes(one.plan).layout.rows;
     REQUIRE(one.plan.bodies >= 256);
     REQUIRE(different_rows(one.plan).size() == rows);
@@ -93,7 +93,7 @@ TEMPLATE_TEST_CASE("a thousand instances keep one tree's constants, and a row ea
 
     constexpr std::size_t places = 1000;
     const Park park(std::vector<Tree>(places, small()), Park::one_file(places), 0, solver);
-    const Run<T> run(park.c, fast::best_target(), Scheme::p12, {false, false, false});
+    const LanesRun<T> run(park.c, fast::best_target(), Scheme::p12, {false, false, false});
     CHECK(parts::lanes(run.plan).layout.rows == places * rows);
     REQUIRE(parts::lanes(run.plan).sharing.on);
     CHECK(kept(run.plan) == rows - 1 + places);
@@ -112,7 +112,7 @@ TEMPLATE_TEST_CASE("each row reads what it reads where nothing is shared, and no
                             Park({small(), tiny, other, small(), tiny}, {"a", "b", "c", "a", "b"}, 40, solver)};
     for (Park& park : parks) {
         if (wind) park.c.scene.wind = gusts();
-        const Run<T> shared(park.c, fast::best_target()), unshared(park.unshared(), fast::best_target());
+        const LanesRun<T> shared(park.c, fast::best_target()), unshared(park.unshared(), fast::best_target());
         CAPTURE(park.c.tree.size_bodies());
         CHECK(parts::lanes(unshared.plan).sharing.reason == "no tree stands at two places");
         check_read_alike(shared.plan, unshared.plan);
@@ -134,12 +134,12 @@ TEMPLATE_TEST_CASE("an instance of which one body differs has constants of its o
     Park park({small(), changed, small()}, Park::one_file(3), 0, solver);
     park.c.scene.wind = gusts();
     park.c.scene.pose = Pose::rest; // else what is above takes another rest angle, too
-    Run<T> shared(park.c, fast::best_target()), unshared(park.unshared(), fast::best_target());
+    LanesRun<T> shared(park.c, fast::best_target()), unshared(park.unshared(), fast::best_target());
     REQUIRE(parts::lanes(shared.plan).sharing.on);
     check_read_alike(shared.plan, unshared.plan);
     Case plain_case = park.c;
-    Run<> plain(plain_case, std::nullopt);
-    Run<> lanes_double(park.c, fast::best_target());
+    LanesRun<> plain(plain_case, std::nullopt);
+    LanesRun<> lanes_double(park.c, fast::best_target());
     const Apart d = run_apart(plain, lanes_double, 30);
     CHECK(d.theta < 1e-9);
     CHECK(d.x < 1e-9);
@@ -184,8 +184,8 @@ TEMPLATE_TEST_CASE("shared constants change no bit of a run", "", float, double)
             CAPTURE(way.name, solver_name(way.c.solver), fast::target_name(target));
             Park park({}, {});
             park.c = way.c;
-            Run<T> shared(way.c, target, Scheme::p12, {}, std::nullopt, way.sleep);
-            Run<T> unshared(park.unshared(), target, Scheme::p12, {}, std::nullopt, way.sleep);
+            LanesRun<T> shared(way.c, target, Scheme::p12, {}, std::nullopt, way.sleep);
+            LanesRun<T> unshared(park.unshared(), target, Scheme::p12, {}, std::nullopt, way.sleep);
             REQUIRE(parts::lanes(shared.plan).sharing.on);
             REQUIRE_FALSE(parts::lanes(unshared.plan).sharing.on);
             const int steps = way.sleep > 0 ? 45 : 8; // a second, and blocks may sleep
@@ -197,7 +197,7 @@ TEMPLATE_TEST_CASE("shared constants change no bit of a run", "", float, double)
 
 TEST_CASE("nothing is shared where nothing can be, and the plan says why") {
     const auto reason = [](const Case& c) {
-        const Run<float> run(c, fast::best_target());
+        const LanesRun<float> run(c, fast::best_target());
         CHECK_FALSE(parts::lanes(run.plan).sharing.on);
         CHECK(parts::lanes(run.plan).sharing.row.empty());
         CHECK(kept(run.plan) == parts::lanes(run.plan).layout.rows);
@@ -216,5 +216,5 @@ TEST_CASE("nothing is shared where nothing can be, and the plan says why") {
     // Without names of files as many bodies will do.
     Case nameless = Park({small(), small()}, Park::one_file(2)).c;
     nameless.scene.trees.clear();
-    CHECK(parts::lanes(Run<float>(nameless, fast::best_target()).plan).sharing.on);
+    CHECK(parts::lanes(LanesRun<float>(nameless, fast::best_target()).plan).sharing.on);
 }

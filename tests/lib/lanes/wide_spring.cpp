@@ -13,23 +13,23 @@ namespace wide = bough::fast;
 
 namespace {
 
-template <class T> using Pair = wide::Pair<wide::Wide<T>>;
+template <class T> using TwoWide = wide::Pair<wide::Wide<T>>;
 
 // Lane `lane` of a pair, and setting it.
 template <class T> constexpr int all_lanes = 2 * wide::width<T>;
-template <class T> T get(const Pair<T>& x, int lane) {
+template <class T> T get(const TwoWide<T>& x, int lane) {
     return lane < wide::width<T> ? x.a[lane] : x.b[lane - wide::width<T>];
 }
-template <class T> void set(Pair<T>& x, int lane, T value) {
+template <class T> void set(TwoWide<T>& x, int lane, T value) {
     if (lane < wide::width<T>)
         x.a[lane] = value;
     else
         x.b[lane - wide::width<T>] = value;
 }
-template <class T> Vector3<T> get(const wide::V3<Pair<T>>& v, int lane) {
+template <class T> Vector3<T> get(const wide::V3<TwoWide<T>>& v, int lane) {
     return {get<T>(v.x, lane), get<T>(v.y, lane), get<T>(v.z, lane)};
 }
-template <class T> void set(wide::Symmetric<Pair<T>>& s, int lane, const Matrix3<T>& m) {
+template <class T> void set(wide::Symmetric<TwoWide<T>>& s, int lane, const Matrix3<T>& m) {
     set<T>(s.xx, lane, m(0, 0)), set<T>(s.xy, lane, m(0, 1)), set<T>(s.xz, lane, m(0, 2));
     set<T>(s.yy, lane, m(1, 1)), set<T>(s.yz, lane, m(1, 2)), set<T>(s.zz, lane, m(2, 2));
 }
@@ -71,9 +71,9 @@ TEMPLATE_TEST_CASE("lanes find the eigenvectors that Eigen's solver finds", "", 
     constexpr T e = std::numeric_limits<T>::epsilon();
     const std::vector<Matrix3<T>> all = matrices<T>();
     for (std::size_t first = 0; first < all.size(); first += all_lanes<T>) {
-        wide::Symmetric<Pair<T>> A{};
+        wide::Symmetric<TwoWide<T>> A{};
         for (int l = 0; l < all_lanes<T>; ++l) set<T>(A, l, all[(first + std::size_t(l)) % all.size()]);
-        const wide::M3<Pair<T>> V = wide::symmetric_eigen(A);
+        const wide::M3<TwoWide<T>> V = wide::symmetric_eigen(A);
         for (int l = 0; l < all_lanes<T>; ++l) {
             const Matrix3<T>& given = all[(first + std::size_t(l)) % all.size()];
             Matrix3<T> X;
@@ -94,7 +94,7 @@ TEST_CASE("small eigenvalues of a scaled matrix keep their relative accuracy in 
     const Vec3 D(1e-8, 1, 1e8);
     Mat3 A;
     A << 2, 0.3, -0.2, 0.3, 1, 0.1, -0.2, 0.1, 3;
-    wide::Symmetric<Pair<double>> lanes{};
+    wide::Symmetric<TwoWide<double>> lanes{};
     for (int l = 0; l < all_lanes<double>; ++l) set<double>(lanes, l, Mat3(D.asDiagonal() * A * D.asDiagonal()));
     wide::symmetric_eigen(lanes);
     Vec3 found(get<double>(lanes.xx, 1), get<double>(lanes.yy, 1), get<double>(lanes.zz, 1));
@@ -111,7 +111,7 @@ TEMPLATE_TEST_CASE("a lane does not depend on its neighbours", "", float, double
     using T = TestType;
     const std::vector<Matrix3<T>> all = matrices<T>();
     for (std::size_t k = 0; k + all_lanes<T> < all.size(); k += 7) {
-        wide::Symmetric<Pair<T>> together{}, alone{};
+        wide::Symmetric<TwoWide<T>> together{}, alone{};
         for (int l = 0; l < all_lanes<T>; ++l) {
             set<T>(together, l, all[k + std::size_t(l)]);
             set<T>(alone, l, l == 0 ? all[k] : Matrix3<T>(Matrix3<T>::Identity()));

@@ -204,7 +204,7 @@ TEST_CASE("Leaves in lanes are the plain step's to rounding, and their float as 
             c.solver = solver;
             for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
                 if (scheme == Scheme::p34 && (solver == Solver::analytic || c.tree.size_bodies() > 1000)) continue;
-                lanes::Run<> plain(c, plainly, scheme), fast(c, fast::best_target(), scheme);
+                lanes::LanesRun<> plain(c, plainly, scheme), fast(c, fast::best_target(), scheme);
                 CAPTURE(c.name, solver_name(solver), scheme_of(scheme).name);
                 REQUIRE(fast.plan.stepper->in_lanes());
                 REQUIRE(fast.plan.leaf.on);
@@ -219,7 +219,7 @@ TEST_CASE("Leaves in lanes are the plain step's to rounding, and their float as 
         }
         // Where the guard has work the two part soon, on both paths by as much as it had: few frames.
         limp.solver = solver;
-        lanes::Run<> plain(limp, plainly), fast(limp, fast::best_target());
+        lanes::LanesRun<> plain(limp, plainly), fast(limp, fast::best_target());
         const lanes::Apart d = lanes::run_apart(plain, fast, 6);
         CAPTURE(solver_name(solver));
         if (solver == Solver::coupled) CHECK(plain.state.flags.energy_guard > 0);
@@ -237,7 +237,7 @@ TEST_CASE("Without a wind, without leaves or without /leaves nothing of it is th
         const auto run = [&](const Tree& tree, const Scene& scene) {
             lanes::Case c{"", tree, scene};
             c.solver = path.solver;
-            auto made = std::make_unique<lanes::Run<>>(c, path.simd);
+            auto made = std::make_unique<lanes::LanesRun<>>(c, path.simd);
             made->steps(20);
             return made;
         };
@@ -275,7 +275,7 @@ TEST_CASE("A tree that is one leaf, and one of leaves alone, run on every path")
         for (const Path& path : paths()) {
             lanes::Case c{"", tree, scene};
             c.solver = path.solver;
-            lanes::Run<> run(c, path.simd);
+            lanes::LanesRun<> run(c, path.simd);
             run.steps(300);
             present(run.plan, run.state);
             CAPTURE(tree.name, path.name);
@@ -321,7 +321,7 @@ TEST_CASE(
                     c.scene.wind = steady(Vec3(speed, 0, 0));
                     c.scene.pose = Pose::rest;
                     c.solver = path.solver;
-                    lanes::Run<> run(c, path.simd);
+                    lanes::LanesRun<> run(c, path.simd);
                     double fastest = 0, slowest = 0;
                     for (int k = 0; k < 400; ++k) {
                         run.frame();

@@ -8,7 +8,7 @@ using namespace bough;
 
 namespace {
 
-Wind steady(const Vec3& velocity) {
+Wind steady_wind(const Vec3& velocity) {
     Wind wind;
     wind.velocity = velocity;
     return wind;
@@ -35,14 +35,14 @@ Spread spread(const Wind& wind, const Mat3& axes) {
 
 } // namespace
 
-TEST_CASE("a steady wind is its velocity, blowing toward it, at all times") {
-    const Wind wind = steady({3, 0, -4});
+TEST_CASE("a steady_wind wind is its velocity, blowing toward it, at all times") {
+    const Wind wind = steady_wind({3, 0, -4});
     for (double t : {0.0, 1.3, 1e5}) CHECK(wind_velocity(wind, t) == Vec3(3, 0, -4));
-    CHECK(wind_velocity(steady(Vec3::Zero()), 1) == Vec3::Zero());
+    CHECK(wind_velocity(steady_wind(Vec3::Zero()), 1) == Vec3::Zero());
 }
 
 TEST_CASE("gusts have mean 0 and peak 1, one crest a period") {
-    Wind wind = steady({4, 0, 0});
+    Wind wind = steady_wind({4, 0, 0});
     wind.gust_factor = 1.7;
     wind.gust_period = 6;
     const auto gust = [&](double t) { return (wind_velocity(wind, t).x() / 4 - 1) / 0.7; };
@@ -64,7 +64,7 @@ TEST_CASE("gusts have mean 0 and peak 1, one crest a period") {
 TEST_CASE("turbulence has the stated spread along, across and up, and mean 0") {
     for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0.6, 0, -0.8)})
         for (std::uint64_t seed : {1u, 2u, 99u}) {
-            Wind wind = steady(10 * direction);
+            Wind wind = steady_wind(10 * direction);
             wind.turbulence = 0.2;
             wind.seed = seed;
             const Vec3 up = Vec3::UnitY();
@@ -80,7 +80,7 @@ TEST_CASE("turbulence has the stated spread along, across and up, and mean 0") {
 }
 
 TEST_CASE("a wind straight up has turbulence too") {
-    Wind wind = steady({0, 5, 0});
+    Wind wind = steady_wind({0, 5, 0});
     wind.turbulence = 0.2;
     Mat3 axes;
     axes << Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ();
@@ -91,7 +91,7 @@ TEST_CASE("a wind straight up has turbulence too") {
 }
 
 TEST_CASE("the seed makes the turbulence and nothing else does") {
-    Wind wind = steady({10, 0, 0});
+    Wind wind = steady_wind({10, 0, 0});
     wind.turbulence = 0.2;
     Wind same = wind, other = wind;
     other.seed = 2;
@@ -104,7 +104,7 @@ TEST_CASE("the seed makes the turbulence and nothing else does") {
 }
 
 TEST_CASE("the profile is a power of the height") {
-    Wind wind = steady({1, 0, 0});
+    Wind wind = steady_wind({1, 0, 0});
     wind.profile = 0.5;
     wind.reference_height = 4;
     CHECK(wind_profile(wind, 4) == 1);
@@ -117,7 +117,7 @@ TEST_CASE("the profile is a power of the height") {
 }
 
 TEST_CASE("the table is the field at its entries, linear between, constant above") {
-    Wind wind = steady({6, 0, 2});
+    Wind wind = steady_wind({6, 0, 2});
     wind.turbulence = 0.2;
     wind.gust_factor = 1.5;
     const double top = 16, t = 2.7;
@@ -144,7 +144,7 @@ TEST_CASE("the table is the field at its entries, linear between, constant above
 }
 
 TEST_CASE("a uniform wind's table is one entry, the same everywhere") {
-    Wind wind = steady({6, 0, 2});
+    Wind wind = steady_wind({6, 0, 2});
     wind.profile = 0;
     for (double top : {0.0, 10.0}) {
         auto table = make_wind_table<double>(wind, top);

@@ -47,7 +47,7 @@ TEST_CASE("a tree that is ahead in the wind moves as one that begins later") {
     both.ranges = {{0, n, 0}};
     for (const Vec3& place : {Vec3(2.2, 0, -1), Vec3(-3, 0, 2)})
         both.ranges.push_back({append(both.tree, small(), place, 0), n, 10 * std::int32_t(both.ranges.size())});
-    Run<> run(both, simd);
+    LanesRun<> run(both, simd);
     run.steps(20);
     present(run.plan, run.state);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -58,7 +58,7 @@ TEST_CASE("a tree that is ahead in the wind moves as one that begins later") {
         Wishes tables; // of the same heights and distances
         tables.top = run.plan.top;
         tables.reach = run.plan.reach;
-        Run<> one(alone, Simd(), Scheme::p12, tables);
+        LanesRun<> one(alone, Simd(), Scheme::p12, tables);
         one.state.step = k == 1 ? later : 0;
         restart(one.plan, one.state);
         one.steps(20);
@@ -77,13 +77,13 @@ TEST_CASE("trees that all begin together have one clock, and nothing is kept for
     Case c{"", small(), {}};
     c.scene.wind = gusty(false);
     c.scene.trees.resize(1);
-    const Run<> run(c, Simd(Target::baseline));
+    const LanesRun<> run(c, Simd(Target::baseline));
     CHECK(run.plan.clocks == std::vector<double>{0});
     CHECK(run.plan.clock.empty());
     CHECK(parts::lanes(run.plan).clock.empty());
     CHECK_FALSE(run.plan.field);
     c.scene.trees[0].start = 3;
-    CHECK(Run<>(c, Simd(Target::baseline)).plan.field);
+    CHECK(LanesRun<>(c, Simd(Target::baseline)).plan.field);
 }
 
 TEST_CASE("more entries than can be looked up are refused") {

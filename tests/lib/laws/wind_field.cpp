@@ -66,7 +66,7 @@ Vec3 papers(const Vec3& v, double angle) {
 }
 
 // Everything at once.
-Wind everything() {
+Wind every_field() {
     Wind wind = gridded();
     wind.swirl = swirling(5).swirl;
     wind.profile = 0.2;
@@ -232,7 +232,7 @@ TEST_CASE("between its keys the swirl's angle is a cubic of continuous slope, wh
 }
 
 TEST_CASE("the tables are the field: cells exactly, turns to their own error, and the magnitude") {
-    const Wind wind = everything();
+    const Wind wind = every_field();
     const double top = 12, reach = 40;
     auto table = make_wind_table<double>(wind, top, reach);
     auto single = make_wind_table<float>(wind, top, reach);
@@ -271,7 +271,7 @@ TEST_CASE("the same seed makes the same octaves, another one others") {
 }
 
 TEST_CASE("a wind with a period repeats, all of it, and keeps its mean and spread") {
-    Wind wind = everything(), free = wind;
+    Wind wind = every_field(), free = wind;
     wind.period = 17;
     double apart = 0;
     for (double t : {0.0, 0.37, 5.0, 16.9}) {

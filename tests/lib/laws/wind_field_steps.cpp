@@ -108,14 +108,14 @@ TEST_CASE("a tree in a cell moves as alone in that cell's wind") {
             Case forest{"", pair_of(tree, 50), in_wind(both)};
             forest.ranges = {{0, n, 0}, {n, n, *std::max_element(tree.branch.begin(), tree.branch.end()) + 1}};
             forest.solver = solver;
-            Run<> pair(forest, simd);
+            LanesRun<> pair(forest, simd);
             REQUIRE(pair.plan.stepper->in_lanes() == simd.has_value());
             for (int k = 0; k < 40; ++k) pair.frame();
             for (std::size_t which : {std::size_t(0), std::size_t(1)}) {
                 Case single{"", tree, in_wind(alone)};
                 single.scene.wind->velocity = both.grid->velocity[which];
                 single.solver = solver;
-                Run<> one(single, simd);
+                LanesRun<> one(single, simd);
                 for (int k = 0; k < 40; ++k) one.frame();
                 CAPTURE(solver_name(solver), simd.has_value(), which);
                 double off = 0, bent = 0;
@@ -139,7 +139,7 @@ TEST_CASE("one cell without octaves gives the uniform wind's motion") {
         for (const Simd simd : {Simd(), Simd(fast::best_target())}) {
             Case uniform{"", tree, in_wind(gusts())}, cell{"", tree, in_wind(one)};
             uniform.solver = cell.solver = solver;
-            Run<> a(uniform, simd), b(cell, simd);
+            LanesRun<> a(uniform, simd), b(cell, simd);
             const Apart d = run_apart(a, b, 60);
             CAPTURE(solver_name(solver), simd.has_value());
             CHECK(d.theta < 1e-11);
@@ -150,7 +150,7 @@ TEST_CASE("one cell without octaves gives the uniform wind's motion") {
 TEST_CASE("in double, lanes and the plain step are the same to rounding in a wind that varies over the ground") {
     for (const Solver solver : lane_solvers)
         for (const Case& c : cases(solver)) {
-            Run<> plain(c, std::nullopt), lanes(c, fast::best_target());
+            LanesRun<> plain(c, std::nullopt), lanes(c, fast::best_target());
             CAPTURE(c.name, solver_name(solver));
             REQUIRE(lanes.plan.stepper->in_lanes());
             REQUIRE(lanes.plan.field);
@@ -169,7 +169,7 @@ TEST_CASE("in double, lanes and the plain step are the same to rounding in a win
 TEST_CASE("two solves a step, and every target, come to the same in it") {
     for (const Case& c : cases(Solver::coupled)) {
         if (c.tree.size_bodies() > 1000) continue;
-        Run<> plain(c, std::nullopt, Scheme::p34), lanes(c, fast::best_target(), Scheme::p34);
+        LanesRun<> plain(c, std::nullopt, Scheme::p34), lanes(c, fast::best_target(), Scheme::p34);
         const Apart d = run_apart(plain, lanes, 30);
         CAPTURE(c.name);
         CHECK(d.theta < 1e-9);
@@ -187,7 +187,7 @@ TEST_CASE("the energy guard weighs the air of the place") {
     for (const Wind& wind : {field(), sheltered_field()}) {
         Case c{"", grown(600), solver::empty_scene(), 0.05, 3};
         c.scene.wind = wind;
-        Run<> plain(c, std::nullopt), lanes(c, fast::best_target());
+        LanesRun<> plain(c, std::nullopt), lanes(c, fast::best_target());
         const Apart d = run_apart(plain, lanes, 5);
         REQUIRE(plain.state.flags.energy_guard > 0);
         CHECK(lanes.state.flags.energy_guard == plain.state.flags.energy_guard);
@@ -238,7 +238,7 @@ TEST_CASE("what sleeps in a steady field is woken by none that swells") {
     c.scene.wind->turbulence = 0;
     c.scene.wind->gust_factor = 1;
     const auto reason = [&] {
-        return parts::lanes(Run<>(c, fast::best_target(), Scheme::p12, {}, std::nullopt, 0.01).plan).sleep.reason;
+        return parts::lanes(LanesRun<>(c, fast::best_target(), Scheme::p12, {}, std::nullopt, 0.01).plan).sleep.reason;
     };
     CHECK(reason() == "/wind/grid");
     c.scene.wind->grid->octaves = {0};

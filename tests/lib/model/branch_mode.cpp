@@ -3,13 +3,14 @@
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace bough;
 using namespace simulate;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 Tree rod(int pieces, double tip_radius, const Material& wood) {
     Splines s;
@@ -35,7 +36,7 @@ double simulated_frequency(const Tree& tree, JointInertia inertia) {
     scene.joint_inertia = inertia;
     scene.damping_scale = 0;
     const BranchModes modes = branch_modes(tree);
-    Run<double> run(tree, scene, 1.0 / 960);
+    PlainRun<double> run(tree, scene, 1.0 / 960);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) run.state.theta[i].x() = 1e-6 * modes.weight[i];
     state_update(run.plan, run.state);
     const std::size_t tip = tree.size_bodies() - 1;
@@ -87,7 +88,7 @@ TEST_CASE("Damping decays the branch's first mode by its ratio") {
     const Tree tree = rod(20, 0.02, wood);
     const double omega = branch_modes(tree).omega_bend[0];
     CHECK(tree.damping[7] * omega / 2 == Approx(wood.damping_ratio).epsilon(1e-9));
-    Run<double> run(tree, nothing(), 1.0 / 240);
+    PlainRun<double> run(tree, nothing(), 1.0 / 240);
     const BranchModes modes = branch_modes(tree);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) run.state.theta[i].x() = 1e-6 * modes.weight[i];
     state_update(run.plan, run.state);

@@ -2,13 +2,14 @@
 #include "lib/model/root_motion.h"
 #include "tests/support/make_tree.h"
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace bough;
 using make_tree::turn;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 RootMotion wild() {
     RootMotion m;

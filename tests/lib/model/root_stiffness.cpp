@@ -10,7 +10,8 @@ using namespace bough;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, length = 2, radius = 0.02;
+using std::numbers::pi;
+constexpr double length = 2, radius = 0.02;
 
 Tree pole(const Material& wood, int pieces) {
     Splines s;

@@ -27,10 +27,10 @@ Tree tree_of(double segment_length) {
 }
 
 // Two of them, the second with other pieces, 10 m along X.
-struct Pair {
+struct SelectedPair {
     Tree joined;
     std::vector<TreeRange> ranges;
-    Pair() {
+    SelectedPair() {
         const Tree a = tree_of(1), b = tree_of(0.5);
         append(joined, a, Vec3::Zero(), 0);
         append(joined, b, Vec3(10, 0, 0), 0);
@@ -68,7 +68,7 @@ Selector nearest_to(const Vec3& p) {
 } // namespace
 
 TEST_CASE("a branch and a fraction name the same point under any segmentation") {
-    const Pair pair;
+    const SelectedPair pair;
     for (double at : {0.0, 0.1, 0.25, 0.5, 0.6, 0.999, 1.0}) {
         for (int tree : {0, 1}) {
             const Vec3 base(10 * tree, 0, 0);
@@ -80,7 +80,7 @@ TEST_CASE("a branch and a fraction name the same point under any segmentation") 
 }
 
 TEST_CASE("a body is named by its index in its own document") {
-    const Pair pair;
+    const SelectedPair pair;
     Selector s;
     s.by = Selector::By::body;
     s.tree = 1;
@@ -91,7 +91,7 @@ TEST_CASE("a body is named by its index in its own document") {
 }
 
 TEST_CASE("the nearest body is the one whose axis is, in any tree") {
-    const Pair pair;
+    const SelectedPair pair;
     CHECK((pair.world(pair.one(nearest_to({0.1, 1.7, 0.3}))) - Vec3(0, 1.7, 0)).norm() < 1e-12);
     CHECK((pair.world(pair.one(nearest_to({11, 2.5, 0.2}))) - Vec3(11, 3, 0)).norm() < 1e-12);
     CHECK((pair.world(pair.one(nearest_to({0, 50, 0}))) - Vec3(0, 4, 0)).norm() < 1e-12);
@@ -101,7 +101,7 @@ TEST_CASE("the nearest body is the one whose axis is, in any tree") {
 }
 
 TEST_CASE("a level names every branch body of it and no leaf") {
-    const Pair pair;
+    const SelectedPair pair;
     Selector s;
     s.by = Selector::By::level;
     s.level = 1;
@@ -111,7 +111,7 @@ TEST_CASE("a level names every branch body of it and no leaf") {
 }
 
 TEST_CASE("what is not there is said, and what there is") {
-    const Pair pair;
+    const SelectedPair pair;
     const auto fails = [&](const Selector& s, const char* what) {
         CHECK_THROWS_AS(select(pair.joined, pair.ranges, s), std::out_of_range);
         CHECK_THROWS_WITH(select(pair.joined, pair.ranges, s), Catch::Contains(what));

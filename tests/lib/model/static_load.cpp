@@ -8,13 +8,15 @@
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace bough;
 using namespace simulate;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, g = 9.81;
+using std::numbers::pi;
+constexpr double g = 9.81;
 
 // One rod whose axis leans from the vertical by `lean` towards +x.
 Tree rod(double lean, double youngs = 9e9) {
@@ -109,7 +111,7 @@ TEST_CASE("snow on a cantilever sags it by w l^4 / 8 E I, its own weight left ou
         options.segment_length = 2.0 / (5 << k);
         Tree tree = segment(s, wood, options);
         lay_load(tree, {snow, 0, 0, 0});
-        Run<double> run(tree, Scene());
+        PlainRun<double> run(tree, Scene());
         const std::size_t tip = tree.size_bodies() - 1;
         const Vec3 end = run.state.x_w[tip] + run.state.R_wb[tip].col(2) * tree.size[tip][0];
         error[k] = std::abs((1 - end.y()) / beam - 1);

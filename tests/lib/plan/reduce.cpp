@@ -17,7 +17,7 @@ using simulate::steady;
 
 namespace {
 
-std::vector<TreeRange> all_of(const Tree& tree) {
+std::vector<TreeRange> whole_of(const Tree& tree) {
     return {{0, tree.size_bodies(), 0}};
 }
 
@@ -41,7 +41,7 @@ Tree sturdy(int bodies, unsigned seed) {
 }
 
 Reduced reduced_of(const Tree& tree, const Scene& scene = {}) {
-    return reduce(tree, all_of(tree), scene);
+    return reduce(tree, whole_of(tree), scene);
 }
 
 // First moment and inertia about body j's joint of it and all it carries, drawn, world axes.
@@ -179,7 +179,7 @@ TEST_CASE("rigid runs as a billion times stiffer does, all bodies and velocities
     scene.pulls.push_back(pull);
     const Reduced r = reduced_of(held, scene);
     const double dt = 1.0 / 240;
-    const Plan<double> whole_plan = plan_of(stiff, all_of(stiff), scene, dt);
+    const Plan<double> whole_plan = plan_of(stiff, whole_of(stiff), scene, dt);
     const Plan<double> plan = plan_of(r.tree, r.ranges, scene_on(r, held, scene), dt);
     State<double> whole = make_state(whole_plan), state = make_state(plan);
     double worst = 0, moved = 0, worst_speed = 0, speed = 0;
@@ -257,7 +257,7 @@ TEST_CASE("parallel bodies have the drag of their sum, and a body for every dire
     const auto area = [&](const Tree& t, std::size_t i) {
         Scene scene;
         scene.wind = steady(5);
-        return plan_of(t, all_of(t), scene).drag_area[i];
+        return plan_of(t, whole_of(t), scene).drag_area[i];
     };
     double sum = 0;
     std::vector<double> areas;
@@ -424,12 +424,12 @@ TEST_CASE("what a scene selects stays where it was") {
 TEST_CASE("rigid bodies that nobody joined are not run") {
     Tree tree = make_tree::chain(3, 1, 0.02, 0.01);
     tree.rigid = {0, 1, 0};
-    CHECK_THROWS_AS(plan_of(tree, all_of(tree), Scene()), std::domain_error);
+    CHECK_THROWS_AS(plan_of(tree, whole_of(tree), Scene()), std::domain_error);
     tree.rigid.clear();
     Scene scene;
     scene.simulate.emplace();
-    CHECK_THROWS_AS(plan_of(tree, all_of(tree), scene), std::domain_error);
-    CHECK_NOTHROW(plan_of(tree, all_of(tree), Scene()));
+    CHECK_THROWS_AS(plan_of(tree, whole_of(tree), scene), std::domain_error);
+    CHECK_NOTHROW(plan_of(tree, whole_of(tree), Scene()));
 }
 
 TEST_CASE("rigid bodies keep through joining and splitting of trees") {

@@ -8,7 +8,7 @@ using namespace bough;
 
 namespace {
 
-TreeRange all_of(const Tree& tree) {
+TreeRange range_of(const Tree& tree) {
     return {0, tree.size_bodies(), 0};
 }
 
@@ -30,7 +30,7 @@ TEST_CASE("a clamped rod's first sway is the beam's, its damping the wood's") {
     const Tree tree = rod(60, L, D / 2, E, rho, beta);
     Scene scene;
     scene.gravity = Vec3::Zero();
-    const FirstSway sway = first_sway(tree, all_of(tree), scene);
+    const FirstSway sway = first_sway(tree, range_of(tree), scene);
     const double beam = 2 * std::numbers::pi * 0.1399 * D / (L * L) * std::sqrt(E / rho);
     CHECK(sway.omega == Approx(beam).epsilon(0.03)); // the static bend's quotient is the first mode's to a percent
     CHECK(sway.zeta == Approx(beta * sway.omega / 2).epsilon(1e-3));
@@ -45,10 +45,10 @@ TEST_CASE("in the wind a rod's sway is damped by the drag of its speed past the 
     scene.wind = Wind();
     scene.wind->velocity = Vec3(0, 0, U);
     scene.wind->profile = 0;
-    const FirstSway sway = first_sway(tree, all_of(tree), scene);
+    const FirstSway sway = first_sway(tree, range_of(tree), scene);
     const double drag = 1.2 * scene.air_density * D * U, mass = rho * std::numbers::pi * D * D / 4; // a metre
     CHECK(sway.zeta == Approx(drag / (2 * sway.omega * mass)).epsilon(1e-3));
-    CHECK(settling_time(tree, {all_of(tree)}, scene) ==
+    CHECK(settling_time(tree, {range_of(tree)}, scene) ==
           Approx(std::min(20.0, std::max(2.0, std::log(100) / (sway.zeta * sway.omega)))).epsilon(1e-3));
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("a grown tree's first sway lies among the modes that Lanczos finds") {
     for (const char* species : {"maple", "oak", "pine"}) {
         const Tree tree = convert(grow(species, {.bodies = 400, .seed = 2}));
         Scene scene;
-        const FirstSway sway = first_sway(tree, all_of(tree), scene);
+        const FirstSway sway = first_sway(tree, range_of(tree), scene);
         const SmallMotion small(tree, scene.gravity, scene.pose);
         const double lowest = natural_modes(small, tree, scene, {.count = 1}).front().frequency;
         const double hertz = sway.omega / (2 * std::numbers::pi);
@@ -69,11 +69,11 @@ TEST_CASE("a grown tree's first sway lies among the modes that Lanczos finds") {
 TEST_CASE("where no wind blows nothing has to be forgotten; without damping it takes the most that is run") {
     const Tree tree = rod(10, 2, 0.03, 9e9, 900, 0);
     Scene scene;
-    CHECK(settling_time(tree, {all_of(tree)}, scene) == 0);
+    CHECK(settling_time(tree, {range_of(tree)}, scene) == 0);
     scene.wind = Wind(); // of no velocity: still air
-    CHECK(settling_time(tree, {all_of(tree)}, scene) == 0);
+    CHECK(settling_time(tree, {range_of(tree)}, scene) == 0);
     scene.wind->velocity = Vec3(1e-9, 0, 0);
-    CHECK(settling_time(tree, {all_of(tree)}, scene) == most_settling);
+    CHECK(settling_time(tree, {range_of(tree)}, scene) == most_settling);
     scene.wind->velocity = Vec3::Zero();
     scene.wind->grid = WindGrid();
     scene.wind->grid->velocity = {Vec3::Zero(), Vec3(3, 0, 0)};

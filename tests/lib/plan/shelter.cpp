@@ -107,7 +107,7 @@ TEST_CASE("a tree behind a tree is sheltered, one beside it or before it is not"
             Case c{"", standing(tree, {Vec3::Zero(), Vec3(40, 0, 0)}), blowing(Vec3(6, 0, 0), 1)};
             c.ranges = {{0, n, 0}, {n, n, *std::max_element(tree.branch.begin(), tree.branch.end()) + 1}};
             c.solver = solver;
-            Run<> run(c, simd);
+            LanesRun<> run(c, simd);
             for (int k = 0; k < 15; ++k) run.frame();
             double first = 0, second = 0;
             for (std::size_t i = 0; i < n; ++i) {

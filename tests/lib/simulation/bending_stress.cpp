@@ -4,12 +4,13 @@
 #include "lib/simulation/simulation.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulations.h"
+#include <numbers>
 
 using namespace bough;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const make_tree::Wood stiff{900, 1e13, 1e12, 0.05}; // bends by less than a microradian
 
 // In still space, pulled at its end by a force that stays.

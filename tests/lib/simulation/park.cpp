@@ -18,13 +18,13 @@ TEST_CASE("trees of a park move as alone, to the last bit, on both paths") {
         const std::size_t first = append(park.tree, alone[k], Vec3(0, 0, 0), 0);
         park.ranges.push_back({first, alone[k].size_bodies(), 100000 * std::int32_t(k)});
     }
-    lanes::Run<float> joined(park, simd);
+    lanes::LanesRun<float> joined(park, simd);
     joined.steps(15);
     present(joined.plan, joined.state);
     for (std::size_t k = 0; k < alone.size(); ++k) {
         lanes::Case one{"", alone[k], park.scene};
         one.solver = solver;
-        lanes::Run<float> run(one, simd);
+        lanes::LanesRun<float> run(one, simd);
         run.steps(15);
         present(run.plan, run.state);
         CHECK(std::equal(run.state.theta.begin(), run.state.theta.end(),

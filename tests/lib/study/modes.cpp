@@ -14,7 +14,7 @@ using namespace bough;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // a + b e1 + c e2 + d e1 e2: b, c, d carry the derivatives of whatever is computed with them.
 struct Dual {
@@ -69,7 +69,7 @@ DualVector turned(const DualTurn& q, const Vec3& r) {
 }
 
 // [J] of bodies `which` and their springs where joint `one` is turned by e1 about axis k1 and joint `two` by e2 about k2 (world axes).
-struct Energy {
+struct ModeEnergy {
     const Tree& tree;
     Vec3 gravity;
     std::vector<Quat> rest;
@@ -141,10 +141,10 @@ struct Dense {
     }
 };
 
-Dense dense(const Tree& tree, const Vec3& gravity, Pose pose) {
+Dense dense_modes(const Tree& tree, const Vec3& gravity, Pose pose) {
     const std::size_t n = tree.size_bodies();
     const StartPose start = start_pose(tree, gravity, pose);
-    Energy energy{tree, gravity, start.joint_rotation, start.theta, {}};
+    ModeEnergy energy{tree, gravity, start.joint_rotation, start.theta, {}};
     std::vector<Vec3> x(n), com(n);
     energy.R.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -310,7 +310,7 @@ TEST_CASE("all modes are those of the dense eigenproblem") {
         Tree tree = lanes::grown(pose == Pose::drawn ? 300 : 60);
         if (pose == Pose::settled)
             for (Vec3& K : tree.stiffness) K *= 4; // that it stands
-        const Eigen::VectorXd truth = dense(tree, Vec3(0, -9.81, 0), pose).hertz();
+        const Eigen::VectorXd truth = dense_modes(tree, Vec3(0, -9.81, 0), pose).hertz();
         const std::vector<NaturalMode> modes = modes_of(tree, still(pose), {20, false});
         REQUIRE(modes.size() == 20);
         for (std::size_t k = 0; k < modes.size(); ++k) {

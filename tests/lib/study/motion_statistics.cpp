@@ -4,12 +4,14 @@
 #include "tests/support/make_tree.h"
 #include <catch2/catch.hpp>
 #include <functional>
+#include <numbers>
 
 using namespace bough;
 
 namespace {
 
-constexpr double fps = 30, pi = std::numbers::pi;
+using std::numbers::pi;
+constexpr double fps = 30;
 
 // An upright pole of two pieces of half a metre with a branch of level 1 and two leaves.
 struct Stand {

@@ -8,18 +8,19 @@
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace bough;
 using namespace solver;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
-struct Run {
+struct RunInSteps {
     Plan<double> plan;
     State<double> state;
-    Run(const Tree& tree, const Scene& scene, Solver solver, double dt, double tolerance = 1e-8)
+    RunInSteps(const Tree& tree, const Scene& scene, Solver solver, double dt, double tolerance = 1e-8)
         : plan(make_plan<double>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, dt, solver)), state(make_state(plan)) {
         parts::set_tolerance(plan, tolerance);
     }
@@ -101,12 +102,12 @@ double order(const std::vector<double>& errors) {
 }
 
 double euler_order(Solver solver) {
-    Run truth(soft_chain(), windy(), Solver::articulated_reference, 0.01, 1e-12);
+    RunInSteps truth(soft_chain(), windy(), Solver::articulated_reference, 0.01, 1e-12);
     truth.shake(0.3, 1);
     truth.until(0.2);
     std::vector<double> errors;
     for (const double dt : {1e-4, 5e-5, 2.5e-5}) {
-        Run run(soft_chain(), windy(), solver, dt);
+        RunInSteps run(soft_chain(), windy(), solver, dt);
         run.shake(0.3, 1);
         run.until(0.2);
         errors.push_back(distance(run.state, truth.state));
@@ -129,7 +130,7 @@ TEST_CASE("a pendulum's quarter of a period at a large angle is the elliptic int
     // theta = pi hangs: turn the rod over, so that it hangs at 0.
     Tree tree = rod.tree;
     tree.joint_rotation[0] = make_tree::turn(pi / 2, Vec3::UnitX());
-    Run run(tree, scene, Solver::articulated_reference, quarter / 8, 1e-11);
+    RunInSteps run(tree, scene, Solver::articulated_reference, quarter / 8, 1e-11);
     run.set(0, Vec3(from_hanging, 0, 0), Vec3::Zero());
     run.until(quarter);
     CHECK(std::abs(run.state.theta[0].x()) < 1e-9);
@@ -144,7 +145,7 @@ TEST_CASE("a rod at large angles, with spring, damper, gravity and drag, is its 
     Scene scene = empty_scene();
     scene.gravity = {0, -9.81, 0};
     scene.wind = Wind{};
-    Run run(rod.tree, scene, Solver::articulated_reference, 1.0 / 30, 1e-11);
+    RunInSteps run(rod.tree, scene, Solver::articulated_reference, 1.0 / 30, 1e-11);
     const double drag = run.plan.drag_area[0] * rod.c * rod.c * rod.c;
     const auto acceleration = [&](double x, double v) {
         const double spring = -rod.K * (x + 0.01 * v), weight = rod.m * 9.81 * rod.c * std::sin(x);
@@ -163,7 +164,7 @@ TEST_CASE("a damped joint without load is its closed form, under, at and over cr
     Rod rod(K);
     const double omega = std::sqrt(K / rod.J), ratio = GENERATE(0.05, 1.0, 4.0);
     rod.tree.damping[0] = 2 * ratio / omega;
-    Run run(rod.tree, empty_scene(), Solver::articulated_reference, 1.0 / 30, 1e-11);
+    RunInSteps run(rod.tree, empty_scene(), Solver::articulated_reference, 1.0 / 30, 1e-11);
     run.set(0, Vec3(0, 1.2, 0), Vec3::Zero());
     run.until(0.5);
     const double g = ratio * omega, D = omega * omega - g * g, t = 0.5, s = std::sqrt(std::abs(D));
@@ -181,7 +182,7 @@ TEST_CASE(
     Scene scene = empty_scene();
     if (gravity) scene.gravity = {0, -9.81, 0};
     scene.stiffness_scale = 0;
-    Run run(tree, scene, Solver::articulated_reference, 0.02, 1e-10);
+    RunInSteps run(tree, scene, Solver::articulated_reference, 0.02, 1e-10);
     run.plan.velocity = true;
     run.state.omega_w.resize(3);
     run.state.v_w.resize(3);
@@ -211,7 +212,7 @@ TEST_CASE("the energy of an undamped, windless tree stays, the better the smalle
     for (std::size_t i = 10; i < tree.size_bodies(); ++i) tree.stiffness[i] *= 1e4; // leaves and fruit do not turn over
     std::vector<double> drifts;
     for (const double tolerance : {1e-6, 1e-8}) {
-        Run run(tree, scene, Solver::articulated_reference, 1.0 / 30, tolerance);
+        RunInSteps run(tree, scene, Solver::articulated_reference, 1.0 / 30, tolerance);
         const double rest = run.total_energy();
         for (std::size_t i = 0; i < 4; ++i) run.state.theta[i] += Vec3(0.005, 0.002, 0.003); // the trunk, let go
         state_update(run.plan, run.state);
@@ -245,12 +246,12 @@ TEST_CASE("the extrapolated step has the order of its table") {
     scene.pulls[0].time = {-1, 9};
     scene.pulls[0].force = {Vec3(1, 0, 2), Vec3(5, 3, 1)};
     scene.stiffness_scale = 0.05;
-    Run truth(soft_chain(), scene, Solver::articulated_reference, 0.01, 1e-13);
+    RunInSteps truth(soft_chain(), scene, Solver::articulated_reference, 0.01, 1e-13);
     truth.shake(0.1, 0.5);
     truth.until(0.32);
     std::vector<double> errors;
     for (const double H : {0.08, 0.04, 0.02}) {
-        Run run(soft_chain(), scene, Solver::articulated_reference, H, 1e300); // every step accepted, none cut
+        RunInSteps run(soft_chain(), scene, Solver::articulated_reference, H, 1e300); // every step accepted, none cut
         run.shake(0.1, 0.5);
         run.until(0.32);
         CHECK(run.state.flags.inner_steps == std::uint64_t(run.state.step));
@@ -265,7 +266,7 @@ TEST_CASE("the reference's own estimate bounds its error: its distance to a run 
     Scene scene = windy();
     scene.wind->profile = 0; // the field's table over height has corners
     const auto run_of = [&](double tolerance) {
-        Run run(soft_chain(), scene, Solver::articulated_reference, 1.0 / 30, tolerance);
+        RunInSteps run(soft_chain(), scene, Solver::articulated_reference, 1.0 / 30, tolerance);
         run.shake(0.3, 1);
         run.until(1);
         CHECK(run.state.flags.unresolved == 0);
@@ -284,12 +285,12 @@ TEST_CASE("the reference's own estimate bounds its error: its distance to a run 
 }
 
 TEST_CASE("a tolerance below rounding is counted, and comes to an end") {
-    Run run(soft_chain(), windy(), Solver::articulated_reference, 1.0 / 30, 1e-20);
+    RunInSteps run(soft_chain(), windy(), Solver::articulated_reference, 1.0 / 30, 1e-20);
     run.shake(0.3, 1);
     run.until(1.0 / 3);
     CHECK(run.state.flags.unresolved > 0);
     CHECK(run.state.flags.inner_steps < 10000);
-    Run truth(soft_chain(), windy(), Solver::articulated_reference, 1.0 / 30, 1e-11);
+    RunInSteps truth(soft_chain(), windy(), Solver::articulated_reference, 1.0 / 30, 1e-11);
     truth.shake(0.3, 1);
     truth.until(1.0 / 3);
     CHECK(truth.state.flags.unresolved == 0);
@@ -301,10 +302,10 @@ TEST_CASE("an articulated run cut in two goes on as if it had not been") {
         if (!is_articulated(solver)) continue;
         CAPTURE(solver_name(solver));
         const double dt = solver == Solver::articulated_explicit ? 1e-4 : 1.0 / 30;
-        Run whole(soft_chain(), windy(), solver, dt);
+        RunInSteps whole(soft_chain(), windy(), solver, dt);
         whole.shake(0.3, 1);
         for (int k = 0; k < 5; ++k) advance(whole.plan, whole.state);
-        Run resumed(soft_chain(), windy(), solver, dt);
+        RunInSteps resumed(soft_chain(), windy(), solver, dt);
         resumed.state.theta = whole.state.theta;
         resumed.state.theta_dot = whole.state.theta_dot;
         parts::scaled_rate(resumed.state) = parts::scaled_rate(whole.state);
@@ -332,12 +333,13 @@ TEST_CASE("on a steadily accelerated root, rest is where the analytic step has i
     scene.damping_scale = 10;
     scene.root_motion = {keys};
     const auto settled = [&](Solver solver, int steps) {
-        Run run(make_tree::branched(), scene, solver, 1.0 / 30);
+        RunInSteps run(make_tree::branched(), scene, solver, 1.0 / 30);
         run.plan.splines = {spline};
         for (int k = 0; k < steps; ++k) advance(run.plan, run.state);
         return run;
     };
-    const Run analytic = settled(Solver::analytic, 15000), implicit = settled(Solver::articulated_implicit, 15000);
+    const RunInSteps analytic = settled(Solver::analytic, 15000),
+                     implicit = settled(Solver::articulated_implicit, 15000);
     double most = 0, bend = 0;
     for (std::size_t i = 0; i < analytic.plan.bodies; ++i) {
         most = std::max(most, (analytic.state.theta[i] - implicit.state.theta[i]).norm());
@@ -346,7 +348,7 @@ TEST_CASE("on a steadily accelerated root, rest is where the analytic step has i
     CHECK(bend > 1e-3);
     CHECK(most < 1e-8);
     // The reference, started there, stays.
-    Run run(make_tree::branched(), scene, Solver::articulated_reference, 1.0 / 30, 1e-9);
+    RunInSteps run(make_tree::branched(), scene, Solver::articulated_reference, 1.0 / 30, 1e-9);
     run.plan.splines = {spline};
     run.state.theta = analytic.state.theta;
     for (int k = 0; k < 10; ++k) advance(run.plan, run.state);
@@ -361,7 +363,7 @@ TEST_CASE("the number of threads does not change a bit of the reference") {
     std::uint64_t one_thread = 0;
     for (const int threads : {1, 2, 3, 8}) {
         const ThreadLimit limit(threads);
-        Run run(tree, windy(), Solver::articulated_reference, 1.0 / 30, 1e-5);
+        RunInSteps run(tree, windy(), Solver::articulated_reference, 1.0 / 30, 1e-5);
         for (int k = 0; k < 3; ++k) advance(run.plan, run.state);
         if (threads == 1) {
             one_thread = state_hash(run.state);

@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE("the tables that are counted are those that a run has allocat
     const auto row = [](const auto& rows) { return rows.size() * sizeof(rows[0]); };
     for (const std::int64_t bodies : {300, 20000}) {
         lanes::Case c{"grown", lanes::grown(bodies), lanes::everything()};
-        lanes::Run<T> run(c, Target::baseline);
+        lanes::LanesRun<T> run(c, Target::baseline);
         run.steps(1);
         const Layout& layout = parts::lanes(run.plan).layout;
         const Lanes<T>& l = parts::lanes(run.state);
@@ -100,7 +100,7 @@ TEMPLATE_TEST_CASE("of shared constants, too", "", float, double) {
     const std::size_t n = c.tree.size_bodies();
     append(c.tree, Tree(c.tree), Vec3(3, 0, 0), 0);
     c.ranges = {{0, n, 0}, {n, n, 1000}};
-    lanes::Run<T> run(c, Target::baseline);
+    lanes::LanesRun<T> run(c, Target::baseline);
     REQUIRE(parts::lanes(run.plan).sharing.on);
     const Layout& layout = parts::lanes(run.plan).layout;
     const Lanes<T>& l = parts::lanes(run.state);
