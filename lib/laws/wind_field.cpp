@@ -88,6 +88,24 @@ bool steady(const Wind& wind) {
            std::all_of(wind.swirl->angle.begin(), wind.swirl->angle.end(), [](double a) { return a == 0; });
 }
 
+std::vector<const char*> parts_over_ground(const Wind& wind) {
+    std::vector<const char*> parts;
+    if (wind.grid) parts.push_back("/wind/grid");
+    if (wind.swirl) parts.push_back("/wind/swirl");
+    if (wind.shelter) parts.push_back("/wind/shelter");
+    return parts;
+}
+
+bool blows(const Wind& wind) {
+    const std::vector<Vec3>* cells = wind.grid ? &wind.grid->velocity : nullptr;
+    return !wind.velocity.isZero() ||
+           (cells && std::any_of(cells->begin(), cells->end(), [](const Vec3& v) { return !v.isZero(); }));
+}
+
+Vec3 mean_wind(const Wind& wind, const Vec3& place) {
+    return wind_factor(wind, place) * wind.velocity;
+}
+
 Vec3 field_velocity(const Wind& wind, const WindWeather& weather, double x, double z, double t) {
     Vec3 v = wind.velocity * weather.gust + weather.turbulence;
     if (wind.grid) {

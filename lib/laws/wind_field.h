@@ -28,6 +28,14 @@ namespace bough {
 inline bool varies_over_ground(const Wind& wind) {
     return wind.grid || wind.swirl || wind.shelter;
 }
+// What of it makes it so, as JSON pointers.
+std::vector<const char*> parts_over_ground(const Wind&);
+// Whether it blows, and one way wherever and whenever it does, but for turbulence.
+inline bool one_way(const Wind& wind) {
+    return !wind.grid && !wind.swirl && !wind.velocity.isZero(0);
+}
+// Whether it is more than still air.
+bool blows(const Wind&);
 // Whether it blows the same at all times.
 bool steady(const Wind&);
 
@@ -65,6 +73,9 @@ inline std::size_t cell_at(const WindGrid& grid, double x, double z) {
 template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell) {
     return list.size() == 1 ? list.front() : list[cell];
 }
+
+// [m/s] The mean at a place [m] of the wind as a whole, without what cells and turns make of it.
+Vec3 mean_wind(const Wind&, const Vec3& place);
 
 // Directly: the velocity at (x, z) [m] where the profile is 1.
 Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double t);
