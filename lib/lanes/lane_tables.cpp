@@ -72,17 +72,8 @@ void place_field(const Plan<T>& plan, const PlannedLanes<T>& planned, State<T>& 
     evaluate_wind(*plan.scene.wind, middle, state.wind);
     const WindField<T>& field = state.wind.field;
     rows.middle = tables_of(field);
-    rows.x = field.x;
-    rows.z = field.z;
-    rows.per_metre = field.per_metre;
-    rows.columns = field.columns;
-    rows.rows = field.rows;
-    rows.cells = std::int32_t(field.cells());
+    rows.shape = field.shape;
     rows.all_cells = std::int32_t(field.velocity.size() / 3);
-    rows.center_x = field.center_x;
-    rows.center_z = field.center_z;
-    rows.rings_per_metre = field.rings_per_metre;
-    rows.rings = std::int32_t(field.rings());
     rows.all_rings = std::int32_t(field.turn.size() / 2);
     rows.shelter = planned.shelter.empty() ? nullptr : planned.shelter.front().lane;
     rows.clock = planned.clock.empty() ? nullptr : planned.clock.front().lane;
