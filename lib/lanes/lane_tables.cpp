@@ -81,6 +81,10 @@ void place_field(const Plan<T>& plan, const PlannedLanes<T>& planned, State<T>& 
 
 } // namespace
 
+template <class T> SweepLoads sweep_loads(const Plan<T>& plan) {
+    return {plan.wind, plan.pushes(), plan.gravity, plan.field};
+}
+
 template <class T>
 void place_tables(const Plan<T>& plan, const PlannedLanes<T>& planned, State<T>& state, Lanes<T>& lanes, double middle,
                   SweepRows<T>& rows) {
@@ -150,6 +154,7 @@ template <class T> void share_scratch(const Layout& layout, Lanes<T>& lanes, std
     template void put_body(const Plan<T>&, std::size_t, const Slot<T>&);                                               \
     template void resize_records(const Layout&, RowVector<T>&, int);                                                   \
     template void pack_pulls(const Plan<T>&, const PlannedLanes<T>&, Lanes<T>&);                                       \
+    template SweepLoads sweep_loads(const Plan<T>&);                                                                   \
     template void place_tables(const Plan<T>&, const PlannedLanes<T>&, State<T>&, Lanes<T>&, double, SweepRows<T>&);   \
     template void add_ports(const PlannedLanes<T>&, Lanes<T>&, int);                                                   \
     template void share_scratch(const Layout&, Lanes<T>&, std::size_t, std::size_t);

@@ -73,6 +73,12 @@ template <class T> struct SweepRows {
     LeafTerms<T> leaf;
 };
 
+// What of the scene the sweeps are compiled for.
+struct SweepLoads {
+    bool wind, pulls, gravity;
+    bool field; // the wind varies over the ground
+};
+
 // What a sweep over a block met with.
 struct SweepFlags {
     std::uint64_t fast_turns = 0, half_turns = 0;
