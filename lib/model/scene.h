@@ -302,6 +302,12 @@ struct Scene {
     std::size_t add(std::shared_ptr<const Tree>, const Vec3& position = Vec3::Zero(), double yaw = 0);
 };
 
+// Whether nothing acts on the trees but the weight that they stand under.
+inline bool stands_still(const Scene& s) {
+    return !s.wind && s.pulls.empty() && s.attachments.empty() && s.root_motion.empty() && !s.fracture &&
+           s.balls.empty() && s.walkers.empty() && (s.pose != Pose::rest || s.gravity.isZero());
+}
+
 // The first broken rule, or none. O(keys).
 std::optional<Defect> check(const Scene&);
 
