@@ -95,9 +95,7 @@ std::vector<Variant> chosen_variants(const ErrorCommand& o) {
 
 // A drawn tree that nothing moves stands still: what is measured then is its fall from the unloaded pose.
 void let_move(ErrorCommand& o, Scene& scene) {
-    if (scene.wind || !scene.pulls.empty() || !scene.attachments.empty() || !scene.root_motion.empty() ||
-        scene.pose != Pose::drawn)
-        return;
+    if (!stands_still(scene) || scene.pose != Pose::drawn) return;
     if (sets_field(o.run.set, "pose"))
         throw UsageError("--set pose=drawn: nothing moves then; name a wind, or leave it out to switch gravity on");
     scene.pose = Pose::rest;

@@ -3,6 +3,7 @@
 #include "formats/reports/gnuplot.h"
 #include "formats/reports/modes_report.h"
 #include "frame_sink.h"
+#include "lib/laws/wind_field.h"
 #include "made_with.h"
 #include "profile.h"
 #include "progress.h"
@@ -153,9 +154,9 @@ void work(ModesCommand& o) {
     for (double& beta : setting.tree.damping) beta *= setting.scene.damping_scale;
     o.common.notes.insert(o.common.notes.end(), setting.notes.begin(), setting.notes.end());
     refuse_overwriting_trees(setting, written);
-    if (setting.scene.wind && (setting.scene.wind->grid || setting.scene.wind->swirl || setting.scene.wind->shelter))
-        throw UsageError(
-            "modes: a wind with /wind/grid, /wind/swirl or /wind/shelter has no one mean that could damp a tree");
+    if (setting.scene.wind && varies_over_ground(*setting.scene.wind))
+        throw UsageError(std::string("modes: a wind with ") + parts_over_ground(*setting.scene.wind).front() +
+                         " has no one mean that could damp a tree");
     interrupt_at_boundary();
     ModeOptions options;
     options.count = o.modes;

@@ -102,12 +102,6 @@ void refuse_contradictions(const TreesimOptions& o, const Setting& setting) {
     if (!o.save_tree.empty()) require_one_tree(setting);
 }
 
-// Whether nothing acts on the trees but the weight that they stand under.
-bool stands_still(const Scene& scene) {
-    return !scene.wind && scene.pulls.empty() && scene.root_motion.empty() && !scene.fracture && scene.balls.empty() &&
-           scene.walkers.empty() && (scene.pose != Pose::rest || scene.gravity.isZero());
-}
-
 RunWishes wishes_of(const TreesimOptions& o, const std::string& format) {
     RunWishes wishes;
     wishes.fields = chosen_fields(o);
@@ -143,7 +137,7 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " + awake);
     if (frames > 1 && o.resume.empty() && stands_still(setting->scene))
         o.common.notes.push_back(
-            "nothing will move: the scene has no wind, pulls, moved roots or balls; try --wind gusty");
+            "nothing will move: the scene has no wind, pulls, attachments, moved roots or balls; try --wind gusty");
     FrameRange range = frames_to_make(o, run, frames);
     settle(run, before, o);
     const std::int64_t started = run.steps();

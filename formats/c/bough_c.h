@@ -143,7 +143,7 @@ typedef struct bough_wind {
 } bough_wind;
 /* "calm", "breeze", "gusty", "storm"; NULL: air that stands still, from which wind may rise. */
 bough_result bough_wind_preset(const char* name, bough_wind* wind);
-/* wind NULL: none, not even the air's drag. A wind of the document keeps its grid, swirl, shelter and period. */
+/* wind NULL: none, not even the air's drag. A wind of the document keeps what bough_wind has no field for. */
 bough_result bough_scene_set_wind(bough_scene* scene, const bough_wind* wind);
 
 /* --- Simulations ------------------------------------------------------------------------------------------------------------------------ */

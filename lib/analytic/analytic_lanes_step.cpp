@@ -33,8 +33,7 @@ AnalyticRows<T> rows_of(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, St
 template <class T>
 SweepFlags sweep(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, AnalyticLanesState<T>& work,
                  const AnalyticRows<T>& rows) {
-    const AnalyticLoads loads{plan.wind, plan.pushes(), plan.gravity, plan.field};
-    const AnalyticSweeps<T> sweeps = analytic_sweeps_for<T>(own.lanes.target, loads);
+    const AnalyticSweeps<T> sweeps = analytic_sweeps_for<T>(own.lanes.target, sweep_loads(plan));
     const std::vector<Block>& blocks = own.lanes.layout.blocks;
     Lanes<T>& lanes = work.lanes;
     const std::size_t count =

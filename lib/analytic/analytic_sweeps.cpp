@@ -39,7 +39,7 @@ template <class T, bool wind, bool pulls, bool gravity, bool field = false> Anal
 
 } // namespace
 
-template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads loads) {
+template <class T> AnalyticSweeps<T> analytic_sweeps(SweepLoads loads) {
     if (loads.field) return sweeps_with<T, true, false, true, true>();
     if (loads.wind) // it has forces, and so room for pulls
         return loads.gravity ? sweeps_with<T, true, false, true>() : sweeps_with<T, true, false, false>();
@@ -47,8 +47,8 @@ template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads loads) {
     return loads.gravity ? sweeps_with<T, false, false, true>() : sweeps_with<T, false, false, false>();
 }
 
-template AnalyticSweeps<float> analytic_sweeps(AnalyticLoads);
-template AnalyticSweeps<double> analytic_sweeps(AnalyticLoads);
+template AnalyticSweeps<float> analytic_sweeps(SweepLoads);
+template AnalyticSweeps<double> analytic_sweeps(SweepLoads);
 
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

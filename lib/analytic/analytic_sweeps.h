@@ -14,12 +14,6 @@
 
 namespace bough::fast {
 
-// What of the scene the sweeps are compiled for.
-struct AnalyticLoads {
-    bool wind, pulls, gravity;
-    bool field; // the wind varies over the ground
-};
-
 template <class T> struct AnalyticSweeps {
     // Outward, and for terminal groups at once inward, with their joints' steps: `scratch` holds analytic::loaded::count quantities
     // for each row of the block.

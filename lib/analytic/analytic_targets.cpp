@@ -3,13 +3,13 @@
 
 namespace bough::fast {
 
-BOUGH_IN_TARGETS(template <class T> AnalyticSweeps<T> analytic_sweeps(AnalyticLoads);)
+BOUGH_IN_TARGETS(template <class T> AnalyticSweeps<T> analytic_sweeps(SweepLoads);)
 
-template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target target, AnalyticLoads loads) {
+template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target target, SweepLoads loads) {
     return BOUGH_OF_TARGET(target, analytic_sweeps<T>(loads));
 }
 
-template AnalyticSweeps<float> analytic_sweeps_for(Target, AnalyticLoads);
-template AnalyticSweeps<double> analytic_sweeps_for(Target, AnalyticLoads);
+template AnalyticSweeps<float> analytic_sweeps_for(Target, SweepLoads);
+template AnalyticSweeps<double> analytic_sweeps_for(Target, SweepLoads);
 
 } // namespace bough::fast

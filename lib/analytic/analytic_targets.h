@@ -6,6 +6,6 @@
 namespace bough::fast {
 
 // The target's code, which must be available.
-template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target, AnalyticLoads);
+template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target, SweepLoads);
 
 } // namespace bough::fast

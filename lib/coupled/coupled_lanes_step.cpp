@@ -112,7 +112,7 @@ CoupledRows<T> rows_of(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Stat
 template <class T>
 SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work,
                  const CoupledRows<T>& rows, int k) {
-    const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(own.lanes.target, plan.wind, plan.gravity, plan.field);
+    const CoupledSweeps<T> sweeps = coupled_sweeps_for<T>(own.lanes.target, sweep_loads(plan));
     const std::vector<Block>& blocks = own.lanes.layout.blocks;
     Lanes<T>& lanes = work.lanes;
     const std::size_t most = largest_block(own.lanes.layout);

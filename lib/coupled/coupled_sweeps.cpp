@@ -62,19 +62,19 @@ template <class T> void accelerate_sweep(const CoupledRows<T>& rows, const Block
 
 } // namespace
 
-template <class T> CoupledSweeps<T> coupled_sweeps(bool wind, bool gravity, bool field) {
-    if (field) return {outward_sweep<T, true, true, true>, inward_sweep<T, true, true>, accelerate_sweep<T>};
-    if (wind)
-        return gravity
+template <class T> CoupledSweeps<T> coupled_sweeps(SweepLoads loads) {
+    if (loads.field) return {outward_sweep<T, true, true, true>, inward_sweep<T, true, true>, accelerate_sweep<T>};
+    if (loads.wind)
+        return loads.gravity
                    ? CoupledSweeps<T>{outward_sweep<T, true, true>, inward_sweep<T, true, true>, accelerate_sweep<T>}
                    : CoupledSweeps<T>{outward_sweep<T, true, false>, inward_sweep<T, true, false>, accelerate_sweep<T>};
-    return gravity
+    return loads.gravity
                ? CoupledSweeps<T>{outward_sweep<T, false, true>, inward_sweep<T, false, true>, accelerate_sweep<T>}
                : CoupledSweeps<T>{outward_sweep<T, false, false>, inward_sweep<T, false, false>, accelerate_sweep<T>};
 }
 
-template CoupledSweeps<float> coupled_sweeps(bool, bool, bool);
-template CoupledSweeps<double> coupled_sweeps(bool, bool, bool);
+template CoupledSweeps<float> coupled_sweeps(SweepLoads);
+template CoupledSweeps<double> coupled_sweeps(SweepLoads);
 
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

@@ -7,7 +7,7 @@
 namespace bough::fast {
 
 // The target's code, which must be available.
-template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, bool wind, bool gravity, bool field);
-template <class T> EnergySweepOf<T> energy_sweep_for(Target, bool wind, bool field);
+template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, SweepLoads);
+template <class T> EnergySweepOf<T> energy_sweep_for(Target, SweepLoads);
 
 } // namespace bough::fast

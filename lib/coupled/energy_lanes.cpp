@@ -123,7 +123,7 @@ void guard_lanes(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& 
     const std::vector<std::uint8_t>& blocks = watch(own, work);
     const EnergyRows<T> energies = make_room(plan, own, work.lanes);
     if (plan.root_motion) place_grounds(plan, own, work);
-    const EnergySweepOf<T> weigh = energy_sweep_for<T>(own.lanes.target, plan.wind, plan.field);
+    const EnergySweepOf<T> weigh = energy_sweep_for<T>(own.lanes.target, sweep_loads(plan));
     const auto weigh_block = [&](const Block& block) {
         CoupledRows<T> mine = rows;
         place_block(own, work, block, mine);

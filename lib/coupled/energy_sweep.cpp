@@ -295,13 +295,13 @@ void energy_block(const CoupledRows<T>& rows, const EnergyRows<T>& energies, con
 
 } // namespace
 
-template <class T> EnergySweepOf<T> energy_sweep(bool wind, bool field) {
-    if (field) return energy_block<T, true, true>;
-    return wind ? energy_block<T, true> : energy_block<T, false>;
+template <class T> EnergySweepOf<T> energy_sweep(SweepLoads loads) {
+    if (loads.field) return energy_block<T, true, true>;
+    return loads.wind ? energy_block<T, true> : energy_block<T, false>;
 }
 
-template EnergySweepOf<float> energy_sweep<float>(bool, bool);
-template EnergySweepOf<double> energy_sweep<double>(bool, bool);
+template EnergySweepOf<float> energy_sweep<float>(SweepLoads);
+template EnergySweepOf<double> energy_sweep<double>(SweepLoads);
 
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

@@ -72,23 +72,18 @@ void place_field(const Plan<T>& plan, const PlannedLanes<T>& planned, State<T>& 
     evaluate_wind(*plan.scene.wind, middle, state.wind);
     const WindField<T>& field = state.wind.field;
     rows.middle = tables_of(field);
-    rows.x = field.x;
-    rows.z = field.z;
-    rows.per_metre = field.per_metre;
-    rows.columns = field.columns;
-    rows.rows = field.rows;
-    rows.cells = std::int32_t(field.cells());
+    rows.shape = field.shape;
     rows.all_cells = std::int32_t(field.velocity.size() / 3);
-    rows.center_x = field.center_x;
-    rows.center_z = field.center_z;
-    rows.rings_per_metre = field.rings_per_metre;
-    rows.rings = std::int32_t(field.rings());
     rows.all_rings = std::int32_t(field.turn.size() / 2);
     rows.shelter = planned.shelter.empty() ? nullptr : planned.shelter.front().lane;
     rows.clock = planned.clock.empty() ? nullptr : planned.clock.front().lane;
 }
 
 } // namespace
+
+template <class T> SweepLoads sweep_loads(const Plan<T>& plan) {
+    return {plan.wind, plan.pushes(), plan.gravity, plan.field};
+}
 
 template <class T>
 void place_tables(const Plan<T>& plan, const PlannedLanes<T>& planned, State<T>& state, Lanes<T>& lanes, double middle,
@@ -159,6 +154,7 @@ template <class T> void share_scratch(const Layout& layout, Lanes<T>& lanes, std
     template void put_body(const Plan<T>&, std::size_t, const Slot<T>&);                                               \
     template void resize_records(const Layout&, RowVector<T>&, int);                                                   \
     template void pack_pulls(const Plan<T>&, const PlannedLanes<T>&, Lanes<T>&);                                       \
+    template SweepLoads sweep_loads(const Plan<T>&);                                                                   \
     template void place_tables(const Plan<T>&, const PlannedLanes<T>&, State<T>&, Lanes<T>&, double, SweepRows<T>&);   \
     template void add_ports(const PlannedLanes<T>&, Lanes<T>&, int);                                                   \
     template void share_scratch(const Layout&, Lanes<T>&, std::size_t, std::size_t);

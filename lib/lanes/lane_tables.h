@@ -16,6 +16,8 @@ template <class T> void resize_records(const Layout&, RowVector<T>& records, int
 // Lanes::pulls: where each acts. Its force is place_tables'.
 template <class T> void pack_pulls(const Plan<T>&, const PlannedLanes<T>&, Lanes<T>&);
 
+template <class T> SweepLoads sweep_loads(const Plan<T>&);
+
 // Fills in what SweepRows holds, with wind and pulls at the time `middle` [s].
 template <class T>
 void place_tables(const Plan<T>&, const PlannedLanes<T>&, State<T>&, Lanes<T>&, double middle, SweepRows<T>&);

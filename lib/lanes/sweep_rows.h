@@ -3,6 +3,7 @@
 //
 // A row of a table is `count` quantities of 64 bytes each.
 #pragma once
+#include "../laws/field_shape.h"
 #include "../laws/leaf_terms.h"
 #include "block.h"
 #include <cstddef>
@@ -46,12 +47,10 @@ template <class T> struct FieldTables {
 };
 template <class T> struct FieldRows {
     FieldTables<T> middle; // of the step
-    T x, z, per_metre;
-    std::int32_t columns, rows, cells, all_cells; // cells: of one clock
-    T center_x, center_z, rings_per_metre;
-    std::int32_t rings, all_rings;
-    const T* shelter; // [1] a row of lanes for each row; null: none
-    const T* clock;   // likewise: which of the wind's clocks
+    FieldShape<T> shape;
+    std::int32_t all_cells, all_rings; // of all clocks
+    const T* shelter;                  // [1] a row of lanes for each row; null: none
+    const T* clock;                    // likewise: which of the wind's clocks
 };
 
 template <class T> struct SweepRows {
@@ -72,6 +71,12 @@ template <class T> struct SweepRows {
     T per_metre;
     FieldRows<T> field; // for sweeps that are compiled for it
     LeafTerms<T> leaf;
+};
+
+// What of the scene the sweeps are compiled for.
+struct SweepLoads {
+    bool wind, pulls, gravity;
+    bool field; // the wind varies over the ground
 };
 
 // What a sweep over a block met with.

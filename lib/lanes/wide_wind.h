@@ -82,16 +82,17 @@ private:
 
     BOUGH_FORCE OverGround over_ground(std::uint32_t body_row, int lane, const W& x, const W& z) const {
         const FieldRows<T>& f = rows.field;
+        const FieldShape<T>& s = f.shape;
         OverGround at{};
-        const W column = floor_of(within(W((x - f.x) * f.per_metre), f.columns - 1)),
-                row = floor_of(within(W((z - f.z) * f.per_metre), f.rows - 1));
+        const W column = floor_of(within(W((x - s.x) * s.per_metre), s.columns - 1)),
+                row = floor_of(within(W((z - s.z) * s.per_metre), s.rows - 1));
         const W clock = f.clock ? read(f.clock + body_row * std::size_t(L) + lane) : W{};
-        at.cell = index_of(W(clock * T(f.cells) + (row * T(f.columns) + column)));
+        at.cell = index_of(W(clock * T(s.cells) + (row * T(s.columns) + column)));
         if (!f.middle.turn) return at;
-        const W dx = x - f.center_x, dz = z - f.center_z;
-        const W place = within(W(root(W(dx * dx + dz * dz)) * f.rings_per_metre), f.rings - 1);
-        const W ring = smaller(floor_of(place), all(T(f.rings - 2)));
-        at.ring = index_of(W(clock * T(f.rings) + ring));
+        const W dx = x - s.center_x, dz = z - s.center_z;
+        const W place = within(W(root(W(dx * dx + dz * dz)) * s.rings_per_metre), s.rings - 1);
+        const W ring = smaller(floor_of(place), all(T(s.rings - 2)));
+        at.ring = index_of(W(clock * T(s.rings) + ring));
         at.weight = place - ring;
         return at;
     }

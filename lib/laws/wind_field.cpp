@@ -88,6 +88,24 @@ bool steady(const Wind& wind) {
            std::all_of(wind.swirl->angle.begin(), wind.swirl->angle.end(), [](double a) { return a == 0; });
 }
 
+std::vector<const char*> parts_over_ground(const Wind& wind) {
+    std::vector<const char*> parts;
+    if (wind.grid) parts.push_back("/wind/grid");
+    if (wind.swirl) parts.push_back("/wind/swirl");
+    if (wind.shelter) parts.push_back("/wind/shelter");
+    return parts;
+}
+
+bool blows(const Wind& wind) {
+    const std::vector<Vec3>* cells = wind.grid ? &wind.grid->velocity : nullptr;
+    return !wind.velocity.isZero() ||
+           (cells && std::any_of(cells->begin(), cells->end(), [](const Vec3& v) { return !v.isZero(); }));
+}
+
+Vec3 mean_wind(const Wind& wind, const Vec3& place) {
+    return wind_factor(wind, place) * wind.velocity;
+}
+
 Vec3 field_velocity(const Wind& wind, const WindWeather& weather, double x, double z, double t) {
     Vec3 v = wind.velocity * weather.gust + weather.turbulence;
     if (wind.grid) {
@@ -113,24 +131,28 @@ template <class T> WindField<T> make_wind_field(const Wind& wind, double reach, 
     WindField<T> field;
     if (!varies_over_ground(wind) && clocks.size() == 1) return field;
     field.clock = clocks;
+    FieldShape<T>& shape = field.shape;
     if (wind.grid) {
-        field.x = T(wind.grid->x);
-        field.z = T(wind.grid->z);
-        field.per_metre = T(1 / wind.grid->cell);
-        field.columns = wind.grid->columns;
-        field.rows = wind.grid->rows;
+        shape.x = T(wind.grid->x);
+        shape.z = T(wind.grid->z);
+        shape.per_metre = T(1 / wind.grid->cell);
+        shape.columns = wind.grid->columns;
+        shape.rows = wind.grid->rows;
+        shape.cells = shape.columns * shape.rows;
     }
-    if (field.cells() * clocks.size() > most_entries)
-        throw std::domain_error("wind/grid: its " + std::to_string(field.cells()) + " cells for each of the " +
+    const auto cells = std::size_t(shape.cells);
+    if (cells * clocks.size() > most_entries)
+        throw std::domain_error("wind/grid: its " + std::to_string(cells) + " cells for each of the " +
                                 std::to_string(clocks.size()) + " starts of trees are more than " +
                                 std::to_string(most_entries) + " entries; expected fewer cells or starts");
-    field.velocity.resize(3 * field.cells() * clocks.size());
+    field.velocity.resize(3 * cells * clocks.size());
     if (!wind.swirl) return field;
     const double far = std::max(reach, 1e-3);
     const std::size_t n = rings(*wind.swirl, far);
-    field.center_x = T(wind.swirl->x);
-    field.center_z = T(wind.swirl->z);
-    field.rings_per_metre = T(double(n - 1) / far);
+    shape.center_x = T(wind.swirl->x);
+    shape.center_z = T(wind.swirl->z);
+    shape.rings_per_metre = T(double(n - 1) / far);
+    shape.rings = std::int32_t(n);
     if (n * clocks.size() > most_entries)
         throw std::domain_error("wind/swirl: its " + std::to_string(n) + " rings for each of the " +
                                 std::to_string(clocks.size()) + " starts of trees are more than " +
@@ -148,7 +170,7 @@ namespace {
 
 template <class T> void evaluate_clock(const Wind& wind, std::size_t which, double t, WindField<T>& field) {
     const WindWeather weather = wind_weather(wind, t);
-    const std::size_t n = field.cells(), all = field.velocity.size() / 3;
+    const auto n = std::size_t(field.shape.cells), all = field.velocity.size() / 3;
     const auto put = [&](std::size_t cell, const Vec3& v) {
         for (std::size_t k = 0; k < 3; ++k) field.velocity[k * all + which * n + cell] = T(v[Eigen::Index(k)]);
     };
@@ -160,8 +182,9 @@ template <class T> void evaluate_clock(const Wind& wind, std::size_t which, doub
     }
     if (!wind.swirl) return;
     const double now = two_pi * turns(t, whole_period(wind, wind.swirl->period)), c = std::cos(now), s = std::sin(now);
-    T* const turn = field.turn.data() + which * field.rings();
-    for (std::size_t k = 0; k < field.rings(); ++k) {
+    const auto rings = std::size_t(field.shape.rings);
+    T* const turn = field.turn.data() + which * rings;
+    for (std::size_t k = 0; k < rings; ++k) {
         const double angle = s * field.ahead[k] - c * field.behind[k]; // A sin(now - b)
         turn[k] = T(std::cos(angle));
         turn[field.turn.size() / 2 + k] = T(std::sin(angle));

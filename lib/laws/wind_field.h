@@ -18,6 +18,7 @@
 // and of the way to the farthest body; beyond that one they are constant.
 #pragma once
 #include "../model/scene.h"
+#include "field_shape.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -28,6 +29,14 @@ namespace bough {
 inline bool varies_over_ground(const Wind& wind) {
     return wind.grid || wind.swirl || wind.shelter;
 }
+// What of it makes it so, as JSON pointers.
+std::vector<const char*> parts_over_ground(const Wind&);
+// Whether it blows, and one way wherever and whenever it does, but for turbulence.
+inline bool one_way(const Wind& wind) {
+    return !wind.grid && !wind.swirl && !wind.velocity.isZero(0);
+}
+// Whether it is more than still air.
+bool blows(const Wind&);
 // Whether it blows the same at all times.
 bool steady(const Wind&);
 
@@ -66,43 +75,42 @@ template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell
     return list.size() == 1 ? list.front() : list[cell];
 }
 
+// [m/s] The mean at a place [m] of the wind as a whole, without what cells and turns make of it.
+Vec3 mean_wind(const Wind&, const Vec3& place);
+
 // Directly: the velocity at (x, z) [m] where the profile is 1.
 Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double t);
 
 template <class T> struct WindField {
-    // Grid
-    T x = 0, z = 0, per_metre = 0; // [m] least corner; [1/m] cells a metre
-    std::int32_t columns = 1, rows = 1;
+    FieldShape<T> shape;
     std::vector<T>
         velocity; // [m/s] of each clock's cells where the profile is 1: all x, all y, all z; empty: no field at all
-    // Swirl
-    T center_x = 0, center_z = 0, rings_per_metre = 0; // [m]; [1/m] entries a metre
-    std::vector<T> turn;                               // of each clock's rings: cosines, then sines; empty: none
-    std::vector<double> ahead, behind;                 // [rad] A(r) times cosine and sine of 2 pi r / wavelength
+    std::vector<T> turn;               // of each clock's rings: cosines, then sines; empty: no swirl
+    std::vector<double> ahead, behind; // [rad] A(r) times cosine and sine of 2 pi r / wavelength
 
     std::vector<double> clock{0}; // [s] by how much each is ahead
 
     bool on() const { return !velocity.empty(); }
-    std::size_t cells() const { return std::size_t(columns) * std::size_t(rows); } // of one clock
-    std::size_t rings() const { return ahead.size(); }
 
     Vector3<T> at(T px, T pz, std::size_t which = 0) const {
         // A place that is not a number, in a run that diverges, is the first cell: max keeps its first argument.
         const auto along = [](T place, std::int32_t count) {
             return std::size_t(std::min(std::max(T(0), place), T(count - 1)));
         };
-        const std::size_t n = velocity.size() / 3, k = which * cells() +
-                                                       along((pz - z) * per_metre, rows) * std::size_t(columns) +
-                                                       along((px - x) * per_metre, columns);
+        const FieldShape<T>& s = shape;
+        const std::size_t n = velocity.size() / 3,
+                          k = which * std::size_t(s.cells) +
+                              along((pz - s.z) * s.per_metre, s.rows) * std::size_t(s.columns) +
+                              along((px - s.x) * s.per_metre, s.columns);
         const Vector3<T> v(velocity[k], velocity[n + k], velocity[2 * n + k]);
         if (turn.empty()) return v;
-        const T dx = px - center_x, dz = pz - center_z;
-        const T place = std::min(std::max(T(0), std::sqrt(dx * dx + dz * dz) * rings_per_metre), T(rings() - 1));
-        const std::size_t ring = std::min(std::size_t(place), rings() - 2);
+        const T dx = px - s.center_x, dz = pz - s.center_z;
+        const T place = std::min(std::max(T(0), std::sqrt(dx * dx + dz * dz) * s.rings_per_metre), T(s.rings - 1));
+        const std::size_t ring = std::min(std::size_t(place), std::size_t(s.rings - 2));
         const T w = place - T(ring);
-        const T* c = turn.data() + which * rings() + ring;
-        const T* s = c + turn.size() / 2;
-        const T cosine = c[0] + w * (c[1] - c[0]), sine = s[0] + w * (s[1] - s[0]);
+        const T* cosines = turn.data() + which * std::size_t(s.rings) + ring;
+        const T* sines = cosines + turn.size() / 2;
+        const T cosine = cosines[0] + w * (cosines[1] - cosines[0]), sine = sines[0] + w * (sines[1] - sines[0]);
         const T one = 1 / std::sqrt(cosine * cosine + sine * sine);
         return swirled<T>(v, one * cosine, one * sine);
     }

@@ -59,6 +59,8 @@ struct WindGrid {
     std::vector<double> phase{
         0};                 // [rad] of the first octave at time 0; all of a cell's octaves are as far ahead in time
     double frequency = 0.2; // [Hz] of the first octave
+
+    bool operator==(const WindGrid&) const = default;
 };
 
 // The wind turned to and fro about the vertical, on cylinders about one axis.
@@ -68,11 +70,15 @@ struct WindSwirl {
     std::vector<double> angle;        // [deg] largest turn at each key
     double period = 4;                // [s]
     std::optional<double> wavelength; // [m] along the radius, outward; absent: all cylinders turn at once
+
+    bool operator==(const WindSwirl&) const = default;
 };
 
 // Trees behind trees, and behind their own crown, have less wind (shelter.h).
 struct WindShelter {
     double cell = 0; // [m] side of the columns of air
+
+    bool operator==(const WindShelter&) const = default;
 };
 
 // Wind (design: one definition for all). Velocity at height y above the ground, time t:
@@ -94,6 +100,8 @@ struct Wind {
         period; // [s] after which all of it repeats: each frequency is the nearest multiple of 1 / period, at least one
     // [s] By how much turbulence and gusts are ahead of time: of a wind that was changed in a run (go_on of laws/wind.h). No part of a document.
     double turbulence_ahead = 0, gust_ahead = 0;
+
+    bool operator==(const Wind&) const = default;
 };
 // calm 1, breeze 4, gusty 8, storm 20 m/s along +x. nullopt for another name.
 std::optional<Wind> wind_preset(const std::string& name);
@@ -293,6 +301,12 @@ struct Scene {
     std::size_t add(Tree, const Vec3& position = Vec3::Zero(), double yaw = 0);
     std::size_t add(std::shared_ptr<const Tree>, const Vec3& position = Vec3::Zero(), double yaw = 0);
 };
+
+// Whether nothing acts on the trees but the weight that they stand under.
+inline bool stands_still(const Scene& s) {
+    return !s.wind && s.pulls.empty() && s.attachments.empty() && s.root_motion.empty() && !s.fracture &&
+           s.balls.empty() && s.walkers.empty() && (s.pose != Pose::rest || s.gravity.isZero());
+}
 
 // The first broken rule, or none. O(keys).
 std::optional<Defect> check(const Scene&);

@@ -1,5 +1,6 @@
 #include "reduce.h"
 #include "../laws/leaf_air.h"
+#include "../laws/wind_field.h"
 #include "reduce_air.h"
 #include <algorithm>
 
@@ -123,8 +124,9 @@ Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, double p
 }
 
 Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, const Scene& scene) {
-    const bool one_way = scene.wind && !scene.wind->grid && !scene.wind->swirl && !scene.wind->velocity.isZero(0);
-    return reduce(whole, ranges, plate_kappa(scene), one_way ? scene.wind->velocity.normalized() : Vec3(Vec3::Zero()));
+    const bool toward_one = scene.wind && one_way(*scene.wind);
+    return reduce(whole, ranges, plate_kappa(scene),
+                  toward_one ? scene.wind->velocity.normalized() : Vec3(Vec3::Zero()));
 }
 
 std::optional<Selector> selector_on(const Reduced& r, const Selected& in_whole) {

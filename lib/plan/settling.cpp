@@ -53,18 +53,7 @@ Standing stand(const Tree& tree, const StartPose& pose) {
     return there;
 }
 
-Vec3 mean_wind(const Scene& scene, const Vec3& place) {
-    return wind_factor(*scene.wind, place) * scene.wind->velocity;
-}
-
 } // namespace
-
-bool blows(const Scene& scene) {
-    if (!scene.wind) return false;
-    const std::vector<Vec3>* cells = scene.wind->grid ? &scene.wind->grid->velocity : nullptr;
-    return !scene.wind->velocity.isZero() ||
-           (cells && std::any_of(cells->begin(), cells->end(), [](const Vec3& v) { return !v.isZero(); }));
-}
 
 FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scene) {
     const Tree own = standing(tree, range, scene);
@@ -92,7 +81,7 @@ FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scen
         if (!scene.wind) continue;
         const Kind kind = kind_in_air(tree, whole);
         const double scale = drag_area(tree, whole, kind, scene.air_density, plate_kappa(scene));
-        lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(scene, before.com[i])) * u);
+        lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(*scene.wind, before.com[i])) * u);
     }
     if (!(pushed > 0) || !(moved > 0) || !std::isfinite(moved)) return {}; // it buckles
     const double omega = std::sqrt(a * pushed / moved);
@@ -100,7 +89,7 @@ FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scen
 }
 
 double settling_time(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene) {
-    if (!blows(scene)) return 0;
+    if (!scene.wind || !blows(*scene.wind)) return 0;
     double longest = least_settling;
     for (const TreeRange& range : ranges) {
         if (range.bodies == 0) continue;

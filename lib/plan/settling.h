@@ -24,9 +24,6 @@ struct FirstSway {
 // [s] most: a tree that sways for longer, has no damping, or gives way to the tilt; least: a stiff one, whose leaves still swing.
 constexpr double most_settling = 20, least_settling = 2;
 
-// Whether a wind blows at all.
-bool blows(const Scene&);
-
 // Of a tree on its own; stiffness and damping are scaled by the scene's factors. The bodies of `range`, all roots among them together. O(bodies).
 // omega 0: no such sway was found.
 FirstSway first_sway(const Tree&, const TreeRange& range, const Scene&);

@@ -7,6 +7,7 @@
 #include "../coupled/coupled_places.h"
 #include "../coupled/coupled_stepper.h"
 #include "../lanes/plan_lanes.h"
+#include "../laws/wind_field.h"
 #include <string_view>
 
 namespace bough {
@@ -61,12 +62,12 @@ template <class T> std::string forces_text(const Plan<T>& plan) {
 
 // What of a wind varies over the ground, as the plan says it.
 std::string parts_of_field(const Wind& wind) {
-    const auto text_of = [](std::size_t n, const char* what) { return std::to_string(n) + what; };
     std::string parts;
-    if (wind.grid)
-        parts += "; /wind/grid, " + text_of(std::size_t(wind.grid->columns) * std::size_t(wind.grid->rows), " cells");
-    if (wind.swirl) parts += "; /wind/swirl";
-    if (wind.shelter) parts += "; /wind/shelter";
+    for (const std::string_view part : parts_over_ground(wind)) {
+        parts += "; " + std::string(part);
+        if (part != "/wind/grid") continue;
+        parts += ", " + std::to_string(std::size_t(wind.grid->columns) * std::size_t(wind.grid->rows)) + " cells";
+    }
     return parts;
 }
 

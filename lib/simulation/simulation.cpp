@@ -12,23 +12,16 @@ void require_finite(const Vec3& v, const char* name) {
     if (!v.allFinite()) throw SceneError(std::string(name) + ": is not finite, expected three finite numbers");
 }
 
-// What of a wind is in the tables that a plan was made with.
-bool same_tables(const Wind& a, const Wind& b) {
-    const auto same_grid = [](const WindGrid& x, const WindGrid& y) {
-        return x.x == y.x && x.z == y.z && x.cell == y.cell && x.columns == y.columns && x.rows == y.rows &&
-               x.velocity == y.velocity && x.octaves == y.octaves && x.persistence == y.persistence &&
-               x.phase == y.phase && x.frequency == y.frequency;
-    };
-    const auto same_swirl = [](const WindSwirl& x, const WindSwirl& y) {
-        return x.x == y.x && x.z == y.z && x.radius == y.radius && x.angle == y.angle && x.period == y.period &&
-               x.wavelength == y.wavelength;
-    };
-    const auto same = [](const auto& x, const auto& y, auto equal) {
-        return x.has_value() == y.has_value() && (!x || equal(*x, *y));
-    };
-    return a.reference_height == b.reference_height && a.profile == b.profile && a.period == b.period &&
-           same(a.grid, b.grid, same_grid) && same(a.swirl, b.swirl, same_swirl) &&
-           same(a.shelter, b.shelter, [](const WindShelter& x, const WindShelter& y) { return x.cell == y.cell; });
+// But for what may change in a run: the rest is in the tables that a plan was made with.
+bool same_tables(const Wind& a, Wind b) {
+    b.velocity = a.velocity;
+    b.turbulence = a.turbulence;
+    b.gust_factor = a.gust_factor;
+    b.gust_period = a.gust_period;
+    b.seed = a.seed;
+    b.turbulence_ahead = a.turbulence_ahead;
+    b.gust_ahead = a.gust_ahead;
+    return a == b;
 }
 
 } // namespace
@@ -173,8 +166,9 @@ void Simulation::set_wind(const Wind& wind) {
             "/wind: the scene began without one; begin with still air, a wind of velocity 0, where it may rise");
     if (const std::optional<Defect> defect = check(wind)) throw SceneError("/" + defect->field + " " + defect->message);
     if (!same_tables(*own, wind))
-        throw SceneError("/wind: its reference_height, profile, period, grid, swirl and shelter stay as the run began; "
-                         "expected changes of velocity, turbulence, gusts and seed");
+        throw SceneError(
+            "/wind: only its velocity, turbulence, gusts and seed change in a run; all else of it stays as "
+            "the run began");
     if (run_->sleeps() && (wind.turbulence > 0 || wind.gust_factor > 1))
         throw SceneError(
             "/wind: has gusts or turbulence, in which nothing sleeps; expected a steady one, or a run without "

@@ -119,8 +119,8 @@ public:
 
     // What may change between two steps. None of it plans anew or allocates; each is taken from the next step on, and wakes what sleeps.
     // The wind of a scene that has one (of no velocity at all: still air); turbulence and gusts go on from where they are, at any time, by as little
-    // as the change is (laws/wind.h, go_on). Its grid, swirl, shelter, profile and period stay; where trees may
-    // sleep it stays without gusts and turbulence. Throws SceneError.
+    // as the change is (laws/wind.h, go_on). Velocity, turbulence, gusts and seed may change, the rest of it stays; where trees may sleep it stays
+    // without gusts and turbulence. Throws SceneError.
     void set_wind(const Wind&);
     // Of a scene that has some, with the coupled method. The drawn pose keeps the springs' rest that it had. Throws SceneError.
     void set_gravity(const Vec3&); // [m/s^2]

@@ -105,7 +105,7 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
         const Mat3& R = motion.rotations()[i];
         const Mat3 I = R * tree.inertia[i] * R.transpose();
         Vec3 u = Vec3::Zero();
-        if (scene.wind) u = wind_factor(*scene.wind, motion.joints()[i] + R * tree.com[i]) * scene.wind->velocity;
+        if (scene.wind) u = mean_wind(*scene.wind, motion.joints()[i] + R * tree.com[i]);
         const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
         const AirBody<double> body{kind, area, tree.mass[i], tree.com[i]};
         damping[i].drag = air_load_damping(body, terms, R, u);

@@ -101,7 +101,8 @@ done
 # A run in which nothing acts says so; a guess is told once.
 expect 0 treesim tree.json --frames 3 --no-output
 grep -q 'nothing will move: .*--wind' err || fail "a run without any force does not say so: $(cat err)"
-for what in "--wind breeze" "--set pose=rest" "--resume state.json"; do
+for what in "--wind breeze" "--set pose=rest" "--resume state.json" \
+    '--set attachments=[{"on":{"body":0},"target":[1,2,0],"stiffness":5}]'; do
     [[ $what != --resume* ]] || expect 0 treesim tree.json --frames 3 --no-output --wind breeze --save-state state.json
     # shellcheck disable=SC2086
     treesim tree.json --frames 3 --no-output $what ${state:-} 2>err || [[ $what == --resume* ]] || fail "$what fails: $(cat err)"

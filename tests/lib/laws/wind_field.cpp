@@ -245,7 +245,7 @@ TEST_CASE("the tables are the field: cells exactly, turns to their own error, an
         evaluate_wind(wind, t, single);
         const Vec3 direct = wind_at(wind, place, t);
         // Of the angle: (r apart)^2 / 8 times the second derivative, mostly A (2 pi / wavelength)^2; 30 degrees, 64 entries a wavelength.
-        const double apart = 1.0 / table.field.rings_per_metre,
+        const double apart = 1.0 / table.field.shape.rings_per_metre,
                      bound = apart * apart / 8 * 0.6 * std::pow(two_pi / 5 + 0.5, 2);
         CAPTURE(t, place.transpose());
         CHECK((table.at(place) - direct).norm() <

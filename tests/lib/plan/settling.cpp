@@ -1,5 +1,6 @@
 // settling.h: the first sway by one shape, held against a beam's formula, against Lanczos' modes, and against how long runs remember.
 #include "lib/plan/settling.h"
+#include "lib/laws/wind_field.h"
 #include "lib/study/modes.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulations.h"
@@ -77,5 +78,5 @@ TEST_CASE("where no wind blows nothing has to be forgotten; without damping it t
     scene.wind->velocity = Vec3::Zero();
     scene.wind->grid = WindGrid();
     scene.wind->grid->velocity = {Vec3::Zero(), Vec3(3, 0, 0)};
-    CHECK(blows(scene));
+    CHECK(blows(*scene.wind));
 }
