@@ -4,7 +4,7 @@
 // Lengths are metres, angles degrees in all of them. What a file leaves out takes that program's own default. What
 // cannot be honoured, or only nearly, is named in one note each; the table is in formats/parameters/README.md.
 #pragma once
-#include "lib/growth/grow.h"
+#include "lib/growth/growth_parameters.h"
 #include "parameter_table.h"
 #include <string>
 #include <string_view>

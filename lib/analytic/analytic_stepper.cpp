@@ -39,7 +39,7 @@ const char* early_stage(const std::string& array) {
 } // namespace
 
 template <class T> std::size_t AnalyticWork<T>::bytes() const {
-    std::size_t sum = this->scaled_rate.capacity() * sizeof(Vector3<T>);
+    std::size_t sum = this->scaled_rate.capacity() * sizeof(Vector3<T>) + held.bytes();
     visit_arrays(*this,
                  [&](const char*, const auto& array, AnalyticNeed) { sum += array.capacity() * sizeof(array[0]); });
     return sum;
@@ -83,7 +83,7 @@ template <class T> void AnalyticStepper<T>::allocate(const Plan<T>& plan, State<
         if (on) array.assign(plan.bodies, zero<std::decay_t<decltype(array[0])>>());
     });
     work->root_load.resize(plan.splines.size());
-    if (!plan.attachments.empty()) begin_held(plan, *work);
+    if (!plan.attachments.empty()) work->held = planned_held(plan);
     if (plan.wind) state.wind = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     state.own = Copied<StepperState>(std::move(work));
 }

@@ -210,13 +210,14 @@ template <class T> void find_joints(const Plan<T>& plan, HeldPoints<T>& of) {
 
 } // namespace
 
-template <class T> void begin_held(const Plan<T>& plan, AnalyticWork<T>& work) {
-    HeldPoints<T>& of = work.held;
+template <class T> HeldPoints<T> planned_held(const Plan<T>& plan) {
+    HeldPoints<T> of;
     of.all = planned_attachments(plan);
     find_joints(plan, of);
     place(plan, plan.theta_start, 0, of);
     for (Attached& held : of.all)
         held.target = target_at_start(plan, held, held.start, held.far ? held.far->start : Vec3(Vec3::Zero()));
+    return of;
 }
 
 template <class T>
@@ -308,7 +309,7 @@ template <class T> void slow_held(const Plan<T>& plan, State<T>& s, AnalyticWork
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
-    template void begin_held(const Plan<T>&, AnalyticWork<T>&);                                                        \
+    template HeldPoints<T> planned_held(const Plan<T>&);                                                               \
     template void release_held(const Plan<T>&, AnalyticWork<T>&, const std::vector<std::size_t>&);                     \
     template void hold_points(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&, AnalyticWork<T>&, double);      \
     template void slow_held(const Plan<T>&, State<T>&, AnalyticWork<T>&);

@@ -32,8 +32,8 @@
 
 namespace bough {
 
-// Of the plan's, at the start pose. O(paths).
-template <class T> void begin_held(const Plan<T>&, AnalyticWork<T>&);
+// The plan's, at the start pose. O(paths).
+template <class T> HeldPoints<T> planned_held(const Plan<T>&);
 // Those on bodies that have broken off go.
 template <class T> void release_held(const Plan<T>&, AnalyticWork<T>&, const std::vector<std::size_t>& bodies);
 

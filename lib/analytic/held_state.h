@@ -42,6 +42,13 @@ template <class T> struct HeldPoints {
     std::optional<Eigen::LDLT<Eigen::MatrixXd>> factors;
 
     bool any() const { return !joints.empty(); }
+    // Allocated, but for a few numbers a force beside the factors.
+    std::size_t bytes() const {
+        const auto numbers =
+            answers.size() + asked.size() + solved.size() + (factors ? factors->matrixLDLT().size() : 0);
+        return all.capacity() * sizeof(Attached) + forces.capacity() * sizeof(HeldForce) +
+               joints.capacity() * sizeof(HeldJoint<T>) + std::size_t(numbers) * sizeof(double);
+    }
 };
 
 } // namespace bough

@@ -42,6 +42,7 @@ template <class T> void carry(const Plan<T>& plan, const AttachedEnd& end, doubl
 
 template <class T> std::vector<Attached> planned_attachments(const Plan<T>& plan) {
     std::vector<Attached> all;
+    all.reserve(plan.attachments.size());
     for (const PlannedAttachment& planned : plan.attachments) {
         const Attachment& of = plan.scene.attachments[planned.source];
         Attached held{};

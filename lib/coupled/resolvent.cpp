@@ -3,7 +3,7 @@
 #include "../laws/air_load.h"
 #include "articulated_algebra.h"
 #include "attachment.h"
-#include "attachment_ties.h"
+#include "attachment_plain.h"
 #include "midpoint.h"
 
 namespace bough {
@@ -64,25 +64,6 @@ template <class T, class S> struct Solve {
         q.F += more.F;
     }
 
-    // What the sweeps cannot eliminate, once everything has come in.
-    void tie() {
-        using Complex = std::complex<double>;
-        Attachments& a = work.attachments;
-        const auto wide = [](S z) { return Complex(z); };
-        for (std::size_t k = 0; k < a.bodies.size(); ++k) {
-            const ResolventBody<S>& q = body[a.bodies[k].body];
-            SolvedBody& solved = a.solved[k];
-            solved.E = q.E.unaryExpr(wide);
-            solved.EA = solved.E * q.A.unaryExpr(wide);
-            solved.EB = solved.E * q.B.unaryExpr(wide);
-            solved.Eu = solved.E * q.u.unaryExpr(wide);
-        }
-        solve_ties(plan, work, pole);
-        for (std::size_t k = 0; k < a.bodies.size(); ++k)
-            for (int axis = 0; axis < 3; ++axis)
-                body[a.bodies[k].body].u[axis] -= field<S>(a.solved[k].moment[axis], T());
-    }
-
     void eliminate(std::size_t i) {
         const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<S>& q = body[i];
@@ -127,7 +108,7 @@ template <class T, class S> struct Solve {
         parallel_for(plan.bodies, 50, [this](std::size_t i) { start(i); });
         for (const AttachedBody& b : work.attachments.bodies) attach(b);
         for (std::size_t i = plan.bodies; i-- > 0;) eliminate(i);
-        if (!work.attachments.ties.empty()) tie();
+        if (!work.attachments.ties.empty()) tie_bodies(plan, work, body, pole);
         for (std::size_t i = 0; i < plan.bodies; ++i)
             if (plan.parent[i] < 0)
                 accelerate_root(i);

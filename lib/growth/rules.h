@@ -1,7 +1,7 @@
 // rules.h: by whose rules a tree grows, where programs that take Weber and Penn's parameters read the paper differently:
 // in how many children a stem bears and where, in how stems split, curve, taper and are pruned.
 //
-// bough     the readings at the head of grow.h (grow.cpp)
+// bough     the readings at the head of grow.h (grow_stems.cpp)
 // arbaro    Arbaro 1.9: children are dealt out segment by segment, with jitter; what splits off shares its stem's
 //           children; whole stems with what splits off them are pruned; shape 0 is a true cone (grow_segments.cpp)
 // tree_gen  friggog's tree-gen: as Arbaro, but splits thin out, children of the last per mille of a stem are left out,

@@ -1,4 +1,5 @@
 #include "species.h"
+#include "grow.h"
 #include "weber_penn.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // species.h: a kind of tree: how it grows when mature, how it was smaller when young, and what it bears in which season.
 #pragma once
 #include "bark_form.h"
-#include "grow.h"
+#include "growth_parameters.h"
 #include "leaf_form.h"
 #include <array>
 #include <string>

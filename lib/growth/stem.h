@@ -2,6 +2,7 @@
 //
 // Private to growth. A stem's own frame has z along it and x about which it curves and its children bend down.
 #pragma once
+#include "../model/splines.h"
 #include "bark.h"
 #include "turn.h"
 #include "weber_penn.h"

@@ -2,7 +2,8 @@
 //
 // All O(1), no errors: grow() has checked the parameters.
 #pragma once
-#include "grow.h"
+#include "growth_parameters.h"
+#include <cstdint>
 #include <vector>
 
 namespace bough {
@@ -39,7 +40,7 @@ std::vector<double> taper_marks(double taper, double flare, double radius, doubl
 // Number of whole things for a number `count` >= 0: its floor, plus one as often as the fraction says (unit in 0..1).
 std::int64_t whole_number(double count, double unit);
 
-// Throws std::invalid_argument for the first parameter out of its range (grow.h).
+// Throws std::invalid_argument for the first parameter out of its range (growth_parameters.h).
 void check_growth(const GrowthParameters&);
 
 } // namespace bough

@@ -58,7 +58,8 @@ template <class T> struct State {
     std::array<std::uint64_t, stage_count> calls{}; // how often each stage ran
     StepFlags flags;
 
-    // Allocated by all arrays over bodies, the solver's too; but what the threads of a step in lanes work in, and its energy guard once something has turned fast.
+    // Allocated by all arrays over bodies, the solver's too, and by the points that the analytic solver holds. Left out are those of the coupled one, what
+    // the threads of a step in lanes work in, and its energy guard once something has turned fast.
     std::size_t bytes() const;
 };
 

@@ -76,9 +76,8 @@ public:
     // While a plan is made, in this order.
     virtual void refuse(const Scene&) const {} // throws std::domain_error for what it cannot hold
     virtual bool reads_velocities(const Plan<T>&) const { return false; } // of all bodies, in each step
-    virtual bool places_points() const {
-        return false;
-    } // those that are pulled or held, in each step, by what poses need
+    // In lanes: each step places the points that are pulled or held, by constants of bodies in document order, which are kept where poses are.
+    virtual bool places_points() const { return false; }
     virtual void take_constants(const Plan<T>&,
                                 const Tree&) = 0; // the tree is whole yet; the plan has the scene and c_mass
     virtual void lay_out(const Plan<T>&, const std::vector<TreeRange>&) {} // the plan has all of its bodies

@@ -2,6 +2,7 @@
 #include "../analytic/analytic_lanes_stepper.h"
 #include "../analytic/analytic_rows.h"
 #include "../analytic/analytic_stepper.h"
+#include "../analytic/held_points.h"
 #include "../base/shortest_text.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_places.h"
@@ -212,6 +213,7 @@ template <class T> void explain_arrays(const Plan<T>& plan, const Way<T>& way, s
     const std::string points = coupled ? solver : held ? "/attachments" : "no attachments";
     add("held_tau_w", sizeof(Vector3<T>), held, points);
     add("held_row", sizeof(T), held, points);
+    arrays.push_back({"held", held, held ? planned_held(plan).bytes() : 0, points});
     add("coupled", sizeof(CoupledBody<T>), plain, work);
     add("resolvent", sizeof(ResolventBody<std::complex<T>>), plain && !real,
         coupled && real ? "a scheme of a real pole" : work);

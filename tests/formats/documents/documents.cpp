@@ -6,6 +6,7 @@
 #include "formats/documents/species.h"
 #include "formats/documents/splines.h"
 #include "formats/documents/tree.h"
+#include "lib/growth/grow.h"
 #include "tests/support/random_documents.h"
 #include <chrono>
 #include <clocale>

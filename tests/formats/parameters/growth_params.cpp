@@ -1,5 +1,6 @@
 // Parameters of other programs: what is read, what is refused, and that a tree follows them. Numbers are worked out here
 // from the parameters in the fixtures.
+#include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "tests/support/params_support.h"
 #include "tests/support/sanitized.h"

@@ -157,3 +157,19 @@ TEST_CASE("The analytic step has what it needs for attachments where a scene has
     with.step();
     CHECK(with.state.calls[std::size_t(Stage::attachments)] == 1);
 }
+
+TEST_CASE("The bytes of a state are also those of the points that it holds") {
+    const Tree tree = twig(); // of 12 bodies, of which the outermost is carried by all
+    Scene scene = empty_scene();
+    const std::size_t without = analytic<double>(tree, scene).state.bytes();
+    scene.attachments = {hold(11, 10, 0), hold(3, 10, 0)};
+    scene.attachments[1].with = Selector{};
+    scene.attachments[1].with->body = 7;
+    Held<double> run = analytic<double>(tree, scene);
+    const std::size_t loads = 12 * 4 * sizeof(double), equations = (2 * 6 * 6 + 2 * 6) * sizeof(double);
+    const std::size_t with =
+        without + loads + 12 * sizeof(HeldJoint<double>) + 2 * (sizeof(Attached) + sizeof(HeldForce)) + equations;
+    CHECK(run.state.bytes() == with);
+    run.step();
+    CHECK(run.state.bytes() == with);
+}

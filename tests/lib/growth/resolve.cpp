@@ -2,6 +2,7 @@
 // against the whole tree's own, and a rod's closed forms.
 #include "lib/growth/resolve.h"
 #include "formats/documents/species.h"
+#include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "lib/laws/air.h"
 #include "lib/model/drawn_pose.h"

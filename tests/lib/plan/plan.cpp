@@ -28,7 +28,7 @@ const Names every_array{"theta", "theta_dot", "scaled_rate", "R_wb", "x_w", "c_h
 const Names every_coupled_stage{"midpoint", "body_loads", "resolvent", "state_update"};
 const Names every_coupled_array{"theta", "theta_dot", "theta_change", "theta_dot_change",
                                 "R_wb",  "x_w",       "coupled",      "guard"};
-const Names records{"coupled", "resolvent", "resolvent_real", "guard"};
+const Names records{"coupled", "resolvent", "resolvent_real", "guard", "held"};
 
 struct Method {
     Solver solver = Solver::analytic;
@@ -75,7 +75,7 @@ std::vector<Case> cases() {
     Scene tied;
     tied.attachments.resize(1);
     tied.attachments[0].stiffness = 1e4;
-    all.push_back({"an attachment only", tied, {}, {"attachments"}, {"held_tau_w", "held_row"}});
+    all.push_back({"an attachment only", tied, {}, {"attachments"}, {"held_tau_w", "held_row", "held"}});
     Scene moved;
     moved.root_motion.push_back({0, {0, 1}, {Vec3::Zero(), Vec3(1, 0, 0)}, {}});
     all.push_back({"root motion", moved, {}, {"root_motion"}, {}});
@@ -152,6 +152,7 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
         std::map<std::string, std::size_t> held;
         parts::visit_held(
             state, [&](const char* name, const auto& array) { held[name] = array.capacity() * sizeof(array[0]); });
+        held["held"] = parts::joints(state).held.bytes();
         std::size_t sum = 0;
         Names on;
         for (const PlannedArray& array : explain(plan).arrays) {

@@ -1,4 +1,3 @@
-#include "rules.h"
 #include "weber_penn.h"
 #include <cmath>
 
