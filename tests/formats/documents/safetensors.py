@@ -3,6 +3,7 @@ numbers bit by bit. Usage: safetensors.py PROGRAM ARGUMENT..., which writes them
 import json, os, struct, subprocess, sys, tempfile
 import numpy as np
 
+EVENTS = "broke", "hit", "landed", "leapt"
 DTYPES = {"F64": "<f8", "I64": "<i8", "I32": "<i4", "U8": "u1"}
 
 
@@ -32,7 +33,15 @@ def compare(folder, name):
     metadata, arrays = load(f"{folder}/{name}.safetensors")
     if name == "motion":
         frames = document.pop("frames")
+        events = [(f, k) for f in frames for k in range(len(f.get("event", [])))]
+        if events: # by their frames' numbers, and as places in the list of words
+            assert arrays.pop("event_frame").tolist() == [f["frame"] for f, _ in events]
+            assert [EVENTS[e] for e in arrays.pop("event")] == [f["event"][k] for f, k in events]
+            for key in "event_body", "event_on", "event_value":
+                assert same([f[key][k] for f, k in events], arrays.pop(key)), key
         for key in frames[0]:
+            if key.startswith("event"):
+                continue
             assert same(np.array([f[key] for f in frames], "<f8").ravel(), arrays.pop(key).ravel()), key
     for key, value in document.items():
         if isinstance(value, list) and key in arrays:
