@@ -54,10 +54,17 @@ void note_what_is_not_borne(const GrowthOptions& o, const Species& species, cons
     note(o.fruit, growth.fruits, "fruit");
 }
 
+GrowthParameters growth_at_age(const GrowthOptions& o, const Species& species) {
+    try {
+        return o.age ? at_age(species, *o.age) : species.growth;
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--" + std::string(error.what()));
+    }
+}
+
 Splines grow_species(const GrowthOptions& o, const Species& species, CommonOptions& common) {
     const bool foreign = species.growth.rules != GrowthRules::bough;
-    if (o.age && *o.age < 0.1) throw UsageError("--age: is " + std::to_string(*o.age) + ", expected 0.1 years or more");
-    GrowthParameters growth = o.age ? at_age(species, *o.age) : species.growth;
+    GrowthParameters growth = growth_at_age(o, species);
     std::vector<Vec3> color = species.color;
     if (!o.season.empty()) {
         const auto season =
