@@ -4,11 +4,9 @@
 #include "documents/species.h"
 #include "documents/splines.h"
 #include "documents/tree.h"
-#include "lib/growth/rules.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/species.h"
 #include "lib/model/wood.h"
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -48,11 +46,9 @@ std::vector<std::string> species_names() {
 Splines grow(const std::string& species, const GrowOptions& o) {
     const Species kind = species_named(species);
     const Items items{o.leaves, o.petals, o.fruit};
-    if (!(o.age == 0 || (o.age >= 0.1 && std::isfinite(o.age))))
-        throw SceneError("age: is " + std::to_string(o.age) + ", expected 0 (a mature tree) or 0.1 years or more");
     if (o.bodies < 0) throw SceneError("bodies: is " + std::to_string(o.bodies) + ", expected 0 or more");
     try {
-        const GrowthParameters growth = o.age > 0 ? at_age(kind, o.age) : kind.growth;
+        const GrowthParameters growth = o.age == 0 ? kind.growth : at_age(kind, o.age);
         Splines splines = o.bodies > 0 ? grow_bodies(growth, o.seed, items, o.bodies) : grow(growth, o.seed, items);
         splines.material = kind.material;
         splines.color = kind.color;

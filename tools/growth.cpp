@@ -5,6 +5,8 @@
 #include "lib/growth/segment.h"
 #include "parameters.h"
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
 namespace bough {
 namespace {
@@ -54,10 +56,17 @@ void note_what_is_not_borne(const GrowthOptions& o, const Species& species, cons
     note(o.fruit, growth.fruits, "fruit");
 }
 
+GrowthParameters growth_at_age(const GrowthOptions& o, const Species& species) {
+    try {
+        return o.age ? at_age(species, *o.age) : species.growth;
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--" + std::string(error.what()));
+    }
+}
+
 Splines grow_species(const GrowthOptions& o, const Species& species, CommonOptions& common) {
     const bool foreign = species.growth.rules != GrowthRules::bough;
-    if (o.age && *o.age < 0.1) throw UsageError("--age: is " + std::to_string(*o.age) + ", expected 0.1 years or more");
-    GrowthParameters growth = o.age ? at_age(species, *o.age) : species.growth;
+    GrowthParameters growth = growth_at_age(o, species);
     std::vector<Vec3> color = species.color;
     if (!o.season.empty()) {
         const auto season =
@@ -123,28 +132,30 @@ void add_growth_options(OptionList& list, GrowthOptions& o) {
 }
 
 void refuse_contradictions(const GrowthOptions& o, bool import) {
-    const std::pair<const char*, bool> given[] = {{"--envelope", !o.envelope.envelope.empty()},
-                                                  {"--species", !o.species.empty()},
-                                                  {"--params", !o.params.empty()},
-                                                  {"--radii", !o.radii.empty()},
-                                                  {"--age", o.age.has_value()},
-                                                  {"--season", !o.season.empty()},
-                                                  {"--petals", o.petals},
-                                                  {"--bodies", o.bodies.has_value()},
-                                                  {"--seed", o.seed.has_value()}};
-    const auto refuse = [&](std::size_t first, std::size_t count, const std::string& reason) {
-        for (std::size_t i = first; i < first + count; ++i)
-            if (given[i].second) throw UsageError(given[i].first + reason);
+    const std::pair<std::string_view, bool> given[] = {{"--envelope", !o.envelope.envelope.empty()},
+                                                       {"--species", !o.species.empty()},
+                                                       {"--params", !o.params.empty()},
+                                                       {"--radii", !o.radii.empty()},
+                                                       {"--age", o.age.has_value()},
+                                                       {"--season", !o.season.empty()},
+                                                       {"--petals", o.petals},
+                                                       {"--bodies", o.bodies.has_value()},
+                                                       {"--seed", o.seed.has_value()}};
+    const auto refuse = [&](std::initializer_list<std::string_view> options, const std::string& reason) {
+        for (const auto& [option, is_given] : given)
+            if (is_given && std::find(options.begin(), options.end(), option) != options.end())
+                throw UsageError(std::string(option) + reason);
     };
-    if (import) {
-        const char* const reason = ": not with --import, whose file says what the tree is";
-        refuse(0, 3, reason);
-        refuse(4, std::size(given) - 4, reason); // all but --radii
-    }
-    if (given[0].second) refuse(1, 6, ": not with --envelope, which has no species and grows in its own way");
-    if (given[2].second) refuse(1, 1, ": not with --params, which is another tree");
-    if (!given[2].second && !import) refuse(3, 1, ": only with --params or --import");
-    if (given[0].second) return;
+    const bool envelope = !o.envelope.envelope.empty(), params = !o.params.empty();
+    if (import)
+        refuse({"--envelope", "--species", "--params", "--age", "--season", "--petals", "--bodies", "--seed"},
+               ": not with --import, whose file says what the tree is");
+    if (envelope)
+        refuse({"--species", "--params", "--radii", "--age", "--season", "--petals"},
+               ": not with --envelope, which has no species and grows in its own way");
+    if (params) refuse({"--species"}, ": not with --params, which is another tree");
+    if (!params && !import) refuse({"--radii"}, ": only with --params or --import");
+    if (envelope) return;
     for (const auto& [option, is_given] : o.envelope.given())
         if (is_given) throw UsageError(option + ": only with --envelope");
 }

@@ -1,4 +1,5 @@
 #include "species.h"
+#include "../base/shortest_text.h"
 #include "grow.h"
 #include "weber_penn.h"
 #include <algorithm>
@@ -47,7 +48,8 @@ double height_at_age(const Species& s, double age) {
 }
 
 GrowthParameters at_age(const Species& s, double age) {
-    check_positive("age", age);
+    if (!(age >= 0.1 && std::isfinite(age)))
+        throw std::invalid_argument("age: is " + shortest_text(age) + ", expected 0.1 years or more");
     GrowthParameters p = s.growth;
     const double f = relative_height(s, age), children = std::pow(f, s.branches_power);
     p.scale *= f;

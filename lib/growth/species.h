@@ -38,7 +38,7 @@ Species default_species();
 
 // The growth of a tree of this age [years]: the mature one's with height times f, the ratio of the two heights, the
 // trunk's radius times f^diameter_power, numbers of children times f^branches_power. A level that would come to less than
-// one stem a parent is left out. O(1). Throws std::invalid_argument unless age is positive and finite.
+// one stem a parent is left out. O(1). Throws std::invalid_argument unless age is finite, and 0.1 or more.
 GrowthParameters at_age(const Species&, double age);
 
 // The tree's height, on average, at this age [m].

@@ -36,6 +36,7 @@ grep -q 'cherry has no leaves in winter' err || fail "no word on the leaves that
 refused 1 "--season" treegen --species cherry --season monsoon
 refused 1 "--age" treegen --species cherry --age 0
 refused 1 "--age" treegen --species cherry --age 1e-300
+refused 1 "--age: is 0.05, expected 0.1 years or more" treegen --params "$(dirname "$maple")/species/oak.json" --age 0.05
 refused 1 "-o is 'tree.GLB'" treegen --species cherry -o tree.GLB
 refused 1 "-o is 'tree.glb'" treeconvert "$maple" -o tree.glb
 refused 1 "--age" treegen --import "$maple" --age 5

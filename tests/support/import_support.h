@@ -99,6 +99,10 @@ inline double total_length(const Splines& s) {
     return length;
 }
 
+inline std::size_t segments(const Splines& s) {
+    return s.points() - s.branches();
+}
+
 inline double top_of(const Splines& s) {
     double top = -1e300;
     for (const Vec3& p : s.point) top = std::max(top, p.y());

@@ -24,6 +24,16 @@ inline std::uint64_t run(Simulation& simulation, int steps) {
     return simulation.hash();
 }
 
+// Why it cannot be run; empty: it can.
+inline std::string refusal(Scene scene, const SimulationOptions& o = {}) {
+    try {
+        const Simulation simulation(std::move(scene), o);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "";
+}
+
 // The largest distance.
 inline double apart(std::span<const Vec3> a, std::span<const Vec3> b) {
     REQUIRE(a.size() == b.size());

@@ -1,13 +1,7 @@
-#include "formats/models/armature.h"
 #include "formats/models/user_model.h"
 #include "tests/support/import_support.h"
-#include "tests/support/tubes.h"
-#include <atomic>
-#include <csignal>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 using namespace bough;
 using namespace bough::test;
@@ -18,13 +12,6 @@ namespace {
 ImportOptions beside_fixtures() {
     ImportOptions options;
     options.folder = std::string(BOUGH_DATA_DIR) + "/fixtures";
-    return options;
-}
-
-ImportOptions beside_cases() {
-    ImportOptions options;
-    const char* folder = std::getenv("BOUGH_CASES_DIR");
-    options.folder = std::string(folder ? folder : "") + "/sapling";
     return options;
 }
 
@@ -45,10 +32,6 @@ std::string changed(const std::string& text, const std::function<void(Json&)>& c
     Json json = Json::parse(text);
     change(json);
     return json.dump();
-}
-
-std::size_t segments(const Splines& s) {
-    return s.points() - s.branches();
 }
 
 } // namespace
@@ -137,50 +120,6 @@ TEST_CASE("of two armatures with bones of the same names each skin has its own")
     for (const double r : s.radius) CHECK(r == Approx(0.1 * std::sqrt(0.5)));
     // assimp cannot tell them apart when it writes glTF.
     CHECK_THROWS_AS(glb_by_assimp(fixture("two_armatures.dae"), AssimpKind::dae, {}), InputError);
-}
-
-// The fixture's armature stands at x = 3; both matrices say so. A square tube with corners 0.1 off bones from y = 0 to 2.
-TEST_CASE("a skin whose bind matrices are not its nodes' is measured where its mesh stands, or not at all") {
-    const std::string good = fixture("moved_armature.dae");
-    const std::string scaled =
-        replaced(replaced(good, "<node id=\"rig\" type=\"NODE\">",
-                          "<node id=\"empty\" type=\"NODE\"><scale>10 10 10</scale><node id=\"rig\" type=\"NODE\">"),
-                 "</visual_scene>", "</node></visual_scene>");
-    const auto with = [](const std::string& file, const std::string& bind, const std::string& inverse) {
-        std::string text =
-            replaced(file, "<bind_shape_matrix>1 0 0 3 0 1 0 0 0 0 1 0 0 0 0 1", "<bind_shape_matrix>" + bind);
-        if (inverse.empty()) return text;
-        text = replaced(text, "1 0 0 -3 0 1 0 0 0 0 1 0 0 0 0 1", inverse);
-        return replaced(text, "1 0 0 -3 0 1 0 -1 0 0 1 0 0 0 0 1", "1 0 0 0 0 1 0 -1 0 0 1 0 0 0 0 1");
-    };
-    const std::string one = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", ten = "10 0 0 30 0 10 0 0 0 0 10 0 0 0 0 1";
-    struct Case {
-        std::string file;
-        double radius;
-        bool elsewhere;
-    };
-    const Case cases[] = {{good, 0.1, false},
-                          {with(good, one, one), 0.1, false}, // bound before it was moved
-                          {with(good, one, ""), 0.1, true},   // the mesh is bound as if it stood at the origin
-                          {replaced(good, "<bind_shape_matrix>1 0 0 3", "<bind_shape_matrix>1 0 0 6"), 0.1, true},
-                          {with(scaled, one, one), 1, false}, // all within what scales it
-                          {with(scaled, ten, one), 1, true},  // scaled twice
-                          {with(scaled, one, ""), 1, true}};  // not at all
-    for (const Case& c : cases) {
-        INFO(&c - cases);
-        const Imported in = imported(c.file, "m.dae");
-        for (const double r : in.splines.radius) CHECK(r == Approx(c.radius * std::sqrt(0.5)));
-        CHECK(in.notes_hold("measured where the mesh's own node stands") == c.elsewhere);
-        CHECK(in.notes_hold("radii of 2 of 2 bones measured"));
-    }
-    // Where the node would put it beside the bones as well, nothing is measured.
-    const std::string beside =
-        replaced(with(good, "1 0 0 40 0 1 0 0 0 0 1 0 0 0 0 1", ""), "<node id=\"mesh\" type=\"NODE\">",
-                 "<node id=\"mesh\" type=\"NODE\"><translate>40 0 0</translate>");
-    const Imported in = imported(beside, "m.dae");
-    CHECK(in.notes_hold("times the armature's size beside its bones: radii are not measured on it"));
-    CHECK(in.notes_hold("by the pipe rule"));
-    for (const double r : in.splines.radius) CHECK(r < 0.05);
 }
 
 TEST_CASE("a second armature that moves no vertex is told from controls") {
@@ -433,178 +372,4 @@ TEST_CASE("any damage to a binary FBX is read or refused in one line") {
         refused += !error_beside(broken, "b.fbx").empty();
     }
     CHECK(refused > 0);
-}
-
-// The figures of the CSV were had by adding up, in Python, the distances of its 1287 knots along its 346 splines:
-// 189.8141 m in 941 steps, 5.077638 m high; x -1.935979 to 1.745624, y (up is z) -2.109290 to 1.754024.
-TEST_CASE("one tree as FBX, COLLADA and glTF joints: each other's, and the knots of its curves") {
-    const auto table = foreign_case("sapling/sapling_small_pine_s0.csv");
-    const auto fbx = foreign_case("sapling/sapling_small_pine_s0_arm.armonly.fbx");
-    const auto dae = foreign_case("sapling/sapling_small_pine_s0_arm.armonly.dae");
-    const auto glb = foreign_case("sapling/sapling_small_pine_s0_arm.armonly.glb");
-    if (!table || !fbx || !dae || !glb) return;
-    std::set<std::array<long, 3>> knots; // in millimetres, and their neighbours
-    std::istringstream rows(*table);
-    std::string row;
-    std::getline(rows, row);
-    while (std::getline(rows, row)) {
-        double spline = 0, point = 0, x = 0, y = 0, z = 0;
-        REQUIRE(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf", &spline, &point, &x, &y, &z) == 5);
-        for (long a = -1; a <= 1; ++a)
-            for (long b = -1; b <= 1; ++b)
-                for (long c = -1; c <= 1; ++c)
-                    knots.insert({std::lround(1e3 * x) + a, std::lround(1e3 * z) + b, std::lround(-1e3 * y) + c});
-    }
-    const std::pair<const std::string*, const char*> files[] = {{&*fbx, "p.fbx"}, {&*dae, "p.dae"}, {&*glb, "p.glb"}};
-    for (const auto& [content, name] : files) {
-        const Imported in = imported(*content, name);
-        const Splines& s = in.splines;
-        INFO(name);
-        CHECK(segments(s) == 941);
-        CHECK(std::count(s.parent.begin(), s.parent.end(), -1) == 1);
-        CHECK(top_of(s) == Approx(5.077638).epsilon(1e-5));
-        std::size_t off = 0; // points that are no knots: ends of tips, which FBX and glTF do not say
-        for (const Vec3& p : s.point)
-            off += !knots.contains({std::lround(1e3 * p.x()), std::lround(1e3 * p.y()), std::lround(1e3 * p.z())});
-        if (std::string(name) == "p.dae") {
-            CHECK(off == 0);
-            CHECK(total_length(s) == Approx(189.8141).epsilon(1e-6));
-        } else {
-            CHECK(off < 275);
-            CHECK(total_length(s) == Approx(189.8141).epsilon(0.005));
-            CHECK(in.notes_hold("275 bones without an end: as long as the bone they go on from"));
-        }
-    }
-    const Splines a = imported(*fbx, "p.fbx").splines, b = imported(*glb, "p.glb").splines;
-    REQUIRE(a.points() == b.points());
-    double apart = 0;
-    for (std::size_t k = 0; k < a.points(); ++k) {
-        double least = 1e300;
-        for (std::size_t j = 0; j < b.points(); ++j) least = std::min(least, (a.point[k] - b.point[j]).norm());
-        apart = std::max(apart, least);
-    }
-    CHECK(apart < 1e-4);
-}
-
-// 158 bones (Blender writes one more for glTF that moves the unweighted vertices); the mesh's largest y in the glTF is
-// 17.311044 m, as `max` of its POSITION says. The armature with end bones tells where all 30 tips are.
-TEST_CASE("skinned armatures: one tree as FBX, glb, gltf, COLLADA, with and without ends") {
-    const std::map<std::string, bool> files{{"sapling_quaking_aspen_s0_skin.fbx", true},
-                                            {"sapling_quaking_aspen_s0_skin.glb", true},
-                                            {"sapling_quaking_aspen_s0_skin.gltf", true},
-                                            {"sapling_quaking_aspen_s0_skin.dae", false},
-                                            {"sapling_quaking_aspen_s0_armleaf.armonly.fbx", false}};
-    for (const auto& [file, meshed] : files) {
-        const auto content = foreign_case("sapling/" + file);
-        if (!content) return;
-        const Imported in = imported(*content, file, beside_cases());
-        INFO(file);
-        CHECK(segments(in.splines) == 158);
-        CHECK(in.splines.branches() == 30);
-        CHECK(total_length(in.splines) == Approx(116.7656).epsilon(1e-4));
-        CHECK(top_of(in.splines) == Approx(17.311).epsilon(1e-4));
-        CHECK(in.notes_hold(" of 158 bones measured") == meshed);
-        CHECK(in.notes_hold("without an end: they reach") == meshed);
-        CHECK_FALSE(in.notes_hold("as long as the bone"));
-    }
-}
-
-// A stem of four bones of 1.5 m, the last without a stated end, whose twigs of 2 m have no bones and so move with the stem's.
-TEST_CASE("twigs without bones of their own make no stem thicker and no tip longer") {
-    const std::vector<Vec3> axis{{0, 0, 0}, {0, 1.5, 0}, {0, 3, 0}, {0, 4.5, 0}, {0, 5.2, 0}};
-    const std::vector<double> radius{0.06, 0.05, 0.04, 0.03, 0.02};
-    const auto scene_of = [&](bool twigs, bool thick) {
-        ModelScene scene;
-        for (std::int32_t k = 0; k < 4; ++k) {
-            scene.parent.push_back(k - 1);
-            scene.role.push_back(NodeRole::joint);
-            scene.name.push_back("bone." + std::to_string(k));
-            scene.place.push_back(axis[std::size_t(k)]);
-            scene.axes.push_back(Mat3::Identity());
-            scene.tip.push_back(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-        }
-        BarkSurface mesh;
-        add_tube(mesh, axis, radius, {0, 1, 2, 3}, 8);
-        for (std::int32_t b = 0; twigs && b < 4; ++b)
-            for (int k = 0; k < 20; ++k) {
-                const Vec3 base = axis[std::size_t(b)] + 0.05 * k * (axis[std::size_t(b) + 1] - axis[std::size_t(b)]);
-                const Vec3 out(std::cos(2.4 * k), 1, std::sin(2.4 * k));
-                add_tube(mesh, {base, base + 0.7 * out, base + 1.4 * out}, {0.015, 0.01, 0.005}, {b}, 6);
-            }
-        if (thick) add_tube(mesh, {{3, 3.1, 0}, {3, 4.4, 0}}, {0.2, 0.2}, {2}, 8); // far from the bone, no twig
-        scene.vertex = mesh.point;
-        scene.face = mesh.triangle;
-        scene.vertex_node = mesh.bone;
-        return scene;
-    };
-    for (const bool twigs : {false, true})
-        for (const bool thick : {false, true}) {
-            ImportNotes notes;
-            const Armature armature = armature_of(scene_of(twigs, thick), Vec3::UnitY(), notes);
-            REQUIRE(armature.bones.size() == 4);
-            for (std::size_t b = 0; b < 4; ++b) CHECK(armature.bones[b].radius == Approx(radius[b]).epsilon(0.01));
-            CHECK(armature.bones[3].tip == Approx(radius[4]).epsilon(0.01));
-            CHECK(near(armature.bones[3].end, axis[4], 1e-6));
-            CHECK(armature.twigs.size() == std::size_t(twigs ? 80 : 0));
-            // Their wood is in the tree: of the twigs as much as their frusta hold.
-            ImportNotes none;
-            double wood = 0, twigs_wood = 0;
-            const ImportedTree tree = tree_of(armature, none);
-            for (std::size_t b = 0; b < tree.branches.size(); ++b) {
-                const ImportedBranch& branch = tree.branches[b];
-                CHECK((branch.parent >= 0) == (b > 0));
-                for (std::size_t k = 1; k < branch.point.size(); ++k) {
-                    const double r = branch.radius[k - 1], q = branch.radius[k];
-                    (b == 0 ? wood : twigs_wood) +=
-                        (r * r + r * q + q * q) * (branch.point[k] - branch.point[k - 1]).norm();
-                }
-            }
-            const auto frusta = [](double r, double q, double length) { return (r * r + r * q + q * q) * length; };
-            if (twigs && !thick)
-                CHECK(twigs_wood == Approx(80 * (frusta(0.015, 0.01, 0.7 * std::sqrt(2.0)) +
-                                                 frusta(0.01, 0.005, 0.7 * std::sqrt(2.0))))
-                                        .epsilon(0.2));
-            for (const std::string& line : notes.lines) CHECK(line.find("twice as thick") == std::string::npos);
-        }
-    ModelScene swollen = scene_of(true, false);
-    for (Vec3& p : swollen.vertex)
-        if (p.y() > 2.99) p.x() *= 3, p.z() *= 3;
-    ImportNotes notes;
-    armature_of(swollen, Vec3::UnitY(), notes);
-    CHECK(std::any_of(notes.lines.begin(), notes.lines.end(), [](const std::string& line) {
-        return line.find("the bark of 1 bone is more than twice as thick as that of the bone before (\"bone.2\"") == 0;
-    }));
-}
-
-// The add-on's curve is 0.23766 m thick at the ground; its Skin modifier draws squares of twice that.
-TEST_CASE("Sapling's skinned trunk is as thick as its curve") {
-    for (const char* file : {"sapling_quaking_aspen_s0_skin.fbx", "sapling_quaking_aspen_s0_skin.glb"})
-        if (const auto content = foreign_case(std::string("sapling/") + file)) {
-            const Imported in = imported(*content, file, beside_cases());
-            CHECK(in.splines.radius[0] == Approx(0.23766).epsilon(0.01));
-            CHECK(in.notes_hold("Skin modifier"));
-        }
-}
-
-// The armature of the pine without a mesh; its curves say 0.0986 m.
-TEST_CASE("a trunk of unknown thickness is guessed as trees are") {
-    for (const char* file : {"sapling_small_pine_s0_arm.armonly.glb", "sapling_small_pine_s0_arm.armonly.fbx"})
-        if (const auto content = foreign_case(std::string("sapling/") + file)) {
-            const Imported in = imported(*content, file);
-            const double slenderness = top_of(in.splines) / (2 * in.splines.radius[0]);
-            CHECK((slenderness > 20 && slenderness < 45));
-            CHECK(in.notes_hold("m thick at the base by the tree's size"));
-        }
-}
-
-TEST_CASE("models that are no trees are read as their bones are") {
-    if (const auto skin = foreign_case("models/simple_skin.gltf")) {
-        // Two joints at (0, 1, 0); the upper one moves the vertices up to y = 2 most.
-        const Splines s = imported(*skin, "skin.gltf").splines;
-        CHECK(segments(s) == 1);
-        CHECK(near(s.point[0], {0, 1, 0}, 1e-6));
-        CHECK(top_of(s) == Approx(2));
-    }
-    if (const auto fbx = foreign_case("models/animation_with_skeleton.fbx"))
-        CHECK(segments(imported(*fbx, "a.fbx").splines) == 14); // the bones that assimp counts
 }

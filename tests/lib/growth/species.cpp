@@ -223,7 +223,10 @@ TEST_CASE("Trees grow with age, as tall and as thick as the species says") {
         CHECK_FALSE(check(young).has_value());
         CHECK(young.branches() > 1);
         CHECK(young.leaves() > 0);
-        CHECK_THROWS_AS(at_age(species, 0), std::invalid_argument);
+        CHECK_NOTHROW(at_age(species, 0.1));
+        for (const double age : {0.0, 0.099, double(NAN), double(INFINITY)})
+            CHECK_THROWS_WITH(at_age(species, age),
+                              Catch::Contains("age: is") && Catch::Contains("expected 0.1 years"));
     }
 }
 

@@ -6,18 +6,16 @@
 #include "lib/study/solvers.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/paper_trees.h"
+#include "tests/support/reduced.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>
 #include <numbers>
 
 using namespace bough;
+using reduced::all_of;
 using simulate::steady;
 
 namespace {
-
-std::vector<TreeRange> all_of(const Tree& tree) {
-    return {{0, tree.size_bodies(), 0}};
-}
 
 struct Held {
     Tree tree;

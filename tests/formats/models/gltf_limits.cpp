@@ -1,0 +1,101 @@
+// What reading glTF may take: memory that runs out, or is not taken; time.
+#include "formats/forked.h"
+#include "formats/models/gltf_document.h"
+#include "formats/models/model_scene.h"
+#include "tests/support/import_support.h"
+#include "tests/support/sanitized.h"
+#include <ctime>
+
+using namespace bough;
+using namespace bough::test;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+ModelScene scene_of(const std::string& content) {
+    ImportOptions options;
+    options.name = "s.gltf";
+    return read_model(content, AssimpKind::gltf, options);
+}
+
+} // namespace
+
+TEST_CASE("memory that runs out while what was read is taken over is told of in one line") {
+    if (sanitized) return; // keeps no limits
+    // Some 130 bytes for each of these nodes, more than what lies free here.
+    std::string nodes = R"({"asset": {"version": "2.0"}, "nodes": [{})";
+    for (int k = 1; k < 100000; ++k) nodes += ",{}";
+    nodes += "]}";
+    CHECK(scene_of(nodes).parent.size() == 100000);
+    ChildLimits little;
+    little.bytes = std::size_t(1) << 20;
+    const auto read = [&]() -> std::string {
+        scene_of(nodes);
+        return "read";
+    };
+    CHECK_THAT(run_forked(read, little).failure,
+               Catch::StartsWith("s.gltf: ") && Catch::Contains("needs more memory than"));
+}
+
+// Json's destructor takes memory of its own: without it a program would end there, by abort().
+TEST_CASE("however little memory there is for a glTF file, its reader does not crash") {
+    if (sanitized) return;
+    std::string joints_text = "0";
+    for (int k = 1; k < 1000000; ++k) joints_text += ",0";
+    const std::string content =
+        R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": []}], "skins": [{"joints": [)" +
+        joints_text + "]}]}";
+    for (std::size_t megabytes = 2; megabytes < 300; megabytes += megabytes / 2) {
+        ChildLimits limits;
+        limits.bytes = megabytes << 20;
+        const ChildResult result = run_forked(
+            [&]() -> std::string {
+                scene_of(content);
+                return "read";
+            },
+            limits);
+        CAPTURE(megabytes, result.failure);
+        CHECK_THAT(result.failure, !Catch::Contains("crashed"));
+        if (megabytes < 100) CHECK_THAT(result.failure, Catch::Contains("needs more memory than"));
+    }
+}
+
+// Twenty million points in 300 kB: one array of 10 000 points that 2 000 lines name, or 2 000 nodes whose mesh it is.
+TEST_CASE("arrays that are named over and over are refused before they take memory") {
+    const auto refused = [](int primitives, int nodes) {
+        Json json = Json::parse(
+            R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": []}], "nodes": [], "meshes": [{"primitives": []}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 10000, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 120000}]})");
+        json["buffers"] = Json::array({{{"byteLength", 120000}, {"uri", "data:," + std::string(120000, '0')}}});
+        for (int k = 0; k < primitives; ++k)
+            json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 3}});
+        for (int k = 0; k < nodes; ++k) json["nodes"].push_back({{"mesh", 0}}), json["scenes"][0]["nodes"].push_back(k);
+        ImportOptions options;
+        options.name = "many.gltf";
+        try {
+            scene_of_gltf(json.dump(), options);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(refused(2000, 1).find("named over and over") != std::string::npos);
+    CHECK(refused(1, 2000).find("named over and over") != std::string::npos);
+    CHECK(refused(100, 1).empty());
+    CHECK(refused(1, 100).empty());
+}
+
+TEST_CASE("reading many nodes takes time in proportion to their number") {
+    const auto seconds = [](int nodes) {
+        Json json = Json::parse(R"({"asset": {"version": "2.0"}, "nodes": []})");
+        for (int k = 0; k < nodes; ++k) json["nodes"].push_back({{"translation", {0, 1, 0}}});
+        const std::string text = json.dump();
+        ImportNotes notes;
+        const std::clock_t start = std::clock();
+        read_gltf(text, "nodes.gltf", "", GltfImages::leave, notes);
+        return double(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    if (sanitized) return;
+    CHECK(seconds(160000) < 12 * seconds(40000)); // 16 and more where it goes with the square
+}
