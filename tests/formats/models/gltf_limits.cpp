@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-ModelScene scene_of(const std::string& content) {
+ModelScene limited_scene(const std::string& content) {
     ImportOptions options;
     options.name = "s.gltf";
     return read_model(content, AssimpKind::gltf, options);
@@ -26,11 +26,11 @@ TEST_CASE("memory that runs out while what was read is taken over is told of in 
     std::string nodes = R"({"asset": {"version": "2.0"}, "nodes": [{})";
     for (int k = 1; k < 100000; ++k) nodes += ",{}";
     nodes += "]}";
-    CHECK(scene_of(nodes).parent.size() == 100000);
+    CHECK(limited_scene(nodes).parent.size() == 100000);
     ChildLimits little;
     little.bytes = std::size_t(1) << 20;
     const auto read = [&]() -> std::string {
-        scene_of(nodes);
+        limited_scene(nodes);
         return "read";
     };
     CHECK_THAT(run_forked(read, little).failure,
@@ -50,7 +50,7 @@ TEST_CASE("however little memory there is for a glTF file, its reader does not c
         limits.bytes = megabytes << 20;
         const ChildResult result = run_forked(
             [&]() -> std::string {
-                scene_of(content);
+                limited_scene(content);
                 return "read";
             },
             limits);
