@@ -1,7 +1,7 @@
 #include "drag.h"
+#include "../base/cholesky.h"
 #include "../base/parallel.h"
 #include "joint.h"
-#include <Eigen/Cholesky>
 
 namespace bough {
 
@@ -11,10 +11,10 @@ void joint_drag(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& state
     const T h = T(plan.dt);
     const Vector3<T> tau_b = state.R_wb[i].transpose() * work.c_drag_tau_w[i];
     const Matrix3<T> S = joint_inertia(own, state, work, i);
-    const Matrix3<T> L = S.llt().matrixL();
+    const Matrix3<T> L = Cholesky<T>(S).L;
     Matrix3<T> N = S;
     N.diagonal().array() += h * own.inverse_weight[i] * work.c_drag_row[i];
-    const Vector3<T> change = h * N.llt().solve(tau_b);
+    const Vector3<T> change = h * Cholesky<T>(N).solve(tau_b);
     work.scaled_rate[i] += L.transpose() * change;
 }
 

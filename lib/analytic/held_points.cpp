@@ -1,4 +1,5 @@
 #include "held_points.h"
+#include "../base/cholesky.h"
 #include "../base/rotation_maps.h"
 #include "../coupled/attachment_course.h"
 #include "spring_joint.h"
@@ -130,8 +131,8 @@ void answer(const Plan<T>& plan, const AnalyticPlan<T>& own, const State<T>& s, 
 // S_j^-1.
 template <class T> void answer_to_impulses(HeldPoints<T>& of) {
     for (HeldJoint<T>& j : of.joints) {
-        const Mat3 L = j.L.template cast<double>(),
-                   inverse = L.triangularView<Eigen::Lower>().solve(Mat3(j.R.transpose()));
+        Mat3 inverse = j.R.transpose();
+        solve_lower(Mat3(j.L.template cast<double>()), inverse);
         j.give = inverse.transpose() * inverse;
     }
 }

@@ -1,9 +1,9 @@
 #include "spring_joint.h"
+#include "../base/cholesky.h"
 #include "../laws/turn_guard.h"
 #include "joint.h"
 #include "root_term.h"
 #include "spring.h"
-#include <Eigen/Cholesky>
 
 namespace bough {
 
@@ -50,16 +50,15 @@ template <class T>
 SpringOscillators<T> spring_oscillators(const Plan<T>& plan, const AnalyticPlan<T>& own, const State<T>& s,
                                         const AnalyticWork<T>& work, const SpringJoint<T>& joint, std::size_t i) {
     SpringOscillators<T> o;
-    o.L = joint_inertia(own, s, work, i).llt().matrixL();
-    const auto lower = o.L.template triangularView<Eigen::Lower>();
+    o.L = Cholesky<T>(joint_inertia(own, s, work, i)).L;
     Matrix3<T> half = joint.KG_b;
-    lower.solveInPlace(half);        // L^-1 (K + G)
+    solve_lower(o.L, half);          // L^-1 (K + G)
     Matrix3<T> A = half.transpose(); // (K + G) L^-T, as K + G is symmetric
-    lower.solveInPlace(A);
+    solve_lower(o.L, A);
     A = (T(0.5) * (A + A.transpose())).eval();
     symmetric_eigen(A, o.X, o.lambda);
     o.U = o.X;
-    o.L.transpose().template triangularView<Eigen::Upper>().solveInPlace(o.U);
+    solve_lower_transposed(o.L, o.U);
     for (int k = 0; k < 3; ++k) {
         o.b[k] = plan.beta[i] * o.U.col(k).dot(joint.K_b * o.U.col(k));
         o.d[k] = 0;

@@ -4,6 +4,10 @@
 
 namespace bough {
 
+Quat shortest_turn(const Vec3& from, const Vec3& to) {
+    return Quat(Eigen::Quaterniond::FromTwoVectors(from, to));
+}
+
 Quat least_turn(const Quat& near, const Vec3& axis) {
     const Vec3 z = near * Vec3::UnitZ();
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(z, axis);

@@ -87,6 +87,9 @@ template <class T> Matrix3<T> body_rate_jacobian_inverse(const Vector3<T>& theta
     return Matrix3<T>::Identity() + T(0.5) * x + c * (x * x);
 }
 
+// The shortest turn that brings the direction of `from` to that of `to` (unit length not needed); of opposite ones, half a turn.
+Quat shortest_turn(const Vec3& from, const Vec3& to);
+
 // A frame whose z axis is `axis` (unit length not needed), turned the least from `near`'s own z axis. Branch bodies
 // take their frames this way along the branch, so that x and y do not spin about it (a twist-free frame).
 Quat least_turn(const Quat& near, const Vec3& axis);

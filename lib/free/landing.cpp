@@ -30,7 +30,7 @@ bool lie_down(FreeBody& leaf, double ground_height, double h) {
     motion.v = motion.omega = Vec3::Zero();
     const Vec3 normal = motion.q * (leaf.parts.front().q * Vec3(Vec3::UnitY()));
     const Vec3 up = normal.y() < 0 ? Vec3(-Vec3::UnitY()) : Vec3(Vec3::UnitY());
-    const Vec3 turn = vector_from_quaternion(Quat(Quat::FromTwoVectors(normal, up)));
+    const Vec3 turn = vector_from_quaternion(shortest_turn(normal, up));
     const bool lies = turn.norm() < lying_angle;
     const double part = lies ? 1 : 1 - std::exp(-h / lying_time);
     motion.q = (quaternion_from_vector(Vec3(part * turn)) * motion.q).normalized();

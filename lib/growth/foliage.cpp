@@ -61,7 +61,7 @@ void add_flower(const GrowthParameters& p, std::int32_t branch, double at, const
                 double size, Splines& out) {
     constexpr double lean = 35 * kDegree; // of a petal off the flower's plane
     // The flower's axis is z of its frame; x of a petal is its width, so that it leans about x.
-    const Quat flower = Quat::FromTwoVectors(Vec3::UnitZ(), axis);
+    const Quat flower = shortest_turn(Vec3::UnitZ(), axis);
     for (int k = 0; k < p.petals; ++k) {
         const Quat petal = flower * about(Vec3::UnitZ(), 2 * std::numbers::pi * k / p.petals) *
                            about(Vec3::UnitX(), std::numbers::pi / 2 - lean);

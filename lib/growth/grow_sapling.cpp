@@ -281,7 +281,7 @@ void SaplingGrower::bear(const SaplingStem& stem, const std::vector<ChildPoint>&
         if (outward.empty() || c.offset == 1)
             child.direction = level_frame(c.direction) * d;
         else
-            child.direction = s_.use_parent_angle ? Vec3(Quat::FromTwoVectors(Vec3::UnitZ(), c.direction) * d) : d;
+            child.direction = s_.use_parent_angle ? Vec3(shortest_turn(Vec3::UnitZ(), c.direction) * d) : d;
         child.direction.normalize();
         const double ratio = (1 - c.shape_offset) / (1 - base_size(stem.level));
         const double length =

@@ -1,4 +1,5 @@
 #include "joint_limit.h"
+#include "../base/cholesky.h"
 
 namespace bough {
 
@@ -13,7 +14,7 @@ bool stop_at_limit(const Vector3<T>& limit, const Matrix3<T>& L, Vector3<T>& the
     }
     if (side.isZero(0)) return false;
     Matrix3<T> c = body_rate_jacobian_inverse(theta).transpose();
-    L.template triangularView<Eigen::Lower>().solveInPlace(c);
+    solve_lower(L, c);
     for (int held = 0; held < 3; ++held) {
         int k = 0;
         if (!((c.transpose() * scaled_rate).cwiseProduct(side).maxCoeff(&k) > 0)) break;

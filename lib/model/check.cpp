@@ -1,7 +1,7 @@
+#include "../base/cholesky.h"
 #include "../base/shortest_text.h"
 #include "splines.h"
 #include "tree.h"
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <limits>
 
@@ -156,7 +156,7 @@ bool possible_inertia(const Mat3& inertia) {
     if (trace == 0) return inertia.isZero(0);
     if (!(trace > 0) || (inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-9 * trace) return false;
     const Mat3 moments = (0.5 * trace + 1e-9 * trace) * Mat3::Identity() - inertia;
-    return Eigen::LLT<Mat3>(moments / trace).info() == Eigen::Success;
+    return Cholesky<double>(moments / trace).positive;
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "reduce_air.h"
+#include "../base/cholesky.h"
 #include "../laws/added_motion.h"
 #include "../laws/air.h"
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -61,9 +61,12 @@ void center_on_pressure(const Tree& whole, Reduced& r, const std::vector<std::ui
         // Centres farther out leave less inertia about them, J - first to across: none of some axis at `all`.
         const Mat3 across = Mat3::Identity() - along * along.transpose();
         const Mat3 about_joint = t.inertia[g] + first * arm * across;
-        const Eigen::LLT<Mat3> root(about_joint);
-        if (root.info() != Eigen::Success) continue;
-        const Mat3 half = root.matrixL().solve(first * across), taken = root.matrixL().solve(Mat3(half.transpose()));
+        const Cholesky<double> root(about_joint);
+        if (!root.positive) continue;
+        Mat3 half = first * across;
+        solve_lower(root.L, half);
+        Mat3 taken = half.transpose();
+        solve_lower(root.L, taken);
         const double all = 1 / Eigen::SelfAdjointEigenSolver<Mat3>(taken, Eigen::EigenvaluesOnly).eigenvalues()[2];
         const double to = std::min(pressed[g].dot(along) / drag[g], arm + 0.95 * (all - arm));
         if (!(to > arm)) continue;

@@ -1,5 +1,5 @@
 #include "sag.h"
-#include <Eigen/Cholesky>
+#include "../base/cholesky.h"
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -59,7 +59,7 @@ std::int64_t newton_step(const Tree& tree, const Vec3& gravity, const StartPose&
         const Mat3 rates = body_rate_jacobian_inverse(theta[i]) * R[i].transpose(); // of theta, from world
         const Mat3 Z = rates.transpose() * tree.stiffness[i].asDiagonal() * rates;
         Mat3 sum = Z + A[i];
-        if (sum.llt().info() != Eigen::Success) {
+        if (!Cholesky<double>(sum).positive) {
             soft = std::int64_t(i);
             if (lift) {
                 const double least = Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[0];

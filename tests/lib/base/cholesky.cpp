@@ -1,0 +1,73 @@
+// Cholesky's factor of 3 x 3 against the definition in long double, and Eigen's solver by another algorithm (LU).
+#include "lib/base/cholesky.h"
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <limits>
+#include <random>
+
+using namespace bough;
+
+namespace {
+
+template <class T> Matrix3<T> any_matrix(std::mt19937& engine) {
+    std::normal_distribution<double> normal;
+    Matrix3<T> m;
+    for (int i = 0; i < 9; ++i) m(i / 3, i % 3) = T(normal(engine));
+    return m;
+}
+
+template <class T> void factors_and_solves() {
+    std::mt19937 engine(5);
+    const T eps = std::numeric_limits<T>::epsilon();
+    for (double scale : {1e-12, 1.0, 1e9})
+        for (int k = 0; k < 200; ++k) {
+            const Matrix3<T> M = any_matrix<T>(engine);
+            const Matrix3<T> A = T(scale) * (M * M.transpose() + T(0.1) * Matrix3<T>::Identity());
+            const Cholesky<T> root(A);
+            REQUIRE(root.positive);
+            REQUIRE(root.L(0, 1) == 0);
+            REQUIRE(root.L(0, 2) == 0);
+            REQUIRE(root.L(1, 2) == 0);
+            const Matrix3<long double> L = root.L.template cast<long double>();
+            const Matrix3<T> left = (L * L.transpose() - A.template cast<long double>()).template cast<T>();
+            REQUIRE(left.norm() <= 8 * eps * A.norm());
+
+            const Matrix3<long double> inverse = A.template cast<long double>().inverse();
+            const T condition = T((inverse.norm() * A.template cast<long double>().norm()));
+            const Vector3<T> b = any_matrix<T>(engine).col(0);
+            const Vector3<T> x = (inverse * b.template cast<long double>()).template cast<T>();
+            REQUIRE((root.solve(b) - x).norm() <= 8 * eps * condition * x.norm());
+
+            Matrix3<T> X = any_matrix<T>(engine), Y = X;
+            const Matrix3<T> lower = L.fullPivLu().solve(X.template cast<long double>()).template cast<T>();
+            const Matrix3<T> upper = L.transpose().fullPivLu().solve(Y.template cast<long double>()).template cast<T>();
+            solve_lower(root.L, X);
+            solve_lower_transposed(root.L, Y);
+            REQUIRE((X - lower).norm() <= 8 * eps * condition * lower.norm());
+            REQUIRE((Y - upper).norm() <= 8 * eps * condition * upper.norm());
+        }
+}
+
+} // namespace
+
+TEST_CASE("Cholesky's factor gives the matrix back, and solves") {
+    factors_and_solves<float>();
+    factors_and_solves<double>();
+}
+
+TEST_CASE("a matrix that is not positive definite has no Cholesky factor") {
+    Mat3 A = Mat3::Identity();
+    for (int k = 0; k < 3; ++k) {
+        Mat3 B = A;
+        B(k, k) = 0;
+        CHECK_FALSE(Cholesky<double>(B).positive);
+        B(k, k) = -1;
+        CHECK_FALSE(Cholesky<double>(B).positive);
+    }
+    A(1, 0) = A(0, 1) = 2; // eigenvalues 3 and -1
+    CHECK_FALSE(Cholesky<double>(A).positive);
+    A(1, 0) = A(0, 1) = 0.5;
+    CHECK(Cholesky<double>(A).positive);
+    A(1, 1) = std::numeric_limits<double>::quiet_NaN();
+    CHECK(std::isnan(Cholesky<double>(A).L(1, 1)));
+}
