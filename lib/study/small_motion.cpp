@@ -1,6 +1,6 @@
 #include "small_motion.h"
+#include "../base/cholesky.h"
 #include "../plan/sag.h"
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
@@ -108,8 +108,8 @@ std::int64_t SmallMotion::factor(const Tree& tree, bool lift) {
         const Mat3 level = gravity_.dot(H[i]) * Mat3::Identity();
         const Mat3 S = R_j * spring_curvature(tree.stiffness[i], pose_.theta[i]) * R_j.transpose();
         Mat3 W = S + level - (gH + gH.transpose()) / 2 + A[i];
-        Eigen::LLT<Mat3> factored(W);
-        if (factored.info() != Eigen::Success) {
+        Cholesky<double> factored(W);
+        if (!factored.positive) {
             soft = std::int64_t(i);
             if (!lift) return soft;
             const Eigen::SelfAdjointEigenSolver<Mat3> block(W);
@@ -117,13 +117,15 @@ std::int64_t SmallMotion::factor(const Tree& tree, bool lift) {
             const double more = 1e-3 * S.trace() - 1.5 * std::min(block.eigenvalues()[0], 0.0);
             A[i].diagonal().array() += more;
             W.diagonal().array() += more;
-            factored.compute(W);
+            factored = Cholesky<double>(W);
         }
-        const Mat3 L = factored.matrixL();
+        const Mat3& L = factored.L;
         const double six[6] = {L(0, 0), L(1, 0), L(1, 1), L(2, 0), L(2, 1), L(2, 2)};
         std::copy(six, six + 6, body.L);
         const Mat3 C = level - gH + A[i];
-        body.W_C = factored.solve(C);
+        body.W_C = C;
+        solve_lower(L, body.W_C);
+        solve_lower_transposed(L, body.W_C);
         if (body.parent >= 0) A[std::size_t(body.parent)] += A[i] - C.transpose() * body.W_C;
     }
     return soft;

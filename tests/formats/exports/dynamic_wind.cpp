@@ -179,7 +179,7 @@ TEST_CASE("joints of vertical branches are found, trunks are none") {
     const std::vector<std::int32_t> before = vertical_joints(tree, groups);
     // Body 4 begins branch 1: stands it up.
     const Quat now(drawn.R_wg[4]);
-    const Quat up = Quat::FromTwoVectors(now * Vec3::UnitZ(), Vec3::UnitY());
+    const Quat up = shortest_turn(now * Vec3::UnitZ(), Vec3::UnitY());
     tree.joint_rotation[4] = tree.joint_rotation[4] * (now.conjugate() * up * now);
     const std::vector<std::int32_t> after = vertical_joints(tree, groups);
     CHECK(std::find(before.begin(), before.end(), 4) == before.end());

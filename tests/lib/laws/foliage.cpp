@@ -147,7 +147,7 @@ TEST_CASE("The air takes a blade's turning about its length by exp(-rate t), in 
     // Free about z, stiff else, along a steady wind: no force turns it, and I_z w' = -k g |u| (kappa rho A / m) I_z w.
     const double speed = 4, start = 0.5;
     for (const int leaves : {1, 14}) {
-        Tree tree = leaf_along(Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()), 0.1, leaves);
+        Tree tree = leaf_along(shortest_turn(Vec3::UnitZ(), Vec3::UnitX()), 0.1, leaves);
         tree.stiffness[0] = {100, 100, 0};
         Scene scene = in_steady(speed);
         scene.gravity = Vec3::Zero();
@@ -172,7 +172,7 @@ TEST_CASE("A clump streams as a pendulum of its drag, and swings no longer at on
     // About the equilibrium along the wind: I theta'' + (D l^2 + k_spin I_c) theta' + (K + F l) theta = 0, F = kappa rho A g U^2 its drag, D = F / U across
     // the wind, l the arm.
     const double U = 20, g = 1 / (1 + U / 7.5), L = 0.3;
-    Tree tree = leaf_along(Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()), L, 14);
+    Tree tree = leaf_along(shortest_turn(Vec3::UnitZ(), Vec3::UnitX()), L, 14);
     tree.damping[0] = 0;
     Scene scene = in_steady(U);
     scene.gravity = Vec3::Zero();

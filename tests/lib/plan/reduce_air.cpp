@@ -62,8 +62,8 @@ TEST_CASE("the mean force of a group over all directions is its bodies'") {
     for (int k = 0; k < 60; ++k) {
         const double z = 1 - (2 * k + 1) / 60.0, around = k * std::numbers::pi * (3 - std::sqrt(5.0));
         const Vec3 along(std::sqrt(1 - z * z) * std::cos(around), std::sqrt(1 - z * z) * std::sin(around), z);
-        make_tree::add_piece(tree, 0, Vec3(0, 0, 0.1), Quat(Quat::FromTwoVectors(Vec3::UnitZ(), along)), 0.3, 0.01,
-                             0.005, k + 1, 1, 0);
+        make_tree::add_piece(tree, 0, Vec3(0, 0, 0.1), shortest_turn(Vec3::UnitZ(), along), 0.3, 0.01, 0.005, k + 1, 1,
+                             0);
     }
     make_tree::add_fruit(tree, 0, Vec3(0, 0, 0.05), Quat::Identity(), 0.05, 0.03, 0, 0, 0.5);
     tree.rigid.assign(tree.size_bodies(), 1);

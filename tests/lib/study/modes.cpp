@@ -209,7 +209,7 @@ Tree rod(const Vec3& K, double mass = 2, double length = 1.5) {
     tree.com = {Vec3(0, 0, length / 2)};
     tree.inertia = {Vec3(mass * length * length / 12, mass * length * length / 12, 0.003).asDiagonal()};
     tree.joint_position = {Vec3::Zero()};
-    tree.joint_rotation = {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY()))};
+    tree.joint_rotation = {shortest_turn(Vec3::UnitZ(), Vec3::UnitY())};
     tree.stiffness = {K};
     tree.damping = {0.02};
     tree.size = {Vec3(length, 0.02, 0.02)};
