@@ -150,6 +150,14 @@ std::string OptionList::wrong_name(const std::string& given) const {
     return given + ": unknown option" + (name.empty() ? "" : ", did you mean " + name + "?");
 }
 
+std::string OptionList::taken() const {
+    std::string all;
+    for (const OptionHelp& option : help_)
+        for (const std::string& name : option.names)
+            if (name[0] != '-') all += (all.empty() ? "" : " ") + name;
+    return all.empty() ? "options alone" : all + " and options";
+}
+
 OptionsRead OptionList::read(int argc, char** argv) {
     for (int k = 1; k < argc; ++k)
         for (const auto& [name, why] : refused_)
@@ -171,7 +179,7 @@ OptionsRead OptionList::read(int argc, char** argv) {
         for (const std::string& extra : extras)
             if (extra.size() > 1 && extra[0] == '-') return {OptionsRead::End::wrong, wrong_name(extra)};
         if (extras.empty()) return {OptionsRead::End::wrong, error.what()};
-        return {OptionsRead::End::wrong, "'" + extras.front() + "': one argument too many"};
+        return {OptionsRead::End::wrong, "'" + extras.front() + "': one argument too many, expected " + taken()};
     } catch (const CLI::ParseError& error) {
         return {OptionsRead::End::wrong, error.what()};
     }

@@ -67,6 +67,7 @@ public:
 private:
     OptionEntry entry(CLI::Option&, const std::string& name, const std::string& help);
     std::string wrong_name(const std::string& given) const;
+    std::string taken() const; // what it takes, in a word or two
 
     std::unique_ptr<CLI::App> app_;
     HelpPage head_;

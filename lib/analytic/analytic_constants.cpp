@@ -83,7 +83,9 @@ template <class T> void take_analytic_constants(const Plan<T>& plan, const Tree&
     if (plan.gravity || plan.root_motion) take_gravity_rows(plan, tree, weight, own);
 }
 
-template void take_analytic_constants(const Plan<float>&, const Tree&, AnalyticPlan<float>&);
-template void take_analytic_constants(const Plan<double>&, const Tree&, AnalyticPlan<double>&);
+#define BOUGH_INSTANTIATE(T) template void take_analytic_constants(const Plan<T>&, const Tree&, AnalyticPlan<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -40,9 +40,10 @@ void analytic_step(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& st
     ++state.step;
 }
 
-template void analytic_step(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&,
-                            StageClock*);
-template void analytic_step(const Plan<double>&, const AnalyticPlan<double>&, State<double>&, AnalyticWork<double>&,
-                            StageClock*);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void analytic_step(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&, StageClock*);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

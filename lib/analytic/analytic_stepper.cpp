@@ -138,11 +138,12 @@ void AnalyticStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<
     if (own.fictitious) accelerations(plan, state, work);
 }
 
-template struct AnalyticWork<float>;
-template struct AnalyticWork<double>;
-template void drop_from_analytic(Plan<float>&, State<float>&, std::size_t);
-template void drop_from_analytic(Plan<double>&, State<double>&, std::size_t);
-template class AnalyticStepper<float>;
-template class AnalyticStepper<double>;
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template struct AnalyticWork<T>;                                                                                   \
+    template void drop_from_analytic(Plan<T>&, State<T>&, std::size_t);                                                \
+    template class AnalyticStepper<T>;
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

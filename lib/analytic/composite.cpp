@@ -62,7 +62,10 @@ void composite_update(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>&
         if (plan.parent[i] >= 0) add_to_parent(plan, own, state, work, i, std::size_t(plan.parent[i]));
 }
 
-template void composite_update(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&);
-template void composite_update(const Plan<double>&, const AnalyticPlan<double>&, State<double>&, AnalyticWork<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void composite_update(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -23,11 +23,11 @@ void joint_drag(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& state
     parallel_for(plan.bodies, 100, [&](std::size_t i) { joint_drag(plan, own, state, work, i); });
 }
 
-template void joint_drag(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&,
-                         std::size_t);
-template void joint_drag(const Plan<double>&, const AnalyticPlan<double>&, State<double>&, AnalyticWork<double>&,
-                         std::size_t);
-template void joint_drag(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&);
-template void joint_drag(const Plan<double>&, const AnalyticPlan<double>&, State<double>&, AnalyticWork<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void joint_drag(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&, std::size_t);        \
+    template void joint_drag(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

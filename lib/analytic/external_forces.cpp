@@ -52,9 +52,10 @@ void external_forces(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& 
     });
 }
 
-template void external_forces(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&,
-                              double);
-template void external_forces(const Plan<double>&, const AnalyticPlan<double>&, State<double>&, AnalyticWork<double>&,
-                              double);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void external_forces(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -55,9 +55,11 @@ template <class T> void fictitious_torques(const Plan<T>& plan, State<T>& s, Ana
     });
 }
 
-template void accelerations(const Plan<float>&, State<float>&, AnalyticWork<float>&);
-template void accelerations(const Plan<double>&, State<double>&, AnalyticWork<double>&);
-template void fictitious_torques(const Plan<float>&, State<float>&, AnalyticWork<float>&);
-template void fictitious_torques(const Plan<double>&, State<double>&, AnalyticWork<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void accelerations(const Plan<T>&, State<T>&, AnalyticWork<T>&);                                          \
+    template void fictitious_torques(const Plan<T>&, State<T>&, AnalyticWork<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

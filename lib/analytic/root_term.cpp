@@ -16,7 +16,9 @@ template <class T> void root_loads(const Plan<T>& plan, AnalyticWork<T>& work, d
     }
 }
 
-template void root_loads(const Plan<float>&, AnalyticWork<float>&, double);
-template void root_loads(const Plan<double>&, AnalyticWork<double>&, double);
+#define BOUGH_INSTANTIATE(T) template void root_loads(const Plan<T>&, AnalyticWork<T>&, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -84,13 +84,13 @@ void spring_update(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& st
     });
 }
 
-template void symmetric_eigen(Matrix3<float>, Matrix3<float>&, Vector3<float>&);
-template void symmetric_eigen(Matrix3<double>, Matrix3<double>&, Vector3<double>&);
-template StepFlags spring_update(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&,
-                                 std::size_t);
-template StepFlags spring_update(const Plan<double>&, const AnalyticPlan<double>&, State<double>&,
-                                 AnalyticWork<double>&, std::size_t);
-template void spring_update(const Plan<float>&, const AnalyticPlan<float>&, State<float>&, AnalyticWork<float>&);
-template void spring_update(const Plan<double>&, const AnalyticPlan<double>&, State<double>&, AnalyticWork<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void symmetric_eigen(Matrix3<T>, Matrix3<T>&, Vector3<T>&);                                               \
+    template StepFlags spring_update(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&,              \
+                                     std::size_t);                                                                     \
+    template void spring_update(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -111,21 +111,15 @@ T kept_of_rate(const Plan<T>& plan, const SpringJoint<T>& joint, std::size_t i, 
     return std::sqrt(std::max(T(0), 1 - 2 * excess / kinetic));
 }
 
-template SpringJoint<float> spring_joint(const Plan<float>&, const AnalyticPlan<float>&, const State<float>&,
-                                         const AnalyticWork<float>&, std::size_t);
-template SpringOscillators<float> spring_oscillators(const Plan<float>&, const AnalyticPlan<float>&,
-                                                     const State<float>&, const AnalyticWork<float>&,
-                                                     const SpringJoint<float>&, std::size_t);
-template float kept_of_rate(const Plan<float>&, const SpringJoint<float>&, std::size_t, const Vector3<float>&,
-                            const Vector3<float>&, const Vector3<float>&, const Vector3<float>&, const Vector3<float>&,
-                            StepFlags&);
-template SpringJoint<double> spring_joint(const Plan<double>&, const AnalyticPlan<double>&, const State<double>&,
-                                          const AnalyticWork<double>&, std::size_t);
-template SpringOscillators<double> spring_oscillators(const Plan<double>&, const AnalyticPlan<double>&,
-                                                      const State<double>&, const AnalyticWork<double>&,
-                                                      const SpringJoint<double>&, std::size_t);
-template double kept_of_rate(const Plan<double>&, const SpringJoint<double>&, std::size_t, const Vector3<double>&,
-                             const Vector3<double>&, const Vector3<double>&, const Vector3<double>&,
-                             const Vector3<double>&, StepFlags&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template SpringJoint<T> spring_joint(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&,                      \
+                                         const AnalyticWork<T>&, std::size_t);                                         \
+    template SpringOscillators<T> spring_oscillators(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&,          \
+                                                     const AnalyticWork<T>&, const SpringJoint<T>&, std::size_t);      \
+    template T kept_of_rate(const Plan<T>&, const SpringJoint<T>&, std::size_t, const Vector3<T>&, const Vector3<T>&,  \
+                            const Vector3<T>&, const Vector3<T>&, const Vector3<T>&, StepFlags&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -7,17 +7,18 @@ namespace bough {
 
 // Of A, its lower half is read.
 template <class T> struct Cholesky {
-    Matrix3<T> L = Matrix3<T>::Zero(); // where A is not positive definite, as far as it came
-    bool positive = false;             // A is positive definite; not a number is taken for positive, and found in L
+    Matrix3<T> L;          // where A is not positive definite, as far as it came, and then A's own lower half
+    bool positive = false; // A is positive definite; not a number is taken for positive, and found in L
 
     explicit Cholesky(const Matrix3<T>& A) {
+        L << A(0, 0), T(0), T(0), A(1, 0), A(1, 1), T(0), A(2, 0), A(2, 1), A(2, 2);
         for (int k = 0; k < 3; ++k) {
-            T pivot = A(k, k);
+            T pivot = L(k, k);
             if (k > 0) pivot -= L.row(k).head(k).squaredNorm();
             if (pivot <= T(0)) return;
             L(k, k) = std::sqrt(pivot);
             for (int i = k + 1; i < 3; ++i) {
-                T below = A(i, k);
+                T below = L(i, k);
                 if (k > 0) below -= L.row(i).head(k).dot(L.row(k).head(k));
                 L(i, k) = below / L(k, k);
             }

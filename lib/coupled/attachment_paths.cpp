@@ -104,13 +104,13 @@ template <class T> void add_direction(const Plan<T>& plan, Attachments& a, const
     });
 }
 
-template void find_bodies(const Plan<float>&, Attachments&);
-template void find_bodies(const Plan<double>&, Attachments&);
-template double answering_stiffness(const Plan<float>&, const AttachedBody&);
-template double answering_stiffness(const Plan<double>&, const AttachedBody&);
-template PathAnswer path_answer(const Plan<float>&, const Attachments&, const AttachedEnd&, std::complex<double>);
-template PathAnswer path_answer(const Plan<double>&, const Attachments&, const AttachedEnd&, std::complex<double>);
-template void add_direction(const Plan<float>&, Attachments&, const Attached&);
-template void add_direction(const Plan<double>&, Attachments&, const Attached&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void find_bodies(const Plan<T>&, Attachments&);                                                           \
+    template double answering_stiffness(const Plan<T>&, const AttachedBody&);                                          \
+    template PathAnswer path_answer(const Plan<T>&, const Attachments&, const AttachedEnd&, std::complex<double>);     \
+    template void add_direction(const Plan<T>&, Attachments&, const Attached&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -153,7 +153,9 @@ template <class T> void solve_ties(const Plan<T>& plan, CoupledState<T>& work, s
     solve.inward();
 }
 
-template void solve_ties(const Plan<float>&, CoupledState<float>&, std::complex<double>);
-template void solve_ties(const Plan<double>&, CoupledState<double>&, std::complex<double>);
+#define BOUGH_INSTANTIATE(T) template void solve_ties(const Plan<T>&, CoupledState<T>&, std::complex<double>);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -106,9 +106,11 @@ void body_loads(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state,
     add_pulls(plan, state, work, time);
 }
 
-template void wind_over_step(const Plan<float>&, State<float>&, CoupledState<float>&, double);
-template void wind_over_step(const Plan<double>&, State<double>&, CoupledState<double>&, double);
-template void body_loads(const Plan<float>&, const CoupledPlan<float>&, State<float>&, CoupledWork<float>&, double);
-template void body_loads(const Plan<double>&, const CoupledPlan<double>&, State<double>&, CoupledWork<double>&, double);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void wind_over_step(const Plan<T>&, State<T>&, CoupledState<T>&, double);                                 \
+    template void body_loads(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

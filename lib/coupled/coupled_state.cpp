@@ -36,11 +36,12 @@ void refuse_with_coupled(const Scene& scene) {
                                 "and in time");
 }
 
-template struct CoupledWork<float>;
-template struct CoupledWork<double>;
-template void take_coupled_constants(const Plan<float>&, const Tree&, CoupledPlan<float>&);
-template void take_coupled_constants(const Plan<double>&, const Tree&, CoupledPlan<double>&);
-template void allocate_coupled(const Plan<float>&, State<float>&, CoupledState<float>&, std::size_t);
-template void allocate_coupled(const Plan<double>&, State<double>&, CoupledState<double>&, std::size_t);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template struct CoupledWork<T>;                                                                                    \
+    template void take_coupled_constants(const Plan<T>&, const Tree&, CoupledPlan<T>&);                                \
+    template void allocate_coupled(const Plan<T>&, State<T>&, CoupledState<T>&, std::size_t);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -71,9 +71,10 @@ void coupled_step(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& stat
     ++state.step;
 }
 
-template void coupled_step(const Plan<float>&, const CoupledPlan<float>&, State<float>&, CoupledWork<float>&,
-                           StageClock*);
-template void coupled_step(const Plan<double>&, const CoupledPlan<double>&, State<double>&, CoupledWork<double>&,
-                           StageClock*);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void coupled_step(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, StageClock*);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

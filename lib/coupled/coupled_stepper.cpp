@@ -81,13 +81,13 @@ template <class T> void CoupledStepper<T>::restore(const Plan<T>&, State<T>& sta
     restore_attachments(coupled_state(state).attachments.all, saved.attachments);
 }
 
-template class CoupledStepper<float>;
-template class CoupledStepper<double>;
-template std::vector<CarriedArray<float>> carried_by_coupled(State<float>&);
-template std::vector<CarriedArray<double>> carried_by_coupled(State<double>&);
-template void scale_changes(State<float>&, float);
-template void scale_changes(State<double>&, double);
-template void drop_from_coupled(Plan<float>&, State<float>&, std::size_t);
-template void drop_from_coupled(Plan<double>&, State<double>&, std::size_t);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template class CoupledStepper<T>;                                                                                  \
+    template std::vector<CarriedArray<T>> carried_by_coupled(State<T>&);                                               \
+    template void scale_changes(State<T>&, T);                                                                         \
+    template void drop_from_coupled(Plan<T>&, State<T>&, std::size_t);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

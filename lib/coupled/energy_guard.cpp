@@ -226,9 +226,11 @@ template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, CoupledWo
     }
 }
 
-template bool weigh_start(const Plan<float>&, State<float>&, CoupledWork<float>&, double);
-template bool weigh_start(const Plan<double>&, State<double>&, CoupledWork<double>&, double);
-template void guard_energy(const Plan<float>&, State<float>&, CoupledWork<float>&, double);
-template void guard_energy(const Plan<double>&, State<double>&, CoupledWork<double>&, double);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template bool weigh_start(const Plan<T>&, State<T>&, CoupledWork<T>&, double);                                     \
+    template void guard_energy(const Plan<T>&, State<T>&, CoupledWork<T>&, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -160,9 +160,11 @@ void guard_lanes(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& 
                 state.flags.energy_guard += scale(plan, own, work, layout.blocks[b], layout.groups[k]);
 }
 
-template void guard_lanes(const Plan<float>&, const CoupledLanesPlan<float>&, State<float>&, CoupledLanesState<float>&,
-                          const CoupledRows<float>&);
-template void guard_lanes(const Plan<double>&, const CoupledLanesPlan<double>&, State<double>&,
-                          CoupledLanesState<double>&, const CoupledRows<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void guard_lanes(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&,            \
+                              const CoupledRows<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough::fast

@@ -84,7 +84,9 @@ template <class T> bool keep_limits(const Plan<T>& plan, State<T>& state, Couple
     return true;
 }
 
-template bool keep_limits(const Plan<float>&, State<float>&, CoupledWork<float>&);
-template bool keep_limits(const Plan<double>&, State<double>&, CoupledWork<double>&);
+#define BOUGH_INSTANTIATE(T) template bool keep_limits(const Plan<T>&, State<T>&, CoupledWork<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

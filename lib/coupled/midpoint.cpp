@@ -110,9 +110,11 @@ template <class T> void midpoint(const Plan<T>& plan, State<T>& state, CoupledWo
     state.flags.fast_turns += fast;
 }
 
-template void ground_over_step(const Plan<float>&, const CoupledPlan<float>&, CoupledState<float>&, double);
-template void ground_over_step(const Plan<double>&, const CoupledPlan<double>&, CoupledState<double>&, double);
-template void midpoint(const Plan<float>&, State<float>&, CoupledWork<float>&, bool);
-template void midpoint(const Plan<double>&, State<double>&, CoupledWork<double>&, bool);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void ground_over_step(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double);                   \
+    template void midpoint(const Plan<T>&, State<T>&, CoupledWork<T>&, bool);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -108,11 +108,12 @@ template <class T> void add_directions(const Plan<T>& plan, Attachments& a) {
     }
 }
 
-template bool take_loads(const Plan<float>&, const State<float>&, Attachments&);
-template bool take_loads(const Plan<double>&, const State<double>&, Attachments&);
-template void place_pull(const Plan<float>&, Attachments&, PulledPoint&, double);
-template void place_pull(const Plan<double>&, Attachments&, PulledPoint&, double);
-template void add_directions(const Plan<float>&, Attachments&);
-template void add_directions(const Plan<double>&, Attachments&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template bool take_loads(const Plan<T>&, const State<T>&, Attachments&);                                           \
+    template void place_pull(const Plan<T>&, Attachments&, PulledPoint&, double);                                      \
+    template void add_directions(const Plan<T>&, Attachments&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -128,8 +128,10 @@ void resolvent(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, 
         Solve<T, std::complex<T>>(plan, state, work, work.resolvent, pole).run();
 }
 
-template void resolvent(const Plan<float>&, const CoupledPlan<float>&, State<float>&, CoupledWork<float>&, const Pole&);
-template void resolvent(const Plan<double>&, const CoupledPlan<double>&, State<double>&, CoupledWork<double>&,
-                        const Pole&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void resolvent(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, const Pole&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -258,23 +258,17 @@ void restore_sleep(const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work, c
                                     std::to_string(next));
 }
 
-template void plan_sleep(const Plan<float>&, CoupledLanesPlan<float>&, double);
-template void wake_all(const CoupledLanesPlan<float>&, CoupledLanesState<float>&);
-template void wake_all(const CoupledLanesPlan<double>&, CoupledLanesState<double>&);
-template void wake_blocks(const Plan<float>&, const CoupledLanesPlan<float>&, State<float>&, CoupledLanesState<float>&,
-                          double);
-template void rest_blocks(const Plan<float>&, const CoupledLanesPlan<float>&, CoupledLanesState<float>&,
-                          const std::vector<SweepFlags>&);
-template void keep_motion(const CoupledLanesPlan<float>&, CoupledLanesState<float>&, const Block&);
-template std::vector<double> saved_sleep(const CoupledLanesPlan<float>&, const CoupledLanesState<float>&);
-template void restore_sleep(const CoupledLanesPlan<float>&, CoupledLanesState<float>&, const std::vector<double>&);
-template void plan_sleep(const Plan<double>&, CoupledLanesPlan<double>&, double);
-template void wake_blocks(const Plan<double>&, const CoupledLanesPlan<double>&, State<double>&,
-                          CoupledLanesState<double>&, double);
-template void rest_blocks(const Plan<double>&, const CoupledLanesPlan<double>&, CoupledLanesState<double>&,
-                          const std::vector<SweepFlags>&);
-template void keep_motion(const CoupledLanesPlan<double>&, CoupledLanesState<double>&, const Block&);
-template std::vector<double> saved_sleep(const CoupledLanesPlan<double>&, const CoupledLanesState<double>&);
-template void restore_sleep(const CoupledLanesPlan<double>&, CoupledLanesState<double>&, const std::vector<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void plan_sleep(const Plan<T>&, CoupledLanesPlan<T>&, double);                                            \
+    template void wake_all(const CoupledLanesPlan<T>&, CoupledLanesState<T>&);                                         \
+    template void wake_blocks(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&, double);   \
+    template void rest_blocks(const Plan<T>&, const CoupledLanesPlan<T>&, CoupledLanesState<T>&,                       \
+                              const std::vector<SweepFlags>&);                                                         \
+    template void keep_motion(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const Block&);                        \
+    template std::vector<double> saved_sleep(const CoupledLanesPlan<T>&, const CoupledLanesState<T>&);                 \
+    template void restore_sleep(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const std::vector<double>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough::fast

@@ -67,7 +67,10 @@ void break_joints(Plan<T>& plan, State<T>& state, World<T>& world, const std::ve
     world.rigid.remake(plan, world.subtrees, path);
 }
 
-template void break_joints(Plan<float>&, State<float>&, World<float>&, const std::vector<ContactPoint>&);
-template void break_joints(Plan<double>&, State<double>&, World<double>&, const std::vector<ContactPoint>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void break_joints(Plan<T>&, State<T>&, World<T>&, const std::vector<ContactPoint>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

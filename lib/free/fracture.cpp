@@ -182,13 +182,13 @@ void detach(Plan<T>& plan, State<T>& state, const Subtrees& trees, const std::ve
     plan.stepper->drop(plan, state, left);
 }
 
-template std::vector<FreeBody> pieces_of(const Plan<float>&, const Tree&, const Subtrees&, TreePoses<float>&,
-                                         const std::vector<std::uint32_t>&);
-template std::vector<FreeBody> pieces_of(const Plan<double>&, const Tree&, const Subtrees&, TreePoses<double>&,
-                                         const std::vector<std::uint32_t>&);
-template Remaining whole_tree(const Plan<float>&, const Tree&);
-template Remaining whole_tree(const Plan<double>&, const Tree&);
-template void detach(Plan<float>&, State<float>&, const Subtrees&, const std::vector<std::uint32_t>&, Remaining&);
-template void detach(Plan<double>&, State<double>&, const Subtrees&, const std::vector<std::uint32_t>&, Remaining&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template std::vector<FreeBody> pieces_of(const Plan<T>&, const Tree&, const Subtrees&, TreePoses<T>&,              \
+                                             const std::vector<std::uint32_t>&);                                       \
+    template Remaining whole_tree(const Plan<T>&, const Tree&);                                                        \
+    template void detach(Plan<T>&, State<T>&, const Subtrees&, const std::vector<std::uint32_t>&, Remaining&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

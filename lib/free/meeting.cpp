@@ -226,11 +226,12 @@ template <class T> void come_to_ground(const Plan<T>& plan, World<T>& world) {
     }
 }
 
-template void fly_all(const Plan<float>&, World<float>&, std::vector<Way>&);
-template std::vector<ContactPoint> meet_and_go(const Plan<float>&, State<float>&, World<float>&, std::vector<Way>&);
-template void come_to_ground(const Plan<float>&, World<float>&);
-template void fly_all(const Plan<double>&, World<double>&, std::vector<Way>&);
-template std::vector<ContactPoint> meet_and_go(const Plan<double>&, State<double>&, World<double>&, std::vector<Way>&);
-template void come_to_ground(const Plan<double>&, World<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void fly_all(const Plan<T>&, World<T>&, std::vector<Way>&);                                               \
+    template std::vector<ContactPoint> meet_and_go(const Plan<T>&, State<T>&, World<T>&, std::vector<Way>&);           \
+    template void come_to_ground(const Plan<T>&, World<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -160,7 +160,9 @@ template <class T> std::size_t NearPairs<T>::bytes() const {
            sizeof(Ends) * ends_.capacity() + sizeof(PartBox) * parts_.capacity() + sizeof(NearPair) * pairs_.capacity();
 }
 
-template class NearPairs<float>;
-template class NearPairs<double>;
+#define BOUGH_INSTANTIATE(T) template class NearPairs<T>;
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

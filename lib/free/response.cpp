@@ -73,7 +73,9 @@ void TreeResponse<T>::remake(const Plan<T>& plan, const Subtrees& trees, const s
     }
 }
 
-template class TreeResponse<float>;
-template class TreeResponse<double>;
+#define BOUGH_INSTANTIATE(T) template class TreeResponse<T>;
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -51,7 +51,9 @@ std::vector<Ball> shown_balls(const Tree& tree, const Scene& scene, const std::v
     return balls;
 }
 
-template void place_free_bodies(const World<float>&, MotionFrame&);
-template void place_free_bodies(const World<double>&, MotionFrame&);
+#define BOUGH_INSTANTIATE(T) template void place_free_bodies(const World<T>&, MotionFrame&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

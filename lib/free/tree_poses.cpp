@@ -70,7 +70,9 @@ template <class T> const BodyPose& TreePoses<T>::of(std::size_t body) {
     return pose_[place_[body]];
 }
 
-template class TreePoses<float>;
-template class TreePoses<double>;
+#define BOUGH_INSTANTIATE(T) template class TreePoses<T>;
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

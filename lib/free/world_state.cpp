@@ -171,11 +171,12 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
     world.rigid.make(plan, tree, world.subtrees, false);
 }
 
-template std::uint64_t state_hash(const Plan<float>&, const State<float>&, const World<float>&);
-template std::uint64_t state_hash(const Plan<double>&, const State<double>&, const World<double>&);
-template std::vector<double> saved_world(const State<float>&, const World<float>&);
-template std::vector<double> saved_world(const State<double>&, const World<double>&);
-template void restore_world(Plan<float>&, State<float>&, World<float>&, const std::vector<double>&);
-template void restore_world(Plan<double>&, State<double>&, World<double>&, const std::vector<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template std::uint64_t state_hash(const Plan<T>&, const State<T>&, const World<T>&);                               \
+    template std::vector<double> saved_world(const State<T>&, const World<T>&);                                        \
+    template void restore_world(Plan<T>&, State<T>&, World<T>&, const std::vector<double>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

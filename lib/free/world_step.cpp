@@ -72,7 +72,9 @@ template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world,
     });
 }
 
-template void advance(Plan<float>&, State<float>&, World<float>&, StageClock*);
-template void advance(Plan<double>&, State<double>&, World<double>&, StageClock*);
+#define BOUGH_INSTANTIATE(T) template void advance(Plan<T>&, State<T>&, World<T>&, StageClock*);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -49,7 +49,10 @@ void lay_out_lanes(const Plan<T>& plan, const std::vector<TreeRange>& ranges, Pl
     lanes.per_metre = table.per_metre;
 }
 
-template void lay_out_lanes(const Plan<float>&, const std::vector<TreeRange>&, PlannedLanes<float>&);
-template void lay_out_lanes(const Plan<double>&, const std::vector<TreeRange>&, PlannedLanes<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>&, PlannedLanes<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough::fast

@@ -79,9 +79,11 @@ template <class T> void SharedRows<T>::finish() {
     sharing.row.push_back(sharing.row.back()); // asked for in advance
 }
 
-template std::size_t shared_rows(const PlannedLanes<float>&);
-template std::size_t shared_rows(const PlannedLanes<double>&);
-template class SharedRows<float>;
-template class SharedRows<double>;
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template std::size_t shared_rows(const PlannedLanes<T>&);                                                          \
+    template class SharedRows<T>;
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough::fast

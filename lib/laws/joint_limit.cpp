@@ -27,7 +27,10 @@ bool stop_at_limit(const Vector3<T>& limit, const Matrix3<T>& L, Vector3<T>& the
     return true;
 }
 
-template bool stop_at_limit(const Vector3<float>&, const Matrix3<float>&, Vector3<float>&, Vector3<float>&);
-template bool stop_at_limit(const Vector3<double>&, const Matrix3<double>&, Vector3<double>&, Vector3<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template bool stop_at_limit(const Vector3<T>&, const Matrix3<T>&, Vector3<T>&, Vector3<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -135,10 +135,12 @@ template <class T> void evaluate_wind(const Wind& wind, double t, WindTable<T>& 
     for (std::size_t k = 0; k < table.velocity.size(); ++k) table.velocity[k] = table.profile[k] * v;
 }
 
-template WindTable<float> make_wind_table(const Wind&, double, double, const std::vector<double>&);
-template WindTable<double> make_wind_table(const Wind&, double, double, const std::vector<double>&);
-template void evaluate_wind(const Wind&, double, WindTable<float>&);
-template void evaluate_wind(const Wind&, double, WindTable<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template WindTable<T> make_wind_table(const Wind&, double, double, const std::vector<double>&);                    \
+    template void evaluate_wind(const Wind&, double, WindTable<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 std::optional<Wind> wind_preset(const std::string& name) {
     struct Row {

@@ -197,9 +197,11 @@ template <class T> void evaluate_field(const Wind& wind, double t, WindField<T>&
     for (std::size_t k = 0; k < field.clock.size(); ++k) evaluate_clock(wind, k, t + field.clock[k], field);
 }
 
-template WindField<float> make_wind_field(const Wind&, double, const std::vector<double>&);
-template WindField<double> make_wind_field(const Wind&, double, const std::vector<double>&);
-template void evaluate_field(const Wind&, double, WindField<float>&);
-template void evaluate_field(const Wind&, double, WindField<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template WindField<T> make_wind_field(const Wind&, double, const std::vector<double>&);                            \
+    template void evaluate_field(const Wind&, double, WindField<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -34,11 +34,12 @@ template <class T> std::vector<Vec3> carried_drag(const Plan<T>& plan, const Tre
     return P;
 }
 
-template void plan_surfaces(Plan<float>&, const Tree&);
-template void plan_surfaces(Plan<double>&, const Tree&);
-template std::vector<Vec3> carried_moments(const Plan<float>&, const Tree&);
-template std::vector<Vec3> carried_moments(const Plan<double>&, const Tree&);
-template std::vector<Vec3> carried_drag(const Plan<float>&, const Tree&);
-template std::vector<Vec3> carried_drag(const Plan<double>&, const Tree&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void plan_surfaces(Plan<T>&, const Tree&);                                                                \
+    template std::vector<Vec3> carried_moments(const Plan<T>&, const Tree&);                                           \
+    template std::vector<Vec3> carried_drag(const Plan<T>&, const Tree&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -16,9 +16,11 @@ template <class T> void change_step(Plan<T>& plan, State<T>& state, double dt) {
     plan.stepper->step_changed(plan, state, ratio);
 }
 
-template void scale_wood(Plan<float>&, double, double);
-template void scale_wood(Plan<double>&, double, double);
-template void change_step(Plan<float>&, State<float>&, double);
-template void change_step(Plan<double>&, State<double>&, double);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void scale_wood(Plan<T>&, double, double);                                                                \
+    template void change_step(Plan<T>&, State<T>&, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

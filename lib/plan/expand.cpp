@@ -91,9 +91,11 @@ void expand_frame(const Reduced& r, const Tree& whole, const Plan<T>& plan, cons
     of_leader(frame.stress, 0);
 }
 
-template WholePose whole_pose(const Reduced&, const Plan<float>&, const State<float>&, std::size_t);
-template WholePose whole_pose(const Reduced&, const Plan<double>&, const State<double>&, std::size_t);
-template void expand_frame(const Reduced&, const Tree&, const Plan<float>&, const State<float>&, MotionFrame&);
-template void expand_frame(const Reduced&, const Tree&, const Plan<double>&, const State<double>&, MotionFrame&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template WholePose whole_pose(const Reduced&, const Plan<T>&, const State<T>&, std::size_t);                       \
+    template void expand_frame(const Reduced&, const Tree&, const Plan<T>&, const State<T>&, MotionFrame&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

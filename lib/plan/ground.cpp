@@ -6,7 +6,9 @@ template <class T> void move_ground(const Plan<T>& plan, State<T>& state, double
     for (std::size_t k = 0; k < plan.splines.size(); ++k) state.ground[k] = ground_at(plan.splines[k], time);
 }
 
-template void move_ground(const Plan<float>&, State<float>&, double);
-template void move_ground(const Plan<double>&, State<double>&, double);
+#define BOUGH_INSTANTIATE(T) template void move_ground(const Plan<T>&, State<T>&, double);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -101,7 +101,9 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan, const std
     return factors;
 }
 
-template std::vector<float> shelter_factors(const Plan<float>&, const std::vector<double>&);
-template std::vector<double> shelter_factors(const Plan<double>&, const std::vector<double>&);
+#define BOUGH_INSTANTIATE(T) template std::vector<T> shelter_factors(const Plan<T>&, const std::vector<double>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

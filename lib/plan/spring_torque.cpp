@@ -14,9 +14,11 @@ template <class T> void bending_stresses(const Plan<T>& plan, const State<T>& st
         stress[i] = double(state.torque_j[i].template head<2>().norm() * plan.stress_of_moment[i]);
 }
 
-template void spring_torque(const Plan<float>&, State<float>&);
-template void spring_torque(const Plan<double>&, State<double>&);
-template void bending_stresses(const Plan<float>&, const State<float>&, std::vector<double>&);
-template void bending_stresses(const Plan<double>&, const State<double>&, std::vector<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void spring_torque(const Plan<T>&, State<T>&);                                                            \
+    template void bending_stresses(const Plan<T>&, const State<T>&, std::vector<double>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -60,21 +60,17 @@ template <class T> std::optional<std::size_t> first_non_finite(const State<T>& s
     return std::nullopt;
 }
 
-template struct State<float>;
-template struct State<double>;
-template State<float> make_state(const Plan<float>&);
-template State<double> make_state(const Plan<double>&);
-template void restart(const Plan<float>&, State<float>&);
-template void restart(const Plan<double>&, State<double>&);
-template void advance(const Plan<float>&, State<float>&, StageClock*);
-template void advance(const Plan<double>&, State<double>&, StageClock*);
-template void present(const Plan<float>&, State<float>&);
-template void present(const Plan<double>&, State<double>&);
-template std::uint64_t state_hash(const State<float>&);
-template std::uint64_t state_hash(const State<double>&);
-template std::uint64_t state_hash(const Plan<float>&, const State<float>&);
-template std::uint64_t state_hash(const Plan<double>&, const State<double>&);
-template std::optional<std::size_t> first_non_finite(const State<float>&);
-template std::optional<std::size_t> first_non_finite(const State<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template struct State<T>;                                                                                          \
+    template State<T> make_state(const Plan<T>&);                                                                      \
+    template void restart(const Plan<T>&, State<T>&);                                                                  \
+    template void advance(const Plan<T>&, State<T>&, StageClock*);                                                     \
+    template void present(const Plan<T>&, State<T>&);                                                                  \
+    template std::uint64_t state_hash(const State<T>&);                                                                \
+    template std::uint64_t state_hash(const Plan<T>&, const State<T>&);                                                \
+    template std::optional<std::size_t> first_non_finite(const State<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

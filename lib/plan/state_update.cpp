@@ -58,9 +58,11 @@ template <class T> void update_kinematics(const Plan<T>& plan, State<T>& state) 
     if (plan.torque) spring_torque(plan, state);
 }
 
-template void update_kinematics(const Plan<float>&, State<float>&);
-template void update_kinematics(const Plan<double>&, State<double>&);
-template void state_update(const Plan<float>&, State<float>&);
-template void state_update(const Plan<double>&, State<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void update_kinematics(const Plan<T>&, State<T>&);                                                        \
+    template void state_update(const Plan<T>&, State<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -195,7 +195,9 @@ TipError RunError::result() const {
     return own_->single ? own_->single->result() : own_->double_->result();
 }
 
-template class ErrorEstimate<float>;
-template class ErrorEstimate<double>;
+#define BOUGH_INSTANTIATE(T) template class ErrorEstimate<T>;
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

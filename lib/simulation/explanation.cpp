@@ -59,7 +59,9 @@ template <class T> std::string explanation(const Plan<T>& plan, const std::vecto
     return text.str();
 }
 
-template std::string explanation(const Plan<float>&, const std::vector<std::string>&);
-template std::string explanation(const Plan<double>&, const std::vector<std::string>&);
+#define BOUGH_INSTANTIATE(T) template std::string explanation(const Plan<T>&, const std::vector<std::string>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

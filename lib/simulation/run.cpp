@@ -125,21 +125,17 @@ std::string hash_text(std::uint64_t hash) {
     return text;
 }
 
-template std::unique_ptr<Stepper<float>> stepper_of(const Assembly&, StepChoice);
-template std::unique_ptr<Stepper<double>> stepper_of(const Assembly&, StepChoice);
-template Plan<float> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<float>>);
-template Plan<double> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<double>>);
-template Plan<float> plan_run(Assembly&&, const Wishes&, double, std::unique_ptr<Stepper<float>>);
-template Plan<double> plan_run(Assembly&&, const Wishes&, double, std::unique_ptr<Stepper<double>>);
-template Run<float> start_run(Plan<float>, const Assembly&);
-template Run<double> start_run(Plan<double>, const Assembly&);
-template std::string non_finite(Run<float>&, const Tree&);
-template std::string non_finite(Run<double>&, const Tree&);
-template std::optional<std::size_t> fill_frame(const Plan<float>&, const State<float>&, const MotionFields&,
-                                               MotionFrame&);
-template std::optional<std::size_t> fill_frame(const Plan<double>&, const State<double>&, const MotionFields&,
-                                               MotionFrame&);
-template void show_all(const Assembly&, const Run<float>&, MotionFrame&);
-template void show_all(const Assembly&, const Run<double>&, MotionFrame&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template std::unique_ptr<Stepper<T>> stepper_of(const Assembly&, StepChoice);                                      \
+    template Plan<T> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<T>>);                    \
+    template Plan<T> plan_run(Assembly&&, const Wishes&, double, std::unique_ptr<Stepper<T>>);                         \
+    template Run<T> start_run(Plan<T>, const Assembly&);                                                               \
+    template std::string non_finite(Run<T>&, const Tree&);                                                             \
+    template std::optional<std::size_t> fill_frame(const Plan<T>&, const State<T>&, const MotionFields&,               \
+                                                   MotionFrame&);                                                      \
+    template void show_all(const Assembly&, const Run<T>&, MotionFrame&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

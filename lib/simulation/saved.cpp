@@ -74,9 +74,11 @@ template <class T> void restore_run(const SavedState& saved, std::int64_t step, 
     }
 }
 
-template void save_run(Run<float>&, std::int64_t, SavedState&);
-template void save_run(Run<double>&, std::int64_t, SavedState&);
-template void restore_run(const SavedState&, std::int64_t, Run<float>&);
-template void restore_run(const SavedState&, std::int64_t, Run<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template void save_run(Run<T>&, std::int64_t, SavedState&);                                                        \
+    template void restore_run(const SavedState&, std::int64_t, Run<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

@@ -44,9 +44,11 @@ template <class T> Energy energy(const Plan<T>& plan, const State<T>& s) {
     return e;
 }
 
-template std::vector<BodyMotion> body_motions(const Plan<float>&, const State<float>&);
-template std::vector<BodyMotion> body_motions(const Plan<double>&, const State<double>&);
-template Energy energy(const Plan<float>&, const State<float>&);
-template Energy energy(const Plan<double>&, const State<double>&);
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template std::vector<BodyMotion> body_motions(const Plan<T>&, const State<T>&);                                    \
+    template Energy energy(const Plan<T>&, const State<T>&);
+BOUGH_INSTANTIATE(float)
+BOUGH_INSTANTIATE(double)
+#undef BOUGH_INSTANTIATE
 
 } // namespace bough

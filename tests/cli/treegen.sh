@@ -15,7 +15,7 @@ refused 1 "--bodies" treegen --bodies 0
 refused 1 "--bodies" treegen --bodies 1e3
 refused 1 "--bodies: is 1, but this tree has at least" treegen --bodies 1 --leaves
 refused 1 "--format" treegen --seed 1 --format xml
-refused 1 "one argument too many" treegen --seed 1 tree.json
+refused 1 "one argument too many, expected options alone" treegen --seed 1 tree.json
 
 # Every listed name grows; the same seed gives the same bytes, another seed does not.
 expect 0 treegen --list-species

@@ -1,4 +1,4 @@
-// Cholesky's factor of 3 x 3 against the definition in long double, and Eigen's solver by another algorithm (LU).
+// Cholesky's factor of 3 x 3 against the definition in long double, and its inverse by cofactors.
 #include "lib/base/cholesky.h"
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -39,8 +39,8 @@ template <class T> void factors_and_solves() {
             REQUIRE((root.solve(b) - x).norm() <= 8 * eps * condition * x.norm());
 
             Matrix3<T> X = any_matrix<T>(engine), Y = X;
-            const Matrix3<T> lower = L.fullPivLu().solve(X.template cast<long double>()).template cast<T>();
-            const Matrix3<T> upper = L.transpose().fullPivLu().solve(Y.template cast<long double>()).template cast<T>();
+            const Matrix3<T> lower = (L.inverse() * X.template cast<long double>()).template cast<T>();
+            const Matrix3<T> upper = (L.transpose().inverse() * Y.template cast<long double>()).template cast<T>();
             solve_lower(root.L, X);
             solve_lower_transposed(root.L, Y);
             REQUIRE((X - lower).norm() <= 8 * eps * condition * lower.norm());
@@ -66,6 +66,7 @@ TEST_CASE("a matrix that is not positive definite has no Cholesky factor") {
     }
     A(1, 0) = A(0, 1) = 2; // eigenvalues 3 and -1
     CHECK_FALSE(Cholesky<double>(A).positive);
+    CHECK(Cholesky<double>(A).L == Mat3(A.triangularView<Eigen::Lower>())); // finite, and as Eigen's
     A(1, 0) = A(0, 1) = 0.5;
     CHECK(Cholesky<double>(A).positive);
     A(1, 1) = std::numeric_limits<double>::quiet_NaN();

@@ -27,6 +27,14 @@ std::vector<Species> all_species() {
     return all;
 }
 
+// Its tree of seed 2, bare or with leaves and fruit, grown once for all cases.
+const Splines& whole(const Species& species, bool in_leaf) {
+    static std::map<std::pair<std::string, bool>, Splines> grown;
+    const auto [at, first_time] = grown.try_emplace({species.name, in_leaf});
+    if (first_time) at->second = grow(species.growth, 2, {in_leaf, false, in_leaf});
+    return at->second;
+}
+
 double height(const Splines& s) {
     double top = 0;
     for (const Vec3& p : s.point) top = std::max(top, p.y());
@@ -82,7 +90,7 @@ TEST_CASE("The paper's four species and four more are there") {
 TEST_CASE("Each species has the number of bodies asked for, with and without leaves") {
     for (const Species& species : all_species())
         for (const bool leaves : {false, true}) {
-            Splines s = grow(species.growth, 3, {leaves, false, leaves});
+            Splines s = whole(species, leaves);
             for (const std::int64_t bodies : cases<std::int64_t>(1, {100, 5000})) {
                 INFO(species.name << " " << bodies << (leaves ? " with leaves" : ""));
                 ask_for_bodies(s, bodies);
@@ -105,7 +113,7 @@ TEST_CASE("An odd number of bodies is met") {
 TEST_CASE("Each species stands: height, diameter and buckling as in real trees") {
     for (const Species& species : all_species()) {
         INFO(species.name);
-        const Splines s = grow(species.growth, 2, {});
+        const Splines& s = whole(species, false);
         const double h = height(s), d = breast_diameter(s);
         const Material& wood = species.growth.wood;
         const double buckles = 0.79 * std::cbrt(wood.youngs_modulus / (wood.density * 9.81)) * std::cbrt(d * d);
@@ -167,7 +175,7 @@ TEST_CASE("A pine sways as conifers do, at three ages") {
 TEST_CASE("No branch is bent by its load more than most_sag, and every joint holds the drawn pose") {
     for (const Species& species : all_species()) {
         INFO(species.name);
-        const Splines s = grow(species.growth, 2, {true, false, true});
+        const Splines& s = whole(species, true);
         const Tree tree = segment(s, species.growth.wood, {});
         // The turn of each joint under gravity, K^-1 tau, summed along each branch as vectors of its pieces.
         const StartPose pose = start_pose(tree, {0, -9.81, 0}, Pose::drawn); // throws where a joint does not hold
@@ -187,7 +195,7 @@ TEST_CASE("No branch is bent by its load more than most_sag, and every joint hol
 TEST_CASE("Each species stays where it was drawn") {
     // An equilibrium that is not stable doubles its rounding errors many times in ten seconds.
     for (const Species& species : all_species()) {
-        Splines splines = grow(species.growth, 300, {true, false, true});
+        Splines splines = whole(species, true);
         for (const std::int64_t bodies : {300, 2000}) {
             INFO(species.name << " " << bodies);
             ask_for_bodies(splines, bodies);

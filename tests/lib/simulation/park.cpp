@@ -1,6 +1,7 @@
 // Many trees as one: each moves as it does alone, to the last bit, whatever stands beside it; the parts that a park is cut into.
 #include "lib/simulation/parts.h"
 #include "tests/support/lanes_support.h"
+#include "tests/support/sanitized.h"
 
 using namespace bough;
 
@@ -12,7 +13,9 @@ TEST_CASE("trees of a park move as alone, to the last bit, on both paths") {
     park.scene.wind = *wind_preset("storm");
     park.scene.wind->profile = 0; // the table over height is made for the tallest
     // Of many bodies blocks are larger, which must not show in any tree.
-    std::vector<Tree> alone{park.tree, lanes::grown(300), lanes::grown(2500), lanes::grown(30000), lanes::grown(9000)};
+    std::vector<Tree> alone{park.tree};
+    for (const std::int64_t bodies : cases<std::int64_t>(2, {300, 2500, 30000, 9000}))
+        alone.push_back(lanes::grown(bodies));
     park.ranges = {{0, alone[0].size_bodies(), 0}};
     for (std::size_t k = 1; k < alone.size(); ++k) {
         const std::size_t first = append(park.tree, alone[k], Vec3(0, 0, 0), 0);
