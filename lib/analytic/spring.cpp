@@ -2,7 +2,6 @@
 #include "../base/parallel.h"
 #include "../laws/joint_limit.h"
 #include "spring_joint.h"
-#include <Eigen/Cholesky>
 #include <atomic>
 
 namespace bough {

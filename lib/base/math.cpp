@@ -10,7 +10,7 @@ Quat shortest_turn(const Vec3& from, const Vec3& to) {
 
 Quat least_turn(const Quat& near, const Vec3& axis) {
     const Vec3 z = near * Vec3::UnitZ();
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(z, axis);
+    const Eigen::Quaterniond turn(shortest_turn(z, axis));
     return Quat((turn * Eigen::Quaterniond(near)).normalized());
 }
 

@@ -1,5 +1,5 @@
 # Files of other programs, from file to moving tree: each of the cases that are not ours is read, converted and simulated
-# for 2 s (sanitized 0.2) in a gusty wind with finite results, or refused with exit 2 in one line; so are its first half and itself with
+# for 2 s (sanitized: one in six, for 0.2 s) in a gusty wind with finite results, or refused with exit 2 in one line; so are its first half and itself with
 # bytes changed at random. Nothing crashes, takes more than 1 GB or longer than its time.
 source "$(dirname "$0")/common.sh"
 
