@@ -1,8 +1,17 @@
-// played.js: what the pages that play our files share: OBJ frames, skinned vertices, distances, what was found as JSON in <pre>, a picture.
+// played.js: what the pages that play our files share: OBJ frames, skinned vertices, distances, a picture; what was found is sent to open_page.py.
 import * as THREE from 'three';
 
 export const query = new URLSearchParams(location.search);
-export const say = result => { document.querySelector('pre').textContent = 'RESULT ' + JSON.stringify(result); };
+
+// Sends the canvas, if there is one, then what was found: open_page.py waits for the latter.
+export async function say(result) {
+    const canvas = document.querySelector('canvas');
+    if (canvas !== null) await fetch('/picture', {method: 'POST', body: await new Promise(ready => canvas.toBlob(ready))});
+    await fetch('/found', {method: 'POST', body: JSON.stringify(result)});
+}
+// A page that does not even load says so too.
+addEventListener('error', event => say({error: event.message}));
+addEventListener('unhandledrejection', event => say({error: String(event.reason)}));
 
 // Numbers of the lines that begin so.
 export function objNumbers(text, word) {
