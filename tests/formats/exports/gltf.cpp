@@ -1,16 +1,13 @@
 #include "formats/exports/gltf.h"
-#include "tests/support/gltf_reader.h"
 #include "tests/support/sanitized.h"
-#include "tests/support/skin_checks.h"
+#include "tests/support/written_glb.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
-#include <filesystem>
 #include <set>
-#include <unistd.h>
 
 using namespace bough;
 using namespace skin_checks;
-using gltf_reader::Glb;
+using namespace written_glb;
 using gltf_reader::Json;
 using make_tree::branched;
 using make_tree::forest;
@@ -18,61 +15,7 @@ using make_tree::random_tree;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180, fps = 30;
-
-struct File {
-    std::string path =
-        (std::filesystem::temp_directory_path() / ("bough_test_gltf_" + std::to_string(getpid()) + ".glb")).string();
-    ~File() { std::filesystem::remove(path); }
-};
-
-// Every joint swings, at a rate and with a phase of its own.
-SkinPose swinging(const Tree& tree, std::size_t frame) {
-    return posed(tree, [&](std::size_t i) {
-        const double t = double(frame) / fps, a = 0.15 * std::sin(2 + double(i) + t * (1 + double(i % 5)));
-        return Vec3(a, 0.5 * a * std::cos(double(i)), 0.2 * a);
-    });
-}
-
-MotionFrame as_frame(const SkinPose& pose, std::size_t number) {
-    MotionFrame frame;
-    frame.frame = std::int64_t(number);
-    frame.time = double(number) / fps;
-    frame.position = pose.x_w;
-    for (const Mat3& R : pose.R_wb) frame.rotation.emplace_back(R);
-    return frame;
-}
-
-struct Written {
-    Tree tree;
-    Skin skin;
-    JointGroups groups;
-    Glb glb;
-    std::size_t keys = 0;
-    double height() const {
-        double low = INFINITY, high = -INFINITY;
-        for (const Vec3& p : skin.position) low = std::min(low, p.y()), high = std::max(high, p.y());
-        return high - low;
-    }
-};
-
-Written written(const Tree& tree, std::size_t frames, std::size_t joints = 100000, double tolerance = 0,
-                const File& file = {}) {
-    Written w{tree, build_skin(tree, {}), merge_joints(tree, joints), {}};
-    GltfOptions options;
-    options.fps = fps;
-    options.key_tolerance = tolerance;
-    options.generator = "bough 1.2.3";
-    options.source = "treegen \"a\"\ntreesim -";
-    Output output(file.path);
-    GltfWriter writer(output, w.skin, w.tree, w.groups, options);
-    for (std::size_t f = 0; f < frames; ++f) writer.write(as_frame(swinging(tree, f), f));
-    writer.finish();
-    output.finish();
-    w.keys = writer.keys().count();
-    w.glb = gltf_reader::parse(read_input(file.path));
-    return w;
-}
+constexpr double degree = std::numbers::pi / 180;
 
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     REQUIRE(a.size() == b.size());
@@ -239,7 +182,7 @@ TEST_CASE("bodies of one group are one joint of a vertex, with their weights tog
     REQUIRE(w.groups.group[2] == 1);
     w.skin.joint[0] = {0, 2, 1, 0};
     w.skin.weight[0] = {0.125f, 0.5f, 0.375f, 0};
-    const File file;
+    const GlbFile file;
     Output output(file.path);
     GltfWriter(output, w.skin, w.tree, w.groups, {}).finish();
     output.finish();
@@ -255,7 +198,7 @@ TEST_CASE("triangles are the skin's, in u32 where u16 is too small") {
     const Tree tree = make_tree::forest({branched(), make_tree::chain(2000, 100, 0.1, 0.1)});
     Written w{tree, build_skin(tree, {24}), merge_joints(tree, 1000), {}};
     REQUIRE(w.skin.position.size() > 65536);
-    const File file;
+    const GlbFile file;
     Output output(file.path);
     GltfWriter(output, w.skin, w.tree, w.groups, {}).finish();
     output.finish();
@@ -353,7 +296,7 @@ TEST_CASE("roots that leave their places are moved in every frame, the others no
     tree.joint_position[0] += away;
     tree.joint_position[second] += away;
     Written w{tree, build_skin(tree, {}), merge_joints(tree, 100), {}};
-    const File file;
+    const GlbFile file;
     Output output(file.path);
     GltfOptions options;
     options.fps = fps;
@@ -363,7 +306,7 @@ TEST_CASE("roots that leave their places are moved in every frame, the others no
         poses.push_back(swinging(tree, f));
         for (std::size_t i = second; i < tree.size_bodies(); ++i)
             poses.back().x_w[i] += Vec3(0.3 * double(f), 1 - 0.1 * double(f), 0);
-        writer.write(as_frame(poses.back(), f));
+        writer.write(frame_of(poses.back(), f));
     }
     writer.finish();
     output.finish();
@@ -387,7 +330,7 @@ TEST_CASE("roots that leave their places are moved in every frame, the others no
 
 TEST_CASE("more joints than a file can number are refused") {
     const Skin skin = build_skin(branched(), {});
-    const File file;
+    const GlbFile file;
     Output output(file.path);
     const Tree long_chain = make_tree::chain(65537, 100, 0.1, 0.1);
     const JointGroups many = merge_joints(long_chain, 100000);
@@ -395,7 +338,7 @@ TEST_CASE("more joints than a file can number are refused") {
 }
 
 TEST_CASE("assimp reads the joints, the mesh and the animation") {
-    const File file;
+    const GlbFile file;
     const Written w = written(random_tree(300, 9), 6, 120, 0, file);
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(file.path, 0);

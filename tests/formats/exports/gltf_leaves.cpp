@@ -1,35 +1,23 @@
 #include "formats/exports/gltf.h"
-#include "tests/support/gltf_reader.h"
-#include "tests/support/skin_checks.h"
-#include <filesystem>
-#include <unistd.h>
+#include "tests/support/written_glb.h"
 
 using namespace bough;
 using namespace skin_checks;
-using gltf_reader::Glb;
+using namespace written_glb;
 using gltf_reader::Json;
 using make_tree::branched;
 using make_tree::random_tree;
 
 namespace {
 
-struct LeafFile {
-    std::string path =
-        (std::filesystem::temp_directory_path() / ("bough_test_leaves_" + std::to_string(getpid()) + ".glb")).string();
-    ~LeafFile() { std::filesystem::remove(path); }
-};
-
 // Written at rest and, as the one frame, in the given pose.
 Glb written(const Tree& tree, const SkinPose& pose, GltfOptions options, std::size_t joints = 10000) {
-    const LeafFile file;
+    const GlbFile file;
     const Skin skin = build_skin(tree, {8, !options.leaf_instances});
     const JointGroups groups = merge_joints(tree, joints, !options.leaf_instances);
     Output output(file.path);
     GltfWriter writer(output, skin, tree, groups, options);
-    MotionFrame frame;
-    frame.position = pose.x_w;
-    for (const Mat3& R : pose.R_wb) frame.rotation.emplace_back(R);
-    writer.write(frame);
+    writer.write(frame_of(pose, 0));
     writer.finish();
     output.finish();
     return gltf_reader::parse(read_input(file.path));

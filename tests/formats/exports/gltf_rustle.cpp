@@ -1,20 +1,15 @@
 // Clumps in a .glb: read back by the specification alone they stand and rustle as rustle.h has it, on no joint more.
 #include "formats/exports/gltf.h"
 #include "lib/growth/clump.h"
-#include "tests/support/gltf_reader.h"
-#include "tests/support/skin_checks.h"
+#include "tests/support/written_glb.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
-#include <filesystem>
-#include <unistd.h>
 
 using namespace bough;
 using namespace skin_checks;
-using gltf_reader::Glb;
+using namespace written_glb;
 
 namespace {
-
-constexpr double rate = 30;
 
 // A random tree whose leaves are clumps.
 Tree clumps(unsigned seed) {
@@ -24,36 +19,25 @@ Tree clumps(unsigned seed) {
     return tree;
 }
 
-MotionFrame frame_of(const SkinPose& pose, std::int64_t number) {
-    MotionFrame frame;
-    frame.frame = number;
-    frame.position = pose.x_w;
-    for (const Mat3& R : pose.R_wb) frame.rotation.emplace_back(R);
-    return frame;
-}
-
 struct Rustled {
     Skin skin;
     Glb glb;
-    std::string path;
+    GlbFile file;
     Rustled(const Tree& tree, const std::vector<SkinPose>& poses, double wind, bool instances = false)
-        : skin(build_skin(tree, {8, !instances})),
-          path((std::filesystem::temp_directory_path() / ("bough_test_rustle_" + std::to_string(getpid()) + ".glb"))
-                   .string()) {
+        : skin(build_skin(tree, {8, !instances})) {
         const JointGroups groups = merge_joints(tree, 1000, !instances);
         GltfOptions options;
-        options.fps = rate;
+        options.fps = fps;
         options.leaf_instances = instances;
         Rustle rustle(skin, [wind](double, std::vector<double>& all) { std::fill(all.begin(), all.end(), wind); },
-                      {rate, {}, true});
-        Output output(path);
+                      {fps, {}, true});
+        Output output(file.path);
         GltfWriter writer(output, skin, tree, groups, options, instances ? nullptr : &rustle);
-        for (std::size_t f = 0; f < poses.size(); ++f) writer.write(frame_of(poses[f], std::int64_t(f)));
+        for (std::size_t f = 0; f < poses.size(); ++f) writer.write(frame_of(poses[f], f));
         writer.finish();
         output.finish();
-        glb = gltf_reader::parse(read_input(path));
+        glb = gltf_reader::parse(read_input(file.path));
     }
-    ~Rustled() { std::filesystem::remove(path); }
 };
 
 } // namespace
@@ -69,7 +53,7 @@ TEST_CASE("leaves of clumps rustle in a .glb as the law has it, to first order")
     CHECK(w.glb.json["meshes"][1]["primitives"][0]["targets"].size() == Rustle::targets);
 
     Rustle rustle(w.skin, [wind](double, std::vector<double>& all) { std::fill(all.begin(), all.end(), wind); },
-                  {rate, {}, true});
+                  {fps, {}, true});
     const SkinDeformer deformer(w.skin, tree);
     // In the file the leaves come behind what does not rustle, which is fruit here.
     const SkinPart leaf = *part(w.skin, "leaf");
@@ -82,7 +66,7 @@ TEST_CASE("leaves of clumps rustle in a .glb as the law has it, to first order")
         const std::vector<Vec3> still = position;
         rustle.go_to(std::int64_t(f));
         rustle.turn(position, normal);
-        const auto read = gltf_reader::skinned(w.glb, double(f) / rate);
+        const auto read = gltf_reader::skinned(w.glb, double(f) / fps);
         REQUIRE(read.size() == position.size());
         double off = 0, moved = 0, size = 0;
         for (std::size_t k = 0; k < leaves; ++k) {
@@ -114,7 +98,7 @@ TEST_CASE("another program reads a .glb whose leaves rustle") {
     const SkinPose drawn = posed(tree, [](std::size_t) { return Vec3(Vec3::Zero()); });
     const Rustled w(tree, {drawn, drawn, drawn}, 8);
     Assimp::Importer importer;
-    const aiScene* const scene = importer.ReadFile(w.path, 0);
+    const aiScene* const scene = importer.ReadFile(w.file.path, 0);
     INFO(importer.GetErrorString());
     REQUIRE(scene);
     unsigned moving = 0;

@@ -3,10 +3,10 @@
 #include "formats/models/speedtree_model.h"
 #include "formats/exports/gltf.h"
 #include "formats/exports/own_mover.h"
-#include "lib/growth/segment.h"
 #include "lib/model/drawn_pose.h"
 #include "tests/support/gltf_reader.h"
 #include "tests/support/import_support.h"
+#include "tests/support/shown_speedtree.h"
 #include "tests/support/speedtree_sample.h"
 #include <filesystem>
 #include <pugixml.hpp>
@@ -14,30 +14,8 @@
 
 using namespace bough;
 using namespace bough::test;
-using Catch::Contains;
 
 namespace {
-
-struct Shown {
-    Tree tree;
-    OwnMesh mesh;
-    std::vector<std::string> notes;
-};
-
-// stands: the tree where it was put, null where an import puts it.
-Shown shown_of(const std::string& content, const Eigen::Affine3d& place = Eigen::Affine3d::Identity(),
-               const Tree* stands = nullptr) {
-    Shown made;
-    ImportNotes found, notes;
-    ImportOptions options;
-    options.name = "t.xml";
-    made.tree = segment(import_splines(content, options, found), wood_presets().front(), {});
-    if (stands) made.tree = *stands;
-    SpeedtreeModel model = read_speedtree_model(content, "t.xml", found, notes);
-    made.notes = notes.lines;
-    made.mesh = bound_to(std::move(model), made.tree, place, made.notes);
-    return made;
-}
 
 std::string glb_of(const Shown& shown, const std::vector<MotionFrame>& frames = {}) {
     const std::string path =
@@ -202,21 +180,6 @@ double worst_crease(const Skin& skin, const speedtree_sample::Tube& trunk, const
     return worst * 180 / std::numbers::pi;
 }
 
-std::string error_of_mesh(const std::string& content) {
-    try {
-        shown_of(content);
-        return "";
-    } catch (const InputError& error) {
-        return error.what();
-    }
-}
-
-std::string changed(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
-
 } // namespace
 
 TEST_CASE("The mesh of a SpeedTree file comes through whole") {
@@ -339,34 +302,6 @@ TEST_CASE("What a vertex is bound to") {
         CHECK(shown.tree.kind[std::size_t(place.body)] == Kind::leaf);
         CHECK((pose.x_w[std::size_t(place.body)] - place.place.cast<double>()).norm() < 1e-6);
     }
-}
-
-TEST_CASE("What is wrong with a mesh is told in a line with its place") {
-    const std::string good = speedtree_sample::file({}, "", speedtree_sample::references(1));
-    CHECK(error_of_mesh(good).empty());
-    const auto says = [&](const std::string& from, const std::string& to, const std::string& text) {
-        const std::string error = error_of_mesh(changed(good, from, to));
-        CAPTURE(from, to);
-        CHECK_THAT(error, Contains(text));
-        CHECK_THAT(error, Contains("t.xml:"));
-        CHECK(error.find('\n') == std::string::npos);
-    };
-    says("<PointIndices>0 1", "<PointIndices>0 99999", "PointIndices holds \"99999\", expected 0 to 731 (points)");
-    says("<PointIndices>0 1", "<PointIndices>0 -1", "PointIndices holds \"-1\"");
-    says("<VertexIndices>0 1", "<VertexIndices>0 99999", "VertexIndices holds \"99999\"");
-    says("<VertexIndices>0 ", "<VertexIndices>", "VertexIndices holds 4319 values, expected 4320");
-    says("<PointIndices>0 1 ", "<PointIndices>0 ", "expected three a triangle");
-    says("<QuadIndices>6 ", "<QuadIndices>6000 ", "QuadIndices holds \"6000\"");
-    says("Triangles Material=\"7\"", "Triangles Material=\"8\"", "Material 8 does not exist");
-    says("LeafReferences Material=\"3\"", "LeafReferences Material=\"8\"", "Material 8 does not exist");
-    says("<BoneID>0 ", "<BoneID>77 ", "BoneID 77 does not exist");
-    says("<NormalX>1 ", "<NormalX>nan ", "NormalX holds \"nan\"");
-    says("<NormalX>1 ", "<NormalX>", "holds 793 values, expected 792");
-    says("<TexcoordU>0 ", "<TexcoordU>inf ", "TexcoordU holds \"inf\"");
-    const std::size_t x = good.find("<Points>"), end = good.find("</Points>");
-    std::string none = good;
-    none.replace(x, end - x, "<Points><X></X><Y></Y><Z></Z>");
-    CHECK_THAT(error_of_mesh(none), Contains("expected none, as there are no points"));
 }
 
 TEST_CASE("The vertices of a mesh of its own, some at a time, are those of its skin bit by bit") {
