@@ -9,7 +9,7 @@ export async function say(result) {
     if (canvas !== null) await fetch('/picture', {method: 'POST', body: await new Promise(ready => canvas.toBlob(ready))});
     await fetch('/found', {method: 'POST', body: JSON.stringify(result)});
 }
-// A page that does not even load says so too.
+// What nothing caught is sent too.
 addEventListener('error', event => say({error: event.message}));
 addEventListener('unhandledrejection', event => say({error: String(event.reason)}));
 
