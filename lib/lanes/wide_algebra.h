@@ -6,7 +6,11 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
+#ifdef BOUGH_COUNTED // its speed is nobody's, its compile time is
+#define BOUGH_FORCE inline
+#else
 #define BOUGH_FORCE [[gnu::always_inline]] inline
+#endif
 
 template <class W> struct Complex { W re, im; };
 template <class W> BOUGH_FORCE Complex<W> operator+(const Complex<W>& a, const Complex<W>& b) {
