@@ -3,6 +3,7 @@
 // Everything is right-handed. R_ab takes components in frame b to components in frame a, so neighbours cancel:
 // R_wc = R_wp * R_pj * R_jc. Suffix _w: world, _b: body, _j: joint frame.
 #pragma once
+#include "eager.h"
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
@@ -10,8 +11,6 @@
 
 namespace bough {
 
-template <class T> using Vector3 = Eigen::Matrix<T, 3, 1>;
-template <class T> using Matrix3 = Eigen::Matrix<T, 3, 3>;
 template <class T> using Quaternion = Eigen::Quaternion<T, Eigen::DontAlign>;
 
 using Vec3 = Vector3<double>;
