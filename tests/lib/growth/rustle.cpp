@@ -82,10 +82,10 @@ TEST_CASE("the law: nothing in a calm, some 15 degrees at 6 to 8 m/s, 20 at most
 TEST_CASE("normals turn by the law's amplitude about a foot that stays, and blades keep their shape") {
     const Skin skin = build_skin(bush(5), {});
     REQUIRE(skin.clump_leaf.size() == 200);
-    for (const double wind : {2.0, 4.0, 8.0, 20.0}) {
+    for (const double wind : {2.0, 8.0, 20.0}) {
         Rustle rustle(skin, steady_wind(wind), {fps, {}, false});
         double squares = 0, stray = 0;
-        constexpr int frames = 900;
+        constexpr int frames = 300;
         for (int f = 0; f < frames; ++f) {
             const Leaves now = rustled(skin, rustle, f);
             for (const std::int32_t v : skin.clump_leaf) {
@@ -125,8 +125,8 @@ TEST_CASE("no leaf turns by 30 degrees between two frames, nor jumps where the w
     const auto gusts = [](double t, std::vector<double>& all) {
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = 15 * (1 + std::sin(2 * t + double(k)));
     };
-    CHECK(largest_turn(skin, gusts, 0, 900) < 30 * degree);
-    CHECK(largest_turn(skin, steady_wind(50), 0, 900) < 30 * degree);
+    CHECK(largest_turn(skin, gusts, 0, 300) < 30 * degree);
+    CHECK(largest_turn(skin, steady_wind(50), 0, 300) < 30 * degree);
     // From frame to frame another wind: a phase that were frequency times time would jump by 200 rad after 100 s.
     const auto flicker = [](double t, std::vector<double>& all) {
         std::fill(all.begin(), all.end(), std::llround(t * fps) % 2 == 0 ? 4.0 : 5.0);
