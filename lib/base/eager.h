@@ -1,7 +1,7 @@
-// eager.h: sums and products of 3-vectors and 3x3 matrices, worked out at once. Eigen's own operators give a type of its own for each expression, and
-// declaring those is what a compiler of bough would spend most of its time on. These are found in namespace bough, and are better matches than Eigen's members;
-// what is not here is Eigen's. Numbers are those of Eigen's operators, products in its order, but that s * (A * x) is worked out as it is written, where Eigen
-// works out (s * A) * x.
+// eager.h: sums and products of 3-vectors and 3x3 matrices, worked out at once. Eigen's own operators make a type for each expression, and a compiler
+// of bough would spend half of its time on declaring those. These operators are found in namespace bough, and are better matches than Eigen's members.
+// What is not here is Eigen's. Each operator gives Eigen's numbers. Two expressions differ in rounding: s * (A * B) is worked out as it is written, where
+// Eigen works out (s * A) * B, and (A * B).trace() is of a finished product.
 #pragma once
 #include <Eigen/Core>
 #include <concepts>

@@ -6,7 +6,7 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
-#ifdef BOUGH_COUNTED // its speed is nobody's, its compile time is
+#ifdef BOUGH_COUNTED // it runs for a moment, and forced inlining is most of what compiling it takes
 #define BOUGH_FORCE inline
 #else
 #define BOUGH_FORCE [[gnu::always_inline]] inline

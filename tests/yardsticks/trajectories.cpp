@@ -88,15 +88,19 @@ bough::Scene gusty() {
 } // namespace
 
 TEST_CASE("The chain of 20 rods falls as with the engines' accelerations, E = 2e8") {
-    compare(paper_trees::chain(2e8, 1e-4), gravity_switched_on(), 30, 100);
+    compare(paper_trees::chain(2e8, 1e-4), gravity_switched_on(), 60, 100);
 }
 
 TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e8") {
-    compare(paper_trees::branched(2e8, 1e-4), gravity_switched_on(), 30, 100);
+    compare(paper_trees::branched(2e8, 1e-4), gravity_switched_on(), 60, 100);
 }
 
-TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e9, half a second") {
-    compare(paper_trees::branched(2e9, 1e-5), gravity_switched_on(), 15, 300, 1e-9);
+TEST_CASE("The chain of 20 rods falls as with the engines' accelerations, E = 2e9") {
+    compare(paper_trees::chain(2e9, 1e-5), gravity_switched_on(), 60, 240);
+}
+
+TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e9, one second") {
+    compare(paper_trees::branched(2e9, 1e-5), gravity_switched_on(), 30, 300, 1e-9);
 }
 
 TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e10, a quarter of a second") {
@@ -104,17 +108,17 @@ TEST_CASE("The branched tree of 21 bodies falls as with the engines' acceleratio
 }
 
 TEST_CASE("The branched tree of 21 bodies sways in gusty wind as with the engines' accelerations, E = 2e8") {
-    compare(paper_trees::branched(2e8, 1e-4), gusty(), 30, 120);
+    compare(paper_trees::branched(2e8, 1e-4), gusty(), 60, 120);
 }
 
 TEST_CASE("The coupled step at small steps falls as with the engines' accelerations, chain of 20 rods, E = 2e8") {
-    compare_coupled(paper_trees::chain(2e8, 1e-4), gravity_switched_on(), 8, 100);
+    compare_coupled(paper_trees::chain(2e8, 1e-4), gravity_switched_on(), 15, 100);
 }
 
 TEST_CASE("The coupled step at small steps falls as with the engines' accelerations, branched tree, E = 2e8") {
-    compare_coupled(paper_trees::branched(2e8, 1e-4), gravity_switched_on(), 8, 100);
+    compare_coupled(paper_trees::branched(2e8, 1e-4), gravity_switched_on(), 15, 100);
 }
 
 TEST_CASE("The coupled step at small steps sways in gusty wind as with the engines' accelerations, E = 2e8") {
-    compare_coupled(paper_trees::branched(2e8, 1e-4), gusty(), 8, 120);
+    compare_coupled(paper_trees::branched(2e8, 1e-4), gusty(), 15, 120);
 }

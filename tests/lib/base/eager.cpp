@@ -1,6 +1,7 @@
 // What is worked out at once is what Eigen works out, bit by bit, and is no expression.
 #include "lib/base/eager.h"
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <random>
 
 using namespace bough;
@@ -8,7 +9,7 @@ using namespace bough;
 namespace {
 
 template <class M> bool same(const M& a, const M& b) {
-    return std::equal(a.data(), a.data() + a.size(), b.data());
+    return std::memcmp(a.data(), b.data(), sizeof(M)) == 0; // zeros by their signs too
 }
 
 } // namespace

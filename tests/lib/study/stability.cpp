@@ -36,7 +36,7 @@ TEST_CASE("every promised cell holds, float and double") {
     const fast::Target simd = fast::best_target();
     for (const StabilitySetup& setup :
          {on(make_tree::branched(), std::nullopt), on(make_tree::branched(), simd),
-          on(make_tree::chain(20, 4, 0.03, 0.003), simd), on(make_tree::random_tree(30, 3), simd)}) {
+          on(make_tree::chain(20, 4, 0.03, 0.003), simd), on(make_tree::random_tree(60, 3), simd)}) {
         const Tree& tree = setup.tree;
         // What brings trees of its own, and what costs most, once.
         const bool first = setup.simd && tree.size_bodies() == make_tree::branched().size_bodies();
