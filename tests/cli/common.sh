@@ -5,7 +5,7 @@ export LC_ALL=C
 bin=$(cd "$1" && pwd)
 top=$(cd "$2" && pwd)
 build=$(cd "${3:-$1/..}" && pwd)
-export PATH=$bin:$PATH
+export PATH=$bin:/usr/bin:/bin:$PATH # the programs that tests/run installs, before others of their names
 work=$(mktemp -d)
 cleanup() { rm -rf "$work"; }
 trap cleanup EXIT
@@ -46,9 +46,11 @@ refused() {
 one_line() {
     local text=$1
     shift
-    [[ $(wc -l <err) -eq 1 ]] || fail "$(wc -l <err) lines on stderr, expected one: $*: $(cat err)"
-    grep -qF -- "$text" err || fail "'$text' is not in the message of $*: $(cat err)"
-    grep -qF -- "$1: " err || fail "the message of $* does not begin with its name: $(cat err)"
+    local lines=()
+    mapfile lines <err
+    [[ ${#lines[@]} -eq 1 && ${lines[0]} == *$'\n' ]] || fail "${#lines[@]} lines on stderr, expected one, whole: $*: $(cat err)"
+    [[ ${lines[0]} == *"$text"* ]] || fail "'$text' is not in the message of $*: $(cat err)"
+    [[ ${lines[0]} == *"$1: "* ]] || fail "the message of $* does not begin with its name: $(cat err)"
 }
 
 # absent FILE...: none of them, and no unfinished output, is there.

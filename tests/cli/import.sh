@@ -164,12 +164,9 @@ for name in "${cases[@]}"; do
     damaged "$name" "$copy"
     for _ in 1 2; do
         seed=$((seed + 1))
-        awk -v size="$size" -v seed=$seed 'BEGIN { srand(seed); for (k = 0; k < 12; ++k) print int(rand() * size), int(rand() * 256) }' >places
-        cp "$BOUGH_CASES_DIR/$name" "$copy"
-        chmod u+w "$copy"
-        while read -r at byte; do
-            printf "\\x$(printf %02x "$byte")" | dd of="$copy" bs=1 seek="$at" conv=notrunc status=none
-        done <places
+        perl -e 'my ($from, $to, $seed) = @ARGV; srand $seed; local $/; open my $in, "<:raw", $from or die; my $bytes = <$in>;
+            substr($bytes, int rand length $bytes, 1) = chr int rand 256 for 1 .. 12; open my $out, ">:raw", $to or die; print $out $bytes; close $out or die' \
+            "$BOUGH_CASES_DIR/$name" "$copy" "$seed"
         damaged "$name" "$copy"
     done
     rm -f "$copy"
