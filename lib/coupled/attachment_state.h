@@ -125,6 +125,13 @@ struct Attachments {
     Eigen::PartialPivLU<Eigen::MatrixXcd> factors;
 
     bool any() const { return !bodies.empty(); }
+    // Of what is there: arrays may have room for more, and the factors have a few numbers beside.
+    std::size_t bytes() const {
+        const auto of = [](const auto& array) { return array.size() * sizeof(array[0]); };
+        const auto numbers = answers.size() + asked.size() + unknowns.size() + factors.rows() * factors.cols();
+        return of(all) + of(bodies) + of(pulled) + of(touched) + of(ties) + of(solved) +
+               std::size_t(numbers) * sizeof(std::complex<double>);
+    }
 };
 
 } // namespace bough

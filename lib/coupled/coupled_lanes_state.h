@@ -13,13 +13,18 @@ template <class T> struct AttachedRows {
         of_row;            // of each row, the place of its record in `terms`, -1: none; empty without attachments
     RowVector<T> terms;    // as records inward, but in rows
     RowVector<T> inverses; // with ties alone: CoupledRows::inverses
+
+    std::size_t bytes() const {
+        return of_row.size() * sizeof(of_row[0]) + (terms.size() + inverses.size()) * sizeof(Row<T>);
+    }
 };
 
 template <class T> struct CoupledLanesState : Cloned<CoupledLanesState<T>, CoupledState<T>, StepperState> {
     Lanes<T> lanes;
     AttachedRows<T> attached;
     std::size_t bytes() const override {
-        return (this->theta_change.capacity() + this->theta_dot_change.capacity()) * sizeof(Vector3<T>) + lanes.bytes();
+        return (this->theta_change.capacity() + this->theta_dot_change.capacity()) * sizeof(Vector3<T>) +
+               lanes.bytes() + this->attachments.bytes() + attached.bytes();
     }
 };
 

@@ -7,7 +7,7 @@ namespace bough {
 template <class T> std::size_t CoupledWork<T>::bytes() const {
     const auto of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return of(this->theta_change) + of(this->theta_dot_change) + of(coupled) + of(resolvent) + of(resolvent_real) +
-           of(guard);
+           of(guard) + this->attachments.bytes();
 }
 
 template <class T> void take_coupled_constants(const Plan<T>& plan, const Tree& tree, CoupledPlan<T>& own) {

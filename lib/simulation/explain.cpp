@@ -45,6 +45,20 @@ template <class T> bool callers(const Plan<T>& plan) {
     return plan.loads && !plan.contact && plan.scene.walkers.empty();
 }
 
+constexpr const char* no_points = "no attachments, no pulls";
+
+// What holds or pushes points of bodies, placed one by one; empty: nothing does.
+template <class T> std::string points_text(const Plan<T>& plan, bool coupled) {
+    std::string text;
+    const auto add = [&](bool on, const char* part) {
+        if (on) text += (text.empty() ? "" : ", ") + std::string(part);
+    };
+    add(!plan.attachments.empty(), "/attachments");
+    add(coupled && pulls(plan), "/pulls");
+    add(coupled && callers(plan), "forces of the caller");
+    return text;
+}
+
 // What loads the bodies: the parts of the scene that do, or that none does.
 template <class T> std::string forces_text(const Plan<T>& plan) {
     std::string text;
@@ -113,14 +127,8 @@ template <class T> void explain_stages(const Plan<T>& plan, const Way<T>& way, s
         plain     ? "every scene" + (plan.forces ? "; " + forces : "")
         : coupled ? fused
                   : solver);
-    std::string held;
-    const auto holds = [&](bool on, const char* part) {
-        if (on) held += (held.empty() ? "" : ", ") + std::string(part);
-    };
-    holds(!plan.attachments.empty(), "/attachments");
-    holds(coupled && pulls(plan), "/pulls");
-    holds(coupled && callers(plan), "forces of the caller");
-    add(Stage::attachments, !held.empty(), held.empty() ? "no attachments, no pulls" : held);
+    const std::string held = points_text(plan, coupled);
+    add(Stage::attachments, !held.empty(), held.empty() ? no_points : held);
     add(Stage::resolvent, plain, plain ? "every scene" + limited : coupled ? fused : solver);
     add(Stage::lanes, lanes,
         lanes
@@ -151,6 +159,16 @@ template <class T> void explain_stages(const Plan<T>& plan, const Way<T>& way, s
                        : what + ": ground alone; nothing free meets trees");
     add(Stage::fracture, scene.fracture.has_value(), scene.fracture ? "/fracture" : "no fracture");
     add(Stage::walkers, !scene.walkers.empty(), scene.walkers.empty() ? "no walkers" : "/walkers");
+}
+
+// Of a state of the coupled solver: what attachments and pulled points take in it.
+template <class T> std::size_t attached_bytes(const Plan<T>& plan) {
+    fast::CoupledLanesState<T> work;
+    work.ground.resize(plan.splines.size());
+    begin_attachments(plan, work);
+    const auto* in_lanes = dynamic_cast<const fast::CoupledLanesStepper<T>*>(&*plan.stepper);
+    if (in_lanes && work.attachments.any()) place_attached_rows(in_lanes->own, work);
+    return work.attachments.bytes() + work.attached.bytes();
 }
 
 template <class T> void explain_arrays(const Plan<T>& plan, const Way<T>& way, std::vector<PlannedArray>& arrays) {
@@ -214,6 +232,9 @@ template <class T> void explain_arrays(const Plan<T>& plan, const Way<T>& way, s
     add("held_tau_w", sizeof(Vector3<T>), held, points);
     add("held_row", sizeof(T), held, points);
     arrays.push_back({"held", held, held ? planned_held(plan).bytes() : 0, points});
+    const std::size_t attached = coupled ? attached_bytes(plan) : 0;
+    const std::string placed = points_text(plan, coupled);
+    arrays.push_back({"attachments", attached > 0, attached, !coupled ? solver : placed.empty() ? no_points : placed});
     add("coupled", sizeof(CoupledBody<T>), plain, work);
     add("resolvent", sizeof(ResolventBody<std::complex<T>>), plain && !real,
         coupled && real ? "a scheme of a real pole" : work);

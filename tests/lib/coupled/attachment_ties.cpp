@@ -228,3 +228,30 @@ TEST_CASE("A scene ties two of its trees; what cannot be tied is refused; a run 
     wrong.attachments[0].with->body = 10000;
     CHECK_THAT(refused(wrong), Catch::Contains("/attachments/0/with"));
 }
+
+TEMPLATE_TEST_CASE("The bytes of a state are also those of the points that it holds, and are what its plan says", "",
+                   float, double) {
+    using T = TestType;
+    const Tree tree = twig(); // of 12 bodies, of which the outermost is carried by all
+    Scene scene = empty_scene();
+    scene.attachments = {hold(11, 10, 0), tie(3, 7, 10, 0)};
+    for (const bool lanes : {false, true}) {
+        CAPTURE(lanes);
+        const std::size_t without = Held<T>(tree, empty_scene(), lanes).state.bytes();
+        Held<T> run(tree, scene, lanes);
+        const std::size_t bodies = 12 * (sizeof(AttachedBody) + sizeof(SolvedBody) + sizeof(std::size_t)),
+                          equations = (2 * 3 * 3 + 2 * 3) *
+                                      sizeof(std::complex<double>); // three unknowns, solved for by factors
+        const std::size_t points = 2 * sizeof(Attached) + sizeof(Tie) + bodies + equations;
+        if (lanes) // and a number for each of all rows, a record and an inverse for each that is attached, of at least one lane's numbers
+            CHECK(run.state.bytes() > without + points + 12 * (sizeof(std::int32_t) + 12 * sizeof(T)));
+        else
+            CHECK(run.state.bytes() == without + points);
+        for (int k = 0; k < 2; ++k) {
+            std::size_t planned = 0;
+            for (const PlannedArray& array : explain(run.plan).arrays) planned += array.on ? array.bytes : 0;
+            CHECK(run.state.bytes() == planned);
+            run.step();
+        }
+    }
+}

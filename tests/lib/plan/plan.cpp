@@ -115,6 +115,7 @@ Names expected_arrays(const Case& c, const Method& method) {
     Names names = joined(every_coupled_array, {method.scheme == Scheme::lie ? "resolvent_real" : "resolvent"});
     if (c.wishes.velocity) names = joined(names, {"omega_w", "v_w"});
     if (c.wishes.torque || c.wishes.stress) names.insert("torque_j");
+    if (!c.scene.pulls.empty() || !c.scene.attachments.empty()) names.insert("attachments");
     return names;
 }
 
@@ -153,6 +154,7 @@ TEMPLATE_TEST_CASE("a scene runs and allocates what it names and no more", "", f
         parts::visit_held(
             state, [&](const char* name, const auto& array) { held[name] = array.capacity() * sizeof(array[0]); });
         held["held"] = parts::joints(state).held.bytes();
+        held["attachments"] = parts::bodies(state).attachments.bytes();
         std::size_t sum = 0;
         Names on;
         for (const PlannedArray& array : explain(plan).arrays) {
