@@ -1,6 +1,5 @@
 // What runs on several threads: steps (simulation.h) and the frames beside them (frame_queue.h). This is the thread sanitizer's program, so it is small and
 // needs the library alone; the command line's threads are tests/cli/threads.sh.
-#define CATCH_CONFIG_MAIN
 #include "lib/bough.h"
 #include "tools/frame_queue.h"
 #include <catch2/catch.hpp>
