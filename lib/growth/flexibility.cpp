@@ -23,20 +23,46 @@ std::size_t bodies_with_children(const Tree& tree) {
     return std::size_t(last + 1);
 }
 
-// Whether flexibility() at omega would find that every joint stands.
-bool stands_at(const Tree& tree, const Flexibility& slow, double omega2) {
+// All of f but `slow`, from its pose. Returns whether every joint stands; where all are to, it ends at the first that does not.
+bool fill(const Tree& tree, double omega2, bool all_stand, Flexibility& f) {
+    const std::size_t n = tree.size_bodies();
+    f.omega2 = omega2;
+    f.stands = true;
+    f.mass = tree.mass;
+    f.first.resize(n);
+    f.upright.assign(n, 1);
+    f.give.resize(n);
+    f.turn.resize(n);
+    f.follow.resize(n);
+    f.slide.resize(n);
     std::vector<Borne> on(bodies_with_children(tree));
-    for (std::size_t i = tree.size_bodies(); i-- > 0;) {
-        const Mat3& R = slow.pose.R_wb[i];
-        Borne all = own_part(tree, i, R, omega2);
-        if (i < on.size()) all += on[i];
-        const std::int32_t p = tree.parent[i];
-        const Vec3 arm = p < 0 ? Vec3(Vec3::Zero()) : Vec3(slow.pose.x_w[i] - slow.pose.x_w[std::size_t(p)]);
-        const Yielding y = yielding(stiffness_w(tree, i, R), slow.first[i], all, arm);
-        if (!y.stands) return false;
-        if (p >= 0) on[std::size_t(p)] += y.passed;
+    for (std::size_t i = 0; i < n; ++i) {
+        f.first[i] = f.pose.R_wb[i] * (tree.mass[i] * tree.com[i]);
+        if (i < on.size()) on[i] = own_part(tree, i, f.pose.R_wb[i], omega2);
     }
-    return true;
+    for (std::size_t i = n; i-- > 0;) {
+        const std::int32_t parent = tree.parent[i];
+        const auto p = std::size_t(parent < 0 ? 0 : parent);
+        const Vec3 arm = parent < 0 ? Vec3(Vec3::Zero()) : Vec3(f.pose.x_w[i] - f.pose.x_w[p]);
+        const Yielding y = yielding(stiffness_w(tree, i, f.pose.R_wb[i]), f.first[i],
+                                    i < on.size() ? on[i] : own_part(tree, i, f.pose.R_wb[i], omega2), arm);
+        f.stands &= y.stands;
+        if (all_stand && !f.stands) return false;
+        f.upright[i] &= y.stands;
+        f.give[i] = y.give;
+        f.turn[i] = y.turn;
+        f.follow[i] = y.follow;
+        f.slide[i] = y.slide;
+        if (parent < 0) continue;
+        f.mass[p] += f.mass[i];
+        f.first[p] += f.first[i] + f.mass[i] * arm;
+        f.upright[p] &= f.upright[i];
+        on[p] += y.passed;
+    }
+    f.whole = f.give;
+    for (std::size_t i = n; i-- > 0;)
+        if (tree.parent[i] >= 0) f.whole[std::size_t(tree.parent[i])] += f.whole[i];
+    return f.stands;
 }
 
 } // namespace
@@ -98,43 +124,9 @@ Yielding yielding(const Mat3& K, const Vec3& H, const Borne& on, const Vec3& arm
 }
 
 Flexibility flexibility(const Tree& tree, double omega2) {
-    const std::size_t n = tree.size_bodies();
     Flexibility f;
     f.pose = drawn_pose(tree);
-    f.omega2 = omega2;
-    f.mass = tree.mass;
-    f.first.resize(n);
-    f.upright.assign(n, 1);
-    f.give.resize(n);
-    f.turn.resize(n);
-    f.follow.resize(n);
-    f.slide.resize(n);
-    std::vector<Borne> on(bodies_with_children(tree));
-    for (std::size_t i = 0; i < n; ++i) {
-        f.first[i] = f.pose.R_wb[i] * (tree.mass[i] * tree.com[i]);
-        if (i < on.size()) on[i] = own_part(tree, i, f.pose.R_wb[i], omega2);
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        const std::int32_t parent = tree.parent[i];
-        const auto p = std::size_t(parent < 0 ? 0 : parent);
-        const Vec3 arm = parent < 0 ? Vec3(Vec3::Zero()) : Vec3(f.pose.x_w[i] - f.pose.x_w[p]);
-        const Yielding y = yielding(stiffness_w(tree, i, f.pose.R_wb[i]), f.first[i],
-                                    i < on.size() ? on[i] : own_part(tree, i, f.pose.R_wb[i], omega2), arm);
-        f.stands &= y.stands;
-        f.upright[i] &= y.stands;
-        f.give[i] = y.give;
-        f.turn[i] = y.turn;
-        f.follow[i] = y.follow;
-        f.slide[i] = y.slide;
-        if (parent < 0) continue;
-        f.mass[p] += f.mass[i];
-        f.first[p] += f.first[i] + f.mass[i] * arm;
-        f.upright[p] &= f.upright[i];
-        on[p] += y.passed;
-    }
-    f.whole = f.give;
-    for (std::size_t i = n; i-- > 0;)
-        if (tree.parent[i] >= 0) f.whole[std::size_t(tree.parent[i])] += f.whole[i];
+    fill(tree, omega2, false, f);
     return f;
 }
 
@@ -160,30 +152,23 @@ void bends(const Tree& tree, const Flexibility& f, const std::vector<std::int32_
 
 // With r the part of the lowest mode in the bend, S = r / (omega_1^2 - omega^2) and, Q being twice the kinetic energy at 1 rad/s, Q = dS / d omega^2.
 Flexibility flexibility_at_sway(const Tree& tree) {
-    Flexibility slow = flexibility(tree, 0);
-    slow.slow = slow.whole;
-    if (!slow.stands) return slow;
+    Flexibility f = flexibility(tree, 0);
+    f.slow = f.whole;
+    if (!f.stands) return f;
     double S = 0, Q = 0;
-    bends(tree, slow, std::vector<std::int32_t>(tree.size_bodies(), 0), [&](std::size_t i, const Bend& b) {
-        const Mat3& R = slow.pose.R_wb[i];
-        S += slow.give[i];
+    bends(tree, f, std::vector<std::int32_t>(tree.size_bodies(), 0), [&](std::size_t i, const Bend& b) {
+        const Mat3& R = f.pose.R_wb[i];
+        S += f.give[i];
         Q += tree.mass[i] * b.center.squaredNorm() +
              b.turned.cwiseProduct(R * tree.inertia[i] * R.transpose() * b.turned).sum();
     });
-    for (std::vector<Mat3>* const gone : {&slow.turn, &slow.follow, &slow.slide})
-        std::vector<Mat3>().swap(*gone); // before as much again
     double omega2 = of_sway * S / Q;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
         if (tree.kind[i] == Kind::branch && !continues_parent(tree, i))
-            omega2 = std::min(omega2, of_a_rod * slow.mass[i] / slow.whole[i]);
+            omega2 = std::min(omega2, of_a_rod * f.mass[i] / f.whole[i]);
     for (int k = 0; k < most_slower; ++k, omega2 *= lower)
-        if (stands_at(tree, slow, omega2)) {
-            Flexibility f = flexibility(tree, omega2);
-            f.slow = std::move(slow.slow);
-            return f;
-        }
-    Flexibility f = flexibility(tree, 0);
-    f.slow = std::move(slow.slow);
+        if (fill(tree, omega2, true, f)) return f;
+    fill(tree, 0, false, f);
     return f;
 }
 
