@@ -4,6 +4,8 @@
 #include "../analytic/analytic_stepper.h"
 #include "../analytic/held_points.h"
 #include "../base/shortest_text.h"
+#include "../coupled/attachment.h"
+#include "../coupled/attachment_lanes.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_places.h"
 #include "../coupled/coupled_stepper.h"
@@ -167,7 +169,7 @@ template <class T> std::size_t attached_bytes(const Plan<T>& plan) {
     work.ground.resize(plan.splines.size());
     begin_attachments(plan, work);
     const auto* in_lanes = dynamic_cast<const fast::CoupledLanesStepper<T>*>(&*plan.stepper);
-    if (in_lanes && work.attachments.any()) place_attached_rows(in_lanes->own, work);
+    if (in_lanes && work.attachments.any()) fast::place_attached_rows(in_lanes->own, work);
     return work.attachments.bytes() + work.attached.bytes();
 }
 

@@ -28,7 +28,7 @@ const Names every_array{"theta", "theta_dot", "scaled_rate", "R_wb", "x_w", "c_h
 const Names every_coupled_stage{"midpoint", "body_loads", "resolvent", "state_update"};
 const Names every_coupled_array{"theta", "theta_dot", "theta_change", "theta_dot_change",
                                 "R_wb",  "x_w",       "coupled",      "guard"};
-const Names records{"coupled", "resolvent", "resolvent_real", "guard", "held"};
+const Names records{"attachments", "coupled", "resolvent", "resolvent_real", "guard", "held"};
 
 struct Method {
     Solver solver = Solver::analytic;
