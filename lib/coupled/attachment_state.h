@@ -128,9 +128,9 @@ struct Attachments {
     // Of what is there: arrays may have room for more, and the factors have a few numbers beside.
     std::size_t bytes() const {
         const auto of = [](const auto& array) { return array.size() * sizeof(array[0]); };
-        const auto numbers = answers.size() + asked.size() + unknowns.size() + factors.rows() * factors.cols();
+        const auto of_equations = answers.size() + asked.size() + unknowns.size() + factors.rows() * factors.cols();
         return of(all) + of(bodies) + of(pulled) + of(touched) + of(ties) + of(solved) +
-               std::size_t(numbers) * sizeof(std::complex<double>);
+               std::size_t(of_equations) * sizeof(std::complex<double>);
     }
 };
 

@@ -236,7 +236,11 @@ template <class T> void explain_arrays(const Plan<T>& plan, const Way<T>& way, s
     arrays.push_back({"held", held, held ? planned_held(plan).bytes() : 0, points});
     const std::size_t attached = coupled ? attached_bytes(plan) : 0;
     const std::string placed = points_text(plan, coupled);
-    arrays.push_back({"attachments", attached > 0, attached, !coupled ? solver : placed.empty() ? no_points : placed});
+    arrays.push_back({"attachments", attached > 0, attached,
+                      !coupled         ? solver
+                      : attached > 0   ? placed
+                      : placed.empty() ? no_points
+                                       : placed + ", once there are some"});
     add("coupled", sizeof(CoupledBody<T>), plain, work);
     add("resolvent", sizeof(ResolventBody<std::complex<T>>), plain && !real,
         coupled && real ? "a scheme of a real pole" : work);
