@@ -2,6 +2,7 @@
 // (One step against dense algebra, pairs among it: step.cpp.)
 #include "lib/coupled/attachment_ties.h"
 #include "lib/base/parallel.h"
+#include "lib/coupled/coupled_rows.h"
 #include "lib/simulation/simulation.h"
 #include "tests/support/held_tree.h"
 #include <catch2/catch.hpp>
