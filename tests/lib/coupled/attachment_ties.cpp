@@ -242,15 +242,14 @@ TEMPLATE_TEST_CASE("The bytes of a state are also those of the points that it ho
         Held<T> run(tree, scene, lanes);
         const std::size_t without = bare.state.bytes() + // where ties are, trees wait for them between the sweeps
                                     (lanes ? parts::lanes(run.state).bytes() - parts::lanes(bare.state).bytes() : 0);
-        const std::size_t bodies = 12 * (sizeof(AttachedBody) + sizeof(SolvedBody) + sizeof(std::size_t)),
-                          equations = (2 * 3 * 3 + 2 * 3) *
-                                      sizeof(std::complex<double>); // three unknowns, solved for by factors
+        const std::size_t bodies = 12 * (sizeof(AttachedBody) + sizeof(SolvedBody) + sizeof(std::size_t));
+        // Three unknowns, which factors solve for.
+        const std::size_t equations = (2 * 3 * 3 + 2 * 3) * sizeof(std::complex<double>);
         const std::size_t points = 2 * sizeof(Attached) + sizeof(Tie) + bodies + equations;
-        std::size_t rows =
-            0; // a number for each; for each that has an attached body, a record inward and a complex symmetric matrix
-        if (lanes)
-            rows = parts::lanes(run.plan).layout.rows * sizeof(std::int32_t) +
-                   12 * (fast::inward::count + 12) * sizeof(fast::Row<T>);
+        // A number for each row; for one that has an attached body, a record inward and a complex symmetric matrix.
+        const std::size_t rows = lanes ? parts::lanes(run.plan).layout.rows * sizeof(std::int32_t) +
+                                             12 * (fast::inward::count + 12) * sizeof(fast::Row<T>)
+                                       : 0;
         CHECK(run.state.bytes() == without + points + rows);
         for (int k = 0; k < 2; ++k) {
             std::size_t planned = 0;
