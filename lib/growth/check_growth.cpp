@@ -1,19 +1,11 @@
 #include "../base/shortest_text.h"
+#include "in_range.h"
 #include "sapling_family.h"
 #include <stdexcept>
 
 namespace bough {
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& name, double value, const std::string& expected) {
-    throw std::invalid_argument(name + ": is " + shortest_text(value) + ", expected " + expected);
-}
-
-// Written so that NaN fails every test.
-void within(const std::string& name, double value, double least, double most) {
-    if (!(value >= least && value <= most)) refuse(name, value, shortest_text(least) + " to " + shortest_text(most));
-}
 
 void below(const std::string& name, double value, double least, double limit) {
     if (!(value >= least && value < limit))

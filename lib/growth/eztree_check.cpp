@@ -1,5 +1,6 @@
 #include "eztree_check.h"
 #include "../base/shortest_text.h"
+#include "in_range.h"
 #include <stdexcept>
 
 namespace bough {
@@ -7,16 +8,8 @@ namespace {
 
 constexpr double kMostEztreeItems = 5e7; // branches and leaves
 
-// Written so that NaN fails.
-void within(const std::string& name, double value, double least, double most) {
-    if (!(value >= least && value <= most))
-        throw std::invalid_argument(name + ": is " + shortest_text(value) + ", expected " + shortest_text(least) +
-                                    " to " + shortest_text(most));
-}
-
 void positive(const std::string& name, double value) {
-    if (!(value > 0 && value <= 1e6))
-        throw std::invalid_argument(name + ": is " + shortest_text(value) + ", expected more than 0 and at most 1e6");
+    if (!(value > 0 && value <= 1e6)) refuse(name, value, "more than 0 and at most 1e6");
 }
 
 } // namespace

@@ -25,22 +25,22 @@ std::int32_t add_vertex(Skin& skin, const Vec3& position, const Vec3& normal, do
 namespace {
 
 // next[i]: the piece that goes on body i's branch, -1 at its tip. starts: the bodies that begin a tube, rising.
-struct Chains {
+struct Tubes {
     std::vector<std::int32_t> next;
     std::vector<std::int32_t> starts;
 };
 
-Chains find_chains(const Tree& tree) {
-    Chains chains;
-    chains.next.assign(tree.size_bodies(), -1);
+Tubes find_tubes(const Tree& tree) {
+    Tubes tubes;
+    tubes.next.assign(tree.size_bodies(), -1);
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (tree.kind[i] != Kind::branch) continue;
-        if (continues_parent(tree, i) && chains.next[std::size_t(tree.parent[i])] < 0)
-            chains.next[std::size_t(tree.parent[i])] = std::int32_t(i);
+        if (continues_parent(tree, i) && tubes.next[std::size_t(tree.parent[i])] < 0)
+            tubes.next[std::size_t(tree.parent[i])] = std::int32_t(i);
         else
-            chains.starts.push_back(std::int32_t(i));
+            tubes.starts.push_back(std::int32_t(i));
     }
-    return chains;
+    return tubes;
 }
 
 // Corners so that the distance between a ring and its circle, r (1 - cos(pi / n)), is about the same on every branch.
@@ -50,23 +50,23 @@ int sides_for(double radius, double thickest, int most) {
 }
 
 // Corners of the tube that each branch piece belongs to, 0 for other bodies.
-std::vector<int> find_sides(const Tree& tree, const Chains& chains, int most) {
+std::vector<int> find_sides(const Tree& tree, const Tubes& tubes, int most) {
     auto thickness = [&](std::int32_t start) {
         const Vec3& size = tree.size[std::size_t(start)];
         return std::max(size.y(), size.z());
     };
     double thickest = 0;
-    for (const std::int32_t start : chains.starts) thickest = std::max(thickest, thickness(start));
+    for (const std::int32_t start : tubes.starts) thickest = std::max(thickest, thickness(start));
     std::vector<int> sides(tree.size_bodies(), 0);
-    for (const std::int32_t start : chains.starts) {
+    for (const std::int32_t start : tubes.starts) {
         const int corners = sides_for(thickness(start), thickest, most);
-        for (std::int32_t i = start; i >= 0; i = chains.next[std::size_t(i)]) sides[std::size_t(i)] = corners;
+        for (std::int32_t i = start; i >= 0; i = tubes.next[std::size_t(i)]) sides[std::size_t(i)] = corners;
     }
     return sides;
 }
 
 // Room for the whole mesh (at most a few rings too much), so that it is never copied while it grows.
-void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vector<int>& sides,
+void reserve(Skin& skin, const Tree& tree, const Tubes& tubes, const std::vector<int>& sides,
              const std::vector<std::int32_t>& blades) {
     std::size_t vertices = 0, triangles = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
@@ -76,7 +76,7 @@ void reserve(Skin& skin, const Tree& tree, const Chains& chains, const std::vect
         vertices += flat * leaf_vertices, triangles += flat * leaf_triangles;
         if (tree.kind[i] == Kind::fruit) vertices += fruit_vertices, triangles += fruit_triangles;
     }
-    for (const std::int32_t start : chains.starts) {
+    for (const std::int32_t start : tubes.starts) {
         const std::size_t n = std::size_t(sides[std::size_t(start)]);
         vertices += 3 * (n + 1) + 2 * n;
         triangles += 3 * 2 * n;
@@ -97,18 +97,17 @@ std::vector<std::int32_t> find_blades(const Tree& tree, std::int64_t all) {
     return blades;
 }
 
-void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, const Chains& chains,
-              const std::vector<int>& sides) {
+void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, const Tubes& tubes, const std::vector<int>& sides) {
     BranchTube tube;
-    for (const std::int32_t start : chains.starts) {
+    for (const std::int32_t start : tubes.starts) {
         tube.sides = sides[std::size_t(start)];
         tube.piece.clear();
-        for (std::int32_t i = start; i >= 0; i = chains.next[std::size_t(i)]) tube.piece.push_back(i);
+        for (std::int32_t i = start; i >= 0; i = tubes.next[std::size_t(i)]) tube.piece.push_back(i);
         const std::int32_t parent = tree.parent[std::size_t(start)];
         const std::int32_t below = parent >= 0 ? tree.parent[std::size_t(parent)] : -1;
         tube.parent_sides = parent >= 0 ? sides[std::size_t(parent)] : 0;
         tube.parent_base = parent >= 0 && (below < 0 || tree.kind[std::size_t(below)] != Kind::branch);
-        tube.parent_tip = parent >= 0 && chains.next[std::size_t(parent)] < 0;
+        tube.parent_tip = parent >= 0 && tubes.next[std::size_t(parent)] < 0;
         add_tube(skin, tree, pose, tube);
     }
 }
@@ -123,12 +122,12 @@ void close_part(Skin& skin, const char* name, const Vec3& color) {
 Skin build_skin(const Tree& tree, const SkinOptions& options) {
     assert(options.sides >= 3);
     const DrawnPose pose = drawn_pose(tree);
-    const Chains chains = find_chains(tree);
-    const std::vector<int> sides = find_sides(tree, chains, options.sides);
+    const Tubes tubes = find_tubes(tree);
+    const std::vector<int> sides = find_sides(tree, tubes, options.sides);
     const std::vector<std::int32_t> blades = find_blades(tree, options.clump_leaves);
     Skin skin;
-    reserve(skin, tree, chains, sides, blades);
-    add_bark(skin, tree, pose, chains, sides);
+    reserve(skin, tree, tubes, sides, blades);
+    add_bark(skin, tree, pose, tubes, sides);
     const std::vector<Vec3>& color = tree.color.empty() ? default_colors() : tree.color;
     close_part(skin, "bark", color[0]);
     for (const Kind kind : {Kind::leaf, Kind::petal}) {

@@ -22,11 +22,11 @@ double timed(int threads, const std::function<void(int)>& work) {
     return std::chrono::duration<double>(Time::now() - start).count();
 }
 
-struct Part {
+struct OwnRows {
     std::size_t first, count; // floats
 };
 // Even shares of whole rows.
-Part part(std::size_t rows, int threads, int thread) {
+OwnRows own_rows(std::size_t rows, int threads, int thread) {
     constexpr std::size_t row = fast::Row<float>::lanes;
     const std::size_t n = std::size_t(threads), t = std::size_t(thread);
     const std::size_t first = rows * t / n, end = rows * (t + 1) / n;
@@ -45,7 +45,7 @@ void measure_memory(MachineLimits& limits, const fast::MemoryKernels& kernels, i
     const std::size_t rows = std::max(array / 64, std::size_t(threads) * 2), half = rows / 2;
     const std::unique_ptr<void, void (*)(void*)> memory(fast::allocate_rows(rows * 64), fast::free_rows);
     auto* const values = static_cast<float*>(memory.get());
-    const auto mine = [&](int t) { return part(rows, threads, t); };
+    const auto mine = [&](int t) { return own_rows(rows, threads, t); };
     const auto put = [&](float value) {
         return timed(threads, [&](int t) { kernels.fill(values + mine(t).first, mine(t).count, value); });
     };
@@ -59,7 +59,7 @@ void measure_memory(MachineLimits& limits, const fast::MemoryKernels& kernels, i
     if (total != double(rows * fast::Row<float>::lanes))
         throw std::logic_error("memory was read other than it was written");
     const double copied = timed(threads, [&](int t) {
-        const Part p = part(half, threads, t);
+        const OwnRows p = own_rows(half, threads, t);
         kernels.copy(values + half * fast::Row<float>::lanes + p.first, values + p.first, p.count);
     });
     limits.read = double(rows * 64) / read;

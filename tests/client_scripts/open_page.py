@@ -25,7 +25,7 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 
 server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)  # any free port of this machine alone
 threading.Thread(target=server.serve_forever, daemon=True).start()
-with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile, open("browser.log", "w+") as log:
+with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile, open(f"{profile}/browser.log", "w+") as log:
     browser = subprocess.Popen(
         ["chromium", "--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=700,760",
          f"--user-data-dir={profile}", f"http://127.0.0.1:{server.server_port}/{page}"], stdout=log, stderr=log)

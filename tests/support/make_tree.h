@@ -12,6 +12,8 @@
 
 namespace make_tree {
 
+inline constexpr double degree = std::numbers::pi / 180; // [rad]
+
 using bough::Kind;
 using bough::Mat3;
 using bough::Quat;

@@ -19,7 +19,7 @@ using Z = std::complex<double>;
 using V = Eigen::Vector3cd;
 using M = Eigen::Matrix3cd;
 
-constexpr double h = 1.0 / 30;
+constexpr double dt = 1.0 / 30;
 
 // A trunk of 10 pieces, and on each piece of a branch one of 5, half as long and 0.28 times as thick: five levels, 35 deep.
 Tree large(double E) {
@@ -85,20 +85,21 @@ template <class T> void take_state(State<T>& to, const State<double>& from) {
 double residual(const Plan<double>& plan, const State<double>& at, const std::vector<Vec3>& eta,
                 const std::vector<Vec3>& theta, const std::vector<Vec3>& theta_dot) {
     const Pole& pole = scheme_of(parts::bodies(plan).scheme).pole[0];
-    const Z p = pole.p, c = pole.c, s1 = h / p, s2 = s1 * s1, slope = 1.0 / p - 0.5;
+    const Z p = pole.p, c = pole.c, s1 = dt / p, s2 = s1 * s1, slope = 1.0 / p - 0.5;
     const std::size_t n = plan.bodies;
     std::vector<V> alpha(n), a(n), N(n), F(n), tau(n);
     std::vector<double> size(n);
     for (std::size_t i = 0; i < n; ++i) {
         const CoupledBody<double>& b = parts::bodies(at).coupled[i];
-        // 2 h Re(c x_v) = theta_dot, 2 h Re(c (h x_v - eta) / p) = theta
+        // 2 dt Re(c x_v) = theta_dot, 2 dt Re(c (dt x_v - eta) / p) = theta
         Eigen::Matrix2d two;
-        const Z e = c * h / p;
+        const Z e = c * dt / p;
         two << c.real(), -c.imag(), e.real(), -e.imag();
         const Eigen::Matrix2d inverse = two.inverse();
         V x_v;
         for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector2d known(theta_dot[i][k] / (2 * h), theta[i][k] / (2 * h) + (c / p).real() * eta[i][k]);
+            const Eigen::Vector2d known(theta_dot[i][k] / (2 * dt),
+                                        theta[i][k] / (2 * dt) + (c / p).real() * eta[i][k]);
             const Eigen::Vector2d x = inverse * known;
             x_v[k] = Z(x[0], x[1]);
         }
@@ -134,7 +135,7 @@ double residual(const Plan<double>& plan, const State<double>& at, const std::ve
     return std::sqrt(squares / sizes);
 }
 
-// Of M (a - b) / h relative to all moments that act at the state.
+// Of M (a - b) / dt relative to all moments that act at the state.
 double moment_of_difference(const Plan<double>& plan, const State<double>& from, const std::vector<Vec3>& a,
                             const std::vector<Vec3>& b) {
     Plan<double> bare = plan;
@@ -147,10 +148,10 @@ double moment_of_difference(const Plan<double>& plan, const State<double>& from,
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Mat3 J = body_rate_jacobian(from.theta[i]);
         rate[i] = J * from.theta_dot[i];
-        mean[i] = J * b[i] / h;
-        off[i] = J * (a[i] - b[i]) / h;
+        mean[i] = J * b[i] / dt;
+        off[i] = J * (a[i] - b[i]) / dt;
     }
-    const double time = double(from.step) * h;
+    const double time = double(from.step) * dt;
     return inverse_dynamics(bare, from.theta, none, off, time).rms /
            inverse_dynamics(plan, from.theta, rate, mean, time).moment_rms;
 }

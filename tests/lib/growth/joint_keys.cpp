@@ -6,12 +6,11 @@
 #endif
 
 using namespace bough;
+using make_tree::degree;
 using make_tree::Dice;
 using make_tree::turn;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Parents of a random forest, and each joint's rotation from its parent over the frames: sums of slow and quick swings.
 struct Motion {

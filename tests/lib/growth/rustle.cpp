@@ -6,10 +6,11 @@
 
 using namespace bough;
 using namespace skin_checks;
+using make_tree::degree;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180, fps = 30;
+constexpr double fps = 30;
 
 // A pole that bears clumps of 40 leaves.
 Tree bush(int clumps) {
@@ -49,7 +50,7 @@ Leaves rustled(const Skin& skin, Rustle& rustle, std::int64_t frame) {
     return leaves;
 }
 
-double angle(const Vec3& a, const Vec3& b) {
+double turned_by(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
@@ -60,7 +61,7 @@ double largest_turn(const Skin& skin, const ClumpWind& wind, std::int64_t first,
     for (std::int64_t f = first + 1; f < first + frames; ++f) {
         Leaves now = rustled(skin, rustle, f);
         for (const std::int32_t v : skin.clump_leaf)
-            largest = std::max(largest, angle(before.normal[std::size_t(v)], now.normal[std::size_t(v)]));
+            largest = std::max(largest, turned_by(before.normal[std::size_t(v)], now.normal[std::size_t(v)]));
         before = std::move(now);
     }
     return largest;
@@ -90,7 +91,7 @@ TEST_CASE("normals turn by the law's amplitude about a foot that stays, and blad
             const Leaves now = rustled(skin, rustle, f);
             for (const std::int32_t v : skin.clump_leaf) {
                 const auto k = std::size_t(v);
-                const double a = angle(skin.normal[k], now.normal[k]);
+                const double a = turned_by(skin.normal[k], now.normal[k]);
                 squares += a * a;
                 const Vec3 foot = (now.position[k] + now.position[k + 4]) / 2;
                 stray = std::max(stray, (foot - (skin.position[k] + skin.position[k + 4]) / 2).norm());
