@@ -68,6 +68,7 @@ std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Ma
     const bool said = !tree.leaf_length.empty() && tree.leaf_length[body] > 0;
     const Vec3 half(width / 2, 0.3 * width, said ? length - tree.com[body].z() : length / 2);
     const double blade = clump_leaf_size(tree, body, count).x();
+    const double hangs = std::max(-R_wb(1, 2), 0.0), spreads = 1 - 0.7 * hangs;
     std::vector<ClumpLeaf> leaves;
     for (std::int32_t k = 0; k < count; ++k) {
         const RandomKey key = random_key(clump, ClumpDraw::leaf, std::uint64_t(k));
@@ -78,8 +79,9 @@ std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Ma
         const Vec3 middle = tree.com[body] + half.cwiseProduct(place);
         const Vec3 away = direction_of(middle, Vec3::UnitZ());
         ClumpLeaf leaf;
-        const Vec3 z =
-            direction_of(0.6 * away + 0.7 * place - 0.35 * up + 0.6 * any_vector(key, ClumpDraw::direction), away);
+        const Vec3 z = direction_of(spreads * (0.6 * away + 0.7 * place + 0.6 * any_vector(key, ClumpDraw::direction)) -
+                                        (0.35 + 0.65 * hangs) * up,
+                                    away);
         const Vec3 facing = up + 0.5 * place + 0.6 * any_vector(key, ClumpDraw::normal);
         const Vec3 side = direction_of(facing.cross(z), direction_of(Vec3::UnitX().cross(z), Vec3::UnitY()));
         leaf.axes.col(0) = side;

@@ -7,6 +7,7 @@ namespace bough {
 namespace {
 
 constexpr double above_ground = 0.02; // of the trunk's length
+constexpr double hangs = -3;          // attraction_up at which a level stem hangs after a third of its length
 
 // Grows stems from a stack, so that a stem's whole subtree follows it before its next sibling.
 class Grower {
@@ -299,7 +300,11 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
     const double up = shape_ratio(0, (stem.length - offset) / (stem.length - base));
     const double down = l.down_angle_v < 0 ? l.down_angle + l.down_angle_v * (1 - 2 * up)
                                            : varied(l.down_angle, l.down_angle_v, child.key, Draw::down_angle);
-    child.frame = grown.segment_at(offset).frame * about_z(turn * kDegree) * about_x(down * kDegree);
+    const Quat& bearer = grown.segment_at(offset).frame;
+    Quat round = bearer * about_z(turn * kDegree); // its child leans away from its y
+    const bool upper = (round * -Vec3::UnitY()).y() > 0;
+    if (l.attraction_up <= hangs && upper) round = round * about_z(std::numbers::pi);
+    child.frame = round * about_x(down * kDegree);
     return child;
 }
 

@@ -124,6 +124,22 @@ TEST_CASE("Each species stands: height, diameter and buckling as in real trees")
     }
 }
 
+TEST_CASE("A willow's strands all hang") {
+    const Splines& s = whole(named("willow"), false);
+    std::int64_t strands = 0;
+    for (std::size_t b = 0; b < s.branches(); ++b) {
+        if (s.level[b] != 3) continue;
+        ++strands;
+        const double base = s.point[first(s, b)].y();
+        double top = base;
+        for (std::size_t i = first(s, b); i <= last(s, b); ++i) top = std::max(top, s.point[i].y());
+        INFO("strand " << b << " of " << length(s, b) << " m");
+        REQUIRE(top - base < 0.3);
+        if (length(s, b) > 1) REQUIRE(base - s.point[last(s, b)].y() > 0.6 * length(s, b));
+    }
+    CHECK(strands > 5000);
+}
+
 TEST_CASE("Nothing grows into the ground") {
     for (const SpeciesFile& file : species_files()) {
         const Species species = read_species(file.content, std::string(file.name));
