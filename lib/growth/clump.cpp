@@ -68,7 +68,7 @@ std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Ma
     const bool said = !tree.leaf_length.empty() && tree.leaf_length[body] > 0;
     const Vec3 half(width / 2, 0.3 * width, said ? length - tree.com[body].z() : length / 2);
     const double blade = clump_leaf_size(tree, body, count).x();
-    const double hangs = std::max(-R_wb(1, 2), 0.0), spreads = 1 - 0.7 * hangs;
+    const double hangs = std::max(-2 * R_wb(1, 2) - 1, 0.0), spreads = 1 - 0.7 * hangs;
     std::vector<ClumpLeaf> leaves;
     for (std::int32_t k = 0; k < count; ++k) {
         const RandomKey key = random_key(clump, ClumpDraw::leaf, std::uint64_t(k));

@@ -5,8 +5,9 @@
 // come to more than `all` leaves (two a body, 10 000 at least, 200 000 at most), each is drawn as so many fewer.
 // They fill an ellipsoid about the body's centre of mass evenly. Its axes are width, 0.6 width, length; where the tree says a leaf's size, twice
 // the way from the centre to the length's end in place of the length. The middle of leaf k is point k of a sequence of low discrepancy (the
-// additive recurrence of three irrationals). Leaves point away from the clump's joint and middle and droop a little, where the clump hangs from its joint nearly
-// plumb; their upper faces look up and outward. All of it is drawn from the body's index, so that the same tree looks the same whoever draws it.
+// additive recurrence of three irrationals). Leaves point away from the clump's joint and middle and droop a little. Those of a clump that hangs,
+// by more than 30 degrees below level, droop the more the steeper it hangs, and the leaves of one that hangs plumb do so too. Their upper faces look
+// up and outward. All of it is drawn from the body's index, so that the same tree looks the same whoever draws it.
 #pragma once
 #include "../model/tree.h"
 

@@ -77,6 +77,21 @@ TEST_CASE("leaves fill the ellipsoid of a clump evenly, and face up") {
                         [&](std::int32_t v) { return skin.normal[std::size_t(v)].y() < 0; }) <= 3);
 }
 
+TEST_CASE("leaves of a clump that hangs hang") {
+    const auto falls = [](const Vec3& way) { // of the leaves, a mean
+        Tree tree = clump(64);
+        tree.joint_rotation[0] = Quat::FromTwoVectors(Vec3::UnitZ(), way);
+        const Skin skin = build_skin(tree, {});
+        double sum = 0;
+        for (const std::int32_t v : skin.clump_leaf)
+            sum -= (skin.position[std::size_t(v) + 3] - skin.position[std::size_t(v)]).normalized().y() / 64;
+        return sum;
+    };
+    CHECK(falls(-Vec3::UnitY()) > 0.9);
+    CHECK(falls(Vec3::UnitX()) < 0.6);
+    CHECK(falls(Vec3::UnitY()) < 0);
+}
+
 TEST_CASE("no two clumps look alike, and each always does") {
     Tree two = clump(9);
     append(two, clump(9), Vec3::Zero(), 0);
