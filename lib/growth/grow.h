@@ -10,8 +10,9 @@
 //   Curve. Segments turn where they meet: nCurveRes - 1 turns of curve / nCurveRes about the stem's x, and of up to
 //     curve_v / nCurveRes about a random axis across it, so that stems leave the plane. A negative curve_v makes a helix
 //     of one turn whose direction stands |curve_v| off its axis.
-//   Attraction. Each level has its own (the paper: one, from level 2 on). What hangs (-3 and less) leaves on the lower side of what bears it: where
-//     rotate has it on the upper, half a turn further. The paper's pull is nothing upright, and a strand that began so would stay a rod.
+//   Attraction. Each level has its own (the paper: one, from level 2 on). What hangs (-3 and less) and would leave on the upper side of what bears
+//     it leaves on the lower: as far to the side, as far down as it was up. The paper's pull is nothing upright, and a strand that began so would
+//     stay a rod. A bearer within 15 degrees of plumb has no lower side.
 //   Numbers. A number of children, leaves, fruit or splits that is not whole is rounded up as often as its fraction says
 //     (the part of the paper's error diffusion, but one stem's number does not depend on another's).
 //   Places. Child i of n sits at (i + 1/2) / n of the stem's length above its base_size. The part of a stem that is split

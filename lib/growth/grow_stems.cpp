@@ -9,6 +9,18 @@ namespace {
 constexpr double above_ground = 0.02; // of the trunk's length
 constexpr double hangs = -3;          // attraction_up at which a level stem hangs after a third of its length
 
+// The turn about what bears a child, mirrored where the child would leave on the upper side: as far to the side, and as far down as it was up. Where
+// the bearer stands nearly plumb, no side is the lower.
+double on_the_lower_side(const Quat& bearer, double turn, double leans) {
+    constexpr double plumb = 0.25; // sine of the bearer's lean
+    const Vec3 up = bearer.conjugate() * Vec3::UnitY();
+    const double tilt = std::hypot(up.x(), up.y());
+    if (tilt < plumb) return turn;
+    const double x = std::sin(turn), y = -std::cos(turn), rises = (x * up.x() + y * up.y()) / tilt; // where it leans to
+    if (rises * leans <= 0) return turn;
+    return std::atan2(x - 2 * rises * up.x() / tilt, 2 * rises * up.y() / tilt - y);
+}
+
 // Grows stems from a stack, so that a stem's whole subtree follows it before its next sibling.
 class Grower {
 public:
@@ -301,10 +313,9 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
     const double down = l.down_angle_v < 0 ? l.down_angle + l.down_angle_v * (1 - 2 * up)
                                            : varied(l.down_angle, l.down_angle_v, child.key, Draw::down_angle);
     const Quat& bearer = grown.segment_at(offset).frame;
-    Quat round = bearer * about_z(turn * kDegree); // its child leans away from its y
-    const bool upper = (round * -Vec3::UnitY()).y() > 0;
-    if (l.attraction_up <= hangs && upper) round = round * about_z(std::numbers::pi);
-    child.frame = round * about_x(down * kDegree);
+    double round = turn * kDegree;
+    if (l.attraction_up <= hangs) round = on_the_lower_side(bearer, round, std::sin(down * kDegree));
+    child.frame = bearer * about_z(round) * about_x(down * kDegree);
     return child;
 }
 

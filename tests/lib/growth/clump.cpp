@@ -87,9 +87,17 @@ TEST_CASE("leaves of a clump that hangs hang") {
             sum -= (skin.position[std::size_t(v) + 3] - skin.position[std::size_t(v)]).normalized().y() / 64;
         return sum;
     };
-    CHECK(falls(-Vec3::UnitY()) > 0.9);
-    CHECK(falls(Vec3::UnitX()) < 0.6);
-    CHECK(falls(Vec3::UnitY()) < 0);
+    const auto below = [&](double degrees) { // level
+        return falls(Vec3(std::cos(degrees * make_tree::degree), -std::sin(degrees * make_tree::degree), 0));
+    };
+    CHECK(below(90) > 0.9);
+    CHECK(below(90) > below(60) + 0.02);
+    CHECK(below(60) > below(45) + 0.02);
+    CHECK(below(45) > below(31) + 0.02);
+    CHECK(below(30.1) == Approx(below(29.9)).margin(0.01)); // no jump
+    CHECK(below(29.9) == Approx(below(25)).margin(0.1));    // nothing of it before
+    CHECK(below(0) < 0.6);
+    CHECK(below(-90) < 0);
 }
 
 TEST_CASE("no two clumps look alike, and each always does") {
