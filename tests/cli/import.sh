@@ -1,6 +1,6 @@
 # Files of other programs, from file to moving tree: each of the cases that are not ours is read, converted and simulated
-# for 2 s (sanitized: one in six, for 0.2 s) in a gusty wind with finite results, or refused with exit 2 in one line; so is, unsanitized, it
-# with bytes changed at random, every other one cut in half. Nothing crashes, takes more than 1 GB or longer than its time.
+# for 2 s (sanitized: one in six, for 0.2 s) in a gusty wind with finite results, or refused with exit 2 in one line; so are, unsanitized, its first half and itself with
+# bytes changed at random. Nothing crashes, takes more than 1 GB or longer than its time.
 source "$(dirname "$0")/common.sh"
 
 # Run by every reader, with or without the cases.
@@ -158,13 +158,17 @@ damaged() {
 }
 seed=1
 for name in "${cases[@]}"; do
-    [[ -s $BOUGH_CASES_DIR/$name ]] || continue
+    size=$(stat -c %s "$BOUGH_CASES_DIR/$name")
+    ((size > 0)) || continue
     copy=damaged_$(basename "$name")
-    seed=$((seed + 1))
-    perl -e 'my ($from, $to, $seed) = @ARGV; srand $seed; local $/; open my $in, "<:raw", $from or die; my $bytes = <$in>;
-        $bytes = substr($bytes, 0, (1 + length $bytes) / 2) if $seed % 2;
-        substr($bytes, int rand length $bytes, 1) = chr int rand 256 for 1 .. 12; open my $out, ">:raw", $to or die; print $out $bytes; close $out or die' \
-        "$BOUGH_CASES_DIR/$name" "$copy" "$seed"
+    head -c $((size / 2)) "$BOUGH_CASES_DIR/$name" >"$copy"
     damaged "$name" "$copy"
+    for _ in 1 2; do
+        seed=$((seed + 1))
+        perl -e 'my ($from, $to, $seed) = @ARGV; srand $seed; local $/; open my $in, "<:raw", $from or die; my $bytes = <$in>;
+            substr($bytes, int rand length $bytes, 1) = chr int rand 256 for 1 .. 12; open my $out, ">:raw", $to or die; print $out $bytes; close $out or die' \
+            "$BOUGH_CASES_DIR/$name" "$copy" "$seed"
+        damaged "$name" "$copy"
+    done
     rm -f "$copy"
 done

@@ -75,10 +75,11 @@ inline std::string error_of(const std::string& content, const std::string& name)
 }
 
 // Cuts the content at every `step`th byte and flips bytes at random: each variant must be read or refused in one line.
-inline void damage(const std::string& content, const std::string& name, std::size_t step) {
+inline void damage(const std::string& content, const std::string& name, std::size_t step, int rounds = 2000) {
     for (std::size_t cut = 0; cut < content.size(); cut += step) error_of(content.substr(0, cut), name);
     std::mt19937 random(7);
-    for (int round = 0; round < 2000; ++round) {
+    for (int round = 0; round < rounds; ++round) {
+        INFO("bytes changed, round " << round);
         std::string broken = content;
         for (int flips = 1 + round % 4; flips > 0; --flips)
             broken[random() % broken.size()] = round % 2 ? char(random() % 256) : "0123456789-.,<>/\" e"[random() % 19];

@@ -187,6 +187,43 @@ TEST_CASE("Pruned stems stay inside the envelope, unpruned ones do not") {
     CHECK(half < outside(wild));
 }
 
+TEST_CASE("What hangs leaves on the lower side of a level bearer, as far to the side; a plumb one keeps its sides") {
+    // Boughs stand out level from a plumb trunk. What leaves them is measured across them: up, and to the side.
+    for (const double rotate : {140.0, -90.0}) {
+        GrowthParameters p = plain(3);
+        p.level[1].down_angle = 90;
+        p.level[2].rotate = rotate;
+        p.level[2].attraction_up = -2.9;
+        const Splines free = grow(p, 1, {});
+        p.level[2].attraction_up = -5;
+        const Splines hung = grow(p, 1, {});
+        REQUIRE(hung.branches() == free.branches());
+        double left = 0, right = 0, upper = 0;
+        for (const std::size_t b : of_level(hung, 2)) {
+            const Vec3 bough = start_direction(hung, std::size_t(hung.parent[b]));
+            REQUIRE(std::abs(bough.y()) < 1e-9);
+            const Vec3 side = bough.cross(Vec3::UnitY()), was = start_direction(free, b), is = start_direction(hung, b);
+            CHECK(is.dot(bough) == Approx(was.dot(bough)).margin(1e-9));
+            CHECK(is.dot(side) == Approx(was.dot(side)).margin(1e-9));
+            CHECK(is.y() == Approx(-std::abs(was.y())).margin(1e-9));
+            upper += was.y() > 0.1;
+            (is.dot(side) > 0 ? right : left) += 1;
+        }
+        CHECK(left / (left + right) == Approx(0.5).margin(0.1));
+        CHECK((rotate < 0) == (upper == 0));
+    }
+    GrowthParameters p = plain(2);
+    p.level[1].attraction_up = -5;
+    const Splines s = grow(p, 1, {});
+    const std::vector<std::size_t> boughs = of_level(s, 1);
+    REQUIRE(boughs.size() == 8);
+    for (std::size_t k = 1; k < boughs.size(); ++k) {
+        Vec3 a = start_direction(s, boughs[k - 1]), b = start_direction(s, boughs[k]);
+        a.y() = b.y() = 0;
+        CHECK(angle(a, b) == Approx(140).margin(1e-6));
+    }
+}
+
 TEST_CASE("Flowers have their petals round them, as long as asked for") {
     GrowthParameters p = default_growth();
     p.blossoms = 3;
