@@ -1,5 +1,5 @@
-# numbers.cmake: what only computes, as two archives: bough_numbers, whole in the library, and bough_study, which tools and tests link.
-file(GLOB number_sources CONFIGURE_DEPENDS growth/*.cpp laws/*.cpp plan/*.cpp lanes/*.cpp analytic/*.cpp coupled/*.cpp free/*.cpp)
+# numbers.cmake: what only computes, as three archives: bough_growth and bough_numbers, whole in the library, and bough_study, which tools and tests link.
+file(GLOB number_sources CONFIGURE_DEPENDS laws/*.cpp plan/*.cpp lanes/*.cpp analytic/*.cpp coupled/*.cpp free/*.cpp)
 set(sweeps analytic/analytic_sweeps.cpp coupled/coupled_sweeps.cpp coupled/energy_sweep.cpp) # once a SIMD target, below
 list(TRANSFORM sweeps PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE left_out)
 list(REMOVE_ITEM number_sources ${left_out})
@@ -59,6 +59,24 @@ foreach(simd ${simd_targets})
   string(TOUPPER BOUGH_HAS_${simd} has_simd)
   list(APPEND has_simds ${has_simd})
 endforeach()
+
+# Trees, which the thread sanitizer's build takes from another (BOUGH_COMPUTED). The definitions are those of the headers that it shares.
+if(NOT bough_growth IN_LIST taken)
+  file(GLOB growth_sources CONFIGURE_DEPENDS growth/*.cpp)
+  add_library(bough_growth STATIC ${growth_sources})
+  target_include_directories(bough_growth PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(bough_growth PRIVATE Eigen3::Eigen bough_flags)
+  target_compile_definitions(bough_growth PRIVATE ${has_simds})
+  set_target_properties(bough_growth PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  if(BOUGH_OPENMP)
+    target_link_libraries(bough_growth PRIVATE OpenMP::OpenMP_CXX)
+  endif()
+  if(BOUGH_UNITY)
+    bough_together(bough_growth)
+  endif()
+  bough_precompiled_as(bough_growth bough_numbers)
+endif()
+
 target_compile_definitions(bough_numbers PRIVATE ${has_simds})
 target_compile_definitions(bough_study PRIVATE ${has_simds})
 set(simd_flags_avx2 -mavx2 -mfma)

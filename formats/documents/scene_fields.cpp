@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string described(const json& value) {
+std::string kind_of_value(const json& value) {
     if (value.is_string()) return in_quotes(value.get_ref<const std::string&>());
     if (value.is_object()) return "an object";
     if (value.is_array()) return "an array of " + std::to_string(value.size());
@@ -21,7 +21,7 @@ std::string described(const json& value) {
 ObjectReader::ObjectReader(const json& value, const std::string& name, const std::string& at)
     : value_(value), name_(name), at_(at) {
     if (!value.is_object())
-        throw InputError(name + (at.empty() ? "" : ": " + at), "is " + described(value) + ", expected an object");
+        throw InputError(name + (at.empty() ? "" : ": " + at), "is " + kind_of_value(value) + ", expected an object");
 }
 
 const json* ObjectReader::find(const std::string& key) {
@@ -48,7 +48,7 @@ void ObjectReader::fail(const std::string& key, const std::string& message) cons
 }
 
 double ObjectReader::real(const json& value, const std::string& key) const {
-    if (!value.is_number()) fail(key, "is " + described(value) + ", expected a number");
+    if (!value.is_number()) fail(key, "is " + kind_of_value(value) + ", expected a number");
     return value.get<double>();
 }
 
@@ -62,7 +62,7 @@ void ObjectReader::read(const std::string& key, std::int64_t& to) {
     const bool fits = value->is_number_integer() &&
                       (!value->is_number_unsigned() ||
                        value->get<std::uint64_t>() <= std::uint64_t(std::numeric_limits<std::int64_t>::max()));
-    if (!fits) fail(key, "is " + described(*value) + ", expected an integer");
+    if (!fits) fail(key, "is " + kind_of_value(*value) + ", expected an integer");
     to = value->get<std::int64_t>();
 }
 
@@ -76,21 +76,21 @@ void ObjectReader::read(const std::string& key, std::int32_t& to) {
 void ObjectReader::read(const std::string& key, std::uint64_t& to) {
     const json* value = find(key);
     if (!value) return;
-    if (!value->is_number_unsigned()) fail(key, "is " + described(*value) + ", expected an integer, 0 or more");
+    if (!value->is_number_unsigned()) fail(key, "is " + kind_of_value(*value) + ", expected an integer, 0 or more");
     to = value->get<std::uint64_t>();
 }
 
 void ObjectReader::read(const std::string& key, bool& to) {
     const json* value = find(key);
     if (!value) return;
-    if (!value->is_boolean()) fail(key, "is " + described(*value) + ", expected true or false");
+    if (!value->is_boolean()) fail(key, "is " + kind_of_value(*value) + ", expected true or false");
     to = value->get<bool>();
 }
 
 void ObjectReader::read(const std::string& key, std::string& to) {
     const json* value = find(key);
     if (!value) return;
-    if (!value->is_string()) fail(key, "is " + described(*value) + ", expected text");
+    if (!value->is_string()) fail(key, "is " + kind_of_value(*value) + ", expected text");
     to = value->get<std::string>();
 }
 
@@ -105,12 +105,12 @@ void ObjectReader::read(const std::string& key, Vec3& to) {
 void ObjectReader::read(const std::string& key, std::vector<double>& to) {
     const json* value = find(key);
     if (!value) return;
-    if (!value->is_array()) fail(key, "is " + described(*value) + ", expected an array of numbers");
+    if (!value->is_array()) fail(key, "is " + kind_of_value(*value) + ", expected an array of numbers");
     std::vector<double> numbers;
     for (const json& entry : *value) {
         if (!entry.is_number())
             throw InputError(name_ + ": " + at(key) + "/" + std::to_string(numbers.size()),
-                             "is " + described(entry) + ", expected a number");
+                             "is " + kind_of_value(entry) + ", expected a number");
         numbers.push_back(entry.get<double>());
     }
     to = std::move(numbers);
@@ -123,7 +123,7 @@ bool ObjectReader::read_rows(const std::string& key, const std::vector<std::stri
     std::string names;
     for (const std::string& part : parts) names += (names.empty() ? "" : ", ") + part;
     const std::string width = std::to_string(parts.size());
-    if (!value->is_array()) fail(key, "is " + described(*value) + ", expected an array of [" + names + "]");
+    if (!value->is_array()) fail(key, "is " + kind_of_value(*value) + ", expected an array of [" + names + "]");
     numbers.clear();
     if (!value->empty() && value->front().is_array()) {
         std::size_t row = 0;
@@ -175,7 +175,7 @@ std::size_t ObjectReader::word(const std::string& key, const std::vector<std::st
 const json& ObjectReader::list(const std::string& key) {
     static const json empty = json::array();
     const json* value = find(key);
-    if (value && !value->is_array()) fail(key, "is " + described(*value) + ", expected an array");
+    if (value && !value->is_array()) fail(key, "is " + kind_of_value(*value) + ", expected an array");
     return value ? *value : empty;
 }
 

@@ -57,7 +57,7 @@ Circle circle_through(const std::vector<Vec3>& points, const Vec3& along) {
 }
 
 // Triangles name the first of all points in one place.
-void weld(BarkSurface& surface) {
+void weld_surface(BarkSurface& surface) {
     std::vector<std::int32_t> order(surface.point.size()), one(surface.point.size());
     std::iota(order.begin(), order.end(), 0);
     const auto before = [&](std::int32_t a, std::int32_t b) {
@@ -76,7 +76,7 @@ void weld(BarkSurface& surface) {
 } // namespace
 
 Bark::Bark(BarkSurface surface, std::size_t bones) : surface_(std::move(surface)) {
-    weld(surface_);
+    weld_surface(surface_);
     DisjointSets pieces(surface_.point.size());
     const auto each = [&](auto&& use) { // (triangle, bone), each pair once
         for (std::size_t t = 0; t < surface_.triangle.size(); ++t) {

@@ -20,10 +20,10 @@ struct Piece {
 };
 
 // A piece's edges, both ways; indices within the piece.
-using Edges = std::vector<std::vector<std::int32_t>>;
+using NodeEdges = std::vector<std::vector<std::int32_t>>;
 
-Edges edges_of(const BarkSurface& surface, const Piece& piece, const std::vector<std::int32_t>& local) {
-    Edges beside(piece.point.size());
+NodeEdges edges_of(const BarkSurface& surface, const Piece& piece, const std::vector<std::int32_t>& local) {
+    NodeEdges beside(piece.point.size());
     for (const std::int32_t t : piece.triangle)
         for (int k = 0; k < 3; ++k) {
             const std::int32_t a = local[surface.triangle[t][k]], b = local[surface.triangle[t][(k + 1) % 3]];
@@ -34,7 +34,7 @@ Edges edges_of(const BarkSurface& surface, const Piece& piece, const std::vector
 }
 
 // Ways along edges to each point, from those where they are 0 already; all others are infinite.
-void walk(const BarkSurface& surface, const Piece& piece, const Edges& beside, std::vector<double>& way) {
+void walk(const BarkSurface& surface, const Piece& piece, const NodeEdges& beside, std::vector<double>& way) {
     using Open = std::pair<double, std::int32_t>;
     std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
     for (std::size_t k = 0; k < way.size(); ++k)
@@ -77,7 +77,7 @@ std::int32_t base_of(const BarkSurface& surface, const Piece& piece, const std::
 }
 
 // Points of one slice that hang together.
-struct Node {
+struct BarkNode {
     std::int32_t parent = -1; // node of a slice before
     int slice = 0;
     double beyond = 0; // longest way along the axis to a tip
@@ -85,13 +85,13 @@ struct Node {
     Vec3 middle = Vec3::Zero();
 };
 
-std::vector<Node> nodes_of(const BarkSurface& surface, const Piece& piece, const Edges& beside,
-                           const std::vector<int>& slice) {
-    std::vector<Node> nodes;
+std::vector<BarkNode> nodes_of(const BarkSurface& surface, const Piece& piece, const NodeEdges& beside,
+                               const std::vector<int>& slice) {
+    std::vector<BarkNode> nodes;
     std::vector<std::int32_t> node_of(slice.size(), -1), stack;
     for (std::size_t k = 0; k < slice.size(); ++k) {
         if (node_of[k] >= 0) continue;
-        Node node;
+        BarkNode node;
         node.slice = slice[k];
         stack = {std::int32_t(k)};
         node_of[k] = std::int32_t(nodes.size());
@@ -107,7 +107,7 @@ std::vector<Node> nodes_of(const BarkSurface& surface, const Piece& piece, const
     }
     for (std::size_t k = 0; k < slice.size(); ++k)
         for (const std::int32_t next : beside[k]) {
-            Node& after = nodes[node_of[next]];
+            BarkNode& after = nodes[node_of[next]];
             if (slice[k] >= after.slice) continue;
             if (after.parent < 0 || slice[k] > nodes[after.parent].slice) after.parent = node_of[k];
         }
@@ -123,7 +123,7 @@ std::vector<Node> nodes_of(const BarkSurface& surface, const Piece& piece, const
     return nodes;
 }
 
-double radius_about(const BarkSurface& surface, const Node& node, const Vec3& along) {
+double radius_about(const BarkSurface& surface, const BarkNode& node, const Vec3& along) {
     double sum = 0;
     for (const std::int32_t p : node.point) sum += along.cross(surface.point[p] - node.middle).norm();
     return sum / double(node.point.size());
@@ -135,13 +135,13 @@ double length_of(const Twig& twig) {
     return length;
 }
 
-double median(std::vector<double> of) {
+double median_of(std::vector<double> of) {
     std::nth_element(of.begin(), of.begin() + std::ptrdiff_t(of.size() / 2), of.end());
     return of[of.size() / 2];
 }
 
 // From a node along the longest way; the others that fork off it are put on `forks`, each behind the node that it leaves.
-Twig follow(const BarkSurface& surface, const std::vector<Node>& nodes, std::int32_t from, std::int32_t next,
+Twig follow(const BarkSurface& surface, const std::vector<BarkNode>& nodes, std::int32_t from, std::int32_t next,
             std::vector<std::pair<std::int32_t, std::int32_t>>& forks) {
     std::vector<std::int32_t> line{from};
     for (std::int32_t at = next; at >= 0;) {
@@ -168,7 +168,7 @@ Twig follow(const BarkSurface& surface, const std::vector<Node>& nodes, std::int
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 // Ways from the ring around a point; all of it is at 0, so that rings lie within slices.
-std::vector<double> ways_from_ring(const BarkSurface& surface, const Piece& piece, const Edges& beside,
+std::vector<double> ways_from_ring(const BarkSurface& surface, const Piece& piece, const NodeEdges& beside,
                                    std::int32_t base, double thick) {
     std::vector<double> way(piece.point.size(), unknown);
     way[base] = 0;
@@ -179,14 +179,14 @@ std::vector<double> ways_from_ring(const BarkSurface& surface, const Piece& piec
 }
 
 // The skeleton from a base, its longest line first; radii as they are found.
-std::vector<Twig> skeleton_from(const BarkSurface& surface, const Piece& piece, const Edges& beside, std::int32_t base,
-                                double thick) {
+std::vector<Twig> skeleton_from(const BarkSurface& surface, const Piece& piece, const NodeEdges& beside,
+                                std::int32_t base, double thick) {
     const std::vector<double> way = ways_from_ring(surface, piece, beside, base, thick);
     const double longest = *std::max_element(way.begin(), way.end());
     const int parts = std::clamp(int(longest / (3 * thick)), 2, slices);
     std::vector<int> slice;
     for (const double w : way) slice.push_back(longest > 0 ? std::min(parts - 1, int(w / longest * parts)) : 0);
-    const std::vector<Node> nodes = nodes_of(surface, piece, beside, slice);
+    const std::vector<BarkNode> nodes = nodes_of(surface, piece, beside, slice);
     std::vector<std::pair<std::int32_t, std::int32_t>> forks;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         if (nodes[n].parent >= 0) continue;
@@ -209,7 +209,7 @@ std::vector<Twig> twigs_of(const BarkSurface& surface, const Piece& piece, const
     const std::int32_t base = base_of(surface, piece, bones);
     const double volume = volume_of(surface, piece);
     if (base < 0 || !(volume > 0)) return {};
-    const Edges beside = edges_of(surface, piece, local);
+    const NodeEdges beside = edges_of(surface, piece, local);
     const std::vector<double> way = ways_from_ring(surface, piece, beside, base, 0);
     const auto far_end = std::max_element(way.begin(), way.end());
     if (!(*far_end > 0)) return {};
@@ -218,7 +218,7 @@ std::vector<Twig> twigs_of(const BarkSurface& surface, const Piece& piece, const
     // A tip that leans on a bone is no base.
     const auto thins = [](const Twig& twig) {
         const auto half = twig.radius.begin() + std::ptrdiff_t(twig.radius.size() / 2);
-        return median({twig.radius.begin(), half}) >= median({half, twig.radius.end()});
+        return median_of({twig.radius.begin(), half}) >= median_of({half, twig.radius.end()});
     };
     if (!twigs.empty() && !thins(twigs.front()))
         twigs = skeleton_from(surface, piece, beside, std::int32_t(far_end - way.begin()), thick);

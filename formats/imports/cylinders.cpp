@@ -1,4 +1,5 @@
 #include "cylinders.h"
+#include "clearly_more.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
@@ -6,10 +7,6 @@
 
 namespace bough {
 namespace {
-
-bool clearly_more(double a, double b) {
-    return a > b * (1 + 1e-6);
-}
 
 std::vector<double> lengths_of(const Cylinders& c) {
     std::vector<double> length(c.size());

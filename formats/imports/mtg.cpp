@@ -18,28 +18,28 @@
 namespace bough {
 namespace {
 
-constexpr std::size_t none = std::size_t(-1);
+constexpr std::size_t no_feature = std::size_t(-1);
 
 std::size_t feature(const mtg::File& file, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names)
         for (std::size_t k = 0; k < file.features.size(); ++k)
             if (lower_case(file.features[k]) == name) return k;
-    return none;
+    return no_feature;
 }
 
-struct Columns {
+struct FeatureColumns {
     std::array<std::size_t, 3> position;
     std::vector<std::size_t> diameter; // the first that is given counts
     std::size_t radius;
 };
 
-Columns columns_of(const mtg::File& file) {
-    Columns c;
+FeatureColumns columns_of(const mtg::File& file) {
+    FeatureColumns c;
     c.position = {feature(file, {"xx", "x"}), feature(file, {"yy", "y"}), feature(file, {"zz", "z"})};
     for (const auto& names : {std::initializer_list<std::string_view>{"topdia", "topdiameter"},
                               {"diameter", "diam", "dia"},
                               {"botdia", "bottomdia", "bottomdiameter", "basdia"}})
-        if (const std::size_t k = feature(file, names); k != none) c.diameter.push_back(k);
+        if (const std::size_t k = feature(file, names); k != no_feature) c.diameter.push_back(k);
     c.radius = feature(file, {"radius", "ray"});
     return c;
 }
@@ -53,7 +53,7 @@ std::string listed(const mtg::File& file) {
 
 std::optional<double> number(const mtg::File& file, const mtg::Vertex& v, std::size_t feature,
                              const std::string& name) {
-    const std::string_view text = feature == none ? std::string_view() : mtg::cell(file, v, feature);
+    const std::string_view text = feature == no_feature ? std::string_view() : mtg::cell(file, v, feature);
     if (text.empty() || text == "NA" || text == "-") return {};
     const auto value = parse_number(text, true);
     if (!value)
@@ -68,7 +68,7 @@ struct Nodes {
     std::size_t half = 0;            // vertices with one or two coordinates
 };
 
-Nodes nodes_of(const mtg::File& file, const Columns& c, const std::string& name) {
+Nodes nodes_of(const mtg::File& file, const FeatureColumns& c, const std::string& name) {
     Nodes n;
     n.above.reserve(file.vertices.size());
     for (const mtg::Vertex& v : file.vertices) {
@@ -145,13 +145,13 @@ bool recognizes_mtg(std::string_view content) {
 
 Splines read_mtg(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     const mtg::File file = mtg::parse(content, options.name);
-    const Columns columns = columns_of(file);
+    const FeatureColumns columns = columns_of(file);
     const auto no_positions = [&](std::size_t line, const std::string& what) {
         throw InputError(file_line(options.name, line),
                          what + "; expected XX, YY, ZZ of entities, as digitized plants have (lengths and diameters "
                                 "alone do not say where branches point)");
     };
-    if (std::count(columns.position.begin(), columns.position.end(), none) > 0)
+    if (std::count(columns.position.begin(), columns.position.end(), no_feature) > 0)
         no_positions(file.line_of_features, "has no positions, its features are " + listed(file));
     Nodes nodes = nodes_of(file, columns, options.name);
     if (nodes.skeleton.point.empty())

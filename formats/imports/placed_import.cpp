@@ -11,7 +11,7 @@ constexpr double tallest = 120, lowest = 0.1; // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
-constexpr double aloof = 1e4;                       // of the median distance: a neuron's axon stays below it
+constexpr double aloof = 1e4;                       // of the middle_of distance: a neuron's axon stays below it
 
 struct Box {
     Vec3 low, high;
@@ -26,7 +26,7 @@ Box box_of(const Splines& s) {
     return box;
 }
 
-double median(std::vector<double>& values) {
+double middle_of(std::vector<double>& values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -90,12 +90,12 @@ void refuse_outlier(const Splines& s, const std::string& name) {
     Vec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
         std::transform(s.point.begin(), s.point.end(), values.begin(), [=](const Vec3& p) { return p[axis]; });
-        middle[axis] = median(values);
+        middle[axis] = middle_of(values);
     }
     const auto distance = [&](const Vec3& p) { return (p - middle).norm(); };
     std::transform(s.point.begin(), s.point.end(), values.begin(), distance);
     const std::size_t worst = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
-    const double most = values[worst], half = median(values);
+    const double most = values[worst], half = middle_of(values);
     if (!(most > aloof * half) || half == 0) return;
     const Vec3& p = s.point[worst];
     const auto after = std::upper_bound(s.first_point.begin(), s.first_point.end(), std::int32_t(worst));

@@ -56,12 +56,12 @@ constexpr std::array<Begin, 28> begins{{
 }};
 
 // What an ending says where the content says nothing.
-struct Ending {
+struct KnownEnding {
     std::string_view ends;
     const char* is;
     const char* advice;
 };
-constexpr std::array<Ending, 29> endings{{
+constexpr std::array<KnownEnding, 29> known_endings{{
     {".srt", "a compiled SpeedTree tree (.srt), which holds no readable skeleton", raw_xml},
     {".spm", "a SpeedTree Modeler file (.spm), which holds no readable skeleton", raw_xml},
     {".st", "a SpeedTree file (.st), which holds no readable skeleton", raw_xml},
@@ -108,9 +108,9 @@ const Begin* known_begin(std::string_view content) {
     return nullptr;
 }
 
-const Ending* known_ending(const std::string& name) {
+const KnownEnding* known_ending(const std::string& name) {
     const std::string file = lower_case(name);
-    for (const Ending& ending : endings)
+    for (const KnownEnding& ending : known_endings)
         if (file.ends_with(ending.ends)) return &ending;
     return nullptr;
 }
@@ -156,7 +156,7 @@ void refuse_unread(std::string_view content, const std::string& name) {
     const std::string_view head = content.substr(0, 4096);
     const std::size_t first = text_start(head);
     if (first == head.size()) throw InputError(name, std::string("is blank, ") + readable);
-    if (const Ending* ending = known_ending(name)) refuse(name, ending->is, ending->advice);
+    if (const KnownEnding* ending = known_ending(name)) refuse(name, ending->is, ending->advice);
     if (head[first] == '<') refuse_xml(head, name);
     refuse_json(head, name);
     if (holds(head, std::string_view("\0", 1)))

@@ -1,4 +1,5 @@
 #include "skeleton.h"
+#include "clearly_more.h"
 #include "formats/plain_text.h"
 #include "formats/release.h"
 #include "lib/base/counted.h"
@@ -43,10 +44,6 @@ double straightness(const Skeleton& s, std::int32_t child) {
     if (is_loose(s, p)) return 0; // nothing comes before it
     const Vec3 before = s.point[p] - s.point[s.parent[p]];
     return before.normalized().dot((s.point[child] - s.point[p]).normalized());
-}
-
-bool clearly_more(double a, double b) {
-    return a > b * (1 + 1e-6);
 }
 
 // Whether child a of a node goes on rather than child b.

@@ -47,7 +47,7 @@ void read_object(const pugi::xml_node& node, const IndexOf& bones, const Fields&
 
 constexpr double rough = 0.05;
 
-double median(std::vector<double>& of) {
+double middle_ratio(std::vector<double>& of) {
     std::sort(of.begin(), of.end());
     return 0.5 * (of[(of.size() - 1) / 2] + of[of.size() / 2]);
 }
@@ -74,7 +74,7 @@ void take_bark_radii(BarkSurface surface, std::vector<Bone>& bones, ImportNotes&
             ratios[std::size_t(chains.branch_of[b])].push_back(tapers[b].start / bones[b].radius);
     std::vector<double> factor(ratios.size(), 1), found;
     for (std::size_t k = 0; k < ratios.size(); ++k) {
-        const double ratio = ratios[k].empty() ? 1 : median(ratios[k]);
+        const double ratio = ratios[k].empty() ? 1 : middle_ratio(ratios[k]);
         if (std::abs(ratio - 1) > rough) found.push_back(factor[k] = ratio);
     }
     std::size_t taken = 0;

@@ -14,10 +14,10 @@
 namespace bough {
 namespace {
 
-constexpr std::size_t columns = 7;
+constexpr std::size_t swc_columns = 7;
 constexpr std::int64_t soma = 1;
 
-struct Node {
+struct SwcNode {
     std::int64_t id, type, parent;
     Vec3 point;
     double radius;
@@ -25,7 +25,7 @@ struct Node {
 };
 
 struct SampleTable {
-    std::vector<Node> nodes;
+    std::vector<SwcNode> nodes;
     bool more_columns = false;
 };
 
@@ -55,11 +55,11 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
     return std::int64_t(*real);
 }
 
-Node parse_node(std::string_view line, std::size_t number, const std::string& name, bool& more_columns) {
-    std::array<std::string_view, columns> field;
+SwcNode parse_node(std::string_view line, std::size_t number, const std::string& name, bool& more_columns) {
+    std::array<std::string_view, swc_columns> field;
     std::size_t at = 0, n = 0;
-    while (n < columns && !(field[n] = next_token(line, at)).empty()) ++n;
-    if (n < columns)
+    while (n < swc_columns && !(field[n] = next_token(line, at)).empty()) ++n;
+    if (n < swc_columns)
         refuse(name, number, counted(n, "column", "columns") + ", expected 7: id type x y z radius parent");
     more_columns = more_columns || !next_token(line, at).empty();
     const auto integer = [&](std::size_t k, const char* what) {
@@ -74,7 +74,7 @@ Node parse_node(std::string_view line, std::size_t number, const std::string& na
             refuse(name, number, in_ascii_quotes(field[k]) + " is not a node's " + what + ", expected a finite number");
         return *value;
     };
-    Node node;
+    SwcNode node;
     node.id = integer(0, "id");
     node.type = integer(1, "type");
     node.point = {real(2, "x"), real(3, "y"), real(4, "z")};
@@ -94,14 +94,14 @@ SampleTable parse_table(std::string_view content, const std::string& name) {
     return table;
 }
 
-Skeleton link(const std::vector<Node>& nodes, const std::string& name) {
+Skeleton link(const std::vector<SwcNode>& nodes, const std::string& name) {
     std::unordered_map<std::int64_t, std::int32_t> index;
     index.reserve(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i)
         if (!index.emplace(nodes[i].id, std::int32_t(i)).second)
             refuse(name, nodes[i].line, "id " + std::to_string(nodes[i].id) + " is used twice, expected each id once");
     Skeleton s;
-    for (const Node& node : nodes) {
+    for (const SwcNode& node : nodes) {
         std::int32_t parent = -1;
         if (node.parent != -1) {
             const auto found = index.find(node.parent);
@@ -119,9 +119,9 @@ Skeleton link(const std::vector<Node>& nodes, const std::string& name) {
 }
 
 // Takes the soma out of what is grouped into branches: outline nodes join their root, whose radius is of no use.
-void leave_out_soma(Skeleton& s, const std::vector<Node>& nodes, ImportNotes& notes) {
+void leave_out_soma(Skeleton& s, const std::vector<SwcNode>& nodes, ImportNotes& notes) {
     bool other_types = false;
-    for (const Node& node : nodes) other_types = other_types || node.type != soma;
+    for (const SwcNode& node : nodes) other_types = other_types || node.type != soma;
     if (!other_types) return;
     std::vector<char> carries(nodes.size(), false);
     for (const std::int32_t p : s.parent)
@@ -145,10 +145,10 @@ bool recognizes_swc(std::string_view content) {
         looks_like = true;
         for (std::string_view field = next_token(line, at); !field.empty(); field = next_token(line, at), ++n) {
             const bool whole = n == 0 || n == 1 || n == 6;
-            looks_like = looks_like &&
-                         (n >= columns || (whole ? whole_number(field).has_value() : parse_number(field).has_value()));
+            looks_like = looks_like && (n >= swc_columns ||
+                                        (whole ? whole_number(field).has_value() : parse_number(field).has_value()));
         }
-        looks_like = looks_like && n >= columns;
+        looks_like = looks_like && n >= swc_columns;
         return false;
     });
     return looks_like;

@@ -30,9 +30,9 @@ std::vector<std::string_view> split(std::string_view line) {
     return parts;
 }
 
-class Lines {
+class PlainLines {
 public:
-    explicit Lines(std::string_view content) : content_(content) {}
+    explicit PlainLines(std::string_view content) : content_(content) {}
     // The next line that is neither blank nor a comment; false at the end.
     bool next(std::string_view& line) {
         while (at_ < content_.size()) {
@@ -105,7 +105,7 @@ void add_tree(Skeleton& s, std::string_view text, const Fields& f, std::size_t l
 }
 
 bool recognizes_treetools(std::string_view content) {
-    Lines lines(without_bom(content));
+    PlainLines lines(without_bom(content));
     std::string_view line;
     if (!lines.next(line) || line.size() > 65536) return false;
     const std::size_t at = line.find(mandatory);
@@ -113,7 +113,7 @@ bool recognizes_treetools(std::string_view content) {
 }
 
 Splines read_treetools(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
-    Lines lines(without_bom(content));
+    PlainLines lines(without_bom(content));
     std::string_view line;
     if (!recognizes_treetools(content) || !lines.next(line))
         throw InputError(options.name, "has no line that names the fields, expected x,y,z,radius,parent_id");

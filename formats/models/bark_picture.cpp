@@ -135,7 +135,7 @@ std::uint8_t shade(double x) {
 }
 
 // The relief over the unit square, as pixels.
-struct Field {
+struct ReliefField {
     int size;
     std::vector<Relief> pixel;
     const Relief& at(int x, int y) const {
@@ -150,7 +150,7 @@ struct Field {
     }
 };
 
-Picture colors(const Field& field, const BarkForm& form, const Vec3& bark) {
+Picture colors(const ReliefField& field, const BarkForm& form, const Vec3& bark) {
     Picture made{field.size, 3, {}};
     for (const Relief& here : field.pixel) {
         const double dark = 1 - form.depth * (1 - here.height), light = (0.20 + 0.92 * dark) * (1 + here.tint);
@@ -160,7 +160,7 @@ Picture colors(const Field& field, const BarkForm& form, const Vec3& bark) {
 }
 
 // One for each block of so many pixels on a side.
-Picture normals(const Field& field, const BarkForm& form, int block) {
+Picture normals(const ReliefField& field, const BarkForm& form, int block) {
     Picture made{field.size / block, 3, {}};
     const double steep =
         0.05 * form.depth * made.size / std::sqrt(form.cells / 4); // of a height of 1, in the picture's pixels
@@ -176,7 +176,7 @@ Picture normals(const Field& field, const BarkForm& form, int block) {
 } // namespace
 
 BarkPictures bark_pictures(const BarkForm& form, const Vec3& bark, int size) {
-    Field field{size, std::vector<Relief>(std::size_t(size) * std::size_t(size))};
+    ReliefField field{size, std::vector<Relief>(std::size_t(size) * std::size_t(size))};
 #pragma omp parallel for
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x)

@@ -70,7 +70,7 @@ double guessed_unit(const EnvelopeMesh& mesh, ImportNotes& notes) {
 }
 
 // By assimp, in a child.
-AssimpMesh read_in_child(std::string_view content, AssimpKind kind, const ImportOptions& options) {
+AssimpMesh mesh_of_child(std::string_view content, AssimpKind kind, const ImportOptions& options) {
     const ChildResult child = run_forked([&] { return packed(read_by_assimp(content, kind, options.up != 0)); },
                                          reader_limits(content.size()));
     if (!child.failure.empty())
@@ -90,7 +90,7 @@ EnvelopeMesh read_envelope_mesh(std::string_view content, const std::string& pat
         mesh = triangles_of_gltf(content, folder_of(path), options.name);
         found.unit = 1;
     } else {
-        found = read_in_child(content, kind, options);
+        found = mesh_of_child(content, kind, options);
         mesh = {std::move(found.vertex), std::move(found.triangle)};
     }
     if (mesh.triangle.empty()) throw InputError(options.name, std::string("has no faces, ") + readable);

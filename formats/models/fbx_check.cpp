@@ -25,9 +25,9 @@ struct Record {
                 end = 0; // [bytes] where its properties, its records and what comes behind it begin
 };
 
-class File {
+class FbxFile {
 public:
-    explicit File(std::string_view content) : content_(content), wide_(number<std::uint32_t>(23) >= 7500) {}
+    explicit FbxFile(std::string_view content) : content_(content), wide_(number<std::uint32_t>(23) >= 7500) {}
 
     // take(record) for those that lie from `first` to `end`.
     template <class Take> void each(std::size_t first, std::size_t end, Take&& take) const {
@@ -182,7 +182,7 @@ private:
                                      std::to_string(*indices) + " Indexes");
     }
 
-    File file_;
+    FbxFile file_;
     std::string place_;
     std::size_t most_vertices_ = 0; // of one geometry
 };

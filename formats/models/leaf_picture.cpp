@@ -207,7 +207,7 @@ void add_spray(Square& square, const FlatLeaf& leaf, const Paint& paint, int sid
     }
 }
 
-std::uint8_t shade(double x) {
+std::uint8_t level_of(double x) {
     return std::uint8_t(std::clamp(std::lround(x * 255 / 4) * 4, 0L, 255L));
 }
 
@@ -230,7 +230,7 @@ Picture leaf_picture(const LeafForm& form, double width, const Vec3& leaf, const
             for (int x = 0; x < side; ++x) {
                 std::uint8_t* const to = &made.pixel[4 * (std::size_t(y + side * (tile / 2)) * std::size_t(size) +
                                                           std::size_t(x + side * (tile % 2)))];
-                for (int c = 0; c < 3; ++c) to[c] = shade(square.color(x, y)[c]);
+                for (int c = 0; c < 3; ++c) to[c] = level_of(square.color(x, y)[c]);
                 to[3] = std::uint8_t(std::lround(255 * std::min(1.0, square.cover(x, y))));
             }
     }

@@ -9,7 +9,7 @@ std::string cell(double value, double unit = 1) {
     return padded(std::isnan(value) ? "-" : figure(value / unit), column);
 }
 
-std::string head(std::initializer_list<const char*> names) {
+std::string head_line(std::initializer_list<const char*> names) {
     std::string text;
     for (const char* name : names) text += padded(name, column);
     return text + "\n";
@@ -23,7 +23,7 @@ std::string limits_text(const ScalingReport& report) {
     std::string text = "Machine: memory over " + size_text(report.array) + " (last cache " +
                        size_text(report.last_cache) + ", a core's " + size_text(report.core_cache) +
                        "), multiply-adds\n" + padded("simd", -column) +
-                       head({"threads", "read GB/s", "write", "copy", "Gop/s flt", "double"});
+                       head_line({"threads", "read GB/s", "write", "copy", "Gop/s flt", "double"});
     for (const ScalingLimits& l : report.limits)
         text += padded(l.simd, -column) + padded(std::to_string(l.threads), column) + cell(l.read, 1e9) +
                 cell(l.write, 1e9) + cell(l.copy, 1e9) + cell(l.peak_float, 1e9) + cell(l.peak_double, 1e9) + "\n";
@@ -31,9 +31,9 @@ std::string limits_text(const ScalingReport& report) {
 }
 
 std::string costs_text(const ScalingReport& report) {
-    std::string text =
-        "\nOperations and bytes a body and step, counted\n" + padded("bodies", column) +
-        head({"slots", "add", "multiply", "divide", "root", "const B", "now", "next", "solved", "records", "all B"});
+    std::string text = "\nOperations and bytes a body and step, counted\n" + padded("bodies", column) +
+                       head_line({"slots", "add", "multiply", "divide", "root", "const B", "now", "next", "solved",
+                                  "records", "all B"});
     std::string before;
     for (const ScalingCost& c : report.costs) {
         const std::string name = c.shape + ", " + c.solver + ", " + c.precision + ", " + c.simd;
@@ -52,7 +52,7 @@ std::string runs_text(const ScalingReport& report) {
         "\nns a body and frame, the median of " + std::to_string(report.repeat) +
         (report.repeat == 1 ? " run" : " runs") + "; wind " + (report.wind.empty() ? "none" : report.wind) + "\n" +
         padded("bodies", column) +
-        head({"frames", "ns", "least", "most", "frames/s", "limit ns", "x limit"}).substr(0, 7 * column) +
+        head_line({"frames", "ns", "least", "most", "frames/s", "limit ns", "x limit"}).substr(0, 7 * column) +
         padded("", 2) + padded("by", -column) + padded("B/body", column) + "  hash\n";
     for (const ScalingSeries& series : scaling_series(report)) {
         text += series.name + "\n";

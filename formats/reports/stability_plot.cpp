@@ -12,7 +12,7 @@ constexpr const char* colour_of(CellState state) {
     return colours[std::size_t(state)];
 }
 
-constexpr int row_height = 24, cell_width = 150, top_margin = 118, bottom_margin = 20, right_margin = 24;
+constexpr int cell_height = 24, cell_width = 150, top_margin = 118, bottom_margin = 20, right_margin = 24;
 
 struct Column {
     std::string solver, precision;
@@ -102,7 +102,7 @@ std::string stability_svg(const StabilityReport& report, const std::string& name
     for (const Row& row : rows) longest = std::max(longest, row.name.size());
     const int left = 30 + int(7.4 * double(longest));
     const int width = std::max(760, left + cell_width * int(columns.size()) + right_margin);
-    const int height = top_margin + row_height * int(rows.size()) + bottom_margin;
+    const int height = top_margin + cell_height * int(rows.size()) + bottom_margin;
     Canvas canvas;
     canvas.text(16, 22,
                 "Stability: " + std::to_string(report.bodies) + " bodies, frames at " + figure(report.fps) + "/s; " +
@@ -116,16 +116,16 @@ std::string stability_svg(const StabilityReport& report, const std::string& name
     }
     int y = top_margin;
     for (const Row& row : rows) {
-        canvas.text(row.heading ? 16 : 26, y + row_height / 2, row.name,
+        canvas.text(row.heading ? 16 : 26, y + cell_height / 2, row.name,
                     row.heading ? "left font ',13'" : "left font ',12'");
         for (std::size_t k = 0; k < row.cells.size(); ++k) {
             const StabilityCell* cell = row.cells[k];
             const int x = left + cell_width * int(k);
             const CellState state = cell ? cell_state(*cell) : CellState::not_run;
-            canvas.box(x + 2, y + 2, x + cell_width - 2, y + row_height - 2, colour_of(state), cell && cell->promised);
-            canvas.text(x + cell_width / 2, y + row_height / 2, cell ? words_of(*cell) : "not run", on_colour);
+            canvas.box(x + 2, y + 2, x + cell_width - 2, y + cell_height - 2, colour_of(state), cell && cell->promised);
+            canvas.text(x + cell_width / 2, y + cell_height / 2, cell ? words_of(*cell) : "not run", on_colour);
         }
-        y += row_height;
+        y += cell_height;
     }
     const std::string axes = "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\n"
                              "set bmargin at screen 0\nunset border\nunset tics\nunset key\nset xrange [0:" +

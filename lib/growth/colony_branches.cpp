@@ -8,7 +8,7 @@ namespace {
 constexpr double kThin = 0.05; // of a step: how far a point left out may lie off the curve
 constexpr double kTip = 0.4;   // radius of a branch's last point over that of its tip
 
-struct Chain {
+struct ColonyChain {
     std::int32_t fork;              // node of the parent's chain that it leaves, -1: none
     std::int32_t parent;            // chain
     std::vector<std::int32_t> node; // base to tip
@@ -37,10 +37,10 @@ std::vector<std::int32_t> continuing(const Colony& c) {
     return next;
 }
 
-std::vector<Chain> chains(const Colony& c) {
+std::vector<ColonyChain> chains(const Colony& c) {
     const std::vector<std::int32_t> next = continuing(c);
     std::vector<std::int32_t> chain_of(c.node.size());
-    std::vector<Chain> result;
+    std::vector<ColonyChain> result;
     for (std::size_t i = 0; i < c.node.size(); ++i) {
         const std::int32_t parent = c.parent[i];
         if (parent >= 0 && next[static_cast<std::size_t>(parent)] == static_cast<std::int32_t>(i))
@@ -90,21 +90,21 @@ void thin(const std::vector<Vec3>& line, std::size_t first, std::size_t last, do
     }
 }
 
-class Tracer {
+class ColonyTracer {
 public:
-    Tracer(const Colony& c, const ColonizeParameters& p)
+    ColonyTracer(const Colony& c, const ColonizeParameters& p)
         : p_(p), crown_(c.crown), place_(c.node), arc_(c.node.size()), fork_(c.node.size(), 0) {}
 
-    Splines run(const std::vector<Chain>& all) {
-        for (const Chain& chain : all)
+    Splines run(const std::vector<ColonyChain>& all) {
+        for (const ColonyChain& chain : all)
             if (chain.fork >= 0) fork_[static_cast<std::size_t>(chain.fork)] = 1;
         out_.first_point.push_back(0);
-        for (const Chain& chain : all) trace(chain);
+        for (const ColonyChain& chain : all) trace(chain);
         return std::move(out_);
     }
 
 private:
-    void trace(const Chain&);
+    void trace(const ColonyChain&);
 
     const ColonizeParameters& p_;
     std::int32_t crown_;
@@ -115,7 +115,7 @@ private:
     Splines out_;
 };
 
-void Tracer::trace(const Chain& chain) {
+void ColonyTracer::trace(const ColonyChain& chain) {
     std::vector<Vec3> line;
     std::vector<std::uint8_t> keep;
     const std::size_t lead = chain.fork >= 0 ? 1 : 0;
@@ -156,7 +156,7 @@ void Tracer::trace(const Chain& chain) {
 } // namespace
 
 Splines trace_branches(const Colony& c, const ColonizeParameters& p) {
-    return Tracer(c, p).run(chains(c));
+    return ColonyTracer(c, p).run(chains(c));
 }
 
 Splines colony_splines(const Colony& c, const ColonizeParameters& p, std::uint64_t seed, bool with_leaves,

@@ -24,10 +24,10 @@ constexpr double kSecond = 0.62;
 constexpr double kSlowest = 0.8, kFastest = 1.05; // c
 
 // The axis of a leaf about which it turns, from the places of its upper face's corners.
-struct Blade {
+struct PlacedBlade {
     Vec3 foot, axis;
 };
-Blade blade_of(const std::vector<Vec3>& position, std::size_t first, double off_width) {
+PlacedBlade blade_of(const std::vector<Vec3>& position, std::size_t first, double off_width) {
     const Vec3* const p = position.data() + first;
     const Vec3 width = (p[2] - p[1]).normalized(), length = (p[3] - p[0]).normalized();
     return {(p[0] + p[leaf_vertices / 2]) / 2, std::cos(off_width) * width + std::sin(off_width) * length};
@@ -122,7 +122,7 @@ void Rustle::turn(std::vector<Vec3>& position, std::vector<Vec3>& normal) const 
         const double theta = amplitude_[path] * (std::sin(leaf.rate * phase_[path] + leaf.phase) +
                                                  std::sin(leaf.second * phase_[path] + leaf.psi));
         if (theta == 0) continue;
-        const Blade blade = blade_of(position, first, leaf.off_width);
+        const PlacedBlade blade = blade_of(position, first, leaf.off_width);
         const Mat3 R = Eigen::AngleAxisd(theta, blade.axis).toRotationMatrix();
         for (std::size_t v = first; v < first + leaf_vertices; ++v) {
             position[v] = blade.foot + R * (position[v] - blade.foot);

@@ -33,6 +33,13 @@ hash=$(grep -o '[0-9a-f]\{16\}' err | tail -n 1)
 for said in said.*; do
     grep -q " bodies, $hash\$" "$said" || fail "the program's motion is '$(cat "$said")', treesim's '$hash'"
 done
+# The libraries call their own copies of Eigen's functions: a program that is compiled without optimization, or for another processor, has others.
+if command -v readelf >/dev/null; then
+    for library in bough bough_files; do
+        others=$(readelf -rW "$(find "$work/prefix" -name "lib$library.so")" | grep -c 'JUMP_SLO.* _ZNK\?5Eigen' || true)
+        [[ $others -eq 0 ]] || fail "lib$library.so calls $others of Eigen's functions as another library or the program has them"
+    done
+fi
 # By pkg-config, without CMake.
 if command -v pkg-config >/dev/null && [[ -z $sanitizers ]]; then
     PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name bough.pc)")
