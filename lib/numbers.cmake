@@ -75,6 +75,9 @@ if(NOT bough_growth IN_LIST taken)
     bough_together(bough_growth)
   endif()
   bough_precompiled_as(bough_growth bough_numbers)
+  if(BOUGH_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(bough_growth PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread) # bough_precompile
+  endif()
 endif()
 
 target_compile_definitions(bough_numbers PRIVATE ${has_simds})

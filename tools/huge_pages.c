@@ -1,7 +1,10 @@
 /* huge_pages.c: memory that the compiler maps comes in pages of 2 MB where the system has them (a hint, never an error). GCC takes its memory
-   by mmap, a page of 4 KB at a time: on a virtual machine, where a page fault costs 10 us, that is a tenth of a build. CMakeLists.txt lets compilers
+   by mmap, a page of 4 KB at a time: on a virtual machine that is a tenth of a build. CMakeLists.txt lets compilers
    load this before their own libraries, in builds from nothing. */
 #define _GNU_SOURCE
+#if !(defined __x86_64__ && defined __LP64__) && !defined __aarch64__
+#error "SYS_mmap is another call here"
+#endif
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>

@@ -11,7 +11,7 @@ constexpr double tallest = 120, lowest = 0.1; // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
-constexpr double aloof = 1e4;                       // of the middle_of distance: a neuron's axon stays below it
+constexpr double aloof = 1e4;                       // of the median distance: a neuron's axon stays below it
 
 struct Box {
     Vec3 low, high;

@@ -5,7 +5,7 @@
 namespace bough {
 namespace {
 
-[[maybe_unused]] constexpr std::ptrdiff_t few_to_sort = 10000; // without OpenMP there is one
+[[maybe_unused]] constexpr std::ptrdiff_t few_to_key = 10000; // for one thread; unused without OpenMP
 constexpr std::int32_t size_class = 15; // powers of two: very long ones would blow up the boxes of small ones
 
 // Every third bit of 63 from the 21 of v.
@@ -83,7 +83,7 @@ void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& ra
     // rank above it. Equal ones stay in order.
     std::vector<std::uint64_t> key(segments.size());
     const auto count = std::ptrdiff_t(segments.size());
-#pragma omp parallel for schedule(static) if (count > few_to_sort)
+#pragma omp parallel for schedule(static) if (count > few_to_key)
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         const LineSegment& s = segments[std::size_t(i)];
         const auto size = std::uint64_t(std::min((largest - exponent(s, point, radius)) / size_class, 63));

@@ -51,11 +51,11 @@ Chunks chunks_of(std::string_view content, const std::string& name) {
 }
 
 // [bytes] a byte of JSON may take at most, on the way to what is made of it: "0," is a value of 16 in arrays that grow by doubling, read twice.
-constexpr std::size_t most_of_text = 64;
+constexpr std::size_t most_of_json_byte = 64;
 
 Json parsed(std::string_view text, const std::string& name) {
     // Json's destructor takes memory of its own, and ends the program where there is none: so it is asked for beforehand. Untouched, it costs nothing.
-    ::operator delete(::operator new(most_of_text* text.size()));
+    ::operator delete(::operator new(most_of_json_byte* text.size()));
     const JsonShape shape = json_shape(text);
     if (shape.depth > deepest_json)
         throw InputError(name, std::string("JSON ") + nested_too_deep + ", expected glTF 2.0");

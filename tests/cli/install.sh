@@ -36,7 +36,9 @@ done
 # The libraries call their own copies of Eigen's functions: a program that is compiled without optimization, or for another processor, has others.
 if command -v readelf >/dev/null; then
     for library in bough bough_files; do
-        others=$(readelf -rW "$(find "$work/prefix" -name "lib$library.so")" | grep -c 'JUMP_SLO.* _ZNK\?5Eigen' || true)
+        readelf -rW "$(find "$work/prefix" -name "lib$library.so")" >relocations || fail "readelf reads no lib$library.so"
+        grep -q 'JUMP_SLO' relocations || { echo "SKIPPED: lib$library.so calls nothing through a table"; continue; }
+        others=$(grep -c 'JUMP_SLO.* _ZNK\?5Eigen' relocations || true)
         [[ $others -eq 0 ]] || fail "lib$library.so calls $others of Eigen's functions as another library or the program has them"
     done
 fi
