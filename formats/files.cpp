@@ -59,6 +59,9 @@ Splines grow(const std::string& species, const GrowOptions& o) {
 }
 
 Tree convert(const Splines& splines) {
+    if (const std::optional<Defect> defect = check(splines))
+        throw SceneError("splines: /" + defect->field + (defect->index < 0 ? "" : "/" + std::to_string(defect->index)) +
+                         ": " + defect->message);
     const Material* const wood = find_wood(splines.material);
     try {
         Tree tree = segment(splines, wood ? *wood : wood_presets().front(), SegmentOptions());
@@ -109,8 +112,10 @@ void write_state(const std::string& file, const SavedState& saved) {
 
 struct MotionFile::Inside {
     Inside(const std::string& file, const MotionHeader& header, const Digits& digits)
-        : fps(header.fps), fields(header.fields), output(file), writer(output, header, form_of(file), digits) {}
+        : fps(header.fps), bodies(header.bodies), fields(header.fields), output(file),
+          writer(output, header, form_of(file), digits) {}
     double fps;
+    std::int64_t bodies;
     MotionFields fields;
     Output output;
     MotionWriter writer;
@@ -136,6 +141,15 @@ MotionFile::MotionFile(MotionFile&&) noexcept = default;
 MotionFile::~MotionFile() = default;
 
 void MotionFile::write(const Simulation& simulation) {
+    const auto whole = [&](bool named, std::size_t size, const char* field) {
+        if (named && size == 0) throw SceneError(std::string(field) + ": the simulation computes none, the file's did");
+    };
+    if (const auto bodies = std::int64_t(simulation.bodies()); bodies != inside_->bodies)
+        throw SceneError("bodies: the simulation has " + std::to_string(bodies) + ", the file's has " +
+                         std::to_string(inside_->bodies));
+    whole(inside_->fields.velocity, simulation.velocities().size(), "velocities");
+    whole(inside_->fields.torque, simulation.torques().size(), "torques");
+    whole(inside_->fields.stress, simulation.stresses().size(), "stresses");
     MotionFrame& frame = inside_->frame;
     const auto copy = [](const auto& from, auto& to) { to.assign(from.begin(), from.end()); };
     frame.frame = inside_->written;

@@ -49,8 +49,9 @@ public:
     // Writes no frame yet. fps [1/s]: of the frames that will be written; 0: one a step.
     MotionFile(const std::string& file, const Simulation&, double fps = 0);
     MotionFile(MotionFile&&) noexcept;
-    ~MotionFile();                 // what is not finished is removed
-    void write(const Simulation&); // its present state as the next frame
+    ~MotionFile(); // what is not finished is removed
+    // Its present state as the next frame. Throws SceneError, and writes nothing, for a run of other bodies or fields than the first's.
+    void write(const Simulation&);
     void finish();
 
 private:

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <dirent.h>
 #include <fcntl.h>
 #include <memory>
@@ -51,6 +52,22 @@ void release_unfinished(void* entry) {
     if (entry) std::free(static_cast<Unfinished*>(entry)->path.exchange(nullptr));
 }
 
+// While a name comes to be: it is registered before it exists, and remove_unfinished_outputs() waits for those of other threads, so that it finds all.
+// Once that has begun, no name comes to be any more: the process is about to end.
+std::atomic<bool> ending{false};
+std::atomic<int> naming{0};
+struct Naming {
+    Naming() {
+        ++naming;
+        if (!ending) return;
+        --naming;
+        for (;;) ::pause();
+    }
+    ~Naming() { --naming; }
+    Naming(const Naming&) = delete;
+    Naming& operator=(const Naming&) = delete;
+};
+
 // `.bough-PID-N.tmp`
 bool is_temporary_name(std::string_view name) {
     constexpr std::string_view begin = ".bough-", end = ".tmp";
@@ -69,6 +86,19 @@ void remove_content(int folder) {
     if (copy < 0) return;
     const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(copy), ::closedir);
     while (const dirent* entry = entries ? ::readdir(entries.get()) : nullptr) ::unlinkat(folder, entry->d_name, 0);
+}
+
+// A folder and what was finished in it, by calls that a signal's handler may make.
+void remove_folder(const char* path) {
+#ifdef __linux__
+    const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    alignas(dirent64) char entries[4096];
+    ssize_t got = 0;
+    while (folder >= 0 && (got = ::getdents64(folder, entries, sizeof entries)) > 0)
+        for (ssize_t at = 0; at < got; at += reinterpret_cast<const dirent64*>(entries + at)->d_reclen)
+            ::unlinkat(folder, reinterpret_cast<const dirent64*>(entries + at)->d_name, 0);
+#endif
+    ::rmdir(path); // the folder stays open: the process ends
 }
 
 void remove_folder_if_left(int folder, const char* name) {
@@ -151,36 +181,40 @@ bool Temporary::open_nameless() {
 }
 
 void Temporary::open_named() {
+    const Naming now;
     for (;;) {
         name_ = temporary_name(folder_);
+        registered_ = register_unfinished(name_);
         file_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file_ < 0 && errno == EEXIST) continue;
         if (file_ < 0) {
             const int error = errno;
+            release_unfinished(std::exchange(registered_, nullptr));
+            if (error == EEXIST) continue;
             name_.clear();
             fail(error);
         }
         // Another process may take it for one that is left over until it is locked.
         const bool taken = ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         struct stat status {};
-        if (!taken && (::fstat(file_, &status) != 0 || status.st_nlink > 0)) break;
+        if (!taken && (::fstat(file_, &status) != 0 || status.st_nlink > 0)) return;
+        release_unfinished(std::exchange(registered_, nullptr));
         ::close(std::exchange(file_, -1));
     }
-    registered_ = register_unfinished(name_);
 }
 
 void Temporary::give_name() {
+    const Naming now;
     const std::string link = link_to(file_);
-    do {
+    for (;;) {
         name_ = temporary_name(folder_);
-        if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-            registered_ = register_unfinished(name_);
-            return;
-        }
-    } while (errno == EEXIST);
-    const int error = errno;
-    name_.clear();
-    fail(error);
+        registered_ = register_unfinished(name_);
+        if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
+        const int error = errno;
+        release_unfinished(std::exchange(registered_, nullptr));
+        if (error == EEXIST) continue;
+        name_.clear();
+        fail(error);
+    }
 }
 
 void Temporary::finish() {
@@ -203,25 +237,31 @@ Temporary::~Temporary() {
 TemporaryFolder::TemporaryFolder(const std::string& path) : path_(path) {
     const std::string beside = folder_before(path);
     remove_what_is_left(beside);
+    const Naming now;
     for (;;) {
         name_ = temporary_name(beside);
+        registered_ = register_unfinished(name_);
         if (::mkdir(name_.c_str(), 0777) != 0) {
-            if (errno == EEXIST) continue;
-            fail(errno);
+            const int error = errno;
+            release_unfinished(std::exchange(registered_, nullptr));
+            if (error == EEXIST) continue;
+            name_.clear();
+            fail(error);
         }
         folder_ = ::open(name_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
         if (const int error = errno; folder_ < 0 && error != ENOENT) {
             ::rmdir(name_.c_str());
+            release_unfinished(std::exchange(registered_, nullptr));
             name_.clear();
             fail(error);
         }
         // Another process may take it for one that is left over until it is locked.
         const bool taken = folder_ >= 0 && ::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         struct stat status {};
-        if (folder_ >= 0 && !taken && ::stat(name_.c_str(), &status) == 0) break;
+        if (folder_ >= 0 && !taken && ::stat(name_.c_str(), &status) == 0) return;
+        release_unfinished(std::exchange(registered_, nullptr));
         if (folder_ >= 0) ::close(std::exchange(folder_, -1));
     }
-    registered_ = register_unfinished(name_);
 }
 
 void TemporaryFolder::finish() {
@@ -241,11 +281,17 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 void remove_unfinished_outputs() noexcept {
+    ending = true;
+    // Not for ever: the signal may have met this thread itself while it was naming, which then goes no further.
+    for (int wait = 0; wait < 500 && naming > 0; ++wait) {
+        const timespec millisecond{0, 1000000};
+        ::nanosleep(&millisecond, nullptr);
+    }
     // Files first, which may stand in one of the folders.
     for (Unfinished* u = unfinished.load(); u; u = u->next)
         if (char* path = u->path.exchange(nullptr); path && ::unlink(path) != 0 && errno == EISDIR) u->path = path;
     for (Unfinished* u = unfinished.load(); u; u = u->next)
-        if (const char* path = u->path.exchange(nullptr)) ::rmdir(path);
+        if (const char* path = u->path.exchange(nullptr)) remove_folder(path);
 }
 
 } // namespace bough

@@ -9,6 +9,8 @@
 namespace bough {
 namespace {
 
+constexpr std::int64_t most_frames = 9'000'000'000'000'000; // a frame's number is a double where its time is worked out
+
 // A line of help: what each solver is for, the default marked.
 std::string solver_help() {
     constexpr std::array<std::pair<Solver, const char*>, all_solvers.size()> uses{{
@@ -84,7 +86,7 @@ void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
                               .check(not_negative_number());
     list.add("--frames", o.frames, "Length of the run in frames, the start included")
         .takes("N")
-        .check(whole_number(1))
+        .check(whole_number(1, most_frames))
         .excludes(seconds);
     list.add("--fps", o.fps, "Frames a second (30)").takes("F").check(positive_number());
     list.group("Numerics");
@@ -126,7 +128,8 @@ void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
 std::int64_t frames_of(const RunOptions& o, double seconds_default) {
     if (o.frames) return *o.frames;
     const double frames = std::round(o.seconds.value_or(seconds_default) * o.fps) + 1;
-    if (!(frames < 9e15)) throw UsageError("--seconds: more frames than can be counted");
+    if (!(frames <= double(most_frames)))
+        throw UsageError("--seconds: is more than " + std::to_string(most_frames) + " frames, which times are told by");
     return std::int64_t(frames);
 }
 

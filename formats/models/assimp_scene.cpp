@@ -2,6 +2,7 @@
 #include "collada_check.h"
 #include "fbx_check.h"
 #include <algorithm>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
@@ -23,6 +24,15 @@ const char* ending(AssimpKind kind) {
         return "dae";
     }
 }
+
+// No other file is opened, whatever the content names (an OBJ its mtllib, of any path): colours are not asked for, and textures are found by us.
+class NoFiles : public Assimp::IOSystem {
+public:
+    bool Exists(const char*) const override { return false; }
+    char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
+    void Close(Assimp::IOStream*) override {}
+};
 
 // Only the readers that take this ending stay: assimp would try others by a look at the content.
 void keep_reader(Assimp::Importer& importer, const std::string& wanted) {
@@ -67,6 +77,7 @@ const aiScene* load_by_assimp(Assimp::Importer& importer, std::string_view conte
     if (kind == AssimpKind::dae) check_collada(content);
     if (kind == AssimpKind::fbx) check_fbx(content);
     keep_reader(importer, wanted);
+    importer.SetIOHandler(new NoFiles); // the importer's own; it reads the content beside it
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_given);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);

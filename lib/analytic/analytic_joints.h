@@ -9,8 +9,8 @@ namespace bough::fast {
 inline namespace BOUGH_TARGET {
 namespace analytic_step {
 
-// A register's place.
-struct Place {
+// Where a lane stands.
+struct LaneOfRow {
     std::uint32_t row;
     int lane;
 };
@@ -111,7 +111,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
         Across<X> motion;
         Across<X, const T> loaded;
     };
-    template <class X> BOUGH_FORCE At<X> at(const Place* places) const {
+    template <class X> BOUGH_FORCE At<X> at(const LaneOfRow* places) const {
         At<X> a;
         for (int j = 0; j < Registers<X>::count; ++j) {
             a.constants.at[j] = this->constants_at(places[j].row, places[j].lane);
@@ -167,7 +167,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
     }
     // ---- a step worked out in full
 
-    Place waiting[2]; // joints whose composites are there
+    LaneOfRow waiting[2]; // joints whose composites are there
     int waiters = 0;
 
     BOUGH_FORCE void step_next(std::uint32_t row, int lane) {

@@ -13,7 +13,7 @@ constexpr double least = 1e-300; // so that what is nothing can be divided by
 
 // Where the path's joints are as theta says; the ground at `time`.
 template <class T>
-void place(const Plan<T>& plan, const std::vector<Vector3<T>>& theta, double time, HeldPoints<T>& of) {
+void place_points(const Plan<T>& plan, const std::vector<Vector3<T>>& theta, double time, HeldPoints<T>& of) {
     for (HeldJoint<T>& j : of.joints) {
         Mat3 R = Mat3::Identity();
         Vec3 x = Vec3::Zero();
@@ -215,7 +215,7 @@ template <class T> HeldPoints<T> planned_held(const Plan<T>& plan) {
     HeldPoints<T> of;
     of.all = planned_attachments(plan);
     find_joints(plan, of);
-    place(plan, plan.theta_start, 0, of);
+    place_points(plan, plan.theta_start, 0, of);
     for (Attached& held : of.all)
         held.target = target_at_start(plan, held, held.start, held.far ? held.far->start : Vec3(Vec3::Zero()));
     return of;
@@ -239,7 +239,7 @@ void hold_points(const Plan<T>& plan, const AnalyticPlan<T>& own, const State<T>
                  double time) {
     HeldPoints<T>& of = work.held;
     const double h = plan.dt;
-    place(plan, s.theta, time, of);
+    place_points(plan, s.theta, time, of);
     for (HeldJoint<T>& j : of.joints) {
         work.held_tau_w[j.body].setZero();
         work.held_row[j.body] = 0;
@@ -284,7 +284,7 @@ void hold_points(const Plan<T>& plan, const AnalyticPlan<T>& own, const State<T>
 
 template <class T> void slow_held(const Plan<T>& plan, State<T>& s, AnalyticWork<T>& work) {
     HeldPoints<T>& of = work.held;
-    place(plan, s.theta, time_of(plan, s, 1), of);
+    place_points(plan, s.theta, time_of(plan, s, 1), of);
     for (HeldJoint<T>& j : of.joints)
         j.turn = j.R * (body_rate_jacobian(s.theta[j.body]) * s.theta_dot[j.body]).template cast<double>();
     for (std::size_t k = 0; k < of.all.size(); ++k) {

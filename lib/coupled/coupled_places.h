@@ -20,7 +20,7 @@ struct Run {
 struct CoupledPlaces {
     Run now, next, solved;
 };
-// Quantities a row in all. poles: solves a step; waits: as below.
+// Quantities a row in all. poles: solves a step. waits: of layout.h, some block's accelerations wait for others', so that what is solved is kept for all rows.
 constexpr int coupled_columns(bool waits, int poles) {
     if (!waits) return 2 * int(motion::count); // nothing is solved beyond a core's cache
     return int(solved::count) + (poles > 1 ? 2 : 1) * int(motion::count);

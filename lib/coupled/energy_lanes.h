@@ -1,4 +1,5 @@
-// energy_lanes.h: the energy guard (coupled/energy_guard.h) on rows of lanes.
+// energy_lanes.h: the energy guard (coupled/energy_guard.h) on rows of lanes. Written a second time, as what it weighs stands in rows and not in
+// arrays of bodies; tests/lib/coupled/lanes.cpp holds the two together.
 #pragma once
 #include "coupled_lanes_state.h"
 #include "coupled_rows.h"

@@ -21,12 +21,12 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
 
     EnergySweep(const CoupledRows<T>& r, const EnergyRows<T>& e) : Parts(r), out(e) {}
 
-    struct Place { // of a body: its joint's, and that joint's velocity
+    struct Moving { // of a body: its joint's, and that joint's velocity
         M3<W> R;
         V3<W> x, omega, v;
     };
     struct Frame : FrameOverGround<W, field> {
-        Place start, end; // end's velocities: by slow joints
+        Moving start, end; // end's velocities: by slow joints
         V3<W> fast_omega, fast_v;
         M3<W> R; // at y*
         W y;
@@ -39,7 +39,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
     static Frame read_frame(Records<T, energy::count>& r) {
         const Rows<T> q = r.rows();
         const auto place = [&](int k) {
-            return Place{q.matrix(k), q.vector(k + 9), q.vector(k + 12), q.vector(k + 15)};
+            return Moving{q.matrix(k), q.vector(k + 9), q.vector(k + 12), q.vector(k + 15)};
         };
         FrameOverGround<W, field> over;
         if constexpr (field) over = {q.real(energy::x), q.real(energy::z)};
@@ -56,7 +56,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
     }
     static void write_frame(Records<T, energy::count>& r, const Frame& f) {
         const Rows<T> q = r.rows();
-        const auto place = [&](int k, const Place& p) {
+        const auto place = [&](int k, const Moving& p) {
             q.set(k, p.R);
             q.set(k + 9, p.x);
             q.set(k + 12, p.omega);
@@ -94,7 +94,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
     }
 
     // The body's place from its parent's; returns the joint's own angular velocity, which is not yet in omega.
-    BOUGH_FORCE static V3<W> move(Place& p, const M3<W>& R_pj, const V3<W>& d, const V3<W>& theta, const V3<W>& eta,
+    BOUGH_FORCE static V3<W> move(Moving& p, const M3<W>& R_pj, const V3<W>& d, const V3<W>& theta, const V3<W>& eta,
                                   V3<W>& arm) {
         const WideMaps<T> maps = wide_maps<T>(theta);
         const M3<W> G = p.R * R_pj;
@@ -110,7 +110,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             const PullOnLane<T>& pull = rows.pulls[k];
             const int l = int(pull.lane) - lane;
             if (l < 0 || l >= width<T>) continue;
-            const auto point = [&](const Place& p) {
+            const auto point = [&](const Moving& p) {
                 return V3<T>{
                     p.x.x[l] + pull.point[0] * p.R.x.x[l] + pull.point[1] * p.R.y.x[l] + pull.point[2] * p.R.z.x[l],
                     p.x.y[l] + pull.point[0] * p.R.x.y[l] + pull.point[1] * p.R.y.y[l] + pull.point[2] * p.R.z.y[l],

@@ -67,8 +67,8 @@ template <class T> CoupledBody<T> ground_body(const Plan<T>& plan, const Coupled
 }
 
 template <class T>
-void place(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work, const CoupledBody<T>& p, std::size_t i,
-           bool halfway, std::uint64_t& fast) {
+void place_halfway(const Plan<T>& plan, State<T>& state, CoupledWork<T>& work, const CoupledBody<T>& p, std::size_t i,
+                   bool halfway, std::uint64_t& fast) {
     CoupledBody<T>& b = work.coupled[i];
     const T h = T(plan.dt);
     Vector3<T> theta = state.theta[i], eta = state.theta_dot[i];
@@ -104,9 +104,9 @@ template <class T> void midpoint(const Plan<T>& plan, State<T>& state, CoupledWo
     std::uint64_t fast = 0;
     for (std::size_t i = 0; i < plan.bodies; ++i)
         if (plan.parent[i] < 0)
-            place(plan, state, work, ground_body(plan, work, i), i, halfway, fast);
+            place_halfway(plan, state, work, ground_body(plan, work, i), i, halfway, fast);
         else
-            place(plan, state, work, work.coupled[std::size_t(plan.parent[i])], i, halfway, fast);
+            place_halfway(plan, state, work, work.coupled[std::size_t(plan.parent[i])], i, halfway, fast);
     state.flags.fast_turns += fast;
 }
 

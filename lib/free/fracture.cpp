@@ -40,9 +40,12 @@ double of_kind(const Fracture& f, const Tree& tree, std::size_t i) {
 std::vector<Breakable> breakable_joints(const Tree& tree, const std::vector<TreeRange>& ranges, const Fracture& f) {
     std::vector<Breakable> joints;
     std::vector<std::pair<std::uint32_t, double>> single;
-    for (const Fracture::Joint& joint : f.joints)
-        for (const Selected& target : select(tree, ranges, joint.on))
-            single.emplace_back(std::uint32_t(target.body), joint.torque);
+    for (std::size_t k = 0; k < f.joints.size(); ++k) try {
+            for (const Selected& target : select(tree, ranges, f.joints[k].on))
+                single.emplace_back(std::uint32_t(target.body), f.joints[k].torque);
+        } catch (const std::out_of_range& error) {
+            throw std::out_of_range("/fracture/joints/" + std::to_string(k) + "/on: " + error.what());
+        }
     // The last that names a body holds.
     std::stable_sort(single.begin(), single.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::size_t next = 0;

@@ -1,5 +1,6 @@
 // wide_eigen.h: eigenvectors of symmetric 3x3 matrices by Jacobi rotations (analytic/spring.h), for registers of lanes.
 //
+// Written a second time: one number stops where its matrix is diagonal; lanes turn until the last of them is, and a choice keeps those that are.
 // A sweep of three rotations is about 150 operations a register; two mostly do in float, three in double. Each operation of a rotation
 // waits for the one before: hence pairs (wide_pair.h), and the machine's square roots, which are there sooner than an iteration's result.
 #pragma once

@@ -1,5 +1,6 @@
 // wide_spring.h: one joint's own step (analytic/spring.h, drag.h) for registers of lanes, apart from all traversal, in the axes of its body.
 //
+// Written a second time: the plain step parts the work into stages over all joints; here one goes through in registers, and the order of sums is another.
 // X is a register or a pair of them (wide_pair.h). What lanes do depends on what stands in them alone, never on their neighbours: a branch
 // here leaves out what no lane asks for, and where one does, the others keep theirs by a choice. So registers of all widths come to the same, but
 // for products that compilers fuse with what is added to them in one way or another.

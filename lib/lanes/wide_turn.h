@@ -1,6 +1,8 @@
 // wide_turn.h: a joint's turn theta, for registers of lanes (wide_pair.h): exp(theta) = 1 + s theta* + c1 theta*^2,
 // J = 1 - c1 theta* + c2 theta*^2, T = J^-1 = 1 + theta*/2 + t2 theta*^2 (math.h; J, T of the body's rates).
 //
+// The third of its kind: rotation_maps.h takes one sine and cosine and branches by |theta|, wide_maps.h gives the coupled step's maps in its two axes;
+// the analytic step has no sine to spare, and asks for J's derivative.
 // With q = |theta|^2 all are power series: few terms up to one radian, more up to 3.5, for the lanes that ask for them.
 #pragma once
 #include "wide_maps.h"

@@ -81,6 +81,8 @@ std::optional<Defect> check(const Wind& wind) {
     if (auto defect = at_least("wind/turbulence", wind.turbulence, 0)) return defect;
     if (auto defect = at_least("wind/gust_factor", wind.gust_factor, 1)) return defect;
     if (auto defect = above_zero("wind/gust_period", wind.gust_period)) return defect;
+    if (auto defect = finite("wind/turbulence_ahead", wind.turbulence_ahead)) return defect;
+    if (auto defect = finite("wind/gust_ahead", wind.gust_ahead)) return defect;
     if (wind.period)
         if (auto defect = above_zero("wind/period", *wind.period)) return defect;
     if (wind.grid)

@@ -135,9 +135,10 @@ void plan_clocks(Plan<T>& plan, const std::vector<TreeRange>& ranges, const std:
 template <class T> void plan_root_motion(Plan<T>& plan, const std::vector<TreeRange>& ranges) {
     const Scene& scene = plan.scene;
     plan.root_motion = !scene.root_motion.empty();
-    for (const RootMotion& motion : scene.root_motion) {
+    for (std::size_t m = 0; m < scene.root_motion.size(); ++m) {
+        const RootMotion& motion = scene.root_motion[m];
         if (motion.tree < 0 || std::size_t(motion.tree) >= ranges.size())
-            throw std::out_of_range("root_motion: tree " + std::to_string(motion.tree) +
+            throw std::out_of_range("/root_motion/" + std::to_string(m) + "/tree: " + std::to_string(motion.tree) +
                                     " is not there, the scene has " + std::to_string(ranges.size()));
         const auto k = std::size_t(motion.tree);
         if (ranges[k].bodies > 0) // else all of it stands still on its ground (reduce.h)

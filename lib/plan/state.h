@@ -20,7 +20,7 @@ struct StepFlags {
         0; // bodies' turns of more than a radian a step, bounded in the implicit step (articulated.h)
     std::uint64_t inner_steps = 0; // steps that articulated_reference cut the plan's into, which is no guard
     std::uint64_t asleep = 0;      // body-steps left out, in blocks at rest (coupled/sleep.h)
-    std::uint64_t unresolved = 0;  // of those, how many missed the tolerance at the smallest length (extrapolation.h)
+    std::uint64_t unresolved = 0;  // inner_steps that missed the tolerance at the smallest length (extrapolation.h)
 };
 
 // A force on a body for one step, by a contact.

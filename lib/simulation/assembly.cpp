@@ -92,7 +92,7 @@ double settling_time(const Assembly& assembly) {
 
 Assembly assemble(Scene scene) {
     if (const std::optional<Defect> defect = check(scene))
-        throw SceneError("the scene's " + defect->field + " " + defect->message);
+        throw SceneError("/" + defect->field + ": " + defect->message);
     if (scene.trees.empty()) throw SceneError("/trees: is empty, expected at least one tree (Scene::add)");
     Assembly assembly;
     assembly.scene = std::move(scene);
@@ -103,7 +103,8 @@ Assembly assemble(Scene scene) {
             throw SceneError(name + ": only names a file, '" + at.file +
                              "', expected a tree in memory (Scene::add; read_scene of bough/files.h brings them)");
         if (const std::optional<Defect> defect = check(*at.tree))
-            throw SceneError(name + ": the tree's " + defect->field + " " + defect->message);
+            throw SceneError(name + ": /" + defect->field +
+                             (defect->index < 0 ? "" : "/" + std::to_string(defect->index)) + ": " + defect->message);
         stand(assembly, *at.tree, at);
         at.tree.reset(); // a park's file is held once, by whoever added it
     }

@@ -91,7 +91,8 @@ public:
     // [s] How long that takes until the start is forgotten (plan/settling.h): 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;
     // From now to now + step, so many times, up to a step that becomes non-finite; the report and events() are of all of them. O(bodies) a step; allocates
-    // nothing once it has run a few times, but where something breaks.
+    // nothing once it has run a few times, but where something breaks, where a body first turns so fast that energy
+    // is watched (coupled/energy_guard.h), and where more points are pulled than ever before.
     StepReport step(int times = 1);
 
     std::size_t bodies() const; // that are shown: of trees, balls and walkers
@@ -117,7 +118,7 @@ public:
     // trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.
     Tree posed_tree() const;
 
-    // What may change between two steps. None of it plans anew or allocates; each is taken from the next step on, and wakes what sleeps.
+    // What may change between two steps. None of it plans anew, nor allocates once it was done before; each is taken from the next step on, and wakes what sleeps.
     // The wind of a scene that has one (of no velocity at all: still air); turbulence and gusts go on from where they are, at any time, by as little
     // as the change is (laws/wind.h, go_on). Velocity, turbulence, gusts and seed may change, the rest of it stays; where trees may sleep it stays
     // without gusts and turbulence. Throws SceneError.

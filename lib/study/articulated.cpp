@@ -46,8 +46,8 @@ void move_ground(const Plan<double>& plan, ArticulatedPass& pass, double time, d
 }
 
 // Kinematics and biases from the parent.
-void place(const Plan<double>& plan, const ArticulatedBody& parent, ArticulatedBody& b, std::size_t i, double h,
-           std::uint64_t& fast) {
+void place_body(const Plan<double>& plan, const ArticulatedBody& parent, ArticulatedBody& b, std::size_t i, double h,
+                std::uint64_t& fast) {
     const Vec3& r = plan.joint_position[i];
     b.R_pb = plan.R_pj[i] * rotation_from_vector(b.theta);
     b.R_wb = parent.R_wb * b.R_pb;
@@ -236,7 +236,7 @@ void articulated_pass(const Plan<double>& plan, ArticulatedPass& pass, double ti
                 visit(i, ground_body(plan, pass, i));
     };
     outward([&](std::size_t i, const ArticulatedBody& p) {
-        place(plan, p, body[i], i, h, pass.fast);
+        place_body(plan, p, body[i], i, h, pass.fast);
         load(plan, pass, body[i], i, h, pass.fast);
     });
     add_pulls(plan, pass, time + h);

@@ -73,3 +73,8 @@ if [[ -n $numpy && -z $sanitizers ]]; then
 else
     echo "notice: no Python with numpy, bough.py is not tried"
 fi
+# Uninstalled, nothing of it stays, and nothing else goes.
+touch "$work/prefix/bin/own"
+cmake "-DMANIFEST=$build/install_manifest.txt" -P "$top/tools/uninstall.cmake" >log 2>&1 || fail "uninstall: $(tail -n 5 log)"
+left=$(find "$work/prefix" -not -type d -o -name bough)
+[[ $left == "$work/prefix/bin/own" ]] || fail "what is uninstalled leaves $left"

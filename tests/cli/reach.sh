@@ -36,6 +36,14 @@ absent x.json
 expect 0 treeconvert own/out.gltf --outside -o out.json
 expect 0 treeconvert own/in.gltf -o in.json
 
+# An OBJ's materials are no matter of ours: what it names is not opened. (A FIFO that nobody writes to would keep who opens it for ever.)
+mkfifo trap
+for name in trap ../trap "$PWD/trap"; do
+    printf 'mtllib %s\nv 0 0 0\nv 2 0 0\nv 1 0 2\nv 1 2 1\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n' "$name" >own/mtllib.obj
+    expect 0 timeout 60 treegen --envelope own/mtllib.obj --bodies 60 -q -o x.json
+done
+rm -f x.json
+
 # What reading a model may take: named where it bites, whatever sets it. (A sanitizer's own memory is no matter of limits.)
 python3 - >large.obj <<'END'
 n = 150

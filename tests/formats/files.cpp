@@ -40,3 +40,40 @@ TEST_CASE("a motion file holds what the simulation shows, and does not appear be
     CHECK_THROWS_WITH(grow("elm"), Catch::Contains("expected one of") && Catch::Contains("apple"));
     CHECK_THROWS_AS(read_scene(folder / "none.json"), InputError);
 }
+
+TEST_CASE("a motion file takes frames of its own run's bodies and fields alone") {
+    const Folder folder;
+    SimulationOptions fast;
+    fast.velocities = true;
+    Simulation written(one(make_tree::branched()), fast), slow(one(make_tree::branched()));
+    Scene two = one(make_tree::branched());
+    two.add(make_tree::branched(), Vec3(2, 0, 0));
+    Simulation other(two, fast);
+    const std::string file = folder / "motion.jsonl";
+    MotionFile motion(file, written);
+    motion.write(written);
+    CHECK_THROWS_WITH(motion.write(other), Catch::Contains("bodies: the simulation has"));
+    CHECK_THROWS_WITH(motion.write(slow), Catch::Contains("velocities: "));
+    motion.finish();
+    CHECK(read_motion(read_input(file), file).frame.size() == 1);
+}
+
+TEST_CASE("splines that a program made and that hold no tree are refused before they are cut") {
+    const Splines good = grow("apple", {.bodies = 60});
+    CHECK(convert(good).size_bodies() > 0);
+    const auto refusal = [&](const auto& change) {
+        Splines bad = good;
+        change(bad);
+        try {
+            convert(bad);
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(refusal([](Splines& s) { s.parent[1] = 99999; }).find("splines: /parent/1: is 99999") == 0);
+    CHECK(refusal([](Splines& s) { s.radius[2] = NAN; }).find("splines: /radius/2: ") == 0);
+    CHECK(refusal([](Splines& s) { s.first_point[1] = 1000000; }).find("splines: /first_point/1: ") !=
+          std::string::npos);
+    CHECK(refusal([](Splines& s) { s = Splines(); }).find("splines: /parent: is empty") == 0);
+}

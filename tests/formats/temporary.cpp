@@ -2,6 +2,7 @@
 #include "formats/temporary.h"
 #include "formats/open.h"
 #include "tests/support/random_documents.h"
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <system_error>
+#include <thread>
 
 using namespace bough;
 using namespace bough::test;
@@ -69,18 +71,30 @@ TEST_CASE("a temporary file whose name is taken by a folder is an error, and gon
     CHECK_THROWS_AS(Temporary(folder / "no/where", 0), std::system_error);
 }
 
-TEST_CASE("an interrupt can remove what is not finished") {
+TEST_CASE("an interrupt removes what is not finished, and what another thread is about to name") {
     const Folder folder;
-    Temporary done(folder / "done", 0, false);
-    done.finish();
-    Temporary a(folder / "a", 0, false), b(folder / "b", 0, false);
-    CHECK(folder.files() == 3);
-    remove_unfinished_outputs();
-    CHECK(folder.files() == 1);
-    CHECK_THROWS_AS(a.finish(), std::system_error);
-    Temporary c(folder / "c", 0, false);
-    c.finish();
-    CHECK(folder.files() == 2);
+    for (int round = 0; round < 100; ++round) {
+        const pid_t child = ::fork();
+        REQUIRE(child >= 0);
+        if (child == 0) {
+            Temporary done(folder / "done", 0, false);
+            done.finish();
+            const Temporary left(folder / "left", 0, false);
+            const TemporaryFolder filled(folder / "filled");
+            std::ofstream(filled.name() + "/whole") << "finished, in a folder that is not";
+            std::thread writer([&] {
+                for (int k = 0;; ++k) Temporary(folder / "other", 0, k % 2 == 0).finish();
+            });
+            std::this_thread::sleep_for(std::chrono::microseconds(37 * round));
+            remove_unfinished_outputs();
+            ::_exit(0);
+        }
+        int status = 0;
+        REQUIRE(::waitpid(child, &status, 0) == child);
+        REQUIRE(WIFEXITED(status));
+        REQUIRE(fs::exists(folder.path / "done"));
+        REQUIRE(folder.files() == (fs::exists(folder.path / "other") ? 2 : 1));
+    }
 }
 
 TEST_CASE("what a killed process left is taken away by the next that writes there") {

@@ -1,4 +1,5 @@
-// count_allocations.h: for a test program that counts its allocations: replaces operator new of the whole program, so one source alone includes it.
+// count_allocations.h: for a test program that counts its allocations: replaces operator new and aligned_alloc (rows of lanes) of the whole program, so
+// one source alone includes it.
 // The address sanitizer has an allocator of its own; with it nothing is counted.
 #pragma once
 #include <atomic>
@@ -25,6 +26,11 @@ void* operator new(std::size_t bytes) {
 }
 void* operator new[](std::size_t bytes) {
     return counted(bytes);
+}
+extern "C" void* aligned_alloc(std::size_t unit, std::size_t bytes) noexcept {
+    ++allocations;
+    void* p = nullptr;
+    return posix_memalign(&p, unit, bytes) == 0 ? p : nullptr;
 }
 void operator delete(void* p) noexcept {
     std::free(p);

@@ -212,6 +212,8 @@ TEST_CASE("leading a ground allocates nothing") {
             motion.angular_velocity.y() += 0.01;
             simulation.set_ground(0, motion);
             simulation.step(2);
+            simulation.set_ground(0, motion, 0); // there at once
+            simulation.step();
             return simulation.positions().size();
         };
         for (int k = 0; k < 3; ++k) frame();

@@ -1,0 +1,17 @@
+# cmake -DMANIFEST=BUILD/install_manifest.txt -P uninstall.cmake (or cmake --build BUILD --target uninstall): removes what the last `cmake --install` of
+# that build folder brought, and folders named bough that are then empty.
+if(NOT EXISTS "${MANIFEST}")
+  message(FATAL_ERROR "${MANIFEST}: is not there; nothing was installed from this build folder")
+endif()
+file(STRINGS "${MANIFEST}" installed)
+foreach(file IN LISTS installed)
+  file(REMOVE "$ENV{DESTDIR}${file}")
+  cmake_path(GET file PARENT_PATH folder)
+  cmake_path(GET folder FILENAME name)
+  file(GLOB left "$ENV{DESTDIR}${folder}/*")
+  if(name STREQUAL "bough" AND NOT left)
+    file(REMOVE_RECURSE "$ENV{DESTDIR}${folder}")
+  endif()
+endforeach()
+list(LENGTH installed count)
+message(STATUS "uninstalled ${count} files")
