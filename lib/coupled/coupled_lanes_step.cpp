@@ -244,7 +244,7 @@ void pack(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, 
     lanes.odd = false;
     const int columns = coupled_columns(waits(layout), scheme_of(own.scheme).poles);
     lanes.table.assign(std::size_t(layout.rows) * std::size_t(columns), Row<T>{}); // pads do not move
-    std::vector<std::size_t> motion_at;
+    std::vector<std::size_t>& motion_at = lanes.motion_at;
     motion_of_rows(own, work, motion_at);
     lanes.watched.assign(layout.base.size(), 0);
     if (own.lanes.sleep.on) lanes.rest.assign(layout.blocks.size(), BlockRest{});
