@@ -22,11 +22,12 @@ for arguments that a function has not, and an AttributeError for names that an o
 Any thread may call; one simulation or scene is used by one thread at a time. Python's lock is not held in a call.
 
 The library, libbough_files.so, is looked for beside this file's installation, then where the system has its libraries; the environment's
-BOUGH_LIBRARY names another.
+BOUGH_LIBRARY names another. libbough_imports.so, which reads other programs' trees, is taken from the same place when a file is first read.
 """
 import collections
 import ctypes
 import ctypes.util
+import functools
 import os
 import pathlib
 import re
@@ -373,11 +374,14 @@ def _counted(count, one, many):
 
 
 class Splines(_Handle):
-    """A tree's branches as curves. From grow() or read_splines()."""
+    """A tree's branches as curves. From grow() or read_splines(), which leaves in notes what the file is, and what of it was guessed or put right."""
+    notes = ()
 
 
 class Tree(_Handle, _HasBodies):
-    """A tree as rigid bodies on joints; never changes. From convert() or read_tree(). len(tree): its bodies."""
+    """A tree as rigid bodies on joints; never changes. From convert() or read_tree(), which leaves in notes what another program's file is, and what of it
+    was guessed or put right. len(tree): its bodies."""
+    notes = ()
 
     def __len__(self):
         return self._body_arrays().count
@@ -423,16 +427,48 @@ def convert(splines, material=None, segment_length=0, max_bend=0.35, max_bodies=
     return Tree(_made(_c.bough_convert, splines._handle, ctypes.byref(conversion)))
 
 
-def read_splines(source):
-    """A bough-splines document: a file's name, bytes, or what has read()."""
+@functools.cache
+def _importer():
+    """(libbough_imports, None), or (None, why there is none)."""
+    folder, name = os.path.split(_c._name)
+    try:
+        library = ctypes.CDLL(os.path.join(folder, name.replace("bough_files", "bough_imports")))
+        library.bough_import_notes.restype, library.bough_import_notes.argtypes = _string, []
+        for kind in ("splines", "tree"):
+            function = getattr(library, "bough_import_" + kind)
+            function.restype, function.argtypes = ctypes.c_int, [_string, _size, _string, _string, _pointer]
+        return library, None
+    except (OSError, AttributeError) as error:
+        return None, f"other programs' trees are read by libbough_imports, which cannot be loaded: {error}"
+
+
+def _of_any_file(kind, source):
+    """A Splines or Tree."""
     data, name = _content(source)
-    return Splines(_made(_c.bough_read_splines, data, len(data), _text(name)))
+    library, missing = _importer()
+    if library is None:
+        try:
+            return (Splines if kind == "splines" else Tree)(_made(getattr(_c, "bough_read_" + kind), data, len(data), _text(name)))
+        except InputError as error:
+            raise InputError(f"{error}; {missing}") from None
+    folder = os.path.dirname(_text(name)) or b"." if isinstance(source, (str, os.PathLike)) else None
+    made = (Splines if kind == "splines" else Tree)(_made(getattr(library, "bough_import_" + kind), data, len(data), _text(name), folder))
+    notes = library.bough_import_notes().decode(errors="replace")
+    made.notes = tuple(notes.split("\n")) if notes else ()
+    return made
+
+
+def read_splines(source):
+    """Branches of a file's name, bytes, or what has read(): a bough-splines document or, where libbough_imports is installed, another program's tree, as
+    read_tree(). For convert(), which has wood and lengths to choose."""
+    return _of_any_file("splines", source)
 
 
 def read_tree(source):
-    """A bough-tree document: a file's name, bytes, or what has read()."""
-    data, name = _content(source)
-    return Tree(_made(_c.bough_read_tree, data, len(data), _text(name)))
+    """The tree of a file's name, bytes, or what has read(): a bough-tree document or, where libbough_imports is installed, another program's (SpeedTree's XML,
+    scans, SWC, MTG, OBJ lines, Sapling's curves, ez-tree's branches, armatures of glTF), which moves as `treeconvert FILE | treesim -` moves it. FBX and COLLADA
+    are refused with the line that has treeconvert read them. A file's own folder is where a .gltf's buffers are looked for; of bytes nothing else is opened."""
+    return _of_any_file("tree", source)
 
 
 # --- Scenes -------------------------------------------------------------------------------------------------------------------------------------

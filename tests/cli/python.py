@@ -252,6 +252,37 @@ for thread in threads:
     thread.join()
 assert len(hashes) == 8 and len(set(hashes)) == 1
 
+# Other programs' trees move as treesim moves what treeconvert makes of them, from a file's name and from bytes; what is cut off is refused or a smaller tree.
+def moved(tree):
+    run = of(tree)
+    for _ in range(5):
+        run.step()
+    return run.hash()
+
+
+imports = dict(line.split() for line in pathlib.Path("imports.hashes").read_text().splitlines())
+assert len(imports) == 10
+for file, wanted in imports.items():
+    foreign = bough.read_tree(file)
+    assert moved(foreign) == wanted and foreign.notes, file
+    data = pathlib.Path(file).read_bytes()
+    assert moved(bough.convert(bough.read_splines(file))) == wanted, file
+    if not file.endswith("twig_armature.gltf"):
+        assert moved(bough.read_tree(data)) == wanted, file
+    for cut in range(0, len(data), len(data) // 37 + 1):
+        for bad in (data[:cut], data[:cut] + b"\xff" + data[cut + 1:], data[cut:]):
+            try:
+                bough.read_tree(bad)
+            except bough.InputError as error:
+                assert str(error).startswith("<memory>"), error
+assert "SpeedTree raw XML" in bough.read_tree("imports/young_maple.xml").notes[0] and tree.notes == ()
+assert len(bough.convert(bough.read_splines("imports/young_maple.xml"), material="northern-red-oak")) > 100
+raises(bough.InputError, "is a COLLADA model, which the tools alone read; by hand: treeconvert imports/moved_armature.dae -o moved_armature.tree.json",
+       lambda: bough.read_tree("imports/moved_armature.dae"))
+raises(bough.InputError, "treeconvert FILE -o tree.json", lambda: bough.read_tree(pathlib.Path("imports/moved_armature.dae").read_bytes()))
+raises(bough.InputError, "is compressed (EXT_meshopt_compression), which the tools alone read", lambda: bough.read_tree("imports/twig_meshopt.glb"))
+raises(bough.InputError, "was read from a pipe or from memory", lambda: bough.read_tree(pathlib.Path("imports/twig_armature.gltf").read_bytes()))
+
 # Refusals, each with its message.
 raises(bough.UsageError, "is 'yggdrasil', expected one of broadleaf, apple", lambda: bough.grow("yggdrasil"))
 raises(bough.UsageError, "bodies: is -1", lambda: bough.grow("apple", bodies=-1))
