@@ -3,20 +3,9 @@
 #pragma once
 #include "formats/imports/import.h"
 #include "formats/open.h"
-#include "lib/growth/segment.h"
 #include "lib/model/tree.h"
-#include "lib/model/wood.h"
 
 namespace bough {
-
-// The wood that splines name, the first preset where they name none. Throws InputError for a name that is no preset's.
-Material own_material(const Splines&, const std::string& name);
-// What segment() put right, a line each.
-std::vector<std::string> repairs(const SegmentReport&);
-// What a number of bodies left of the fruit, where it did of some.
-std::string joined_fruit(const SegmentReport&);
-// Throws InputError for a tree without bodies.
-void require_bodies(const Tree&, const std::string& name);
 
 struct TreeOfFile {
     Tree tree;

@@ -22,7 +22,4 @@ void require_outputs(const std::vector<NamedFile>& written);
 // The ending of a file's name in lower case, ".glb", or "".
 std::string ending(const std::string& path);
 
-// An argument as a shell takes it, on one line: quoted where it has to be.
-std::string in_shell(const std::string& argument);
-
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "tool.h"
 #include "file_names.h"
+#include "formats/in_shell.h"
 #include "formats/nearest_name.h"
 #include "formats/plain_text.h"
 #include "formats/temporary.h"

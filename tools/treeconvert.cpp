@@ -1,11 +1,11 @@
 // treeconvert: splines, or any file that can be imported as splines, to a tree of rigid bodies and its skin mesh.
-#include "converted.h"
 #include "dressing.h"
 #include "file_names.h"
 #include "formats/documents/material.h"
 #include "formats/documents/splines.h"
 #include "formats/documents/tree.h"
 #include "formats/exports/obj.h"
+#include "formats/imports/any_tree.h"
 #include "frame_sink.h"
 #include "import_file.h"
 #include "import_stats.h"

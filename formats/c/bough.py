@@ -4,7 +4,7 @@
     tree = bough.convert(bough.grow("apple", bodies=2000, seed=7))
     scene = bough.Scene(wind="gusty")
     scene.add(tree)
-    run = bough.Simulation(scene, step=1 / 30, precision="single")
+    run = bough.Simulation(scene, step=1 / 30, precision="float")
     for frame in range(90):
         run.step()
         use(run.positions, run.rotations)
@@ -15,19 +15,22 @@ document order, the trees' one after another, then balls, then walkers.
 Arrays are numpy's, without a copy and not to be written to: they show memory of the object that they were asked of, which lives as long as they do. Those
 of a simulation change when they are asked for again after a step (`run.positions.copy()` keeps a moment).
 
-Errors are exceptions with the message that bough's tools print: UsageError (a ValueError: the call is wrong), InputError (a document is broken, a scene
-cannot be run), NonFiniteError, OutputError; all are Error, with the tools' exit code in `code`.
+Errors are exceptions with the message that bough's tools print: UsageError (a ValueError: the call is wrong, a value of a wrong type too), InputError (a
+document is broken, a scene cannot be run), NonFiniteError, OutputError; all are Error, with the tools' exit code in `code`. Python's own are a TypeError
+for arguments that a function has not, and an AttributeError for names that an object has not.
 
 Any thread may call; one simulation or scene is used by one thread at a time. Python's lock is not held in a call.
 
 The library, libbough_files.so, is looked for beside this file's installation, then where the system has its libraries; the environment's
-BOUGH_LIBRARY names another.
+BOUGH_LIBRARY names another. libbough_imports.so, which reads other programs' trees, is taken from the same place when a file is first read.
 """
 import collections
 import ctypes
 import ctypes.util
+import functools
 import os
 import pathlib
+import re
 import weakref
 
 import numpy as np
@@ -90,10 +93,17 @@ class Wind(ctypes.Structure):
     _fields_ = [("_check", ctypes.c_uint64), ("_velocity", _double3), ("reference_height", ctypes.c_double), ("profile", ctypes.c_double),
                 ("turbulence", ctypes.c_double), ("gust_factor", ctypes.c_double), ("gust_period", ctypes.c_double), ("seed", ctypes.c_uint64)]
 
+    def __setattr__(self, name, value):
+        if name not in _WIND_FIELDS and name != "_velocity":
+            raise AttributeError(f"Wind: has no {name}, expected {', '.join(_WIND_FIELDS)}")
+        super().__setattr__(name, value)
+
     @property
     def velocity(self):
-        """(3) [m/s], blowing toward."""
-        return np.array(self._velocity)
+        """(3) [m/s], blowing toward; an array of its own that is not written to: `wind.velocity = [20, 0, 0]` changes it."""
+        value = np.array(self._velocity)
+        value.flags.writeable = False
+        return value
 
     @velocity.setter
     def velocity(self, value):
@@ -102,6 +112,9 @@ class Wind(ctypes.Structure):
     def __repr__(self):
         return "Wind(" + ", ".join(f"{name}={value}" for name, value in [("velocity", list(self._velocity))] + [
             (name, getattr(self, name)) for name, _ in self._fields_[2:]]) + ")"
+
+
+_WIND_FIELDS = ("velocity",) + tuple(name for name, _ in Wind._fields_[2:])
 
 
 class _Settings(ctypes.Structure):
@@ -159,6 +172,8 @@ _pointer, _string = ctypes.c_void_p, ctypes.c_char_p
 _c.bough_abi.restype = ctypes.c_int32
 if _c.bough_abi() != _ABI:
     raise ImportError(f"bough: the library's interface is of version {_c.bough_abi()}, this file's of {_ABI}; install both of one bough")
+if not hasattr(_c, "bough_time"):
+    raise ImportError("bough: the library is older than this file; install both of one bough")
 for _name, _result, _arguments in (
         ("version", _string, []), ("error", _string, []), ("free", None, [_pointer]), ("species", _string, [_size]),
         ("default_growth", _Growth, []), ("default_conversion", _Conversion, []), ("default_settings", _Settings, []),
@@ -169,7 +184,7 @@ for _name, _result, _arguments in (
         ("tree_bodies", int, [_pointer] * 2), ("read_scene", int, [_string, _size, _string, _pointer]), ("scene_file", _string, [_pointer, _size]),
         ("scene_put", int, [_pointer, _size, _pointer]), ("scene_add", int, [_pointer, _pointer, _pointer, ctypes.c_double]),
         ("wind_preset", int, [_string, _pointer]), ("scene_set_wind", int, [_pointer] * 2), ("simulate", int, [_pointer] * 4),
-        ("step", int, [_pointer] * 2), ("settle", int, [_pointer, ctypes.c_double]), ("settling_time", int, [_pointer] * 2), ("read", int, [_pointer, ctypes.c_int, _pointer]), ("read_events", int, [_pointer] * 2),
+        ("step", int, [_pointer] * 2), ("settle", int, [_pointer, ctypes.c_double]), ("settling_time", int, [_pointer] * 2), ("time", int, [_pointer] * 2), ("read", int, [_pointer, ctypes.c_int, _pointer]), ("read_events", int, [_pointer] * 2),
         ("simulation_bodies", int, [_pointer] * 2), ("pick", int, [_pointer, _pointer, _pointer, ctypes.c_double, _pointer, _pointer]),
         ("pull", int, [_pointer, _size, _pointer, _pointer]),
         ("attach", int, [_pointer, _size, _pointer, ctypes.c_double, ctypes.c_double, _pointer]),
@@ -184,14 +199,27 @@ for _name, _result, _arguments in (
 __version__ = _c.bough_version().decode()
 
 
+# What messages call by its name in C and C++, as it is called here.
+_NAMES = ((r"(?:settings\.|SimulationOptions::)(\w+) (asks for it|is not set)", r"Simulation(\1=True) \2"),
+          (r"SimulationOptions::sleep", "Simulation(sleep=...)"), (r"bough_scene_(add|put) ", r"Scene.\1() "), (r"bough_watch_error\(\)", "watch_error()"),
+          (r"^from: ", "origin: "))
+
+
 def _check(result):
     if result != 0:
         kinds = {kind.code: kind for kind in (UsageError, InputError, NonFiniteError, OutputError)}
-        raise kinds[result](_c.bough_error().decode(errors="replace"))
+        message = _c.bough_error().decode(errors="replace")
+        if kinds[result] is UsageError:  # others speak of documents
+            for other, own in _NAMES:
+                message = re.sub(other, own, message)
+        raise kinds[result](message)
 
 
 def _vector(value, name):
-    numbers = np.asarray(value, float)
+    try:
+        numbers = np.asarray(value, float)
+    except (TypeError, ValueError):
+        raise UsageError(f"{name}: is {value!r}, expected three numbers") from None
     if numbers.shape != (3,):
         raise UsageError(f"{name}: has shape {numbers.shape}, expected (3,)")
     return _double3(*numbers)
@@ -214,8 +242,11 @@ def _number(value, name):
         raise UsageError(f"{name}: is {value!r}, expected a number") from None
 
 
-def _text(value):
-    return None if value is None else os.fsencode(value)
+def _text(value, name="name"):
+    try:
+        return None if value is None else os.fsencode(value)
+    except TypeError:
+        raise UsageError(f"{name}: is {value!r}, expected a name") from None
 
 
 class _Handle:
@@ -251,12 +282,19 @@ def _content(source):
     if isinstance(source, (bytes, bytearray, memoryview)):
         return bytes(source), None
     if hasattr(source, "read"):
-        data = source.read()
-        return data.encode() if isinstance(data, str) else data, getattr(source, "name", None)
+        data, name = source.read(), getattr(source, "name", None)
+        data = data.encode() if isinstance(data, str) else data
+        if not isinstance(data, bytes):
+            raise UsageError(f"source: its read() gives {type(data).__name__}, expected bytes")
+        return data, name if isinstance(name, (str, bytes)) else None  # of a file without one a number
+    if not isinstance(source, (str, os.PathLike)):
+        raise UsageError(f"source: is {type(source).__name__}, expected a file's name, bytes, or what has read()")
     try:
         return pathlib.Path(source).read_bytes(), source
     except OSError as error:
         raise InputError(f"{source}: {error.strerror}") from error
+    except ValueError as error:  # a NUL in it
+        raise InputError(f"{source!r}: {error}") from error
 
 
 class _HasBodies:
@@ -328,15 +366,29 @@ def species():
     return names
 
 
+_KINDS = ("branch", "leaf", "fruit", "petal"), ("branches", "leaves", "fruit", "petals")
+
+
+def _counted(count, one, many):
+    return f"{count} {one if count == 1 else many}"
+
+
 class Splines(_Handle):
-    """A tree's branches as curves. From grow() or read_splines()."""
+    """A tree's branches as curves. From grow() or read_splines(), which leaves in notes what the file is, and what of it was guessed or put right."""
+    notes = ()
 
 
 class Tree(_Handle, _HasBodies):
-    """A tree as rigid bodies on joints; never changes. From convert() or read_tree(). len(tree): its bodies."""
+    """A tree as rigid bodies on joints; never changes. From convert() or read_tree(), which leaves in notes what another program's file is, and what of it
+    was guessed or put right. len(tree): its bodies."""
+    notes = ()
 
     def __len__(self):
         return self._body_arrays().count
+
+    def __repr__(self):
+        kinds = ", ".join(_counted(int(count), one, many) for count, one, many in zip(np.bincount(self.kinds, minlength=4), *_KINDS) if count)
+        return f"Tree({_counted(len(self), 'body', 'bodies')}: {kinds}; {self.masses.sum():.4g} kg)"
 
     def to_bytes(self):
         """The tree as a document in safetensors, which bough's tools read."""
@@ -344,14 +396,17 @@ class Tree(_Handle, _HasBodies):
 
     def save(self, file):
         """Writes to_bytes() to a file, whose name ends in .safetensors by custom."""
-        pathlib.Path(file).write_bytes(self.to_bytes())
+        try:
+            pathlib.Path(file).write_bytes(self.to_bytes())
+        except OSError as error:
+            raise OutputError(f"{file}: {error.strerror}") from error
 
 
 def grow(species="broadleaf", bodies=0, seed=0, leaves=False, petals=False, fruit=False, age=0):
     """A tree of a species, as `treegen --species SPECIES --bodies BODIES --seed SEED --age AGE`. bodies: that convert() will make of it, within
     10 %; 0: as many as the species has. age [years]: 0.1 or more; 0: a mature tree. Returns Splines."""
     growth = _c.bough_default_growth()
-    growth.species = _text(species)
+    growth.species = _text(species, "species")
     growth.bodies = _whole(bodies, "bodies", 0, 2**63 - 1)
     growth.seed = _whole(seed, "seed", 0, 2**64 - 1)
     growth.age = _number(age, "age")
@@ -365,23 +420,55 @@ def convert(splines, material=None, segment_length=0, max_bend=0.35, max_bodies=
     if not isinstance(splines, Splines):
         raise UsageError(f"splines: is {type(splines).__name__}, expected Splines")
     conversion = _c.bough_default_conversion()
-    conversion.material = _text(material)
+    conversion.material = _text(material, "material")
     conversion.segment_length = _number(segment_length, "segment_length")
     conversion.max_bend = _number(max_bend, "max_bend")
     conversion.max_bodies = _whole(max_bodies, "max_bodies", 0, 2**63 - 1)
     return Tree(_made(_c.bough_convert, splines._handle, ctypes.byref(conversion)))
 
 
-def read_splines(source):
-    """A bough-splines document: a file's name, bytes, or what has read()."""
+@functools.cache
+def _importer():
+    """(libbough_imports, None), or (None, why there is none)."""
+    folder, name = os.path.split(_c._name)
+    try:
+        library = ctypes.CDLL(os.path.join(folder, name.replace("bough_files", "bough_imports")))
+        library.bough_import_notes.restype, library.bough_import_notes.argtypes = _string, []
+        for kind in ("splines", "tree"):
+            function = getattr(library, "bough_import_" + kind)
+            function.restype, function.argtypes = ctypes.c_int, [_string, _size, _string, _string, _pointer]
+        return library, None
+    except (OSError, AttributeError) as error:
+        return None, f"other programs' trees are read by libbough_imports, which cannot be loaded: {error}"
+
+
+def _of_any_file(kind, source):
+    """A Splines or Tree."""
     data, name = _content(source)
-    return Splines(_made(_c.bough_read_splines, data, len(data), _text(name)))
+    library, missing = _importer()
+    if library is None:
+        try:
+            return (Splines if kind == "splines" else Tree)(_made(getattr(_c, "bough_read_" + kind), data, len(data), _text(name)))
+        except InputError as error:
+            raise InputError(f"{error}; {missing}") from None
+    folder = os.path.dirname(_text(name)) or b"." if isinstance(source, (str, os.PathLike)) else None
+    made = (Splines if kind == "splines" else Tree)(_made(getattr(library, "bough_import_" + kind), data, len(data), _text(name), folder))
+    notes = library.bough_import_notes().decode(errors="replace")
+    made.notes = tuple(notes.split("\n")) if notes else ()
+    return made
+
+
+def read_splines(source):
+    """Branches of a file's name, bytes, or what has read(): a bough-splines document or, where libbough_imports is installed, another program's tree, as
+    read_tree(). For convert(), which has wood and lengths to choose."""
+    return _of_any_file("splines", source)
 
 
 def read_tree(source):
-    """A bough-tree document: a file's name, bytes, or what has read()."""
-    data, name = _content(source)
-    return Tree(_made(_c.bough_read_tree, data, len(data), _text(name)))
+    """The tree of a file's name, bytes, or what has read(): a bough-tree document or, where libbough_imports is installed, another program's (SpeedTree's XML,
+    scans, SWC, MTG, OBJ lines, Sapling's curves, ez-tree's branches, armatures of glTF), which moves as `treeconvert FILE | treesim -` moves it. FBX and COLLADA
+    are refused with the line that has treeconvert read them. A file's own folder is where a .gltf's buffers are looked for; of bytes nothing else is opened."""
+    return _of_any_file("tree", source)
 
 
 # --- Scenes -------------------------------------------------------------------------------------------------------------------------------------
@@ -389,7 +476,7 @@ def read_tree(source):
 def wind_preset(name=None):
     """A Wind: "calm", "breeze", "gusty", "storm"; None: air that stands still, from which wind may rise."""
     wind = Wind()
-    _check(_c.bough_wind_preset(_text(name), ctypes.byref(wind)))
+    _check(_c.bough_wind_preset(_text(name, "wind"), ctypes.byref(wind)))
     return wind
 
 
@@ -440,6 +527,8 @@ def _tree(tree):
 
 def read_scene(file, outside=False):
     """A bough-scene document with its trees, each file once. outside: trees may stand elsewhere than in the document's folder and below it."""
+    if not isinstance(file, (str, os.PathLike)):
+        raise UsageError(f"file: is {type(file).__name__}, expected a file's name, beside which its trees are; Scene(document=...) takes bytes")
     scene = Scene(document=file)
     folder, known = pathlib.Path(file).parent, {}
     for place, name in enumerate(scene.files):
@@ -480,7 +569,7 @@ class Simulation(_Handle, _HasBodies):
 
     def __init__(self, scene, step=1 / 30, precision="double", method="coupled", sleep=0, threads=0, velocities=False, torques=False, stresses=False,
                  pulls=False, grounds=False, portable=False, before=None):
-        """step [s] of one step(). precision "double" or "single" (twice as fast; arrays are doubles with both). method "coupled" or "analytic". sleep
+        """step [s] of one step(). precision "double" or "float" (or "single": twice as fast; arrays are doubles with both). method "coupled" or "analytic". sleep
         [rad/s]: slower than this for a while, trees are left out; 0: never. threads of a step at most; 0: as many as there are cores. velocities,
         torques, stresses: are wanted; pulls: pull() will be called; grounds: set_ground() will be. portable: the same on every machine, several times slower. before: another Simulation, whose
         trees' motion goes on where trees are connected alike."""
@@ -492,7 +581,7 @@ class Simulation(_Handle, _HasBodies):
         settings.step = _number(step, "step")
         settings.sleep = _number(sleep, "sleep")
         settings.threads = _whole(threads, "threads", 0, 2**31 - 1)
-        for field, value, names in (("precision", precision, ("single", "double")), ("method", method, ("coupled", "analytic"))):
+        for field, value, names in (("precision", "float" if precision == "single" else precision, ("float", "double")), ("method", method, ("coupled", "analytic"))):
             if value not in names:
                 raise UsageError(f"{field}: is {value!r}, expected {' or '.join(names)}")
             setattr(settings, field, names.index(value))
@@ -503,12 +592,24 @@ class Simulation(_Handle, _HasBodies):
     def __len__(self):
         return self._array(0).count
 
+    def __repr__(self):
+        ends = [height[:, 1].max() for height in (self.positions, self.tips) if len(height)]
+        return f"Simulation({_counted(len(self), 'body', 'bodies')}, up to {max(ends):.4g} m high, time={self.time:.6g} s)"
+
+    @property
+    def time(self):
+        """[s] of the present state."""
+        found = ctypes.c_double()
+        _check(_c.bough_time(self._handle, ctypes.byref(found)))
+        return found.value
+
     def settle(self, seconds=None):
-        """Before the first step: the wind has blown for so many seconds already; None: until a start at rest is forgotten. Returns them."""
+        """Before the first step: the wind has blown for so many seconds already, 600 at most; None: until a start at rest is forgotten. Returns them."""
         if seconds is None:
             found = ctypes.c_double()
             _check(_c.bough_settling_time(self._handle, ctypes.byref(found)))
             seconds = found.value
+        seconds = _number(seconds, "seconds")
         _check(_c.bough_settle(self._handle, seconds))
         return seconds
 

@@ -183,10 +183,12 @@ typedef struct bough_report {
 /* From now to now + step. report may be NULL. BOUGH_NON_FINITE: the message names stage and body; so do all further steps, which change nothing. */
 bough_result bough_step(bough_simulation* simulation, bough_report* report);
 /* Before the first step: the wind has blown for so many seconds already, up to time 0. What shows is then its own sway, not how a tree at rest takes the
- * first blow. Balls, walkers and what may break wait for time 0. BOUGH_USAGE after a step. */
+ * first blow. Balls, walkers and what may break wait for time 0. BOUGH_USAGE after a step, and for more than 600 s. */
 bough_result bough_settle(bough_simulation* simulation, double seconds);
-/* How long that takes until the start is forgotten; 0 where no wind blows. */
+/* How long that takes until the start is forgotten, 2 to 20 s; 0 where no wind blows. */
 bough_result bough_settling_time(bough_simulation* simulation, double* seconds);
+/* [s] of the present state. */
+bough_result bough_time(const bough_simulation* simulation, double* seconds);
 
 typedef enum bough_field {
     BOUGH_POSITION = 0,         /* [m] of own joints (balls: centres), 3 */

@@ -44,6 +44,9 @@ struct SimulationObject final : Object {
     std::optional<RunError> error;    // refers to the simulation
 };
 
+std::shared_ptr<SplinesObject> object_of(Splines);
+std::shared_ptr<TreeObject> object_of(Tree);
+
 void* give(std::shared_ptr<Object>);
 std::shared_ptr<Object> find(const void* handle,
                              const char* argument); // throws WrongCall: NULL, or no handle (any more)

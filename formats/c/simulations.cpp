@@ -122,8 +122,9 @@ bough_result bough_simulate(const bough_scene* scene, const bough_settings* sett
 bough_result bough_settle(bough_simulation* simulation, double seconds) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
-        if (!(seconds >= 0) || !std::isfinite(seconds))
-            throw WrongCall("seconds: is " + std::to_string(seconds) + ", expected 0 or more");
+        if (!(seconds >= 0 && seconds <= Simulation::most_settled))
+            throw WrongCall("seconds: is " + std::to_string(seconds) + ", expected 0 to " +
+                            std::to_string(int(Simulation::most_settled)));
         if (use->simulation.steps() != 0) throw WrongCall("simulation: has been stepped, expected one at its start");
         const StepReport made = use->simulation.settle(seconds);
         if (!made.finite()) throw NonFinite("the simulation became non-finite before its start: " + made.non_finite);
@@ -135,6 +136,13 @@ bough_result bough_settling_time(bough_simulation* simulation, double* seconds) 
         const Use<SimulationObject> use(simulation);
         required(seconds, "seconds");
         *seconds = use->simulation.settling_time();
+    });
+}
+
+bough_result bough_time(const bough_simulation* simulation, double* seconds) {
+    return call([&] {
+        const Use<SimulationObject> use(simulation);
+        required(seconds, "seconds") = use->simulation.time();
     });
 }
 

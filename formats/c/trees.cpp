@@ -10,16 +10,11 @@ using namespace bough::c;
 namespace {
 
 void give_tree(Tree tree, bough_tree** to) {
-    auto object = std::make_shared<TreeObject>();
-    object->first_body = {0, tree.size_bodies()};
-    object->tree = std::make_shared<const Tree>(std::move(tree));
-    *to = static_cast<bough_tree*>(give(object));
+    *to = static_cast<bough_tree*>(give(object_of(std::move(tree))));
 }
 
 void give_splines(Splines splines, bough_splines** to) {
-    auto object = std::make_shared<SplinesObject>();
-    object->splines = std::move(splines);
-    *to = static_cast<bough_splines*>(give(object));
+    *to = static_cast<bough_splines*>(give(object_of(std::move(splines))));
 }
 
 const Material& wood_of(const Splines& splines, const char* asked) {
@@ -48,6 +43,19 @@ SegmentOptions options_of(const bough_conversion& c) {
 } // namespace
 
 namespace bough::c {
+
+std::shared_ptr<SplinesObject> object_of(Splines splines) {
+    auto object = std::make_shared<SplinesObject>();
+    object->splines = std::move(splines);
+    return object;
+}
+
+std::shared_ptr<TreeObject> object_of(Tree tree) {
+    auto object = std::make_shared<TreeObject>();
+    object->first_body = {0, tree.size_bodies()};
+    object->tree = std::make_shared<const Tree>(std::move(tree));
+    return object;
+}
 
 bough_bodies bodies_of(const Tree& tree, const std::vector<std::size_t>& first_body) {
     static_assert(sizeof(Vec3) == sizeof(double[3]) && sizeof(Kind) == 1);

@@ -67,7 +67,8 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
         throw std::runtime_error(bough::in_ascii_quotes(uri) +
                                  " is not beside the file, expected a relative path or a data: URI");
     if (folder.empty())
-        throw std::runtime_error(bough::in_ascii_quotes(uri) + " cannot be looked for: the file was read from a pipe");
+        throw std::runtime_error(bough::in_ascii_quotes(uri) +
+                                 " cannot be looked for: the file was read from a pipe or from memory");
     const std::string file = folder + "/" + unescaped(uri);
     if (!within_reach(file, folder)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + out_of_reach);
     try {

@@ -87,8 +87,9 @@ StepReport Simulation::step(int times) {
     return run_->step(times);
 }
 StepReport Simulation::settle(double seconds) {
-    if (!(seconds >= 0) || !std::isfinite(seconds))
-        throw SceneError("settle: is " + std::to_string(seconds) + " s, expected 0 or more");
+    if (!(seconds >= 0 && seconds <= most_settled))
+        throw SceneError("settle: is " + std::to_string(seconds) + " s, expected 0 to " +
+                         std::to_string(int(most_settled)));
     if (!run_->fresh()) throw SceneError("settle: the run has begun, expected one at its start");
     const double steps = std::round(seconds / run_->options().step);
     if (!(steps < 1e9))

@@ -86,7 +86,9 @@ public:
     // Before the first step: the wind has blown already. Steps of so many seconds (rounded to whole steps), up to time 0, with the wind, the ground
     // and the scene's pulls of the times before it: what shows then is the wind's own sway, not how a tree in still air takes the first blow. Balls, walkers and
     // what may break wait for time 0: what the wind would have broken by then breaks in the first step. Nothing is done by itself: a simulation that is
-    // not told to starts at rest. The report's counts are 0. Throws SceneError after a step, a restored state or a motion that goes on.
+    // not told to starts at rest. The report's counts are 0. `seconds`: 0 to most_settled, far beyond any that settling_time() gives. Throws SceneError for
+    // others, and after a step, a restored state or a motion that goes on.
+    static constexpr double most_settled = 600;
     StepReport settle(double seconds);
     // [s] How long that takes until the start is forgotten (plan/settling.h): 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;

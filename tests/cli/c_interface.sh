@@ -43,4 +43,6 @@ done
 if command -v nm >/dev/null && [[ -z $sanitizers ]]; then
     found=$(nm -C --undefined-only "$build"/formats/CMakeFiles/bough_files.dir/c/*.o | grep -E ' U (exit|_exit|abort|printf|puts|fprintf|fputs|perror|std::cout|std::cerr)' || true)
     [[ -z $found ]] || fail "formats/c calls $found"
+    found=$(nm -C --undefined-only "$build/formats/libbough_imports.so" | grep -E ' U (exit|_exit|abort|fork|system|execv.*|printf|puts|fprintf|fputs|perror|std::cout|std::cerr)(@|$)' || true)
+    [[ -z $found ]] || fail "libbough_imports calls $found"
 fi

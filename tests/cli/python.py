@@ -4,7 +4,9 @@ import gc
 import json
 import math
 import pathlib
+import tempfile
 import threading
+import types
 import weakref
 
 import numpy as np
@@ -115,7 +117,9 @@ assert run.hash() == pathlib.Path("park.hash").read_text().split()[-1], run.hash
 # Settled, it begins in the wind's sway.
 calm, swaying = bough.Simulation(bough.read_scene("park.json")), bough.Simulation(bough.read_scene("park.json"))
 assert 2 <= swaying.settle() <= 20 and calm.hash() != swaying.hash()
-raises(bough.UsageError, "seconds", lambda: calm.settle(-1))
+for seconds in (-1, math.nan, 1e12):
+    raises(bough.UsageError, "expected 0 to 600", lambda: calm.settle(seconds))
+raises(bough.UsageError, "seconds: is 'a', expected a number", lambda: calm.settle("a"))
 
 # A state of treesim's goes on here, one of ours bit by bit.
 run = of(tree)
@@ -178,6 +182,19 @@ for _ in range(20):
     run.step()
 assert np.abs(run.rates).max() > 100 * still
 assert wind.velocity.tolist() == [0, 0, 15] and "gust_factor" in repr(wind)
+# What would be lost is refused: one number of a copy, a name that a wind has not.
+for lost, kind in ((lambda: wind.velocity.__setitem__(0, 20), ValueError), (lambda: setattr(wind, "speed", 3), AttributeError)):
+    try:
+        lost()
+    except kind as error:
+        assert kind is ValueError or str(error).startswith("Wind: has no speed, expected velocity, reference_height"), error
+    else:
+        raise AssertionError("a wind took what it has no place for")
+wind.turbulence = 0.25
+assert wind.turbulence == 0.25
+assert f"Tree({len(tree)} bodies: {np.sum(tree.kinds == 0)} branches, {np.sum(tree.kinds == 1)} leaves; {tree.masses.sum():.4g} kg)" == repr(tree)
+assert repr(run).startswith(f"Simulation({len(tree)} bodies, up to ") and repr(run).endswith(f" m high, time={25 / 30:.6g} s)"), repr(run)
+assert math.isclose(run.time, 25 / 30)
 following = bough.Simulation((lambda s: (s.add(tree), s)[1])(bough.Scene()), before=run)
 assert np.abs(following.positions - run.positions).max() < 1e-3
 
@@ -199,14 +216,14 @@ for _ in range(60):
     run.step()
 assert np.allclose(run.positions[0] - rest[0], [1, 0, 0], atol=1e-9)
 assert np.abs(run.positions - rest - [1, 0, 0]).max() > 1e-4  # and it sways
-raises(bough.UsageError, "grounds is not set", lambda: of(tree).set_ground(0))
+raises(bough.UsageError, "set_ground: Simulation(grounds=True) is not set", lambda: of(tree).set_ground(0))
 raises(bough.UsageError, "rotation: has shape (3,)", lambda: run.set_ground(0, rotation=[0, 0, 1]))
 raises(bough.UsageError, "tree 1 is not there", lambda: run.set_ground(1))
 
 # The step's error: at half the step, less than half of it.
 def error_of(step, count):
     run = of(bough.convert(bough.grow("pine", bodies=300, seed=1)), step=step)
-    raises(bough.UsageError, "is not watched", lambda: run.error)
+    raises(bough.UsageError, "is not watched; watch_error() begins it", lambda: run.error)
     run.watch_error()
     for _ in range(count):
         run.step()
@@ -235,6 +252,37 @@ for thread in threads:
     thread.join()
 assert len(hashes) == 8 and len(set(hashes)) == 1
 
+# Other programs' trees move as treesim moves what treeconvert makes of them, from a file's name and from bytes; what is cut off is refused or a smaller tree.
+def moved(tree):
+    run = of(tree)
+    for _ in range(5):
+        run.step()
+    return run.hash()
+
+
+imports = dict(line.split() for line in pathlib.Path("imports.hashes").read_text().splitlines())
+assert len(imports) == 10
+for file, wanted in imports.items():
+    foreign = bough.read_tree(file)
+    assert moved(foreign) == wanted and foreign.notes, file
+    data = pathlib.Path(file).read_bytes()
+    assert moved(bough.convert(bough.read_splines(file))) == wanted, file
+    if not file.endswith("twig_armature.gltf"):
+        assert moved(bough.read_tree(data)) == wanted, file
+    for cut in range(0, len(data), len(data) // 37 + 1):
+        for bad in (data[:cut], data[:cut] + b"\xff" + data[cut + 1:], data[cut:]):
+            try:
+                bough.read_tree(bad)
+            except bough.InputError as error:
+                assert str(error).startswith("<memory>"), error
+assert "SpeedTree raw XML" in bough.read_tree("imports/young_maple.xml").notes[0] and tree.notes == ()
+assert len(bough.convert(bough.read_splines("imports/young_maple.xml"), material="northern-red-oak")) > 100
+raises(bough.InputError, "is a COLLADA model, which the tools alone read; by hand: treeconvert imports/moved_armature.dae -o moved_armature.tree.json",
+       lambda: bough.read_tree("imports/moved_armature.dae"))
+raises(bough.InputError, "treeconvert FILE -o tree.json", lambda: bough.read_tree(pathlib.Path("imports/moved_armature.dae").read_bytes()))
+raises(bough.InputError, "is compressed (EXT_meshopt_compression), which the tools alone read", lambda: bough.read_tree("imports/twig_meshopt.glb"))
+raises(bough.InputError, "was read from a pipe or from memory", lambda: bough.read_tree(pathlib.Path("imports/twig_armature.gltf").read_bytes()))
+
 # Refusals, each with its message.
 raises(bough.UsageError, "is 'yggdrasil', expected one of broadleaf, apple", lambda: bough.grow("yggdrasil"))
 raises(bough.UsageError, "bodies: is -1", lambda: bough.grow("apple", bodies=-1))
@@ -248,15 +296,29 @@ pathlib.Path("below").mkdir()
 pathlib.Path("below/scene.json").write_text('{"format": "bough-scene", "version": 1, "trees": [{"file": "../birch.json"}]}')
 raises(bough.InputError, "names '../birch.json', which leads out of the folder", lambda: bough.read_scene("below/scene.json"))
 assert bough.read_scene("below/scene.json", outside=True).files == ["../birch.json"]
-raises(bough.UsageError, "has no tree", lambda: bough.Simulation(bough.Scene()))
+raises(bough.UsageError, "has no tree; Scene.add() gives it one", lambda: bough.Simulation(bough.Scene()))
 raises(bough.UsageError, "wind: is 'gale'", lambda: bough.Scene(wind="gale"))
 raises(bough.UsageError, "position: has shape (2,)", lambda: bough.Scene().add(tree, (0, 0)))
 raises(bough.UsageError, "position: is not finite", lambda: bough.Scene().add(tree, (0, math.nan, 0)))
 raises(bough.UsageError, "step: is -1", lambda: of(tree, step=-1))
-raises(bough.UsageError, "precision: is 'half', expected single or double", lambda: of(tree, precision="half"))
-raises(bough.UsageError, "settings.velocities", lambda: of(tree).velocities)
+raises(bough.UsageError, "precision: is 'half', expected float or double", lambda: of(tree, precision="half"))
+assert of(tree, precision="single").hash() == of(tree, precision="float").hash()
+raises(bough.UsageError, "Simulation(velocities=True) asks for it", lambda: of(tree).velocities)
 raises(bough.UsageError, "body 100000 is not there", lambda: of(tree, pulls=True).pull(100000, [0, 0, 0], [1, 0, 0]))
-raises(bough.UsageError, "pulls is not set", lambda: of(tree).pull(0, [0, 0, 0], [1, 0, 0]))
+raises(bough.UsageError, "pull: Simulation(pulls=True) is not set", lambda: of(tree).pull(0, [0, 0, 0], [1, 0, 0]))
+raises(bough.UsageError, "origin: is 'a', expected three numbers", lambda: of(tree).pick("a", [0, 0, 1]))
+raises(bough.UsageError, "origin: is not finite", lambda: of(tree).pick([0, math.nan, 0], [0, 0, 1]))
+raises(bough.UsageError, "species: is 5, expected a name", lambda: bough.grow(5))
+raises(bough.UsageError, "material: is 5, expected a name", lambda: bough.convert(bough.grow("palm", bodies=50), material=5))
+raises(bough.UsageError, "file: is bytes, expected a file's name", lambda: bough.read_scene(b"{}"))
+raises(bough.UsageError, "source: is int, expected a file's name, bytes", lambda: bough.read_tree(5))
+raises(bough.UsageError, "its read() gives NoneType", lambda: bough.read_tree(types.SimpleNamespace(read=lambda: None)))
+raises(bough.InputError, "null byte", lambda: bough.read_tree("a\0b"))
+raises(bough.OutputError, "none/tree.safetensors: No such file", lambda: tree.save("none/tree.safetensors"))
+with tempfile.TemporaryFile() as file:  # whose name is a number
+    file.write(tree.to_bytes())
+    file.seek(0)
+    assert len(bough.read_tree(file)) == len(tree)
 raises(bough.UsageError, "direction is 0", lambda: of(tree).pick([0, 0, 0], [0, 0, 0]))
 raises(bough.UsageError, "began without one", lambda: of(tree, wind=None).set_wind("gusty"))
 run = of(tree, pulls=True)

@@ -12,9 +12,31 @@ treesim birch.json --wind gusty --frames 15 --fields pose,velocity -o birch.json
 echo '{"format": "bough-scene", "version": 1, "wind": "storm", "material": {"E": 6e9},
     "trees": [{"file": "birch.json"}, {"file": "birch.json", "position": [9, 0, 2], "yaw": 40}]}' >park.json
 hash park.json --frames 15 --precision float >park.hash
+# Other programs' trees, as treesim moves what treeconvert makes of them.
+mkdir imports
+cp "$maple" "$top"/data/fixtures/{archi_small.csv,simpleforest_small.csv,shuffled.swc,shrub.mtg,lines.obj,lines.gltf,eztree_list.json,bare_bones.xml,twig_armature.gltf,twig_bark.bin,moved_armature.dae,twig_meshopt.glb} imports
+for file in imports/*; do
+    case $file in *.bin | *.dae | *meshopt*) continue ;; esac
+    treeconvert "$file" -q >converted.json || fail "treeconvert $file"
+    echo "$file $(hash converted.json --wind gusty --frames 6 | cut -d' ' -f2)" >>imports.hashes
+done
 "$python" -W error "$top/tests/cli/python.py" >out 2>err || fail "python.py: $(tail -n 5 err)"
 [[ ! -s out && ! -s err ]] || fail "python.py says: $(cat out err)"
 [[ $(hash saved.safetensors --wind gusty --frames 15) == "$(hash birch.json --wind gusty --frames 15)" ]] || fail "the tree that bough.py saved moves otherwise"
+
+# Where the library for other programs' trees is not beside, its own documents are read all the same.
+mkdir alone
+cp "$build/formats/libbough_files.so" alone/
+BOUGH_LIBRARY=$PWD/alone/libbough_files.so "$python" -W error - <<'END' >out 2>&1 || fail "without libbough_imports: $(cat out)"
+import bough
+assert len(bough.read_tree("birch.json")) > 200
+try:
+    bough.read_tree("imports/young_maple.xml")
+except bough.InputError as error:
+    assert "young_maple.xml" in str(error) and "are read by libbough_imports, which cannot be loaded: " in str(error), error
+else:
+    raise AssertionError("it is read")
+END
 
 # The example's tip swings at the frequency that a solve of the tree's modes gives; its resolution is 0.05 Hz, of which it shows eighths.
 if command -v gnuplot >/dev/null; then

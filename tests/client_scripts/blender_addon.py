@@ -331,6 +331,43 @@ def refused(folder, pictures):
     for name in properties.MATERIALS:
         settings.material = name
         check(bpy.ops.bough.simulate() == {"FINISHED"}, name)
+    # Points that are added while it moves: it is let go of, as it was drawn, the new ones beside those that they were drawn from.
+    bpy.ops.bough.stop()
+    for kind in ("BEZIER", "POLY"):
+        curve = bpy.data.curves.new(kind, "CURVE")
+        curve.dimensions, curve.bevel_depth = "3D", 0.05
+        points = getattr(curve.splines.new(kind), "bezier_points" if kind == "BEZIER" else "points")
+        points.add(5)
+        for k, point in enumerate(points):
+            point.co[:3] = 0.1 * k, 0, 0.8 * k
+        grown = bpy.data.objects.new(kind, curve)
+        bpy.context.scene.collection.objects.link(grown)
+        before = control_points(grown)[0]
+        select(grown)
+        settings.wind_speed, settings.wind_direction = 15, 0
+        bpy.ops.bough.simulate()
+        steps(30)
+        bent = control_points(grown)[0]
+        check(np.abs(bent - before).max() > 1e-3, f"{kind}: does not move")
+        points.add(1)
+        points[-1].co[:3] = tuple(bent[-1] + [0, 0, 0.1])
+        wrong = operators().step_all(bpy.context.scene)
+        check(len(wrong) == 1 and "its points are others" in wrong[0] and not operators().runs, f"{kind}: {wrong}")
+        off = np.abs(control_points(grown)[0] - np.vstack([before, before[-1] + [0, 0, 0.1]])).max(1)
+        check(off.max() < 1e-5, f"{kind}: points are left {off} m off")
+    # So are bones that go, by Stop and by a step.
+    select(rig)
+    for gone, end in (("side3", bpy.ops.bough.stop), ("side2", lambda: operators().step_all(bpy.context.scene))):
+        bpy.ops.bough.simulate()
+        steps(10)
+        bpy.ops.object.mode_set(mode="EDIT")
+        rig.data.edit_bones.remove(rig.data.edit_bones[gone])
+        bpy.ops.object.mode_set(mode="OBJECT")
+        said = end()
+        check("FINISHED" in said or "has other bones" in said[0], f"{said}")
+        check(not operators().runs and max(abs(bone.rotation_quaternion.angle) for bone in rig.pose.bones) < 1e-6, "bones are left turned")
+    select(twin)
+    bpy.ops.bough.simulate()
     # An object that goes away while it moves is let go of; others move on.
     select(rig)
     bpy.ops.bough.simulate()

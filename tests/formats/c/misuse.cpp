@@ -79,6 +79,10 @@ TEST_CASE("handles that are none, of another kind or freed are refused by every 
             return bough_settling_time(s, &seconds);
         },
         [](auto* s) {
+            double seconds;
+            return bough_time(s, &seconds);
+        },
+        [](auto* s) {
             bough_array a;
             return bough_read(s, BOUGH_POSITION, &a);
         },
@@ -167,6 +171,8 @@ TEST_CASE("NULL for what must be there is refused by every function, and outputs
     refused(bough_read_scene(nullptr, 0, nullptr, nullptr), BOUGH_USAGE, "scene: is NULL");
     refused(bough_wind_preset("gusty", nullptr), BOUGH_USAGE, "wind: is NULL");
     refused(bough_simulate(h.scene, nullptr, nullptr, nullptr), BOUGH_USAGE, "simulation: is NULL");
+    refused(bough_settling_time(h.simulation, nullptr), BOUGH_USAGE, "seconds: is NULL");
+    refused(bough_time(h.simulation, nullptr), BOUGH_USAGE, "seconds: is NULL");
     refused(bough_read(h.simulation, BOUGH_POSITION, nullptr), BOUGH_USAGE, "array: is NULL");
     refused(bough_read_events(h.simulation, nullptr), BOUGH_USAGE, "events: is NULL");
     refused(bough_simulation_bodies(h.simulation, nullptr), BOUGH_USAGE, "bodies: is NULL");
@@ -281,6 +287,9 @@ TEST_CASE("numbers out of range are refused with the number") {
     refused(blowing([](auto& w) { w.gust_factor = 0.5; }), BOUGH_USAGE, "gust_factor");
     refused(blowing([](auto& w) { w.gust_period = 0; }), BOUGH_USAGE, "gust_period");
 
+    for (const double seconds : {not_a_number, infinity, -1.0, 1e12}) // the last would run for a lifetime
+        refused(bough_settle(h.simulation, seconds), BOUGH_USAGE, "seconds: is ");
+    refused(bough_settle(h.simulation, 600.1), BOUGH_USAGE, "expected 0 to 600");
     bough_array a;
     refused(bough_read(h.simulation, bough_field(8), &a), BOUGH_USAGE, "field: is 8");
     refused(bough_read(h.simulation, BOUGH_VELOCITY, &a), BOUGH_USAGE, "settings.velocities");

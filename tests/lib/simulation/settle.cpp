@@ -99,6 +99,7 @@ TEST_CASE("only a run at its start settles") {
     Simulation fresh(one(leafy(), "gusty"), {});
     CHECK_THROWS_AS(fresh.settle(-1), SceneError);
     CHECK_THROWS_AS(fresh.settle(std::nan("")), SceneError);
+    CHECK_THROWS_AS(fresh.settle(1e12), SceneError); // a lifetime
     const std::uint64_t hash = fresh.hash();
     CHECK(fresh.settle(0).finite());
     CHECK(fresh.hash() == hash);

@@ -49,6 +49,7 @@ class CurveTree:
         self.places = Places(curve_object.matrix_world, unit)
         curve = curve_object.data
         thick = curve.bevel_depth if curve.bevel_depth > 0 else 1.0
+        self.sizes = [(spline.type, len(spline.bezier_points) or len(spline.points)) for spline in curve.splines]
         self.splines, self.rest = [], []  # numbers of the curve's own splines; their control points
         found = []
         for number, spline in enumerate(curve.splines):
@@ -67,6 +68,7 @@ class CurveTree:
         self.document, ordered = branches.document(found, self.name)
         number = {id(branch): k for k, branch in enumerate(ordered)}
         self.branch = [number[id(branch)] for branch in found]
+        self.shown = self.rest
         self.handle_types = [[(p.handle_left_type, p.handle_right_type) for p in curve.splines[k].bezier_points] for k in self.splines]
 
     def bind(self, run):
@@ -85,15 +87,26 @@ class CurveTree:
         return [part.reshape(rest.shape) for part, rest in zip(parts, self.rest)]
 
     def show(self, curve_object, shape):
-        curve = curve_object.data
+        if not self._as_begun(curve_object.data):
+            raise NotATree(f"{self.name}: its points are others than when it began to move; simulate it again")
         for number, points in zip(self.splines, shape):
-            spline = curve.splines[number]
-            if spline.type == "BEZIER":
-                for part, name in enumerate(("co", "handle_left", "handle_right")):
-                    spline.bezier_points.foreach_set(name, np.ascontiguousarray(points[:, part]).ravel())
-            else:
-                spline.points.foreach_set("co", self._with_weights(spline, points).ravel())
-        curve.update_tag()
+            self._set(curve_object.data.splines[number], points)
+        self.shown = shape
+        self._changed(curve_object)
+
+    def _as_begun(self, curve):
+        return self.sizes == [(spline.type, len(spline.bezier_points) or len(spline.points)) for spline in curve.splines]
+
+    def _set(self, spline, points):
+        if spline.type == "BEZIER":
+            for part, name in enumerate(("co", "handle_left", "handle_right")):
+                spline.bezier_points.foreach_set(name, np.ascontiguousarray(points[:, part]).ravel())
+        else:
+            spline.points.foreach_set("co", self._with_weights(spline, points).ravel())
+
+    @staticmethod
+    def _changed(curve_object):
+        curve_object.data.update_tag()
         curve_object.update_tag()
 
     @staticmethod
@@ -111,11 +124,25 @@ class CurveTree:
                 point.handle_left_type = point.handle_right_type = "FREE"
 
     def end(self, curve_object):
-        """As it was."""
+        """As it was; where points came or went meanwhile, each is taken back as the one is that was shown nearest to it."""
+        if not self._as_begun(curve_object.data):
+            self._take_back(curve_object)
+            return
         for number, types in zip(self.splines, self.handle_types):
             for point, (left, right) in zip(curve_object.data.splines[number].bezier_points, types):
                 point.handle_left_type, point.handle_right_type = left, right
         self.show(curve_object, self.rest)
+
+    def _take_back(self, curve_object):
+        shown = np.concatenate([points[:, 0] for points in self.shown])
+        way = np.concatenate([points[:, 0] for points in self.rest]) - shown
+        for spline in curve_object.data.splines:
+            points, _ = handles(spline)
+            nearest = [np.linalg.norm(shown - point, axis=1).argmin() for point in points[:, 0]]
+            self._set(spline, points + way[nearest][:, None])
+            for point in spline.bezier_points:  # that Blender would set by itself from here on
+                point.handle_left_type = point.handle_right_type = "ALIGNED"
+        self._changed(curve_object)
 
     def bake(self, curve_object, frames, shapes):
         """A shape key a frame, one after another by the curve's evaluation time."""

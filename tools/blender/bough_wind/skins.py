@@ -126,16 +126,20 @@ class SkinTree:
             bone.rotation_mode = "QUATERNION"
 
     def _pose(self, armature):
-        return [armature.pose.bones[name] for name in self.bones]
+        """The bones, in self.bones' order; None for one that is gone."""
+        return [armature.pose.bones.get(name) for name in self.bones]
 
     def show(self, armature, shape):
+        if None in self._pose(armature):
+            raise NotATree(f"{self.name}: has other bones than when it began to move; simulate it again")
         for bone, rotation in zip(self._pose(armature), shape):
             bone.rotation_quaternion = rotation
         armature.update_tag()
 
     def end(self, armature):
         for bone, (mode, quaternion, euler) in zip(self._pose(armature), self.modes or []):
-            bone.rotation_mode, bone.rotation_quaternion, bone.rotation_euler = mode, quaternion, euler
+            if bone is not None:
+                bone.rotation_mode, bone.rotation_quaternion, bone.rotation_euler = mode, quaternion, euler
         armature.update_tag()
 
     def bake(self, armature, frames, shapes):
