@@ -3,7 +3,7 @@ import { execFileSync } from 'node:child_process';
 import { createRequire } from 'node:module';
 import fs from 'node:fs';
 import path from 'node:path';
-import { change, closePage, drop, expect, messages, openPage, restarted, steps } from './browser.mjs';
+import { addressOf, change, closePage, drop, expect, messages, openPage, restarted, saved, small, steps } from './browser.mjs';
 
 const need = createRequire(path.join(process.env.BOUGH_NODE_MODULES, 'any.js'));
 
@@ -70,13 +70,6 @@ export async function broken_files_say_what_and_where({ browser, url, top }) {
     }
     expect((await steps(page, 2)).every(Number.isFinite), 'it no longer runs');
     await closePage(page);
-}
-
-async function saved(page, button, to) {
-    await page.evaluate(() => { [...document.querySelectorAll('details')].at(-1).open = true; });
-    const [download] = await Promise.all([page.waitForEvent('download', { timeout: 180000 }), page.click(button)]);
-    await download.saveAs(to);
-    return to;
 }
 
 export async function treesim_makes_the_same_motion({ browser, url, work, tools }) {

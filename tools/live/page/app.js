@@ -1,4 +1,5 @@
 // app.js: the page as a whole: its state, how it comes to the Worker, frame after frame.
+import { stateOfAddress } from './address.js';
 import { Bar } from './bar.js';
 import { youngMaple } from './builtins.js';
 import { Files } from './files.js';
@@ -7,15 +8,18 @@ import { Meters } from './meters.js';
 import { Panel } from './panel.js';
 import { Pointers } from './pointers.js';
 import { saveMotion, saveScene, updateAddress } from './save.js';
-import { copyOf, defaults, History, subtreeOf } from './state.js';
+import { copyOf, defaults, History, subtreeOf, withOtherTrees } from './state.js';
 import { View } from './view.js';
 
 const first = 'maple';
 const tooSlow = 12; // ms a step beyond which 60 frames a second have no room
 
 export class App {
-    constructor(client, known) {
+    // beside(): a promise of another Worker's client.
+    constructor(client, known, beside) {
         this.client = client;
+        this.beside = beside;
+        this.presets = known.presets;
         this.state = copyOf(defaults);
         this.thickest = 0.2; // m, radius
         this.paused = false;
@@ -32,23 +36,60 @@ export class App {
         this.frames = 0;
         addEventListener('resize', () => this.fit());
     }
-    async begin(state) {
-        const given = new URLSearchParams(location.search).has('open') ? await this.#given() : null;
-        const lost = state?.trees.find((source) => source.file && source.file !== youngMaple.file);
-        if (lost) problem(`The address names the file ${lost.name}, which it cannot hold: drop that file on the page. A built-in tree is shown.`);
-        if (state?.trees.some(({ file }) => file === youngMaple.file)) await this.files.needYoungMaple();
+    async begin() {
+        const given = new URLSearchParams(location.search).has('open') ? await this.#given() : [];
         this.fit();
-        this.state = state && !lost ? state : await this.files.builtin(first);
+        this.state = await this.#first(given);
         this.good = this.state;
         this.history = new History(this.state);
-        if (!await this.apply(true) && state) await this.open(first); // what an address says may not run
-        if (given) await this.files.open(given);
+        if (!await this.apply(true)) { // what an address or a file says may not run
+            await this.open(first);
+            this.history = new History(this.state);
+            this.#stand();
+        }
+        addEventListener('hashchange', () => this.#addressed());
         requestAnimationFrame((now) => this.frame(now));
     }
-    // The files that tools/live/live was started with.
+    // What is shown first: what the address holds, with the files that tools/live/live was started with where it names them; else those; else a built-in tree.
+    async #first(given) {
+        try {
+            const state = await stateOfAddress(location.hash);
+            if (state) return await this.#withFiles(state, given);
+        } catch (error) {
+            problem(`${error.message}. ${given.length > 0 ? 'What the page was started with' : 'A built-in tree'} is shown.`);
+        }
+        try {
+            if (given.length > 0) return await this.files.stateOf(given);
+        } catch (error) {
+            problem(error.message);
+        }
+        return this.files.builtin(first);
+    }
     async #given() {
-        const names = await (await fetch('open.json')).json();
-        return Promise.all(names.map(async ({ name, at }) => new File([await (await fetch(at)).arrayBuffer()], name)));
+        const answer = await fetch('open.json');
+        if (!answer.ok) return []; // another server's page, whose address says so
+        return Promise.all((await answer.json()).map(async ({ name, at }) => new File([await (await fetch(at)).arrayBuffer()], name)));
+    }
+    // An address's state, whose files the page has or was given.
+    async #withFiles(state, given = []) {
+        for (const { file, name } of state.trees) {
+            if (!file || this.files.known.has(file)) continue;
+            const found = given.find((one) => one.name === name);
+            if (file === youngMaple.file) await this.files.needYoungMaple();
+            else if (found) await this.files.add(file, name, await found.arrayBuffer());
+            else throw new Error(`The address names the file ${name}, which it cannot hold: drop that file on the page`);
+        }
+        return state;
+    }
+    // Another address, put where this one was.
+    async #addressed() {
+        try {
+            const state = await stateOfAddress(location.hash);
+            if (state && await this.opened(await this.#withFiles(state))) return;
+        } catch (error) {
+            problem(`${error.message}. The tree stays as it was.`);
+        }
+        updateAddress(this.state);
     }
     fit() {
         const panel = document.getElementById('panel').getBoundingClientRect();
@@ -62,6 +103,7 @@ export class App {
     change(edit, done) {
         const next = copyOf(this.state);
         edit(next);
+        if (JSON.stringify(next.wind) !== JSON.stringify(this.state.wind)) delete next.wind.blows; // there is air from now on
         this.state = next;
         this.apply(false).then((right) => {
             if (right && done) this.#remember();
@@ -74,11 +116,14 @@ export class App {
         unsay('slow');
         this.slow = 0;
     }
-    async opened(state) {
+    // again: another of the same kind, which the user goes on looking at.
+    async opened(state, again = false) {
         this.state = state;
         this.pick(null);
-        this.view.orbit.touched = false;
-        if (await this.apply(true)) this.#remember();
+        if (!again) this.view.orbit.touched = false;
+        const right = await this.apply(true);
+        if (right) this.#remember();
+        return right;
     }
     async open(name) {
         try {
@@ -88,7 +133,7 @@ export class App {
         }
     }
     grow(source) {
-        return this.opened({ ...copyOf(defaults), wind: { ...this.state.wind }, trees: [source], places: [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }] });
+        return this.opened(withOtherTrees(this.state, [source], [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }]), true);
     }
     async undo(redo = false) {
         const state = redo ? this.history.redo() : this.history.undo();
@@ -99,7 +144,7 @@ export class App {
     }
     // Where the history stands: what of it the Worker keeps, what can be undone, the address.
     #stand() {
-        this.client.ask('retain', this.history.sources());
+        this.client.ask('retain', this.history.sources()).then(({ gone }) => gone.forEach((id) => this.files.known.delete(id)));
         this.bar.show(this.history);
         updateAddress(this.state);
     }

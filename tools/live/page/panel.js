@@ -83,6 +83,8 @@ export class Panel {
                 ({ wind }) => wind.speed, ({ wind }, value) => { wind.speed = value; }),
             this.#bound({ label: 'Direction', unit: '°', min: 0, max: 360, help: 'towards which it blows, from +x about the vertical' },
                 ({ wind }) => wind.direction, ({ wind }, value) => { wind.direction = value; }),
+            this.#bound({ label: 'Rise', unit: 'm/s', min: -10, max: 10, allowed: [-60, 60], help: 'upward, as above a warm slope; below 0 downward' },
+                ({ wind }) => wind.rise, ({ wind }, value) => { wind.rise = value; }),
             this.#bound({ label: 'Turbulence', min: 0, max: 0.5, allowed: [0, 2], help: 'standard deviation over the mean' },
                 ({ wind }) => wind.turbulence, ({ wind }, value) => { wind.turbulence = value; }),
             this.#bound({ label: 'Gusts', unit: '×', min: 1, max: 3, allowed: [1, 10], help: 'a gust\'s peak over the mean' },

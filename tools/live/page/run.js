@@ -1,5 +1,5 @@
 // run.js: one run of the page's scene in the Worker: its trees, its scene document, its simulation, its mesh.
-import { sceneDocument, shapeOf, sourceKey } from './document.js';
+import { sceneDocument, shapeOf, sourceKey, windVector } from './document.js';
 import { Clock } from './clock.js';
 import { Estimate } from './estimate.js';
 import { Hands } from './hands.js';
@@ -68,9 +68,8 @@ export class Run {
         try {
             made.scene = this.#sceneOf(state, trees);
             if (change === 'wind') {
-                const { wind } = state, angle = wind.direction * Math.PI / 180;
-                library.call('set_wind', this.simulation, wind.speed * Math.cos(angle), 0, -wind.speed * Math.sin(angle),
-                    wind.turbulence, wind.gustFactor, wind.gustPeriod, wind.seed);
+                const { wind } = state;
+                library.call('set_wind', this.simulation, ...windVector(wind), wind.turbulence, wind.gustFactor, wind.gustPeriod, wind.seed);
             } else if (change === 'gravity') {
                 library.call('set_gravity', this.simulation, state.gravity);
             } else if (change === 'all') {
@@ -132,7 +131,9 @@ export class Run {
             this.trees.delete(key);
         }
         const files = new Set([...known, ...own].map((source) => (source.of ?? source).file));
-        for (const [id, { used }] of this.files) if (used && !files.has(id)) this.files.delete(id);
+        const gone = [...this.files].filter(([id, { used }]) => used && !files.has(id)).map(([id]) => id);
+        gone.forEach((id) => this.files.delete(id));
+        return { gone };
     }
 
     // Steps for so many seconds of the page's time, poses into the buffer, and what the meters show.
@@ -214,7 +215,7 @@ export class Run {
 // 'nothing', 'wind', 'gravity' or 'all': what is different of two states.
 function changed(before, after) {
     const rest = ({ wind, gravity, ...others }) => JSON.stringify(sceneDocument({ ...others, wind: {}, gravity: 0 })) +
-        JSON.stringify([others.trees, others.places, others.rate, others.precision]);
+        JSON.stringify([others.trees, others.places, others.rate, others.precision, wind.blows]);
     if (rest(before) !== rest(after)) return 'all';
     const wind = JSON.stringify(before.wind) !== JSON.stringify(after.wind), gravity = before.gravity !== after.gravity;
     return wind && gravity ? 'all' : wind ? 'wind' : gravity ? 'gravity' : 'nothing';

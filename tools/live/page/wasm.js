@@ -116,7 +116,7 @@ export class Library {
         return this.with(name, (at) => {
             this.call('wind_preset', at, this.scratch);
             const [speed, turbulence, gustFactor, gustPeriod] = this.doubles(this.scratch, 4);
-            return { speed, turbulence, gustFactor, gustPeriod };
+            return { speed, rise: 0, turbulence, gustFactor, gustPeriod };
         });
     }
     readTree(bytes, name, { material = '', segmentLength = 0, maxBodies = 0, unit = 0 }) {
