@@ -271,6 +271,7 @@ export class App {
         this.view.take(new Float32Array(answer.poses));
         if (answer.steps > 0) this.times.moved ??= performance.now();
         if (answer.hands?.length) document.getElementById('hint').classList.add('gone');
+        this.pointers.showForces(answer.hands ?? []);
         for (const hand of answer.lost ?? []) this.pointers.lost(hand);
         this.answer = { ...answer, poses: null };
         if (this.frameTime)
