@@ -178,6 +178,7 @@ export class App {
             try {
                 const { mesh, bodies, notes, begun } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
                 this.good = state;
+                this.halted = false;
                 this.bodies = bodies;
                 if (begun) this.pointers.letGoAll(); // the run has: its bodies are others, or begin at rest
                 if (mesh) this.#shown(mesh);
@@ -234,7 +235,7 @@ export class App {
         const start = performance.now(), passed = this.last === undefined ? 1 / 60 : (now - this.last) / 1000; // it moves in its first picture
         this.last = now;
         this.unasked = (this.unasked ?? 0) + passed;
-        if (!this.asking && this.bodies) this.#ask(now);
+        if (!this.asking && this.bodies && !this.halted) this.#ask(now);
         this.pointers.arrows();
         this.panel.dial.follow(this.view.orbit.azimuth);
         this.view.draw();
@@ -259,11 +260,16 @@ export class App {
         this.oneStep = false;
         this.asking = this.client.ask('frame', { seconds, single, buffer, targets: this.pointers.targets() }, [buffer])
             .then((answer) => this.#taken(answer, now))
-            .catch((error) => {
-                problem(`${error.message}. It stands still; Restart begins again.`);
-                this.bar.toggle(true);
-            })
+            .catch((error) => this.#halt(error))
             .finally(() => { this.asking = null; });
+    }
+    // A step failed: none is asked for until what is applied runs. Behind what the library did not expect its memory is not to be trusted.
+    #halt(error) {
+        this.halted = true;
+        this.bar.toggle(true);
+        if (error.known) return problem(`${error.message}. It stands still; Restart begins again.`);
+        console.error(error.inWorker ?? error);
+        say(`The library failed: ${error.message}. It stands still.`, { key: 'halted', error: true, actions: [['Load the page again', () => location.reload()]] });
     }
     #taken(answer, now) {
         const started = performance.now();
@@ -297,14 +303,22 @@ export class App {
         const kept = this.state.trees.some((source) => source.kept);
         if (!fits) return problem('The scene is too long for an address; "Scene for treesim" saves all of it.');
         if (file) return problem('The address cannot hold a file that was dropped, only its name; "Scene for treesim" saves all of it.');
-        await navigator.clipboard?.writeText(location.href).catch(() => {});
-        say(`The address holds the scene (${location.href.length} characters)${kept ? ', but for the pose that was kept' : ''}; it is copied.`);
+        const holds = `The address holds the scene (${location.href.length} characters)${kept ? ', but for the pose that was kept' : ''}`;
+        try {
+            await navigator.clipboard.writeText(location.href); // which a page has not that came by plain http
+            say(`${holds}; it is copied.`);
+        } catch {
+            say(`${holds}. The browser lets this page copy nothing: take it from here.`, { key: 'address', text: location.href });
+        }
     }
     async saveScene() {
         await busy('Writing the trees …', () => saveScene(this)).catch((error) => problem(error.message));
     }
     async saveMotion(seconds, loop) {
-        await busy(loop ? 'Running it until it repeats …' : 'Running and writing it …', () => saveMotion(this, { seconds, loop }))
-            .then((bytes) => say(`${(bytes / 1e6).toFixed(1)} MB written.`)).catch((error) => problem(error.message));
+        if (this.saving) return say('A motion is being written.');
+        this.saving = saveMotion(this, { seconds, loop })
+            .then((bytes) => bytes !== null && say(`${(bytes / 1e6).toFixed(1)} MB written.`)).catch((error) => problem(error.message))
+            .finally(() => { this.saving = null; });
+        return this.saving;
     }
 }
