@@ -131,3 +131,31 @@ export async function glb_that_the_validator_passes({ browser, url, work }) {
     }
     await closePage(page);
 }
+
+// What is shown goes on while a motion is written, which can be given up.
+export async function a_motion_is_written_beside_the_run({ browser, url, work }) {
+    const page = await openPage(browser, addressOf(url, small));
+    await page.evaluate(() => { for (const one of document.querySelectorAll('details')) one.open = true; });
+    const length = page.locator('input[aria-label="Length, number"]');
+    await length.fill('60');
+    await length.press('Enter');
+    await page.click('#save-glb');
+    await page.waitForFunction(() => /^Motion: [1-9][0-9]* %/.test(document.querySelector('.message')?.textContent), null, { timeout: 120000 });
+    const time = await page.evaluate(() => bough.answer.time);
+    await page.waitForFunction((time) => bough.answer.time > time, time, { timeout: 20000 });
+    expect(/^Motion: [0-9]+ %/.test(await page.textContent('.message')), 'the run went on only behind what is written');
+    await page.click('.message button:has-text("Cancel")');
+    await page.waitForFunction(() => !bough.saving && document.querySelectorAll('.message').length === 0, null, { timeout: 20000 });
+    // A pose that was kept, on a file's own mesh.
+    await page.evaluate(() => bough.open('young_maple'));
+    await page.evaluate(async () => {
+        await bough.keep();
+        while (bough.applying) await bough.applying;
+    });
+    await length.fill('0.5');
+    await length.press('Enter');
+    const file = await saved(page, '#save-glb', path.join(work, 'kept.glb'));
+    const report = await need('gltf-validator').validateBytes(new Uint8Array(fs.readFileSync(file)));
+    expect(report.issues.numErrors === 0 && report.info.totalVertexCount > 3000, `a kept pose: ${JSON.stringify(report.info)}`);
+    await closePage(page);
+}

@@ -23,6 +23,13 @@ export function say(said, { error = false, key = said, actions = [], text = null
 
 export const problem = (text) => say(text, { error: true });
 
+// What goes on, until it ends or is given up.
+export function progress(text, giveUp) {
+    const made = say(text, { key: 'progress', actions: [['Cancel', giveUp]] });
+    const words = made.firstChild.firstChild;
+    return { say: (now) => { if (words.textContent !== now) words.textContent = now; }, end: () => made.remove() };
+}
+
 export function unsay(key) {
     for (const old of [...area().children]) if (old.dataset.key === key) old.remove();
 }

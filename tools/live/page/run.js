@@ -196,6 +196,18 @@ export class Run {
         });
     }
 
+    // What another Worker needs to have the same trees: files, and poses that were kept as documents.
+    sources() {
+        const { trees } = this.state, ids = new Set(trees.map((source) => (source.of ?? source).file).filter((id) => id));
+        return {
+            files: [...ids].map((id) => ({ id, name: this.files.get(id).name, bytes: this.files.get(id).bytes.slice().buffer })),
+            posed: trees.filter(({ kept }) => kept).map((source) => ({ source, bytes: this.library.taken('tree_document', this.tree(source).tree) })),
+        };
+    }
+    addPosed(source, bytes) {
+        this.trees.set(sourceKey(source), this.library.readTree(bytes, 'pose', {}));
+    }
+
     // Each tree as a document, in safetensors.
     documents() {
         const all = this.state.trees.map((source) => this.library.taken('tree_document', this.tree(source).tree));

@@ -5,8 +5,9 @@ import createModule from 'bough-module';
 export class LibraryError extends Error {}
 
 export class Library {
-    static async open(wasmBinary) {
-        const module = await createModule({ wasmBinary, printErr: (text) => console.error(text) });
+    // progress(done, of): how far a motion is that is written.
+    static async open(wasmBinary, progress) {
+        const module = await createModule({ wasmBinary, progress, printErr: (text) => console.error(text) });
         return new Library(module);
     }
     constructor(module) {
