@@ -8,7 +8,7 @@ import { Meters } from './meters.js';
 import { Panel } from './panel.js';
 import { Pointers } from './pointers.js';
 import { saveMotion, saveScene, updateAddress } from './save.js';
-import { copyOf, defaults, History, subtreeOf, withOtherTrees } from './state.js';
+import { copyOf, defaults, fewer, History, subtreeOf, withOtherTrees } from './state.js';
 import { View } from './view.js';
 
 const first = 'maple';
@@ -176,10 +176,10 @@ export class App {
             const { restart } = this.wanted, state = copyOf(this.state);
             this.wanted = null;
             try {
-                const { mesh, bodies, notes, begun } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
+                const { mesh, bodies, notes, begun, cuttable } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
                 this.good = state;
                 this.halted = false;
-                this.bodies = bodies;
+                Object.assign(this, { bodies, cuttable });
                 if (begun) this.pointers.letGoAll(); // the run has: its bodies are others, or begin at rest
                 if (mesh) this.#shown(mesh);
                 if (mesh) this.panel.showNotes(notes);
@@ -289,9 +289,10 @@ export class App {
     #watch(ms) {
         this.slow = ms > Math.min(tooSlow, 800 / this.state.rate) ? (this.slow ?? 0) + 1 : 0;
         if (this.slow !== 90) return;
-        const species = this.state.trees.length === 1 && (this.state.trees[0].of ?? this.state.trees[0]);
+        const alone = this.state.trees.length === 1 && (this.state.trees[0].of ?? this.state.trees[0]);
         const actions = [['Move only thicker wood', () => this.change((state) => { state.least = Math.max(2 * state.least, 0.02 * this.thickest); }, true)]];
-        if (species?.species) actions.unshift(['Half the bodies', () => this.grow({ ...species, bodies: Math.round(species.bodies / 2) })]);
+        if (alone?.species) actions.unshift(['Half the bodies', () => this.grow({ ...alone, bodies: Math.round(alone.bodies / 2) })]);
+        else if (this.cuttable) actions.unshift(['Half the bodies', () => this.opened(fewer(this.state, Math.round(this.bodies / 2)), true)]);
         if (this.state.rate > 30) actions.push(['30 steps a second', () => this.change((state) => { state.rate = 30; }, true)]);
         say(`A step of these ${this.bodies.toLocaleString('en')} bodies takes ${ms.toFixed(1)} ms: too long for ${this.state.rate} a second. It moves slower than real.`,
             { key: 'slow', error: true, actions });

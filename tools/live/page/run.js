@@ -38,6 +38,7 @@ export class Run {
             if (!file) throw new Error(`${source.name}: is not here; drop the file on the page again`);
             file.used = true;
             made = { ...this.library.readTree(file.bytes, file.name, source), used: true };
+            made.cuttable = made.notes.length > 0; // a curve's file says what it is, and is cut to bodies here; a tree document has its own
         }
         this.trees.set(key, made);
         return made;
@@ -57,7 +58,7 @@ export class Run {
         if (change === 'all' || drawn) this.library.call('take_poses', this.mesh, this.simulation, 0);
         const mesh = drawn ? this.#shown() : null;
         return {
-            notes, mesh, begun: restart || others,
+            notes, mesh, begun: restart || others, cuttable: trees.length > 0 && trees.every((tree) => tree.cuttable),
             bodies: this.bodies.count,
             transfer: mesh ? [mesh.vertex.buffer, mesh.color.buffer, mesh.index.buffer] : [],
         };
