@@ -23,9 +23,14 @@ export class Bar {
             this.play, signed('Step', '▸❘', () => app.single(), { id: 'single', title: 'One step (.)' }), this.speed,
             signed('Restart', '⟲', () => app.restart(), { id: 'restart', title: 'From the start (R)' }),
             this.back, this.forth, signed('Keep pose', 'Keep', () => app.keep(), { id: 'keep', title: 'As it stands now, the tree is at rest (K)' }), sheet);
-        addEventListener('keydown', (event) => this.key(event));
-        addEventListener('click', ({ target, detail }) => { // one that the mouse has ticked is done with: space is the run's again
-            if (detail > 0 && target.matches('input[type=checkbox]')) target.blur();
+        let pointed = false;
+        addEventListener('pointerdown', () => { pointed = true; }, true);
+        addEventListener('keydown', (event) => {
+            pointed = false;
+            this.key(event);
+        });
+        addEventListener('click', ({ target }) => { // a box that the mouse has ticked is done with: space is the run's again
+            if (pointed && target.matches('input[type=checkbox]')) target.blur();
         });
     }
     toggle(paused = !this.app.paused) {
