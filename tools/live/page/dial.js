@@ -11,7 +11,9 @@ export class Dial {
         this.line = svg('line', { class: 'wind', x1: 0, y1: 0 });
         this.tip = svg('circle', { class: 'tip', r: 7 });
         const rings = [5, 10, 15, 20].map((speed) => svg('circle', { class: 'ring', r: radius * speed / fastest }));
-        this.picture = svg('svg', { class: 'dial', viewBox: '-54 -54 108 108', tabindex: 0, role: 'slider', 'aria-label': 'Wind: direction and speed', 'aria-valuemin': 0, 'aria-valuemax': fastest },
+        this.picture = svg('svg', {
+            class: 'dial', viewBox: '-54 -54 108 108', tabindex: 0, role: 'slider', 'aria-label': 'Wind: direction and speed', 'aria-valuemin': 0, 'aria-valuemax': fastest,
+        },
             svg('circle', { class: 'rim', r: radius }), ...rings, this.line, this.tip);
         const take = (event, done) => {
             const box = this.picture.getBoundingClientRect();

@@ -5,7 +5,7 @@ export const defaults = {
     places: [], // {tree: number in trees, position [m], yaw [deg], start [s]}
     base: {}, // fields of a scene document that the page has no controls for
     ownMesh: true, // a file's own mesh is shown where it has one
-    wind: { speed: 4, direction: 0, rise: 0, turbulence: 0.15, gustFactor: 1.4, gustPeriod: 6, seed: 1 }, // m/s, deg from +x about the vertical, m/s upward; blows: false where there is no air
+    wind: { speed: 4, direction: 0, rise: 0, turbulence: 0.15, gustFactor: 1.4, gustPeriod: 6, seed: 1 }, // m/s, deg from +x about the vertical, m/s upward; blows: false without air
     gravity: 9.81, // m/s^2
     drawnGravity: 9.81, // under which the drawn trees stand at rest
     stiffness: 1, damping: 1, // times the wood's own

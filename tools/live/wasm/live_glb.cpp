@@ -31,7 +31,7 @@ void step_on(Simulation& run, int steps) {
 
 // To the page, which may show it: frames so far, and of how many (0: until it repeats).
 void tell(std::int64_t done, std::int64_t of) {
-    EM_ASM({ if (Module['progress']) Module['progress']($0, $1); }, double(done), double(of));
+    EM_ASM({ Module.progress($0, $1); }, double(done), double(of));
 }
 
 struct Asked {
