@@ -1,6 +1,7 @@
 // browser.mjs: the page in a real Chromium, as the tests use it.
 import { createRequire } from 'node:module';
 import path from 'node:path';
+import { deflateRawSync } from 'node:zlib';
 
 const { chromium } = createRequire(path.join(process.env.BOUGH_NODE_MODULES, 'any.js'))('playwright-core');
 
@@ -38,6 +39,21 @@ export async function openPage(browser, url, { size = [1280, 800], touch = false
 export async function closePage(page) {
     await page.context().close();
     expect(page.errors.length === 0, `the console says: ${page.errors.slice(0, 3).join(' | ')}`);
+}
+
+// A tree that is there at once, and an address that holds a state, or what of it is not the page's own.
+export const small = {
+    trees: [{ species: 'apple', age: 4, bodies: 200, seed: 1, leaves: false, petals: false, fruit: false }],
+    places: [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }],
+};
+export const addressOf = (url, state) => `${url}#s=${deflateRawSync(JSON.stringify(state)).toString('base64url')}`;
+
+// What a button of the panel's last part has the browser save.
+export async function saved(page, button, to) {
+    await page.evaluate(() => { [...document.querySelectorAll('details')].at(-1).open = true; });
+    const [download] = await Promise.all([page.waitForEvent('download', { timeout: 180000 }), page.click(button)]);
+    await download.saveAs(to);
+    return to;
 }
 
 // The page stands still, and takes single steps as they are asked for.

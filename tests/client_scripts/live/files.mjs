@@ -3,7 +3,7 @@ import { execFileSync } from 'node:child_process';
 import { createRequire } from 'node:module';
 import fs from 'node:fs';
 import path from 'node:path';
-import { change, closePage, drop, expect, messages, openPage, restarted, steps } from './browser.mjs';
+import { addressOf, change, closePage, drop, expect, messages, openPage, restarted, saved, small, steps } from './browser.mjs';
 
 const need = createRequire(path.join(process.env.BOUGH_NODE_MODULES, 'any.js'));
 
@@ -72,13 +72,6 @@ export async function broken_files_say_what_and_where({ browser, url, top }) {
     await closePage(page);
 }
 
-async function saved(page, button, to) {
-    await page.evaluate(() => { [...document.querySelectorAll('details')].at(-1).open = true; });
-    const [download] = await Promise.all([page.waitForEvent('download', { timeout: 180000 }), page.click(button)]);
-    await download.saveAs(to);
-    return to;
-}
-
 export async function treesim_makes_the_same_motion({ browser, url, work, tools }) {
     const page = await openPage(browser, url);
     await sameMotion(page, 'the first scene', { work, tools, perFrame: 2, precision: 'float' }); // 60 steps a second
@@ -136,5 +129,33 @@ export async function glb_that_the_validator_passes({ browser, url, work }) {
         expect(report.issues.numErrors === 0, `${name}: ${JSON.stringify(report.issues.messages.slice(0, 3))}`);
         expect(report.info.animationCount === 1 && report.info.totalVertexCount > 1000, `${name}: ${JSON.stringify(report.info)}`);
     }
+    await closePage(page);
+}
+
+// What is shown goes on while a motion is written, which can be given up.
+export async function a_motion_is_written_beside_the_run({ browser, url, work }) {
+    const page = await openPage(browser, addressOf(url, small));
+    await page.evaluate(() => { for (const one of document.querySelectorAll('details')) one.open = true; });
+    const length = page.locator('input[aria-label="Length, number"]');
+    await length.fill('60');
+    await length.press('Enter');
+    await page.click('#save-glb');
+    await page.waitForFunction(() => /^Motion: [1-9][0-9]* %/.test(document.querySelector('.message')?.textContent), null, { timeout: 120000 });
+    const time = await page.evaluate(() => bough.answer.time);
+    await page.waitForFunction((time) => bough.answer.time > time, time, { timeout: 20000 });
+    expect(/^Motion: [0-9]+ %/.test(await page.textContent('.message')), 'the run went on only behind what is written');
+    await page.click('.message button:has-text("Cancel")');
+    await page.waitForFunction(() => !bough.saving && document.querySelectorAll('.message').length === 0, null, { timeout: 20000 });
+    // A pose that was kept, on a file's own mesh.
+    await page.evaluate(() => bough.open('young_maple'));
+    await page.evaluate(async () => {
+        await bough.keep();
+        while (bough.applying) await bough.applying;
+    });
+    await length.fill('0.5');
+    await length.press('Enter');
+    const file = await saved(page, '#save-glb', path.join(work, 'kept.glb'));
+    const report = await need('gltf-validator').validateBytes(new Uint8Array(fs.readFileSync(file)));
+    expect(report.issues.numErrors === 0 && report.info.totalVertexCount > 3000, `a kept pose: ${JSON.stringify(report.info)}`);
     await closePage(page);
 }

@@ -1,4 +1,4 @@
-// measures.mjs: sizes and times. Times are printed, and decide nothing: they are the machine's.
+// measures.mjs: sizes and times. A step's time is printed, and decides nothing: it is the machine's. JavaScript's beside it is small on any.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -6,6 +6,8 @@ import { gzipSync } from 'node:zlib';
 import { closePage, expect, openPage, steps, still } from './browser.mjs';
 
 const most = 1.43e6; // bytes, gzipped: what it has, rounded up; 1.5 MB is the promise
+
+const scriptMost = 5 * 2; // ms of a frame: five times what it may have, as others work on the machine that tests
 
 export async function the_page_is_small({ folder }) {
     const names = ['index.html', 'style.css', 'page.js', 'worker.js', 'bough.wasm'];
@@ -39,8 +41,22 @@ export async function what_a_step_costs({ browser, url, work, tools }) {
             script.push(bough.script + (bough.taking ?? 0));
         }
         script.sort((a, b) => a - b);
-        return { ms: sum / count, script: script[15], bodies: bough.bodies };
+        // What a frame copies: one buffer of poses goes to the Worker and comes back, and no other is made.
+        const own = ArrayBuffer, { worker } = bough.client, post = worker.postMessage;
+        let made = 0, frames = 0;
+        const moved = new Set();
+        globalThis.ArrayBuffer = new Proxy(own, { construct(of, given) { ++made; return new of(...given); } });
+        worker.postMessage = function (message, transfer) {
+            if (message[1] === 'frame') ++frames, moved.add(transfer.reduce((bytes, one) => bytes + one.byteLength, 0));
+            return post.call(worker, message, transfer);
+        };
+        while (frames < 30) await new Promise((done) => requestAnimationFrame(done));
+        globalThis.ArrayBuffer = own;
+        worker.postMessage = post;
+        return { ms: sum / count, script: script[15], bodies: bough.bodies, made, moved: [...moved] };
     });
+    expect(cost.made === 0 && cost.moved.join() === String(32 * cost.bodies), `in 30 frames ${cost.made} buffers were made; each moves ${cost.moved} bytes of ${32 * cost.bodies}`);
+    expect(cost.script < scriptMost, `JavaScript takes ${cost.script} ms of a frame, expected less than ${scriptMost}`);
     execFileSync('bash', ['-c', 'treegen --species maple --age 22 --bodies 10000 --seed 3 --leaves -q | treeconvert - -q -o maple.safetensors'],
         { cwd: work, env: { ...process.env, PATH: `${tools}:${process.env.PATH}` } });
     const profile = () => {

@@ -1,6 +1,8 @@
 // promises.mjs: what the page comes with, what it says of itself, what it does without a network, and where it has no time.
+import fs from 'node:fs';
+import path from 'node:path';
 import { calm } from './basics.mjs';
-import { change, closePage, expect, messages, openPage, restarted, steps, still } from './browser.mjs';
+import { addressOf, change, closePage, drop, expect, messages, openPage, restarted, small, steps, still } from './browser.mjs';
 
 // Each tree of a list, as it stands: its bodies' relative turns are left out, its places compared.
 const farthest = (a, b) => Math.max(...a.map((value, k) => Math.abs(value - b[k])));
@@ -115,6 +117,26 @@ export async function what_is_too_large_says_so({ browser, url }) {
     expect(['Half the bodies', 'Move only thicker wood', '30 steps a second'].every((offer) => offers.includes(offer)), `it offers ${offers}`);
     await page.click('.message.error .buttons button:has-text("Half the bodies")');
     await page.waitForFunction((before) => !bough.applying && bough.bodies < 0.6 * before, before, { timeout: 60000 });
+    await closePage(page);
+}
+
+export async function a_file_that_is_too_large_is_offered_with_fewer_bodies({ browser, url, top }) {
+    const page = await openPage(browser, addressOf(url, small));
+    await drop(page, [['maple.xml', fs.readFileSync(path.join(top, 'data/young_maple.xml'))]]);
+    const before = await page.evaluate(() => bough.bodies);
+    await page.evaluate(() => { // as where each step took too long
+        const { ask } = bough.client;
+        bough.client.ask = async function (name, ...others) {
+            const answer = await ask.call(this, name, ...others);
+            return name === 'frame' ? { ...answer, ms: 100, steps: 1 } : answer;
+        };
+    });
+    await page.evaluate(() => { bough.slow = 89; });
+    const offer = page.locator('.message.error .buttons button:has-text("Half the bodies")');
+    await offer.waitFor({ timeout: 60000 });
+    await offer.click();
+    await page.waitForFunction((before) => !bough.applying && bough.bodies < 0.8 * before, before, { timeout: 60000 });
+    expect(await page.evaluate(() => bough.state.trees[0].name) === 'maple.xml', 'another tree is shown');
     await closePage(page);
 }
 

@@ -3,7 +3,9 @@ import path from 'node:path';
 import * as basics from './basics.mjs';
 import { openBrowser } from './browser.mjs';
 import * as files from './files.mjs';
+import * as gestures from './gestures.mjs';
 import * as measures from './measures.mjs';
+import * as opening from './opening.mjs';
 import * as promises from './promises.mjs';
 import * as scenes from './scenes.mjs';
 import * as sizes from './sizes.mjs';
@@ -11,7 +13,7 @@ import * as stress from './stress.mjs';
 
 const { BOUGH_LIVE_URL: url, BOUGH_LIVE_PAGE: folder, BOUGH_TOP: top, BOUGH_WORK: work, BOUGH_TOOLS: tools } = process.env;
 const { calm: _, ...of_basics } = basics;
-const tests = { ...of_basics, ...scenes, ...promises, ...files, ...stress, ...sizes, ...measures };
+const tests = { ...of_basics, ...scenes, ...promises, ...opening, ...gestures, ...files, ...stress, ...sizes, ...measures };
 const sets = { one: ['opens_and_moves'], short: ['opens_and_moves', 'pulled_by_mouse'], all: Object.keys(tests) };
 const asked = process.argv.slice(2);
 const names = sets[asked[0] ?? 'all'] ?? asked;

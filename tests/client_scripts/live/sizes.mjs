@@ -1,9 +1,9 @@
-// sizes.mjs: the page on a phone, a tablet and a desktop: nothing of it is cut off or covered, and the tree stands whole in what is left. Pictures of
+// sizes.mjs: the page on a phone, a tablet, a laptop and a desktop: nothing of it is cut off or covered, and the tree stands whole in what is left. Pictures of
 // each go to the tests' folder (size_*.png), to be looked at.
 import path from 'node:path';
 import { closePage, expect, openPage } from './browser.mjs';
 
-const sizes = { phone: [[390, 844], true], tablet: [[1024, 768], true], desktop: [[1920, 1080], false] };
+const sizes = { phone: [[390, 844], true], tablet: [[1024, 768], true], laptop: [[1280, 800], false], desktop: [[1920, 1080], false] };
 
 // What is wrong with what stands where: texts, one each.
 async function faults(page) {

@@ -13,7 +13,7 @@ const sizes = [[1280, 800], [390, 844], [1024, 768], [1920, 1080], [320, 480], [
 // What the page may say of what is done here: files that are broken, wood that broke, and what is too slow for this machine.
 const expected = [/half\.xml/, /empty\.json/, /picture\.png/, /A step of these/, /broke(n)? (off|in this run)/, /joints broke/, /too long for an address/,
     /shadows are off/, /What was held/, /pose cannot be kept/, /too soft to carry its weight/, /nothing is left that moves/, /stands beside/,
-    /address (holds the scene|cannot hold a file|names the file)/, /at rest as it stands/, /MB written/];
+    /address (holds the scene|cannot hold a file|names the file)/, /at rest as it stands/, /MB written/, /^Motion: /, /A motion is being written/];
 
 function mulberry(state) { // uniform in [0, 1)
     return () => {

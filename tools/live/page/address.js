@@ -31,14 +31,14 @@ export async function stateOfAddress(hash) {
         const bytes = Uint8Array.from(atob(hash.slice(3).replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
         own = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
     } catch {
-        throw new Error('the address holds no scene that can be read (it was cut off, or changed); a built-in tree is shown');
+        throw new Error('The address holds no scene that can be read (it was cut off, or changed)');
     }
     const unknown = Object.keys(own).filter((key) => !(key in defaults));
-    if (unknown.length > 0) throw new Error(`the address holds "${unknown[0]}", which this page does not know; a built-in tree is shown`);
-    const state = { ...structuredClone(defaults), ...own };
+    if (unknown.length > 0) throw new Error(`The address holds "${unknown[0]}", which this page does not know`);
+    const state = { ...structuredClone(defaults), ...own, wind: { ...defaults.wind, ...own.wind } };
     const whole = Array.isArray(state.trees) && Array.isArray(state.places) && state.places.length > 0 &&
         state.places.every(({ tree, position }) => state.trees[tree] && Array.isArray(position) && position.every(isNumber)) &&
         ['gravity', 'stiffness', 'damping', 'strength', 'least', 'rate'].every((key) => isNumber(state[key]));
-    if (!whole) throw new Error('the address holds a scene without trees, or with something that is no number; a built-in tree is shown');
+    if (!whole) throw new Error('The address holds a scene without trees, or with something that is no number');
     return state;
 }

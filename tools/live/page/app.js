@@ -1,4 +1,5 @@
 // app.js: the page as a whole: its state, how it comes to the Worker, frame after frame.
+import { stateOfAddress } from './address.js';
 import { Bar } from './bar.js';
 import { youngMaple } from './builtins.js';
 import { Files } from './files.js';
@@ -7,15 +8,18 @@ import { Meters } from './meters.js';
 import { Panel } from './panel.js';
 import { Pointers } from './pointers.js';
 import { saveMotion, saveScene, updateAddress } from './save.js';
-import { copyOf, defaults, History, subtreeOf } from './state.js';
+import { copyOf, defaults, fewer, History, subtreeOf, withOtherTrees } from './state.js';
 import { View } from './view.js';
 
 const first = 'maple';
 const tooSlow = 12; // ms a step beyond which 60 frames a second have no room
 
 export class App {
-    constructor(client, known) {
+    // beside(): a promise of another Worker's client.
+    constructor(client, known, beside) {
         this.client = client;
+        this.beside = beside;
+        this.presets = known.presets;
         this.state = copyOf(defaults);
         this.thickest = 0.2; // m, radius
         this.paused = false;
@@ -32,23 +36,60 @@ export class App {
         this.frames = 0;
         addEventListener('resize', () => this.fit());
     }
-    async begin(state) {
-        const given = new URLSearchParams(location.search).has('open') ? await this.#given() : null;
-        const lost = state?.trees.find((source) => source.file && source.file !== youngMaple.file);
-        if (lost) problem(`The address names the file ${lost.name}, which it cannot hold: drop that file on the page. A built-in tree is shown.`);
-        if (state?.trees.some(({ file }) => file === youngMaple.file)) await this.files.needYoungMaple();
+    async begin() {
+        const given = new URLSearchParams(location.search).has('open') ? await this.#given() : [];
         this.fit();
-        this.state = state && !lost ? state : await this.files.builtin(first);
+        this.state = await this.#first(given);
         this.good = this.state;
         this.history = new History(this.state);
-        if (!await this.apply(true) && state) await this.open(first); // what an address says may not run
-        if (given) await this.files.open(given);
+        if (!await this.apply(true)) { // what an address or a file says may not run
+            await this.open(first);
+            this.history = new History(this.state);
+            this.#stand();
+        }
+        addEventListener('hashchange', () => this.#addressed());
         requestAnimationFrame((now) => this.frame(now));
     }
-    // The files that tools/live/live was started with.
+    // What is shown first: what the address holds, with the files that tools/live/live was started with where it names them; else those; else a built-in tree.
+    async #first(given) {
+        try {
+            const state = await stateOfAddress(location.hash);
+            if (state) return await this.#withFiles(state, given);
+        } catch (error) {
+            problem(`${error.message}. ${given.length > 0 ? 'What the page was started with' : 'A built-in tree'} is shown.`);
+        }
+        try {
+            if (given.length > 0) return await this.files.stateOf(given);
+        } catch (error) {
+            problem(error.message);
+        }
+        return this.files.builtin(first);
+    }
     async #given() {
-        const names = await (await fetch('open.json')).json();
-        return Promise.all(names.map(async ({ name, at }) => new File([await (await fetch(at)).arrayBuffer()], name)));
+        const answer = await fetch('open.json');
+        if (!answer.ok) return []; // another server's page, whose address says so
+        return Promise.all((await answer.json()).map(async ({ name, at }) => new File([await (await fetch(at)).arrayBuffer()], name)));
+    }
+    // An address's state, whose files the page has or was given.
+    async #withFiles(state, given = []) {
+        for (const { file, name } of state.trees) {
+            if (!file || this.files.known.has(file)) continue;
+            const found = given.find((one) => one.name === name);
+            if (file === youngMaple.file) await this.files.needYoungMaple();
+            else if (found) await this.files.add(file, name, await found.arrayBuffer());
+            else throw new Error(`The address names the file ${name}, which it cannot hold: drop that file on the page`);
+        }
+        return state;
+    }
+    // Another address, put where this one was.
+    async #addressed() {
+        try {
+            const state = await stateOfAddress(location.hash);
+            if (state && await this.opened(await this.#withFiles(state))) return;
+        } catch (error) {
+            problem(`${error.message}. The tree stays as it was.`);
+        }
+        updateAddress(this.state);
     }
     fit() {
         const panel = document.getElementById('panel').getBoundingClientRect();
@@ -62,6 +103,7 @@ export class App {
     change(edit, done) {
         const next = copyOf(this.state);
         edit(next);
+        if (JSON.stringify(next.wind) !== JSON.stringify(this.state.wind)) delete next.wind.blows; // there is air from now on
         this.state = next;
         this.apply(false).then((right) => {
             if (right && done) this.#remember();
@@ -74,11 +116,14 @@ export class App {
         unsay('slow');
         this.slow = 0;
     }
-    async opened(state) {
+    // again: another of the same kind, which the user goes on looking at.
+    async opened(state, again = false) {
         this.state = state;
         this.pick(null);
-        this.view.orbit.touched = false;
-        if (await this.apply(true)) this.#remember();
+        if (!again) this.view.orbit.touched = false;
+        const right = await this.apply(true);
+        if (right) this.#remember();
+        return right;
     }
     async open(name) {
         try {
@@ -88,7 +133,7 @@ export class App {
         }
     }
     grow(source) {
-        return this.opened({ ...copyOf(defaults), wind: { ...this.state.wind }, trees: [source], places: [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }] });
+        return this.opened(withOtherTrees(this.state, [source], [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }]), true);
     }
     async undo(redo = false) {
         const state = redo ? this.history.redo() : this.history.undo();
@@ -99,7 +144,7 @@ export class App {
     }
     // Where the history stands: what of it the Worker keeps, what can be undone, the address.
     #stand() {
-        this.client.ask('retain', this.history.sources());
+        this.client.ask('retain', this.history.sources()).then(({ gone }) => gone.forEach((id) => this.files.known.delete(id)));
         this.bar.show(this.history);
         updateAddress(this.state);
     }
@@ -131,9 +176,10 @@ export class App {
             const { restart } = this.wanted, state = copyOf(this.state);
             this.wanted = null;
             try {
-                const { mesh, bodies, notes, begun } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
+                const { mesh, bodies, notes, begun, cuttable } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
                 this.good = state;
-                this.bodies = bodies;
+                this.halted = false;
+                Object.assign(this, { bodies, cuttable });
                 if (begun) this.pointers.letGoAll(); // the run has: its bodies are others, or begin at rest
                 if (mesh) this.#shown(mesh);
                 if (mesh) this.panel.showNotes(notes);
@@ -189,7 +235,7 @@ export class App {
         const start = performance.now(), passed = this.last === undefined ? 1 / 60 : (now - this.last) / 1000; // it moves in its first picture
         this.last = now;
         this.unasked = (this.unasked ?? 0) + passed;
-        if (!this.asking && this.bodies) this.#ask(now);
+        if (!this.asking && this.bodies && !this.halted) this.#ask(now);
         this.pointers.arrows();
         this.panel.dial.follow(this.view.orbit.azimuth);
         this.view.draw();
@@ -214,11 +260,16 @@ export class App {
         this.oneStep = false;
         this.asking = this.client.ask('frame', { seconds, single, buffer, targets: this.pointers.targets() }, [buffer])
             .then((answer) => this.#taken(answer, now))
-            .catch((error) => {
-                problem(`${error.message}. It stands still; Restart begins again.`);
-                this.bar.toggle(true);
-            })
+            .catch((error) => this.#halt(error))
             .finally(() => { this.asking = null; });
+    }
+    // A step failed: none is asked for until what is applied runs. Behind what the library did not expect its memory is not to be trusted.
+    #halt(error) {
+        this.halted = true;
+        this.bar.toggle(true);
+        if (error.known) return problem(`${error.message}. It stands still; Restart begins again.`);
+        console.error(error.inWorker ?? error);
+        say(`The library failed: ${error.message}. It stands still.`, { key: 'halted', error: true, actions: [['Load the page again', () => location.reload()]] });
     }
     #taken(answer, now) {
         const started = performance.now();
@@ -226,6 +277,7 @@ export class App {
         this.view.take(new Float32Array(answer.poses));
         if (answer.steps > 0) this.times.moved ??= performance.now();
         if (answer.hands?.length) document.getElementById('hint').classList.add('gone');
+        this.pointers.showForces(answer.hands ?? []);
         for (const hand of answer.lost ?? []) this.pointers.lost(hand);
         this.answer = { ...answer, poses: null };
         if (this.frameTime)
@@ -237,9 +289,10 @@ export class App {
     #watch(ms) {
         this.slow = ms > Math.min(tooSlow, 800 / this.state.rate) ? (this.slow ?? 0) + 1 : 0;
         if (this.slow !== 90) return;
-        const species = this.state.trees.length === 1 && (this.state.trees[0].of ?? this.state.trees[0]);
+        const alone = this.state.trees.length === 1 && (this.state.trees[0].of ?? this.state.trees[0]);
         const actions = [['Move only thicker wood', () => this.change((state) => { state.least = Math.max(2 * state.least, 0.02 * this.thickest); }, true)]];
-        if (species?.species) actions.unshift(['Half the bodies', () => this.grow({ ...species, bodies: Math.round(species.bodies / 2) })]);
+        if (alone?.species) actions.unshift(['Half the bodies', () => this.grow({ ...alone, bodies: Math.round(alone.bodies / 2) })]);
+        else if (this.cuttable) actions.unshift(['Half the bodies', () => this.opened(fewer(this.state, Math.round(this.bodies / 2)), true)]);
         if (this.state.rate > 30) actions.push(['30 steps a second', () => this.change((state) => { state.rate = 30; }, true)]);
         say(`A step of these ${this.bodies.toLocaleString('en')} bodies takes ${ms.toFixed(1)} ms: too long for ${this.state.rate} a second. It moves slower than real.`,
             { key: 'slow', error: true, actions });
@@ -251,14 +304,22 @@ export class App {
         const kept = this.state.trees.some((source) => source.kept);
         if (!fits) return problem('The scene is too long for an address; "Scene for treesim" saves all of it.');
         if (file) return problem('The address cannot hold a file that was dropped, only its name; "Scene for treesim" saves all of it.');
-        await navigator.clipboard?.writeText(location.href).catch(() => {});
-        say(`The address holds the scene (${location.href.length} characters)${kept ? ', but for the pose that was kept' : ''}; it is copied.`);
+        const holds = `The address holds the scene (${location.href.length} characters)${kept ? ', but for the pose that was kept' : ''}`;
+        try {
+            await navigator.clipboard.writeText(location.href); // which a page has not that came by plain http
+            say(`${holds}; it is copied.`);
+        } catch {
+            say(`${holds}. The browser lets this page copy nothing: take it from here.`, { key: 'address', text: location.href });
+        }
     }
     async saveScene() {
         await busy('Writing the trees …', () => saveScene(this)).catch((error) => problem(error.message));
     }
     async saveMotion(seconds, loop) {
-        await busy(loop ? 'Running it until it repeats …' : 'Running and writing it …', () => saveMotion(this, { seconds, loop }))
-            .then((bytes) => say(`${(bytes / 1e6).toFixed(1)} MB written.`)).catch((error) => problem(error.message));
+        if (this.saving) return say('A motion is being written.');
+        this.saving = saveMotion(this, { seconds, loop })
+            .then((bytes) => bytes !== null && say(`${(bytes / 1e6).toFixed(1)} MB written.`)).catch((error) => problem(error.message))
+            .finally(() => { this.saving = null; });
+        return this.saving;
     }
 }

@@ -23,7 +23,15 @@ export class Bar {
             this.play, signed('Step', '▸❘', () => app.single(), { id: 'single', title: 'One step (.)' }), this.speed,
             signed('Restart', '⟲', () => app.restart(), { id: 'restart', title: 'From the start (R)' }),
             this.back, this.forth, signed('Keep pose', 'Keep', () => app.keep(), { id: 'keep', title: 'As it stands now, the tree is at rest (K)' }), sheet);
-        addEventListener('keydown', (event) => this.key(event));
+        let pointed = false;
+        addEventListener('pointerdown', () => { pointed = true; }, true);
+        addEventListener('keydown', (event) => {
+            pointed = false;
+            this.key(event);
+        });
+        addEventListener('click', ({ target }) => { // a box that the mouse has ticked is done with: space is the run's again
+            if (pointed && target.matches('input[type=checkbox]')) target.blur();
+        });
     }
     toggle(paused = !this.app.paused) {
         this.app.paused = paused;
@@ -41,7 +49,7 @@ export class Bar {
         this.forth.disabled = history.future.length === 0;
     }
     key(event) {
-        if (event.target.matches('input, select, textarea') || event.altKey) return;
+        if (event.target.matches('input[type=text], textarea') || event.altKey) return;
         const { app } = this;
         if (event.ctrlKey || event.metaKey) {
             if (event.key.toLowerCase() !== 'z') return;
@@ -50,9 +58,11 @@ export class Bar {
             else app.undo();
             return;
         }
-        const does = { ' ': () => this.toggle(), '.': () => app.single(), r: () => app.restart(), k: () => app.keep(), Escape: () => app.pick(null) }[event.key];
-        if (!does) return;
-        if (event.key === ' ' && event.target.matches('button, summary')) return; // which has it pressed
+        const does = {
+            ' ': () => this.toggle(), '.': () => app.single(), r: () => app.restart(), k: () => app.keep(), f: () => app.view.whole(), Escape: () => app.pick(null),
+        }[event.key];
+        if (!does || event.target.matches('select')) return; // letters choose in a list
+        if (event.key === ' ' && event.target.matches('button, summary, input[type=checkbox]')) return; // which has it pressed
         event.preventDefault();
         does();
     }

@@ -6,6 +6,7 @@ export class Client {
         this.open = new Map();
         this.number = 0;
         worker.onmessage = ({ data: [number, error, result] }) => {
+            if (number === 0) return this.progress?.(result);
             const { done, failed } = this.open.get(number);
             this.open.delete(number);
             if (error) failed(Object.assign(new Error(error.message), { known: error.known, inWorker: error.stack }));
@@ -15,6 +16,12 @@ export class Client {
             for (const { failed } of this.open.values()) failed(new Error(event.message || 'the Worker could not be started'));
             this.open.clear();
         };
+    }
+    // Whatever it is at.
+    end() {
+        this.worker.terminate();
+        for (const { failed } of this.open.values()) failed(new Error('ended'));
+        this.open.clear();
     }
     ask(name, asked, transfer = []) {
         const number = ++this.number;

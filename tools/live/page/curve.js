@@ -5,6 +5,8 @@ const box = { left: 30, top: 8, width: 236, height: 104, bottom: 22 };
 const lowest = 1 / 16, highest = 16; // factors; the height is logarithmic
 const samples = 80;
 
+const textOf = ([radius, factor]) => `${Number((100 * radius).toPrecision(2))} cm: ${Number(factor.toPrecision(3))} ×`;
+
 export class CurveEditor {
     // change(keys, done); ask(x, y, from, to, samples): a promise of the curve.
     constructor({ label, change, ask }) {
@@ -19,7 +21,7 @@ export class CurveEditor {
         this.picture.addEventListener('pointermove', (event) => this.#drag(event, false));
         for (const end of ['pointerup', 'pointercancel']) this.picture.addEventListener(end, (event) => this.#drag(event, true));
         this.row = element('div', { class: 'curve-row' }, element('div', { class: 'curve-head' },
-            element('span', {}, `${label} over radius`),
+            element('span', {}, `${label} over radius`), this.value = element('output', { class: 'unit' }),
             element('button', { type: 'button', class: 'small', onclick: () => this.#start(), title: 'Three keys to begin with' }, 'Edit'),
             element('button', { type: 'button', class: 'small', onclick: () => this.#changed([], true), title: 'The wood\'s own' }, 'Clear')), this.picture);
     }
@@ -52,13 +54,26 @@ export class CurveEditor {
     }
     #drag(event, done) {
         if (this.held === undefined) return;
-        const keys = this.keys.map((key) => [...key]), k = this.held, gap = 0.01 * this.thickest;
-        const [radius, factor] = this.#at(event);
-        keys[k] = [Math.min((keys[k + 1]?.[0] ?? Infinity) - gap, Math.max((keys[k - 1]?.[0] ?? -Infinity) + gap, radius)), factor];
+        const k = this.held;
         if (done) this.held = undefined;
+        this.#move(k, this.#at(event), done);
+    }
+    #move(k, [radius, factor], done) { // between the keys beside it
+        const keys = this.keys.map((key) => [...key]), gap = 0.01 * this.thickest;
+        keys[k] = [Math.min((keys[k + 1]?.[0] ?? Infinity) - gap, Math.max((keys[k - 1]?.[0] ?? -Infinity) + gap, radius)), factor];
         this.#changed(keys, done);
     }
+    #press(event, k) {
+        const way = { ArrowLeft: [-0.02, 1], ArrowRight: [0.02, 1], ArrowUp: [0, 1.1], ArrowDown: [0, 1 / 1.1] }[event.key];
+        if (!way && event.key !== 'Delete') return;
+        event.preventDefault(); // the panel does not scroll
+        if (!way) return this.#changed(this.keys.filter((_, i) => i !== k), true);
+        const [radius, factor] = this.keys[k];
+        this.#move(k, [Math.min(this.thickest, Math.max(0, radius + way[0] * this.thickest)),
+            Number(Math.min(highest, Math.max(lowest, factor * way[1])).toPrecision(3))], true);
+    }
     async draw() {
+        const focused = [...this.points.children].indexOf(document.activeElement);
         this.axis.replaceChildren(
             svg('rect', { x: box.left, y: box.top, width: box.width, height: box.height }),
             ...[0.0625, 0.25, 1, 4, 16].flatMap((factor) => [
@@ -68,18 +83,26 @@ export class CurveEditor {
             ...[0, 0.5, 1].map((share) => Object.assign(svg('text', { x: this.#x(share * this.thickest), y: box.top + box.height + 14, 'text-anchor': share === 1 ? 'end' : 'middle' }),
                 { textContent: `${Number((100 * share * this.thickest).toPrecision(2))} cm` })));
         this.points.replaceChildren(...this.keys.map(([radius, factor], k) => {
-            const point = svg('circle', { class: 'key', cx: this.#x(radius), cy: this.#y(factor), r: 6, tabindex: 0, 'aria-label': `key ${k + 1}` });
+            const point = svg('circle', {
+                class: 'key', cx: this.#x(radius), cy: this.#y(factor), r: 6, tabindex: 0, role: 'slider', 'aria-label': `Key ${k + 1}`,
+                'aria-valuemin': lowest, 'aria-valuemax': highest, 'aria-valuenow': factor, 'aria-valuetext': textOf(this.keys[k]),
+            });
             point.addEventListener('pointerdown', (event) => {
                 this.picture.setPointerCapture(event.pointerId);
                 this.held = k;
                 event.preventDefault();
+                point.focus();
             });
+            point.addEventListener('focus', () => { this.value.textContent = textOf(this.keys[k]); });
+            point.addEventListener('blur', () => { this.value.textContent = ''; });
+            point.addEventListener('keydown', (event) => this.#press(event, k));
             point.addEventListener('dblclick', (event) => {
                 event.stopPropagation();
                 this.#changed(this.keys.filter((_, i) => i !== k), true);
             });
             return point;
         }));
+        this.points.children[focused]?.focus(); // as the one that stood there had it
         if (this.keys.length === 0) {
             this.line.setAttribute('d', `M${box.left},${this.#y(1)}h${box.width}`);
             return;

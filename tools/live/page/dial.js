@@ -11,7 +11,9 @@ export class Dial {
         this.line = svg('line', { class: 'wind', x1: 0, y1: 0 });
         this.tip = svg('circle', { class: 'tip', r: 7 });
         const rings = [5, 10, 15, 20].map((speed) => svg('circle', { class: 'ring', r: radius * speed / fastest }));
-        this.picture = svg('svg', { class: 'dial', viewBox: '-54 -54 108 108', tabindex: 0, role: 'slider', 'aria-label': 'Wind: direction and speed' },
+        this.picture = svg('svg', {
+            class: 'dial', viewBox: '-54 -54 108 108', tabindex: 0, role: 'slider', 'aria-label': 'Wind: direction and speed', 'aria-valuemin': 0, 'aria-valuemax': fastest,
+        },
             svg('circle', { class: 'rim', r: radius }), ...rings, this.line, this.tip);
         const take = (event, done) => {
             const box = this.picture.getBoundingClientRect();
@@ -31,13 +33,17 @@ export class Dial {
             this.held = false;
         });
         this.picture.addEventListener('pointercancel', () => { this.held = false; });
-        this.picture.addEventListener('keydown', ({ key }) => {
-            const way = { ArrowLeft: [0, 10], ArrowRight: [0, -10], ArrowUp: [1, 0], ArrowDown: [-1, 0] }[key];
-            if (way) change(Math.max(0, this.speed + way[0]), (this.direction + way[1] + 360) % 360, true);
+        this.picture.addEventListener('keydown', (event) => {
+            const way = { ArrowLeft: [0, 10], ArrowRight: [0, -10], ArrowUp: [1, 0], ArrowDown: [-1, 0] }[event.key];
+            if (!way) return;
+            event.preventDefault(); // the panel does not scroll
+            change(Math.min(Math.max(fastest, this.speed), Math.max(0, this.speed + way[0])), (this.direction + way[1] + 360) % 360, true);
         });
     }
     set(speed, direction) {
         Object.assign(this, { speed, direction });
+        this.picture.setAttribute('aria-valuenow', speed);
+        this.picture.setAttribute('aria-valuetext', `${Number(speed.toPrecision(3))} m/s towards ${Math.round(direction)}°`);
         this.draw();
     }
     follow(azimuth) { // of the camera, which looks along -z at 0

@@ -13,8 +13,8 @@ export const shapeOf = (state) => JSON.stringify([
 
 export const treeFile = (number) => `trees/tree_${number + 1}.safetensors`;
 
-export function windVector({ speed, direction }) {
-    return [speed * Math.cos(direction * rad), 0, -speed * Math.sin(direction * rad)];
+export function windVector({ speed, direction, rise }) {
+    return [speed * Math.cos(direction * rad), rise, -speed * Math.sin(direction * rad)];
 }
 
 function curvesOf(state) {
@@ -39,10 +39,11 @@ export function sceneDocument(state, gravity = state.drawnGravity) {
     const document = { format: 'bough-scene', version: 1, ...state.base };
     document.trees = state.places.map(({ tree, position, yaw, start }) => ({ file: treeFile(tree), position, yaw, start: start ?? 0 }));
     document.gravity = [0, -gravity, 0];
-    document.wind = {
-        ...state.base.wind, velocity: windVector(wind), turbulence: wind.turbulence, gust_factor: wind.gustFactor,
-        gust_period: wind.gustPeriod, seed: wind.seed,
-    };
+    if (wind.blows !== false)
+        document.wind = {
+            ...state.base.wind, velocity: windVector(wind), turbulence: wind.turbulence, gust_factor: wind.gustFactor,
+            gust_period: wind.gustPeriod, seed: wind.seed,
+        };
     document.stiffness_scale = state.stiffness;
     document.damping_scale = state.damping;
     const curves = [...(state.base.wood?.curves ?? []), ...curvesOf(state)];
@@ -53,8 +54,8 @@ export function sceneDocument(state, gravity = state.drawnGravity) {
 }
 
 // A scene document of another's: what the page has controls for becomes theirs, all else stays as it is. treeOf(file): the number of that tree in
-// `trees`, which the caller has found.
-export function stateOfScene(document, trees, treeOf, defaults) {
+// `trees`, which the caller has found. presets: the library's winds that have a name.
+export function stateOfScene(document, trees, treeOf, { defaults, presets }) {
     const { trees: entries = [], gravity = [0, -9.81, 0], wind, stiffness_scale, damping_scale, ...base } = document;
     delete base.format;
     delete base.version;
@@ -78,11 +79,22 @@ export function stateOfScene(document, trees, treeOf, defaults) {
     };
     state.strength = taken('fracture', 'strength') / 1e6;
     state.least = taken('simulate', 'radius');
-    const { velocity = [0, 0, 0], turbulence, gust_factor, gust_period, seed, ...others } = wind ?? {};
-    if (wind) base.wind = others;
-    state.wind = {
-        speed: Math.hypot(...velocity), direction: Math.atan2(-velocity[2], velocity[0]) / rad, turbulence: turbulence ?? 0,
-        gustFactor: gust_factor ?? 1, gustPeriod: gust_period ?? 6, seed: seed ?? 1,
-    };
+    state.wind = windOf(wind, base, presets);
     return state;
+}
+
+// A wind by its preset's name, by its fields, or none: then nothing has drag, until the user has it blow. What has no control goes to `base`.
+function windOf(wind, base, presets) {
+    const usual = { speed: 0, direction: 0, rise: 0, turbulence: 0, gustFactor: 1, gustPeriod: 6, seed: 1 };
+    if (wind === undefined) return { ...usual, blows: false };
+    if (typeof wind === 'string') {
+        if (!Object.hasOwn(presets, wind)) throw new Error(`/wind: is '${wind}', expected ${Object.keys(presets).join(', ')} or an object`);
+        return { ...usual, ...presets[wind] };
+    }
+    const { velocity = [0, 0, 0], turbulence = 0, gust_factor: gustFactor = 1, gust_period: gustPeriod = 6, seed = 1, ...others } = wind;
+    if (!Array.isArray(velocity) || velocity.length !== 3 || !velocity.every(Number.isFinite))
+        throw new Error(`/wind/velocity: is ${JSON.stringify(velocity)}, expected three numbers`);
+    if (Object.keys(others).length > 0) base.wind = others;
+    const [x, y, z] = velocity, direction = Math.atan2(-z, x) / rad;
+    return { speed: Math.hypot(x, z), direction: direction < 0 ? direction + 360 : direction, rise: y, turbulence, gustFactor, gustPeriod, seed };
 }

@@ -1,7 +1,8 @@
 // files.js: files that come in: trees of any program, a scene with its trees; dropped anywhere, or chosen.
 import { builtinState, youngMaple } from './builtins.js';
 import { stateOfScene } from './document.js';
-import { defaults } from './state.js';
+import { defaults, withOtherTrees } from './state.js';
+import { filesOfZip, isZip } from './zip.js';
 
 const largest = 512e6; // bytes: beyond, a page has no memory for what is made of it
 
@@ -31,22 +32,28 @@ export class Files {
     async add(id, name, bytes) {
         await this.app.client.ask('file', { id, name, bytes });
         this.known.set(id, name);
+        this.number = Math.max(this.number, parseInt(id) || 0); // an address brings its own
     }
     // One tree, or a scene with the trees that it names; several trees stand side by side.
     async open(files) {
         if (files.length === 0) return; // a text was dropped, or none was chosen
         try {
-            const read = [];
-            for (const file of files) {
-                if (file.size > largest) throw new Error(`${file.name}: has ${Math.round(file.size / 1e6)} MB, expected at most ${largest / 1e6}`);
-                if (file.size === 0) throw new Error(`${file.name}: is empty, or a folder`);
-                read.push({ name: file.name, bytes: await file.arrayBuffer() });
-            }
-            const scene = read.map(({ name, bytes }) => sceneOf(name, bytes)).find((found) => found);
-            await this.app.opened(scene ? await this.#stateOfScene(scene, read) : await this.#stateOfTrees(read));
+            await this.app.opened(await this.stateOf(files));
         } catch (error) {
             this.app.problem(error.message);
         }
+    }
+    async stateOf(files) {
+        const read = [];
+        for (const file of files) {
+            if (file.size > largest) throw new Error(`${file.name}: has ${Math.round(file.size / 1e6)} MB, expected at most ${largest / 1e6}`);
+            if (file.size === 0) throw new Error(`${file.name}: is empty, or a folder`);
+            const bytes = await file.arrayBuffer();
+            if (isZip(bytes)) read.push(...unpacked(file.name, bytes));
+            else read.push({ name: file.name, bytes });
+        }
+        const scene = read.map(({ name, bytes }) => sceneOf(name, bytes)).find((found) => found);
+        return scene ? this.#stateOfScene(scene, read) : this.#stateOfTrees(read);
     }
     async #source({ name, bytes }) {
         const source = { file: `${++this.number} ${name}`, name };
@@ -57,9 +64,8 @@ export class Files {
         const trees = [];
         for (const file of read) trees.push(await this.#source(file));
         const across = 12; // m, between trees that come together
-        const { wind } = this.app.state;
         const places = trees.map((_, k) => ({ tree: k, position: [across * (k - (trees.length - 1) / 2), 0, 0], yaw: 0, start: 0 }));
-        return { ...structuredClone(defaults), wind: { ...wind }, trees, places };
+        return withOtherTrees(this.app.state, trees, places);
     }
     async #stateOfScene({ name, document }, read) {
         const bare = (path) => path.split(/[/\\]/).pop();
@@ -72,7 +78,12 @@ export class Files {
             trees.push(await this.#source(found));
         }
         if (trees.length === 0) throw new Error(`${name}: /trees is empty, expected at least one tree`);
-        return stateOfScene(document, trees, (file) => numbers.get(file), defaults);
+        const { rate, precision, ownMesh } = this.app.state; // of which a scene says nothing
+        try {
+            return stateOfScene(document, trees, (file) => numbers.get(file), { defaults: { ...defaults, rate, precision, ownMesh }, presets: this.app.presets });
+        } catch (error) {
+            throw new Error(`${name}: ${error.message}`);
+        }
     }
     async builtin(name) {
         const state = builtinState(name);
@@ -85,6 +96,17 @@ export class Files {
         const answer = inside ? null : await fetch(youngMaple.name);
         if (answer && !answer.ok) throw new Error(`${youngMaple.name}: the server answers ${answer.status}, expected the file beside the page`);
         await this.add(youngMaple.file, youngMaple.name, inside ? new TextEncoder().encode(inside).buffer : await answer.arrayBuffer());
+    }
+}
+
+// Trees and scenes of an archive, as they would be dropped.
+function unpacked(name, bytes) {
+    try {
+        const files = filesOfZip(bytes).filter(([file]) => !/(^|\/)README\.txt$/.test(file));
+        if (files.length === 0) throw new Error('has no tree in it');
+        return files.map(([file, content]) => ({ name: file.split('/').pop(), bytes: content }));
+    } catch (error) {
+        throw new Error(`${name}: ${error.message}`);
     }
 }
 

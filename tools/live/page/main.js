@@ -1,5 +1,4 @@
 // main.js: the page begins: what the browser must have, the Worker with the library, the first scene.
-import { stateOfAddress } from './address.js';
 import { App } from './app.js';
 import { Client } from './client.js';
 import { problem } from './messages.js';
@@ -39,11 +38,13 @@ async function begin() {
     if (missing) return problem(missing);
     try {
         const wasm = await wasmBytes();
-        const client = new Client(worker());
-        const known = await client.ask('start', { wasm }, [wasm]);
-        const app = globalThis.bough = new App(client, known);
-        const state = await stateOfAddress(location.hash).catch((error) => problem(error.message) && null);
-        await app.begin(state);
+        const another = async () => {
+            const client = new Client(worker());
+            return { client, known: await client.ask('start', { wasm }) };
+        };
+        const { client, known } = await another();
+        const app = globalThis.bough = new App(client, known, async () => (await another()).client);
+        await app.begin();
     } catch (error) {
         console.error(error, error.inWorker);
         problem(`The page could not begin: ${error.message}`);

@@ -3,10 +3,12 @@ import { button, element } from './widgets.js';
 
 const area = () => document.getElementById('messages');
 
-export function say(text, { error = false, key = text, actions = [] } = {}) {
+// text: to be taken by hand, in a field of its own.
+export function say(said, { error = false, key = said, actions = [], text = null } = {}) {
     for (const old of area().children) if (old.dataset.key === key) old.remove();
     const close = button('×', () => made.remove(), { class: 'small', 'aria-label': 'Close' });
-    const made = element('div', { class: `message${error ? ' error' : ''}` }, element('div', {}, text,
+    const made = element('div', { class: `message${error ? ' error' : ''}` }, element('div', {}, said,
+        text === null ? null : element('input', { type: 'text', class: 'copied', readOnly: true, value: text, 'aria-label': 'Address', onfocus: ({ target }) => target.select() }),
         actions.length === 0 ? null : element('div', { class: 'buttons' }, ...actions.map(([label, act]) => button(label, () => {
             made.remove();
             act();
@@ -14,11 +16,19 @@ export function say(text, { error = false, key = text, actions = [] } = {}) {
     made.dataset.key = key;
     area().append(made);
     while (area().children.length > 4) area().firstChild.remove();
-    if (!error && actions.length === 0) setTimeout(() => made.remove(), 6000);
+    made.querySelector('.copied')?.focus();
+    if (!error && actions.length === 0 && text === null) setTimeout(() => made.remove(), 6000);
     return made;
 }
 
 export const problem = (text) => say(text, { error: true });
+
+// What goes on, until it ends or is given up.
+export function progress(text, giveUp) {
+    const made = say(text, { key: 'progress', actions: [['Cancel', giveUp]] });
+    const words = made.firstChild.firstChild;
+    return { say: (now) => { if (words.textContent !== now) words.textContent = now; }, end: () => made.remove() };
+}
 
 export function unsay(key) {
     for (const old of [...area().children]) if (old.dataset.key === key) old.remove();

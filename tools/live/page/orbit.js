@@ -7,7 +7,7 @@ export class Orbit {
         this.azimuth = 0.6; // [rad] about the vertical
         this.height = 0.12; // [rad] above the ground
         this.distance = 10; // [m]
-        this.touched = false; // by the user: what fits by itself does not move it any more
+        this.touched = false; // brought nearer or shifted by the user: what fits by itself does not move it any more
     }
     fit(box, camera, [wide, high]) {
         const size = box.getSize(new THREE.Vector3());
@@ -20,11 +20,12 @@ export class Orbit {
             const c = new THREE.Vector3(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5).multiply(size), ahead = c.dot(forward);
             this.distance = Math.max(this.distance, 1.06 * Math.abs(c.dot(right)) / across - ahead, 1.06 * Math.abs(c.dot(above)) / up - ahead);
         }
-        this.nearest = 0.02 * size.length();
-        this.farthest = 6 * size.length();
+    }
+    reach(size) { // [m] of the box's diagonal
+        this.nearest = 0.02 * size;
+        this.farthest = 6 * size;
     }
     turn(dx, dy) { // pixels
-        this.touched = true;
         this.azimuth -= 0.006 * dx;
         this.height = Math.min(1.5, Math.max(-0.2, this.height + 0.006 * dy));
     }
@@ -42,7 +43,8 @@ export class Orbit {
         camera.position.copy(this.#way().multiplyScalar(this.distance).add(this.target));
         if (camera.position.y < 0.02 * this.distance) camera.position.y = 0.02 * this.distance; // stays above the ground
         camera.lookAt(this.target);
-    }    #way() { // from the target to the camera
+    }
+    #way() { // from the target to the camera
         const flat = Math.cos(this.height);
         return new THREE.Vector3(Math.sin(this.azimuth) * flat, Math.sin(this.height), Math.cos(this.azimuth) * flat);
     }

@@ -6,6 +6,8 @@ import { button, choice, element, section, slider } from './widgets.js';
 
 const grown = { age: 10, bodies: 3000, seed: 1 }; // of a species that is chosen
 
+const short = (value) => String(Number(value.toPrecision(3)));
+
 export class Panel {
     // app: { change(edit, done), open(name), grow(source), files, client, picked, ... }
     constructor(app, { species, presets }) {
@@ -83,6 +85,8 @@ export class Panel {
                 ({ wind }) => wind.speed, ({ wind }, value) => { wind.speed = value; }),
             this.#bound({ label: 'Direction', unit: '°', min: 0, max: 360, help: 'towards which it blows, from +x about the vertical' },
                 ({ wind }) => wind.direction, ({ wind }, value) => { wind.direction = value; }),
+            this.#bound({ label: 'Rise', unit: 'm/s', min: -10, max: 10, allowed: [-60, 60], help: 'upward, as above a warm slope; below 0 downward' },
+                ({ wind }) => wind.rise, ({ wind }, value) => { wind.rise = value; }),
             this.#bound({ label: 'Turbulence', min: 0, max: 0.5, allowed: [0, 2], help: 'standard deviation over the mean' },
                 ({ wind }) => wind.turbulence, ({ wind }, value) => { wind.turbulence = value; }),
             this.#bound({ label: 'Gusts', unit: '×', min: 1, max: 3, allowed: [1, 10], help: 'a gust\'s peak over the mean' },
@@ -126,11 +130,20 @@ export class Panel {
             own[key] = value;
             if (own.stiffness === 1 && own.damping === 1) state.parts.splice(state.parts.indexOf(own), 1);
         };
+        const parts = element('ul', { class: 'note', id: 'parts' });
+        let listed = '[]';
+        this.controls.push((state) => {
+            if (JSON.stringify(state.parts) === listed) return; // a button that is pressed stays the one that has the focus
+            listed = JSON.stringify(state.parts);
+            parts.replaceChildren(...state.parts.map(({ place, body, stiffness, damping }) => element('li', {}, button(
+                `Body ${body}${state.places.length > 1 ? ` of tree ${place + 1}` : ''}: stiffness ${short(stiffness)} ×, damping ${short(damping)} ×`,
+                () => app.pick(app.mesh.first[place] + body), { class: 'small' }))));
+        });
         this.pickedBox = element('div', { hidden: true },
             this.#bound({ label: 'Stiffness', unit: '×', min: 1 / 32, max: 32, log: true, allowed: [1e-4, 1e6] }, (state) => part(state)?.stiffness ?? 1, put('stiffness')),
             this.#bound({ label: 'Damping', unit: '×', min: 1 / 32, max: 32, log: true, allowed: [0, 1e4] }, (state) => part(state)?.damping ?? 1, put('damping')),
             element('div', { class: 'buttons' }, button('Let go of it', () => app.pick(null))));
-        return [this.pickedText, this.pickedBox];
+        return [this.pickedText, this.pickedBox, parts];
     }
     showPicked(picked) {
         this.pickedBox.hidden = !picked;

@@ -1,5 +1,5 @@
 // run.js: one run of the page's scene in the Worker: its trees, its scene document, its simulation, its mesh.
-import { sceneDocument, shapeOf, sourceKey } from './document.js';
+import { sceneDocument, shapeOf, sourceKey, windVector } from './document.js';
 import { Clock } from './clock.js';
 import { Estimate } from './estimate.js';
 import { Hands } from './hands.js';
@@ -38,6 +38,7 @@ export class Run {
             if (!file) throw new Error(`${source.name}: is not here; drop the file on the page again`);
             file.used = true;
             made = { ...this.library.readTree(file.bytes, file.name, source), used: true };
+            made.cuttable = made.notes.length > 0; // a curve's file says what it is, and is cut to bodies here; a tree document has its own
         }
         this.trees.set(key, made);
         return made;
@@ -57,7 +58,7 @@ export class Run {
         if (change === 'all' || drawn) this.library.call('take_poses', this.mesh, this.simulation, 0);
         const mesh = drawn ? this.#shown() : null;
         return {
-            notes, mesh, begun: restart || others,
+            notes, mesh, begun: restart || others, cuttable: trees.length > 0 && trees.every((tree) => tree.cuttable),
             bodies: this.bodies.count,
             transfer: mesh ? [mesh.vertex.buffer, mesh.color.buffer, mesh.index.buffer] : [],
         };
@@ -68,9 +69,8 @@ export class Run {
         try {
             made.scene = this.#sceneOf(state, trees);
             if (change === 'wind') {
-                const { wind } = state, angle = wind.direction * Math.PI / 180;
-                library.call('set_wind', this.simulation, wind.speed * Math.cos(angle), 0, -wind.speed * Math.sin(angle),
-                    wind.turbulence, wind.gustFactor, wind.gustPeriod, wind.seed);
+                const { wind } = state;
+                library.call('set_wind', this.simulation, ...windVector(wind), wind.turbulence, wind.gustFactor, wind.gustPeriod, wind.seed);
             } else if (change === 'gravity') {
                 library.call('set_gravity', this.simulation, state.gravity);
             } else if (change === 'all') {
@@ -132,7 +132,9 @@ export class Run {
             this.trees.delete(key);
         }
         const files = new Set([...known, ...own].map((source) => (source.of ?? source).file));
-        for (const [id, { used }] of this.files) if (used && !files.has(id)) this.files.delete(id);
+        const gone = [...this.files].filter(([id, { used }]) => used && !files.has(id)).map(([id]) => id);
+        gone.forEach((id) => this.files.delete(id));
+        return { gone };
     }
 
     // Steps for so many seconds of the page's time, poses into the buffer, and what the meters show.
@@ -195,6 +197,18 @@ export class Run {
         });
     }
 
+    // What another Worker needs to have the same trees: files, and poses that were kept as documents.
+    sources() {
+        const { trees } = this.state, ids = new Set(trees.map((source) => (source.of ?? source).file).filter((id) => id));
+        return {
+            files: [...ids].map((id) => ({ id, name: this.files.get(id).name, bytes: this.files.get(id).bytes.slice().buffer })),
+            posed: trees.filter(({ kept }) => kept).map((source) => ({ source, bytes: this.library.taken('tree_document', this.tree(source).tree) })),
+        };
+    }
+    addPosed(source, bytes) {
+        this.trees.set(sourceKey(source), this.library.readTree(bytes, 'pose', {}));
+    }
+
     // Each tree as a document, in safetensors.
     documents() {
         const all = this.state.trees.map((source) => this.library.taken('tree_document', this.tree(source).tree));
@@ -214,7 +228,7 @@ export class Run {
 // 'nothing', 'wind', 'gravity' or 'all': what is different of two states.
 function changed(before, after) {
     const rest = ({ wind, gravity, ...others }) => JSON.stringify(sceneDocument({ ...others, wind: {}, gravity: 0 })) +
-        JSON.stringify([others.trees, others.places, others.rate, others.precision]);
+        JSON.stringify([others.trees, others.places, others.rate, others.precision, wind.blows]);
     if (rest(before) !== rest(after)) return 'all';
     const wind = JSON.stringify(before.wind) !== JSON.stringify(after.wind), gravity = before.gravity !== after.gravity;
     return wind && gravity ? 'all' : wind ? 'wind' : gravity ? 'gravity' : 'nothing';

@@ -1,6 +1,7 @@
 // save.js: what goes out: the scene with its trees for treesim, the motion as .glb, the address.
 import { addressOf } from './address.js';
 import { sceneDocument, treeFile } from './document.js';
+import { progress } from './messages.js';
 import { zipOf } from './zip.js';
 
 function download(name, blob) {
@@ -27,10 +28,34 @@ export async function saveScene(app) {
     ]));
 }
 
+// In a Worker of its own, so that what is shown goes on, with the trees made again there. Its size [B], or null where it was given up.
 export async function saveMotion(app, { seconds, loop }) {
-    const { bytes } = await app.client.ask('glb', { seconds, loop, fps: 30 });
-    download(loop ? 'loop.glb' : 'motion.glb', new Blob([bytes], { type: 'model/gltf-binary' }));
-    return bytes.length;
+    while (app.applying) await app.applying;
+    const { state } = app, fps = 30;
+    const { files, posed } = await app.client.ask('sources');
+    const given = { up: false }, sign = progress('Motion: making the trees …', () => {
+        given.up = true;
+        client?.end();
+    });
+    let client;
+    try {
+        client = await app.beside();
+        client.progress = ({ done, of }) => sign.say(of > 0 ? `Motion: ${Math.round(100 * done / of)} % written` : `Motion: ${(done / fps).toFixed(0)} s run until it repeats`);
+        if (given.up) return null;
+        for (const file of files) await client.ask('file', file, [file.bytes]);
+        await client.ask('apply', { state: { ...state, trees: state.trees.map((source) => source.of ?? source) }, restart: true });
+        for (const tree of posed) await client.ask('posed', tree);
+        if (posed.length > 0) await client.ask('apply', { state, restart: true });
+        const { bytes } = await client.ask('glb', { seconds, loop, fps });
+        download(loop ? 'loop.glb' : 'motion.glb', new Blob([bytes], { type: 'model/gltf-binary' }));
+        return bytes.length;
+    } catch (error) {
+        if (given.up) return null;
+        throw error;
+    } finally {
+        client?.end();
+        sign.end();
+    }
 }
 
 // Puts the scene into the address; whether it fits.

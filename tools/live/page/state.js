@@ -5,7 +5,7 @@ export const defaults = {
     places: [], // {tree: number in trees, position [m], yaw [deg], start [s]}
     base: {}, // fields of a scene document that the page has no controls for
     ownMesh: true, // a file's own mesh is shown where it has one
-    wind: { speed: 4, direction: 0, turbulence: 0.15, gustFactor: 1.4, gustPeriod: 6, seed: 1 }, // m/s, deg from +x about the vertical
+    wind: { speed: 4, direction: 0, rise: 0, turbulence: 0.15, gustFactor: 1.4, gustPeriod: 6, seed: 1 }, // m/s, deg from +x about the vertical, m/s upward; blows: false without air
     gravity: 9.81, // m/s^2
     drawnGravity: 9.81, // under which the drawn trees stand at rest
     stiffness: 1, damping: 1, // times the wood's own
@@ -18,6 +18,19 @@ export const defaults = {
 };
 
 export const copyOf = (state) => structuredClone(state);
+
+// Other trees in the wind and of the wood that the user set; what belongs to the trees that were goes with them.
+export function withOtherTrees(state, trees, places) {
+    const { wind: { blows: _, ...wind }, gravity, drawnGravity } = state;
+    const own = gravity === drawnGravity ? defaults.gravity : gravity;
+    return { ...copyOf(state), trees, places, wind, base: {}, parts: [], gravity: own, drawnGravity: defaults.drawnGravity };
+}
+
+// The trees of files cut to so many bodies in all.
+export function fewer(state, bodies) {
+    const each = Math.max(20, Math.floor(bodies / state.places.length));
+    return { ...copyOf(state), parts: [], trees: state.trees.map((source) => ({ ...(source.of ?? source), maxBodies: each })) };
+}
 
 const mostKept = 20; // poses in a history: each is a tree in memory
 

@@ -43,7 +43,7 @@ export class View {
         this.renderer.setSize(w, h, false);
         this.camera.aspect = w / h;
         this.camera.updateProjectionMatrix();
-        if (this.skinned && !this.orbit.touched) this.fit();
+        if (this.skinned) this.fit();
     }
     show(mesh) {
         const before = this.skinned;
@@ -54,7 +54,9 @@ export class View {
             before.free();
         }
         const box = this.skinned.box, size = box.getSize(new THREE.Vector3()).length(), middle = box.getCenter(new THREE.Vector3());
+        const alike = before && Math.abs(Math.log(size / this.size)) < Math.LN2 && middle.distanceTo(this.middle) < 0.5 * size;
         this.size = size;
+        this.middle = middle;
         this.ground.scale.setScalar(8 * size);
         this.ground.position.set(middle.x, Math.min(0, box.min.y) - 1e-3 * size, middle.z);
         this.scene.fog.near = 3 * size;
@@ -66,15 +68,21 @@ export class View {
         const lit = this.sun.shadow.camera, reach = 0.75 * size;
         Object.assign(lit, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * size, far: 4 * size });
         lit.updateProjectionMatrix();
+        this.orbit.reach(size);
+        if (!alike) this.orbit.touched = false; // what the user looked at is not there
         this.fit();
     }
-    // The whole of what is shown, beside the panel (inset: CSS pixels at the right and at the bottom that it covers).
+    // The whole of what is shown, beside the panel (inset: CSS pixels at the right and at the bottom that it covers), unless the user looks at a part.
     fit(inset = this.inset ?? [0, 0]) {
         this.inset = inset;
         const { clientWidth: w, clientHeight: h } = this.canvas, [right, bottom] = inset;
         this.camera.setViewOffset(w, h, right / 2, bottom / 2, w, h);
         const free = [Math.max(0.3, 1 - right / w), Math.max(0.3, 1 - bottom / h)];
-        this.orbit.fit(this.skinned.box, this.camera, free);
+        if (!this.orbit.touched) this.orbit.fit(this.skinned.box, this.camera, free);
+    }
+    whole() {
+        this.orbit.touched = false;
+        this.fit();
     }
     shadows(on) {
         this.sun.castShadow = on;

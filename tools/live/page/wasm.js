@@ -5,8 +5,9 @@ import createModule from 'bough-module';
 export class LibraryError extends Error {}
 
 export class Library {
-    static async open(wasmBinary) {
-        const module = await createModule({ wasmBinary, printErr: (text) => console.error(text) });
+    // progress(done, of): how far a motion is that is written.
+    static async open(wasmBinary, progress) {
+        const module = await createModule({ wasmBinary, progress, printErr: (text) => console.error(text) });
         return new Library(module);
     }
     constructor(module) {
@@ -116,7 +117,7 @@ export class Library {
         return this.with(name, (at) => {
             this.call('wind_preset', at, this.scratch);
             const [speed, turbulence, gustFactor, gustPeriod] = this.doubles(this.scratch, 4);
-            return { speed, turbulence, gustFactor, gustPeriod };
+            return { speed, rise: 0, turbulence, gustFactor, gustPeriod };
         });
     }
     readTree(bytes, name, { material = '', segmentLength = 0, maxBodies = 0, unit = 0 }) {

@@ -1,4 +1,4 @@
-// worker.js: the Worker: answers calls [number, name, arguments] with [number, error, result], in order.
+// worker.js: the Worker: answers calls [number, name, arguments] with [number, error, result], in order. Number 0: how far a long one is.
 import { Library, LibraryError } from './wasm.js';
 import { Run } from './run.js';
 
@@ -6,7 +6,7 @@ let run = null;
 
 const answers = {
     async start({ wasm }) {
-        const library = await Library.open(wasm);
+        const library = await Library.open(wasm, (done, of) => postMessage([0, null, { done, of }]));
         run = new Run(library);
         return {
             species: library.names('species'),
@@ -24,6 +24,8 @@ const answers = {
     keep: () => run.keepPose(),
     retain: (sources) => run.retain(sources),
     documents: () => run.documents(),
+    sources: () => run.sources(),
+    posed: ({ source, bytes }) => run.addPosed(source, bytes),
     glb: (asked) => run.glb(asked),
     positions: () => run.positions(),
     memory: () => run.memory(),

@@ -29,6 +29,11 @@ void step_on(Simulation& run, int steps) {
     if (!made.finite()) throw NonFinite("the simulation became non-finite: " + made.non_finite);
 }
 
+// To the page, which may show it: frames so far, and of how many (0: until it repeats).
+void tell(std::int64_t done, std::int64_t of) {
+    EM_ASM({ Module.progress($0, $1); }, double(done), double(of));
+}
+
 struct Asked {
     double fps;
     int steps; // a frame
@@ -52,7 +57,10 @@ template <class Take> void run_frames(Scene scene, const SimulationOptions& opti
     Simulation run(std::move(scene), options);
     bodies = run.tree().size_bodies();
     const ToFrame to = [&](Simulation& of, std::int64_t frame) {
-        while (of.steps() < frame * asked.steps) step_on(of, asked.steps);
+        while (of.steps() < frame * asked.steps) {
+            step_on(of, asked.steps);
+            tell(of.steps() / asked.steps, 0);
+        }
     };
     LoopOptions loop;
     loop.frames = asked.frames;
@@ -104,7 +112,10 @@ LIVE void* live_glb(const bough_scene* scene, const void* mesh, double step, int
                     writer.emplace(output, *own->own, *own->drawn, groups, how);
                 else
                     writer.emplace(output, own->skin, *own->drawn, groups, how);
-                run_frames(scene_of(scene), options, asked, [&](const MotionFrame& frame) { writer->write(frame); });
+                run_frames(scene_of(scene), options, asked, [&](const MotionFrame& frame) {
+                    writer->write(frame);
+                    if (!asked.loop) tell(frame.frame, asked.frames - 1);
+                });
                 writer->finish();
                 output.finish();
                 *size = std::size_t(output.bytes());
