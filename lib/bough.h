@@ -6,7 +6,7 @@
 //   Simulation  simulation/simulation.h  one run of it, step by step
 //   pick        simulation/pick.h        which body a ray meets
 //   RunError    simulation/run_error.h   how wrong it is
-// Species by name and documents by file name are bough/files.h, of a library beside this one (bough::files).
+// bough/files.h adds species by name and documents by file name. It belongs to a library beside this one (bough::files).
 #pragma once
 #include "growth/grow.h"
 #include "growth/segment.h"

@@ -1,8 +1,8 @@
-// analytic_chains.h: the analytic step's way over a block's chains of lanes, apart from what a joint does (analytic_joints.h): outward where the bodies
-// are and what loads them (state_update.h, external_forces.h), inward the composites (composite.h). Everything of a body is in its own axes.
+// analytic_chains.h: the analytic step's way over a block's chains of lanes, except what a joint does (analytic_joints.h). Outward it finds where the
+// bodies are and what loads them (state_update.h, external_forces.h), inward the composites (composite.h). Everything of a body is in its own axes.
 //
-// Own, the sweep that is derived, has joint_rate(row, lane, theta, turn), the joint's rate in the axes of its body; joint_loaded(row, lane), called
-// as soon as the composite of the register's bodies is there, outermost first; and joints_done(), at the end of each visit to a block.
+// Own is the derived sweep. It has joint_rate(row, lane, theta, turn), the joint's rate in the axes of its body; joint_loaded(row, lane), called as
+// soon as the composite of the register's bodies is there, outermost first; and joints_done(), called at the end of each visit to a block.
 #pragma once
 #include "../lanes/sweep_parts.h"
 #include "../lanes/wide_turn.h"
@@ -81,7 +81,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         return {scratch + (loads + (row - block.first_row) * std::size_t(analytic::leaf_torque_count)) * L + lane};
     }
 
-    // The spin of parted_air.h, onto what is loaded.
+    // Adds the spin of parted_air.h to what is loaded.
     BOUGH_FORCE void damp_spin(const Rows<const T>& k, std::uint32_t row, int lane, const W& rate,
                                const V3<W>& omega) const {
         const Rows<T> out = loaded_of(row, lane);
@@ -94,7 +94,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         out.set(loaded::drag, W(out.real(loaded::drag) + k.real(constant::sway) * bound));
     }
 
-    // A leaf's share of parted_air.h, onto what is loaded.
+    // Adds a leaf's share of parted_air.h to what is loaded.
     [[gnu::noinline]] void add_leaf(std::uint32_t row, int lane, V3<W> still, V3<W> moving) const {
         const Rows<const T> k = constants_of(row, lane);
         const Rows<T> out = loaded_of(row, lane);

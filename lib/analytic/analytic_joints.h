@@ -1,4 +1,5 @@
-// analytic_joints.h: what the joints' own steps (wide_spring.h) read and write in the rows, and what of them is seen to one by one: half turns, and turns so large that their energy is checked (analytic/spring.h).
+// analytic_joints.h: what the joints' own steps (wide_spring.h) read and write in the rows, and the cases that are treated one by one: half turns,
+// and turns so large that their energy is checked (analytic/spring.h).
 #pragma once
 #include "../base/oscillator.h"
 #include "../lanes/wide_spring.h"
@@ -70,7 +71,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
         return out;
     }
 
-    // What the rates keep where a large turn has gained energy (spring.h).
+    // Returns what the rates keep where a large turn has gained energy (spring.h).
     template <class X>
     [[gnu::noinline]] X kept(const JointLoad<X>& in, const JointStep<X>& step, const V3<X>& theta,
                              const X* mass_given) {
@@ -105,7 +106,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
     }
     static constexpr T guarded2 = T(guarded_turn) * T(guarded_turn);
 
-    // Where a joint's quantities stand, of one register or two.
+    // Where a joint's quantities stand, for one register or two.
     template <class X> struct At {
         Across<X, const T> constants;
         Across<X> motion;
@@ -121,7 +122,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
         return a;
     }
 
-    // All that a step and the check of its energy read; of what coefficients are made of alone (J, beta, factors), nothing.
+    // Loads all that a step and the check of its energy read, and nothing that only coefficients are made of (J, beta, factors).
     template <class X> BOUGH_FORCE JointLoad<X> load(const At<X>& a) const {
         JointLoad<X> in;
         if constexpr (gravity) {
@@ -140,7 +141,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
         return in;
     }
 
-    // The end of a step: what large turns come to, and the motion.
+    // Ends a step: corrects large turns, and writes the motion.
     template <class X> BOUGH_FORCE void finish(const At<X>& a, const JointLoad<X>& in, JointStep<X>& step) {
         using P = Registers<X>;
         V3<X> theta = step.theta;
@@ -181,7 +182,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
         waiters = 0;
     }
 
-    // The joint's rate as the last step left it.
+    // Returns the joint's rate as the last step left it.
     BOUGH_FORCE V3<W> kept_rate(std::uint32_t row, int lane, const V3<W>& theta, const Turn<W>& turn) const {
         const V3<W> eta = Rows<const T>{this->motion_at(row, lane)}.vector(motion::theta_dot),
                     across = cross(theta, eta);

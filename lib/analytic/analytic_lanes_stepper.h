@@ -4,7 +4,7 @@
 
 namespace bough::fast {
 
-// The scene is without joint limits, moved roots and /fictitious.
+// The scene must be without joint limits, moved roots and /fictitious.
 template <class T> class AnalyticLanesStepper final : public Cloned<AnalyticLanesStepper<T>, Stepper<T>> {
 public:
     AnalyticLanesStepper(Target, double sleep); // sleep: is not for it, which the plan says where it was asked for
@@ -28,8 +28,8 @@ public:
     AnalyticLanesPlan<T> own;
 };
 
-// The solver on a scene, with its steps in lanes of that target where it is asked for and they hold all that the scene has, else plainly
-// (Stepper::plainly says why). sleep: [rad/s] as above.
+// Makes the solver for a scene. Its steps are in lanes of that target if one is asked for and the lanes hold all that the scene has; else they are
+// plain (Stepper::plainly says why). sleep: [rad/s] as above.
 template <class T> std::unique_ptr<Stepper<T>> analytic_stepper(const Scene&, std::optional<Target>, double sleep = 0);
 
 } // namespace bough::fast

@@ -1,14 +1,14 @@
-// analytic_rows.h: what the analytic step's sweeps over lanes (analytic_sweeps.h) read and write: which quantity stands
-// where in a row, and all that a sweep is given (sweep_rows.h).
+// analytic_rows.h: what the analytic step's sweeps over lanes (analytic_sweeps.h) read and write: the place of each quantity in a row, and all that a
+// sweep is given (sweep_rows.h).
 //
-// Everything of a body is in the axes of that body, its composite too: what goes inward is turned once into the parent's axes, and
-// no body's inertia ever into the world's and back, as the plain step does (composite.h).
+// Everything of a body is in the axes of that body, its composite too. What goes inward is turned once into the parent's axes. No body's inertia is
+// turned into the world's axes and back, as in the plain step (composite.h).
 #pragma once
 #include "../lanes/sweep_rows.h"
 
 namespace bough::fast::analytic {
 
-// What changes from step to step and is carried: State's arrays of these names. In place, as a joint reads nobody else's.
+// What changes from step to step and is carried: State's arrays of these names. They change in place, as a joint reads no other joint's.
 namespace motion {
 enum : int { theta = 0, scaled_rate = 3, theta_dot = 6, count = 9 };
 }
@@ -33,7 +33,7 @@ constexpr int constants(bool wind) {
     return wind ? int(constant::count) : int(constant::still_count);
 }
 
-// From the sweep outward to the sweep inward and to the joint's own step, in a thread's own memory.
+// Goes from the sweep outward to the sweep inward and to the joint's own step, in a thread's own memory.
 namespace loaded {
 enum : int {
     R_pb = 0, // parent's body frame from body; inward, then, J (6) and h (3) of the composite
@@ -51,10 +51,10 @@ enum : int {
 };
 }
 
-// And behind a block's rows of those, where the scene has /leaves: [N m] what a leaf's velocity changes of the air's torque.
+// Stands behind a block's rows of those, where the scene has /leaves: [N m] how a leaf's velocity changes the air's torque.
 constexpr int leaf_torque_count = 3;
 
-// Between chains, a record a joint.
+// Goes between chains, a record a joint.
 namespace outward {
 enum : int {
     R_bw = 0,  // body frame from world

@@ -1,4 +1,4 @@
-// analytic_state.h: what the analytic solver has beside plan and state: constants, what it carries from step to step, what a step works in.
+// analytic_state.h: the analytic solver's own part of plan and state: constants, what it carries from step to step, what a step works in.
 #pragma once
 #include "../plan/plan.h"
 #include "../plan/state.h"
@@ -21,20 +21,20 @@ template <class T> struct AnalyticPlan {
     std::vector<T> inverse_weight;               // [m/rad] 1 / u_j
 };
 
-// What a moving ground does to the joints on it in one step (root_term.h), world as at the step's start.
+// What a moving ground does to the joints on it in one step (root_term.h), in world axes as at the step's start.
 template <class T> struct RootLoad {
     Vector3<T> x;            // [m] where the pivot of the ground's turning is
     Vector3<T> g;            // [m/s^2] gravity less that point's acceleration
     Vector3<T> omega, alpha; // [rad/s], [rad/s^2]
 };
 
-// Whichever way the step is made (plainly, or in lanes).
+// The part of the state that is the same whether the step is made plainly or in lanes.
 template <class T> struct AnalyticState : StepperState {
     std::vector<Vector3<T>>
         scaled_rate; // [sqrt(J)] L^T times the rates J theta_dot, S = L L^T (spring.h); carried, saved
 };
 
-// Of the plain step: arrays over bodies.
+// The plain step's part: arrays over bodies.
 template <class T> struct AnalyticWork : Cloned<AnalyticWork<T>, AnalyticState<T>, StepperState> {
     // external_forces
     std::vector<Vector3<T>> f_w, tau_w; // [N], [N m about own joint] at rest: pulls, wind on bodies that stand still
@@ -69,10 +69,10 @@ template <class T> struct AnalyticWork : Cloned<AnalyticWork<T>, AnalyticState<T
     std::size_t bytes() const override;
 };
 
-// What of a scene an array of AnalyticWork is for.
+// The part of a scene that an array of AnalyticWork is for.
 enum class AnalyticNeed : std::uint8_t { always, forces, air, lagged, held };
 
-// visit(name, array, need) for every array over bodies, in the order in which they are written.
+// Calls visit(name, array, need) for every array over bodies, in the order in which they are written.
 template <class WorkType, class Visit> void visit_arrays(WorkType& w, Visit&& visit) {
     using Need = AnalyticNeed;
     visit("f_w", w.f_w, Need::forces);

@@ -1,9 +1,10 @@
-// analytic_step.h: one step of the analytic method (§4): the order of the stages, on one screen. (The same in SIMD lanes:
-// analytic/analytic_lanes_step.h.)
+// analytic_step.h: one step of the analytic method (§4): the order of the stages, on one screen. (analytic/analytic_lanes_step.h does the same in
+// SIMD lanes.)
 //
-// What was tried and taken out: keeping a joint's modes and propagators until its composite has turned by about 0.05 rad. It pays only in still air
-// (half a step, where `coupled` sleeps for nothing): 10 000 bare bodies in gusts took 34 ns in place of 44, a million a quarter more than without, as
-// gusts make fine twigs anew every few frames, trees in leaf as much; it added 1.6 % (bare) to 2.4 % (in leaf) of the deflection to the error.
+// Tried and taken out: keeping a joint's modes and propagators until its composite has turned by about 0.05 rad. It pays only in still air (half a
+// step, where `coupled` sleeps for nothing). In gusts, 10 000 bare bodies took 34 ns in place of 44, but a million took a quarter more than without,
+// as gusts make fine twigs anew every few frames; trees in leaf took as much. It added 1.6 % (bare) to 2.4 % (in leaf) of the deflection to the
+// error.
 #pragma once
 #include "analytic_state.h"
 

@@ -10,7 +10,7 @@ void refuse_with_analytic(const Scene&);
 
 template <class T> class AnalyticStepper final : public Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>> {
 public:
-    // plainly: why it is not the one in lanes.
+    // plainly: why the steps are not made in lanes.
     using Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>>::Cloned;
     const char* name() const override { return "analytic"; }
     void refuse(const Scene& scene) const override { refuse_with_analytic(scene); }
@@ -31,15 +31,15 @@ public:
 
 NonFinite non_finite_in_analytic(std::size_t body);
 
-// In the analytic solver a body that is none has an inertia [kg m^2] whose eigenvalues can be found; its spring is neither soft nor stiff over any
-// step, so that nothing takes a case for it that the bodies beside it do not need. Nothing bends it, and its motion stays 0.
+// In the analytic solver a body that is none has an inertia [kg m^2] whose eigenvalues can be found, and a spring neither soft nor stiff over any
+// step. So nothing takes a case for it that the bodies beside it do not need. Nothing bends it, and its motion stays 0.
 template <class T> constexpr T pad_inertia = sizeof(T) == 4 ? T(1e-20) : T(1e-40);
 template <class T> constexpr T pad_rate2 = T(1e4); // [1/s^2] K over inertia
 
-// Leaves that of a body that broke off.
+// Leaves these values to a body that broke off.
 template <class T> void drop_from_analytic(Plan<T>&, State<T>&, std::size_t body);
 
-// Of a state of the analytic solver.
+// Returns the own part of a state of the analytic solver.
 template <class T> AnalyticState<T>& analytic_state(State<T>& state) {
     return static_cast<AnalyticState<T>&>(*state.own);
 }

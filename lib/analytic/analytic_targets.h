@@ -5,7 +5,7 @@
 
 namespace bough::fast {
 
-// The target's code, which must be available.
+// Returns the code of the target, which must be available.
 template <class T> AnalyticSweeps<T> analytic_sweeps_for(Target, SweepLoads);
 
 } // namespace bough::fast

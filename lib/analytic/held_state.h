@@ -25,7 +25,7 @@ template <class T> struct HeldJoint {
     Vec3 moment;  // [N m], then [N m s]
 };
 
-// Of an attachment, what the coupled solver's Attached has no place for.
+// The part of an attachment that the coupled solver's Attached has no place for.
 struct HeldForce {
     double kappa, g; // [N/m], [kg]
     double most;     // [N] F
@@ -42,7 +42,7 @@ template <class T> struct HeldPoints {
     std::optional<Eigen::LDLT<Eigen::MatrixXd>> factors;
 
     bool any() const { return !joints.empty(); }
-    // Allocated, but for a few numbers a force beside the factors.
+    // Counts what is allocated, except a few numbers a force beside the factors.
     std::size_t bytes() const {
         const auto numbers =
             answers.size() + asked.size() + solved.size() + (factors ? factors->matrixLDLT().size() : 0);

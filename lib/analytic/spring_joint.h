@@ -11,7 +11,7 @@ template <class T>
 SpringJoint<T> spring_joint(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&, const AnalyticWork<T>&,
                             std::size_t body);
 
-// q'' + b q' + lambda q = ratio (r + d v) in modes U: r the residual's, v the rates' when the step begins.
+// q'' + b q' + lambda q = ratio (r + d v) in modes U, with r the residual's and v the rates' components when the step begins.
 template <class T> struct SpringOscillators {
     Matrix3<T> L, X, U; // S = L L^T, U = L^-T X, U^T S U = 1
     Vector3<T> b, lambda, d,
@@ -24,7 +24,7 @@ template <class T>
 SpringOscillators<T> spring_oscillators(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&, const AnalyticWork<T>&,
                                         const SpringJoint<T>&, std::size_t body);
 
-// What the modes turn by in the step, and their rates at its end: r, v the residual and the rates in modes.
+// Finds what the modes turn by in the step, and their rates at its end. r, v: the residual and the rates in modes.
 template <class T> struct SpringTurn { Vector3<T> dq, v; };
 template <class T>
 SpringTurn<T> turn_of_modes(const SpringOscillators<T>& o, const Vector3<T>& r, const Vector3<T>& v) {
@@ -37,8 +37,8 @@ SpringTurn<T> turn_of_modes(const SpringOscillators<T>& o, const Vector3<T>& r, 
     return turn;
 }
 
-// What the modes' rates keep, 1 but where a turn phi_b of more than guarded_turn to `next` has gained energy (spring.h, "Large turns"), counted.
-// before, after: the rates, |.|^2 / 2 the kinetic energy.
+// Returns what the modes' rates keep: 1, except where a turn phi_b of more than guarded_turn to `next` has gained energy (spring.h, "Large turns");
+// this is counted. before, after: the rates; |.|^2 / 2 is the kinetic energy.
 template <class T>
 T kept_of_rate(const Plan<T>&, const SpringJoint<T>&, std::size_t body, const Vector3<T>& theta, const Vector3<T>& next,
                const Vector3<T>& phi_b, const Vector3<T>& before, const Vector3<T>& after, StepFlags&);

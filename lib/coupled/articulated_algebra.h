@@ -18,19 +18,19 @@ template <class S, class T> S field(std::complex<double> z, T) {
         return T(z.real());
 }
 
-// r x v. (Eigen's own cross conjugates.)
+// Returns r x v. (Eigen's own cross conjugates.)
 template <class T, class V> V cross(const Vector3<T>& r, const V& v) {
     return V(r.y() * v.z() - r.z() * v.y(), r.z() * v.x() - r.x() * v.z(), r.x() * v.y() - r.y() * v.x());
 }
 
-// [r]* X, column by column.
+// Returns [r]* X, column by column.
 template <class T, class S> Matrix<S> cross_left(const Vector3<T>& r, const Matrix<S>& X) {
     Matrix<S> m;
     for (int k = 0; k < 3; ++k) m.col(k) = cross(r, Vector<S>(X.col(k)));
     return m;
 }
 
-// X^-1 of a symmetric X = L D L^T, L with unit diagonal.
+// Returns X^-1 of a symmetric X = L D L^T, L with unit diagonal.
 template <class S> Matrix<S> symmetric_inverse(const Matrix<S>& X) {
     const S one(1);
     const S d0 = one / X(0, 0);
@@ -56,7 +56,7 @@ template <class S> void symmetrise(Matrix<S>& X) {
         for (int c = 0; c < r; ++c) X(r, c) = X(c, r) = (X(r, c) + X(c, r)) / typename Eigen::NumTraits<S>::Real(2);
 }
 
-// R X with R real, X symmetric or not: half of a complex product.
+// Returns R X with R real, X symmetric or not: half the cost of a complex product.
 template <class T, class S> Matrix<S> real_times(const Matrix3<T>& R, const Matrix<S>& X) {
     if constexpr (is_complex<T, S>) {
         const Matrix3<T> re = X.real(), im = X.imag();
@@ -69,7 +69,8 @@ template <class T, class S> Matrix<S> real_times(const Matrix3<T>& R, const Matr
     }
 }
 
-// What an eliminated joint hands on to the body it hangs on: impedance Z = z K, K real; r: from that body's joint to this one.
+// Adds to `parent` what an eliminated joint hands on to the body it hangs on. Its impedance is Z = z K, K real; r goes from that body's joint to this
+// one.
 template <class T, class S>
 void hand_on(const ResolventBody<S>& q, const S& z, const Matrix3<T>& K, const Vector3<T>& r,
              ResolventBody<S>& parent) {

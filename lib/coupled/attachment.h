@@ -1,69 +1,70 @@
 // attachment.h: springs and dampers of any stiffness between points of bodies and points in space (Attachment, scene.h), in the coupled step.
 //
-// Between two bodies: attachment_ties.h. With a point in space, here.
-// Force on the body, x its point, X the target:   f = -k (x - X) - c (x' - X')
-// In coupled_step.h's linear model k J^T J joins K and c J^T J joins D, J = d x' / d eta at y*. Divided by s^2 (resolvent.h) that is a
-// mass zeta = k/s^2 + c/s at the point: with rho the point from the body's joint
+// This header treats an attachment to a point in space; attachment_ties.h treats one between two bodies. The force on the body, with x its point and
+// X the target, is   f = -k (x - X) - c (x' - X').
+// In coupled_step.h's linear model k J^T J joins K and c J^T J joins D, J = d x' / d eta at y*. Divided by s^2 (resolvent.h) this is a mass zeta =
+// k/s^2 + c/s at the point. With rho the point from the body's joint
 //   M += zeta 1,   B += zeta [rho],   A += zeta (rho^2 1 - rho rho^T)
-// and the force of y0 in that model, with what the targets' known way and y0's rates change it by,
+// The force of y0 in that model, with what the targets' known way and y0's rates change it by, is
 //   F += k (x_0 - X_mean) + c (V_0 - X'_mean) - (1/p - 1/2) (k dX + c dX') + k V_0 / s,   N += rho x F
-// x_0 is the point at y0 itself, V_0 = J eta_0: as J is that of the step's middle, x_1 meets its target to the third order of the turn, however
-// large k is. The target goes evenly from the step's start to its end, so that x_1 = X_1 where k is beyond all else: R(infinity) = 0.
-// Both are as seen from the tree's ground: where that moves, the target's way is less by what the ground would carry the point along, and what
-// zeta makes of the ground's own acceleration is taken off F.
+// x_0 is the point at y0 itself, and V_0 = J eta_0. As J is that of the step's middle, x_1 meets its target to the third order of the turn, however
+// large k is. The target goes evenly from the step's start to its end, so x_1 = X_1 where k is beyond all else: R(infinity) = 0. Both are as seen
+// from the tree's ground. Where the ground moves, the target's way is less by what the ground would carry the point along, and what zeta makes of the
+// ground's own acceleration is taken off F.
 //
-// Direction. A force on a point turns the bodies on its path to the ground, and as they turn its moment about each joint changes: the
-// Hessian of -f.x, block diagonal in the bodies' absolute rotations like gravity's (body_load.h), P the next joint of the path, or the point, from the
-// body's joint:  H = (P.f) 1 - sym(P f^T). Without it a path drawn tight by what is far beyond its reach thrashes at a force over length above its joints' own
-// stiffness and inertia. In its place stands what bounds it, whichever way f points,
+// Direction. A force on a point turns the bodies on its path to the ground. As they turn, its moment about each joint changes by the Hessian of -f.x,
+// which is block diagonal in the bodies' absolute rotations like gravity's (body_load.h). With P from the body's joint to the next joint of the path,
+// or to the point, it is  H = (P.f) 1 - sym(P f^T). Without it a path that is drawn tight by something far beyond its reach thrashes where force over
+// length exceeds its joints' own stiffness and inertia. The solve takes instead a bound on it, whichever way f points:
 //   H = |P| max(|f|, w |f_0|) (1 - P P^T / P^2),   f the force at the end of the last step, f_0 that of y0
-// w is 1 where the linear model may not be trusted: where a joint would turn by more than 0.1 rad for f_0 - f, answered by the path's own springs and
-// inertias alone; below, the square of that turn over 0.1 rad. (A straight twig that is pushed along itself by a micrometre has to turn by as much as one
-// that is pulled a metre aside.) As any L does, H leaves fixed points and the second order as they are. Tried on a twig of 0.8 mm, 0.36 m, E 5 GPa,
-// pressed 0.1 m towards its foot, largest kinetic energy of the seventh second [J], k 1e3 / 20 N/m: without H 4e-2 / 3e-2; P.f alone where positive 2e-2 /
-// 2e-2, and with the whole of w 2e-4 / 1e-4; the Hessian itself, with w, 3 / 0.7; this 3e-7 / 1e-6. The price: what is pressed comes to rest as slowly as that.
+// w is 1 where the linear model may not be trusted: where a joint would turn by more than 0.1 rad under f_0 - f, answered by the path's own springs
+// and inertias alone. Below, w is the square of that turn over 0.1 rad. (A straight twig that is pushed along itself by a micrometre has to turn by
+// as much as one that is pulled a metre aside.) As any L does, H leaves fixed points and the second order as they are. Tried on a twig of 0.8 mm,
+// 0.36 m, E 5 GPa, pressed 0.1 m towards its foot, largest kinetic energy of the seventh second [J], k 1e3 / 20 N/m: without H 4e-2 / 3e-2; P.f alone
+// where positive 2e-2 / 2e-2, and with the whole of w 2e-4 / 1e-4; the Hessian itself, with w, 3 / 0.7; this 3e-7 / 1e-6. The price is that what is
+// pressed comes to rest as slowly as that.
 //
-// Digits. Eliminating a joint takes zeta l^2 beside what the joint itself answers with, (J + |z| K) about its softest axis, and what is handed on
-// is their difference: with m_t the least of (J + |z| K) / l^2 along the path, (zeta / m_t)^2 roundings of m_t are lost. So zeta is at most
-// sqrt(0.01 / epsilon) m_t: 290 m_t in float, 7 10^6 in double. A stiffer spring is taken with that stiffness k_c, its target shifted by
-// f_k (1/k_c - 1/k), f_k its own force of the last step: at rest it is as long as a spring of k, and in float its point follows the target within 1 / 290
-// of its way in a step. A stronger damper is taken as one of that c.
-// So shifted, a spring whose target is out of reach pulls by k_c times the way that is left more at every step, and what several hold against each
-// other with grows until rounding moves the joints between them: (H / (J + |z| K) |s|^2)^2 roundings, as zeta's. So the f_k that shifts is at most
-// sqrt(1 / epsilon) times what turns a joint of the path by a radian in a step, the least of (J + |z| K) / (l |s|^2): 2900 of it in float, 7 10^7 in double.
-// Beyond, a target is pulled at with that and with k_c.
+// Digits. Eliminating a joint takes zeta l^2 beside what the joint itself answers with, (J + |z| K) about its softest axis, and hands on their
+// difference. With m_t the least of (J + |z| K) / l^2 along the path, (zeta / m_t)^2 roundings of m_t are lost. So zeta is at most sqrt(0.01 /
+// epsilon) m_t: 290 m_t in float, 7 10^6 in double. A stiffer spring is taken with that stiffness k_c, and its target is shifted by f_k (1/k_c -
+// 1/k), f_k its own force of the last step. At rest it is then as long as a spring of k, and in float its point follows the target within 1 / 290 of
+// its way in a step. A stronger damper is taken as one of that c.
+// A spring shifted so, whose target is out of reach, pulls at every step by k_c times the remaining way more. What several such springs hold against
+// each other with grows until rounding moves the joints between them: (H / (J + |z| K) |s|^2)^2 roundings, as zeta's. So the f_k that shifts is at
+// most sqrt(1 / epsilon) times what turns a joint of the path by a radian in a step, the least of (J + |z| K) / (l |s|^2): 2900 of it in float, 7
+// 10^7 in double. Beyond that, a target is pulled at with that force and with k_c.
 //
-// Carried from step to step: both forces. Reads motions of the bodies on paths alone, and writes sums for them, before the solves; after
-// them, forces. O(path) an attachment, about 0.3 us a joint of all paths together; all in double. A step allocates nothing. Errors none.
+// Both forces are carried from step to step. Reads motions of the bodies on paths alone. Writes sums for them before the solves, and forces after
+// them. O(path) an attachment, about 0.3 us a joint of all paths together; all in double. A step allocates nothing. Errors none.
 #pragma once
 #include "coupled_state.h"
 #include <complex>
 
 namespace bough {
 
-// Of the plan's, at the start pose. O(paths).
+// Sets up the plan's attachments at the start pose. O(paths).
 template <class T> void begin_attachments(const Plan<T>&, CoupledState<T>&);
 
-// One more while the run goes on, its target at rest. Returns its number, which no other one gets. O(attachments x path). Needs Plan::pose.
+// Adds an attachment while the run goes on, its target at rest. Returns its number, which no other one gets. O(attachments x path). Needs Plan::pose.
 template <class T>
 std::uint64_t attach(const Plan<T>&, CoupledState<T>&, std::size_t body, const Vec3& point_b, double stiffness,
                      double damping, const Vec3& target);
-// One that another run made, with its number, on a body here; its forces are zero.
+// Takes over one that another run made, with its number, on a body here. Its forces are zero.
 template <class T> void adopt(const Plan<T>&, CoupledState<T>&, const Attached&, std::size_t body);
-// By its number; null: there is none.
+// Returns the attachment of this number; null: there is none.
 Attached* attached(Attachments&, std::uint64_t number);
 template <class T> void release(const Plan<T>&, CoupledState<T>&, std::uint64_t number);
-// Those on bodies that have broken off.
+// Releases those on bodies that have broken off.
 template <class T> void release_from(const Plan<T>&, CoupledState<T>&, const std::vector<std::size_t>& bodies);
 
-// AttachedBody::now of arrays in document order, as they stand.
+// Fills in AttachedBody::now from arrays in document order, as they stand.
 template <class T> void read_attached(const State<T>&, CoupledState<T>&);
-// The step from `time` [s]: fills AttachedBody::sums. Needs AttachedBody::now of its start.
+// Fills in AttachedBody::sums for the step from `time` [s]. Needs AttachedBody::now of its start.
 template <class T> void place_attachments(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double time);
-// Once it is solved, and before the energy guard: the forces at its end, the work. Needs AttachedBody::now of its end.
+// Finds the forces at the step's end, and the work. Called once the step is solved, before the energy guard. Needs AttachedBody::now of its end.
 void settle_attachments(Attachments&);
 
-// What is added to a body of the solve at pole p, by parts as they stand in resolvent.h.
+// What is added to a body of the solve at pole p. The parts are those of resolvent.h.
 template <class S> struct AttachmentTerms {
     Eigen::Matrix<S, 3, 3> A, B, M;
     Eigen::Matrix<S, 3, 1> N, F;

@@ -1,15 +1,16 @@
-// attachment_paths.h: what the joints between an attachment's ends and the ground are to it (attachment.h), each by its own spring and inertia alone.
+// attachment_paths.h: how the joints between an attachment's ends and the ground answer it (attachment.h), each by its own spring and inertia alone.
 #pragma once
 #include "coupled_state.h"
 #include <complex>
 
 namespace bough {
 
-// The bodies of all paths: to be called where what holds or pulls them has changed. Those that stay keep nothing, as a step fills them anew.
-// O(paths). Allocates where they are more than before.
+// Finds the bodies of all paths. Called where what holds or pulls them has changed. Bodies that stay keep nothing, since a step fills them anew.
+// O(paths). Allocates if there are more than before.
 template <class T> void find_bodies(const Plan<T>&, Attachments&);
 
-// Of the joints between an end and the ground, from the end on: visit(body, from its joint to the end, from its joint to the next joint or the end).
+// Calls, for the joints between an end and the ground, from the end on: visit(body, from its joint to the end, from its joint to the next joint or
+// the end).
 template <class Of, class Visit> void along_path(Of& a, const AttachedEnd& end, Visit&& visit) {
     const Vec3 point = a.bodies[end.at].x + end.rho;
     Vec3 outward = point;
@@ -24,10 +25,10 @@ template <class Of, class Visit> void along_paths(Of& a, const Attached& held, V
     if (held.far) along_path(a, *held.far, visit);
 }
 
-// [N m/rad] that a joint resists a turn in one step with, about its softest axis: by its spring, its damping and its inertia.
+// [N m/rad] Returns how a joint resists a turn in one step about its softest axis: by its spring, its damping and its inertia.
 template <class T> double answering_stiffness(const Plan<T>&, const AttachedBody&);
 
-// What the path's joints answer with at the point, |s| of the scheme's slowest pole: the least of each.
+// How the path's joints answer at the point, with |s| of the scheme's slowest pole. Each value is the least of the joints'.
 struct PathAnswer {
     double mass; // [kg] (J + |z| K) / l^2
     double push; // [kg m] (J + |z| K) / l: over |s|^2, the force that turns it by a radian
@@ -35,7 +36,7 @@ struct PathAnswer {
 template <class T>
 PathAnswer path_answer(const Plan<T>&, const Attachments&, const AttachedEnd&, std::complex<double> s1);
 
-// H of every body of the paths, from their places at y*.
+// Adds H to every body of the paths, from their places at y*.
 template <class T> void add_direction(const Plan<T>&, Attachments&, const Attached&);
 
 } // namespace bough

@@ -9,24 +9,25 @@
 
 namespace bough {
 
-// Of one body, what attachments add to a step's solve, world axes, about its joint. Each of them times 1/s^2, 1/s, or the slope of attachment.h.
+// What attachments add to one body's part of a step's solve, in world axes, about its joint. Each is multiplied by 1/s^2, 1/s, or the slope of
+// attachment.h.
 struct AttachmentSums {
     Mat3 A_stiffness, A_damping; // [N m/rad], [N m s/rad]; the first with H
     Vec3 B_stiffness, B_damping; // [N], [N s] the vector of a cross product
     double stiffness, damping;   // [N/m], [N s/m]
     Vec3 N, N_slope, N_rate;     // [N m]; N_rate [N m/s], as F_rate
     Vec3 F, F_slope, F_rate;     // [N]
-    // What the masses at points would make of the moving ground's own acceleration, whose way the targets have already: times 1/s^2, 1/s, and
-    // both times its slope.
+    // What the masses at points would make of the moving ground's own acceleration, whose way the targets already have: times 1/s^2, 1/s, and both
+    // times its slope.
     Vec3 N_ground[4], F_ground[4];
 };
 
-// Motion of a joint at a step's start, with the changes over the last step.
+// The motion of a joint at a step's start, with the changes over the last step.
 struct JointNow {
     Vec3 theta, eta, theta_change, eta_change;
 };
 
-// A body that is attached, or carries one that is.
+// A body that is attached, or that carries one.
 struct AttachedBody {
     std::size_t body;
     std::int64_t parent; // in Attachments::bodies, -1: the ground
@@ -35,19 +36,19 @@ struct AttachedBody {
     std::uint32_t slot = 0, block = 0, base = 0; // in lanes: where it stands, the chain's place in Layout::base
 
     JointNow now;
-    // At y*, world: as in CoupledBody, own: by the joints' rates at y0 alone, v its velocity at the joint; x_start, R_start: at y0.
+    // At y*, world, as in CoupledBody. own: by the joints' rates at y0 alone. v: its velocity at the joint. x_start, R_start: at y0.
     Mat3 R_start, R, GJ;
     Vec3 x_start, x, turn, own, v;
     Vec3 r; // from the joint that carries it, or the ground's place
     AttachmentSums sums;
-    // Of pulls on it and on what it carries: force; rad/(N m) that the joints to the ground give; the sum of pulled_points.h.
+    // For pulls on it and on what it carries: their force; the rad/(N m) by which the joints to the ground give; the sum of pulled_points.h.
     Vec3 pulled;
     double give, share;
     Vec3 turned, moved; // [rad], [m] over the step, in the linear model
     Vec3 spun, sped;    // [rad/s], [m/s] likewise: rates
 };
 
-// Where one takes hold.
+// An attachment's end on a body.
 struct AttachedEnd {
     std::size_t body = 0;
     std::size_t at = 0;          // in Attachments::bodies
@@ -92,16 +93,16 @@ struct PulledPoint : AttachedEnd {
 
 constexpr std::size_t of_caller = ~std::size_t(0);
 
-// What the sweeps cannot eliminate (attachment_ties.h): an attachment between two bodies, a point.
+// What the sweeps cannot eliminate (attachment_ties.h): an attachment between two bodies, or a pulled point.
 struct Tie {
     bool follows = false;
     std::size_t of = 0; // in Attachments::all, in pulled
-    // Of a pair: at the near point, as F, F_slope, F_rate, F_ground of AttachmentSums.
+    // For a pair, at the near point: F, F_slope, F_rate and F_ground as in AttachmentSums.
     Vec3 F = Vec3::Zero(), slope = Vec3::Zero(), rate = Vec3::Zero();
     Eigen::Matrix<double, 3, 4> ground = Eigen::Matrix<double, 3, 4>::Zero();
 };
 
-// A body of `bodies` in the solve at one pole, as resolvent.h has it: E, E A, E B, E u.
+// A body of `bodies` in the solve at one pole, as in resolvent.h: E, E A, E B, E u.
 struct SolvedBody {
     ComplexMat3 E, EA, EB;
     ComplexVec3 Eu;
@@ -125,7 +126,7 @@ struct Attachments {
     Eigen::PartialPivLU<Eigen::MatrixXcd> factors;
 
     bool any() const { return !bodies.empty(); }
-    // Of what is there: arrays may have room for more, and the factors have a few numbers beside.
+    // Counts what is in use: arrays may have room for more, and the factors hold a few further numbers.
     std::size_t bytes() const {
         const auto of = [](const auto& array) { return array.size() * sizeof(array[0]); };
         const auto of_equations = answers.size() + asked.size() + unknowns.size() + factors.rows() * factors.cols();

@@ -3,8 +3,8 @@
 //
 // Reads   solved, now, records of accelerations of the joints that chains begin on
 // Writes  next; records of accelerations of forks
-// Cost    memory's: about 180 arithmetic instructions a row for 54 + 6 lines in and 12 out. Errors none; half turns are counted, numbers
-//         that are none flagged.
+// Cost    bound by memory: about 180 arithmetic instructions a row for 54 + 6 lines in and 12 out. Errors none: half turns are counted, non-finite
+//         numbers flagged.
 #pragma once
 #include "coupled_parts.h"
 
@@ -98,7 +98,7 @@ template <class T> struct CoupledAccelerate : CoupledParts<T> {
                 y1.set(motion::theta_dot_change, rate_change);
                 const W angle2 = dot(theta, theta), rate2 = dot(eta, eta);
                 if (rows.ends) {
-                    // As the plain step looks at theta_dot at the start and its change: the rate at the end.
+                    // The plain step looks at theta_dot at the start plus its change; this is the same, the rate at the end.
                     const bool wood = g.kind == Kind::branch;
                     if (any_above(rate2, fast2(wood))) mark(g.first_base, lane, rate2, wood, flags);
                     sizes = sizes + (angle2 + rate2);

@@ -5,7 +5,7 @@
 
 namespace bough {
 
-// All in world axes, about the body's own joint. y*: the evaluation point, half a step on; y0: the start.
+// All are in world axes, about the body's own joint. y*: the evaluation point, half a step on. y0: the start.
 template <class T> struct CoupledBody {
     // midpoint.h
     Matrix3<T> R;            // world from body, at y*
@@ -30,7 +30,7 @@ template <class T> struct CoupledBody {
     Vector3<T> torque_rate;      // [N m/s] how y0's rates change the spring's
 };
 
-// What the solve works in (resolvent.h); S: std::complex<T>, or T for a scheme with a real pole.
+// What the solve works in (resolvent.h). S: std::complex<T>, or T for a scheme with a real pole.
 template <class S> struct ResolventBody {
     Eigen::Matrix<S, 3, 3> A, B, M;  // [kg m^2], [kg m], [kg] articulated
     Eigen::Matrix<S, 3, 3> E;        // (A + Z)^-1
@@ -39,13 +39,13 @@ template <class S> struct ResolventBody {
     Eigen::Matrix<S, 3, 1> alpha, a; // [rad/s^2], [m/s^2] beyond the biases
 };
 
-// A body as the energy guard weighs it (energy_guard.h), velocities at its joint, world: by slow joints and by fast ones.
+// A body as the energy guard weighs it (energy_guard.h). Velocities are at its joint, world, split into what slow joints and what fast ones cause.
 template <class T> struct GuardBody {
     Vector3<T> com, joint;         // [m] at the step's start
     Vector3<T> v, omega;           // [m/s], [rad/s]
     Vector3<T> v_fast, omega_fast; // [m/s], [rad/s]
-    // Of ends of branches: the centre of mass from the joint at the start, in the axes of what carries it [m]; the velocity that it would have
-    // had, borne as if fixed, and had [m/s]; that carrier's turning [rad/s]; pulls on it [N]
+    // For ends of branches: the centre of mass from the joint at the start, in the axes of what carries it [m]; the velocity that it would have had,
+    // borne as if fixed, and had [m/s]; its carrier's turning [rad/s]; pulls on it [N].
     Vector3<T> arm, carried, host_omega, push;
     double own = 0;         // [J] kinetic and elastic at the start, as seen from what carries it
     T keep = 1;             // what its rate is scaled by
@@ -53,7 +53,7 @@ template <class T> struct GuardBody {
     bool fast = false;
 };
 
-// Energies [J] of one root's tree in one step.
+// The energies [J] of one root's tree in one step.
 struct EnergyAccount {
     bool watched = false; // some body of the tree turns fast
     bool wood = false;    // and one of wood
@@ -63,7 +63,8 @@ struct EnergyAccount {
     double keep_fast = 1, keep_slow = 1;  // what the rates are scaled by
 };
 
-// The ground over one step, world (ground_course.h): half a step on, its velocities at the start, its mean accelerations and their change.
+// The ground over one step, world (ground_course.h): its pose and velocities half a step on, its velocities at the start, its mean accelerations and
+// their change.
 template <class T> struct GroundStep {
     Matrix3<T> R;
     Vector3<T> x, v, omega, v_0, omega_0;

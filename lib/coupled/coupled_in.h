@@ -1,10 +1,10 @@
-// coupled_in.h: the coupled step's sweep inward over lanes (coupled_sweeps.h): joint by joint the elimination of resolvent.h, and what is
-// handed on to the body that carries it.
+// coupled_in.h: the coupled step's sweep inward over lanes (coupled_sweeps.h): the elimination of resolvent.h joint by joint, and what is handed on
+// to the carrying body.
 //
 // Reads   loaded, mass, beta, records inward of forks, attached
 // Writes  of solved Eu, EA, EB; adds to the records inward where chains land
 // Cost    about 930 arithmetic instructions a row (AVX-512) among 1300. Errors none.
-// What was tried on the three sweeps, time against the one before (float, gusty, one thread, AVX-512; good to about 3 %):
+// Tried on the three sweeps, time against the one before (float, gusty, one thread, AVX-512; good to about 3 %):
 //   products written so that each fuses, the profile looked up in all lanes     1 000 bodies 0.88, 100 000 0.96
 //   eliminated column by column, the inverse scaled by the body's own numbers   0.98, 0.94
 //   rates kept where the last sweep reads them, at once                         10 000 0.96, 100 000 1.00
@@ -32,7 +32,7 @@ template <class T> struct CoupledIn : CoupledParts<T> {
     using typename Parts::C;
     using typename Parts::W;
 
-    // Of A, B, M, N and F of what a joint carries: nothing where its bodies are tips.
+    // Selects A, B, M, N and F of what a joint carries: nothing where its bodies are tips.
     template <bool tip, class X> BOUGH_FORCE static X came(const X& carried) {
         if constexpr (tip)
             return X{};
@@ -43,7 +43,7 @@ template <class T> struct CoupledIn : CoupledParts<T> {
         for (int k = 0; k < inward::count; ++k) sum.set(k, sum.real(k) + more.real(k));
     }
 
-    // A with its own beside what came (resolvent.cpp, start).
+    // Returns A: the body's own, and what came (resolvent.cpp, start).
     template <bool wind, bool gravity, bool tip>
     BOUGH_FORCE Symmetric<C> whole_A(const Rows<T>& q, const Rows<const T>& in, const C& s1, const C& s2,
                                      const V3<W>& c) const {
@@ -62,8 +62,8 @@ template <class T> struct CoupledIn : CoupledParts<T> {
         return inverse(plus(A, z, K), W(1 / size));
     }
 
-    // For attachments between bodies (attachment_ties.h), before step_in, which makes it a second time: 1 % of a step with three ties. Kept from within
-    // step_in it would round otherwise for every tree in wind.
+    // Used for attachments between bodies (attachment_ties.h), before step_in, which computes the inverse a second time: 1 % of a step with three
+    // ties. An inverse kept from within step_in would round otherwise for every tree in wind.
     template <bool wind, bool gravity>
     [[gnu::noinline]] void keep_inverse(const Rows<T>& q, std::uint32_t row, int lane, const Rows<const T>& in) const {
         const C s1 = number(rows.s1), s2 = number(rows.s2), z = constants(row, lane).real(constant::beta) * s1 + s2;
@@ -72,15 +72,15 @@ template <class T> struct CoupledIn : CoupledParts<T> {
         to.set(0, inverse_of(A, in, z));
     }
 
-    // q: what the bodies carry, and then what they are to those that carry them. It stays in memory, where each part waits until its turn: as
-    // numbers of the function's own, the compiler would store most of them on its stack as well (381 stores a row, where now there are some 165).
+    // q: first what the bodies carry, then what they are to their carriers. It stays in memory, where each part waits until its turn. As local
+    // numbers, the compiler would store most of them on its stack as well (381 stores a row, where now there are some 165).
     template <bool wind, bool gravity, bool tip>
     BOUGH_FORCE void step_in(const Rows<T>& q, std::uint32_t row, int lane, const Rows<const T>& in) const {
         const Rows<const T> k = constants(row, lane);
         const W mass = k.real(constant::mass);
         const C s1 = number(rows.s1), s2 = number(rows.s2), z = k.real(constant::beta) * s1 + s2;
         const V3<W> c = in.vector(loaded::c);
-        // What goes past the caches waits here: the arithmetic is one code, whose rounding does not hang on it.
+        // What goes past the caches waits here. The arithmetic is one code, so its rounding does not depend on it.
         alignas(64) T waiting[solved::rates * L];
         const Rows<T> kept{rows.stream ? waiting + lane : solved_row(row, lane).at};
 
@@ -122,7 +122,7 @@ template <class T> struct CoupledIn : CoupledParts<T> {
                         plus_dot(N.z, V3<C>{A.xz, A.yz, A.zz}, Eu)});
         }
         forget_memory();
-        // A' = Z E A, B' = Z E B, M' = M - B^T E B, column by column, so that little has to stay in registers.
+        // A' = Z E A, B' = Z E B, M' = M - B^T E B, column by column, so that few values have to stay in registers.
         {
             const Symmetric<C> A = q.complex_symmetric(inward::A);
             const Symmetric<W> K = in.symmetric(loaded::K);

@@ -1,4 +1,4 @@
-// coupled_lanes_state.h: what the coupled solver has beside plan and state where its steps are made in lanes.
+// coupled_lanes_state.h: the coupled solver's own part of plan and state where its steps are made in lanes.
 #pragma once
 #include "../lanes/lanes.h"
 #include "coupled_state.h"

@@ -6,8 +6,8 @@ namespace bough::fast {
 
 template <class T> class CoupledLanesStepper final : public Cloned<CoupledLanesStepper<T>, Stepper<T>> {
 public:
-    // sleep: [rad/s] the rate below which what has settled is left out of steps (sleep.h); 0: never. The scheme is of complex poles, the scene without
-    // joint limits.
+    // sleep: [rad/s] the rate below which what has settled is left out of steps (sleep.h); 0: never. The scheme must have complex poles, and the
+    // scene no joint limits.
     CoupledLanesStepper(Scheme, Target, double sleep);
     const char* name() const override { return "coupled"; }
     const char* scheme() const override { return scheme_of(own.scheme).name; }
@@ -43,12 +43,12 @@ private:
     bool gravity_ = false;
 };
 
-// The solver on a scene, with its steps in lanes of that target where it is asked for and they hold all that the scene has, else plainly
-// (Stepper::plainly says why). sleep: [rad/s] as above.
+// Makes the solver for a scene. Its steps are in lanes of that target if one is asked for and the lanes hold all that the scene has; else they are
+// plain (Stepper::plainly says why). sleep: [rad/s] as above.
 template <class T>
 std::unique_ptr<Stepper<T>> coupled_stepper(const Scene&, Scheme, std::optional<Target>, double sleep = 0);
 
-// Of a plan of the coupled solver, whichever way its steps are made; null for another.
+// Returns the coupled solver's part of a plan, whichever way its steps are made; null for another solver.
 template <class T> CoupledPlan<T>* coupled_plan(Plan<T>&);
 template <class T> const CoupledPlan<T>* coupled_plan(const Plan<T>& plan) {
     return coupled_plan(const_cast<Plan<T>&>(plan));

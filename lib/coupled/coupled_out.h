@@ -1,5 +1,5 @@
-// coupled_out.h: the coupled step's first sweep outward over lanes (coupled_sweeps.h): where each body is half a step on (midpoint.h), and
-// what it is loaded with there (body_load.h, the joint's own spring and damper).
+// coupled_out.h: the coupled step's first sweep outward over lanes (coupled_sweeps.h): where each body is half a step on (midpoint.h), and its load
+// there (body_load.h, the joint's own spring and damper).
 //
 // Reads   constants, now, records outward of the joints that chains begin on, the wind's profile, pulls
 // Writes  loaded; of solved rates and r, which then wait no longer in the cache than the row takes; records outward of forks
@@ -46,7 +46,7 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         return any_above(turn2, all(T(1))) ? bounded(omega, turn2, mass, count) : omega;
     }
 
-    // What they ask for. By value, as what a function is given the place of cannot stay in registers.
+    // What the pulls ask for. It is returned by value: what a function gets a reference to cannot stay in registers.
     struct Pulls {
         V3<C> N, F;
     };
@@ -90,8 +90,8 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         V3<W> u, ahead, change; // [m/s] past the centre of mass; its velocity ahead; the wind's over the step
         V3<W> turn, own;
     };
-    // What the air takes of a body's own turning, onto what is loaded. It is damping, which the sweep inward has none of in turning: as s1 = 1/s
-    // and s2 = s1^2 are complex, s1 = x + y s2 with the reals x = |s1|^2 / (2 Re s1), y = 1 / (2 Re s1), and it goes to J and H in these parts.
+    // Adds what the air takes of a body's own turning to what is loaded. It is damping, and the sweep inward has no damping in turning. As s1 = 1/s
+    // and s2 = s1^2 are complex, s1 = x + y s2 with the reals x = |s1|^2 / (2 Re s1), y = 1 / (2 Re s1); so it goes to J and H in these parts.
     BOUGH_FORCE void damp_spin(const Rows<T>& out, const W& rate, const W& mass, const V3<W>& c, const V3<W>& omega_0,
                                Symmetric<W>& J, Symmetric<W>& H, V3<C>& N) const {
         const Symmetric<W> G = spin_damping(rate, mass, J, c);
@@ -102,7 +102,7 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         H = H + y * G;
         out.set(loaded::J, J);
     }
-    // leaf_air.h, but for nu I w, onto what is loaded.
+    // Adds leaf_air.h, without nu I w, to what is loaded.
     [[gnu::noinline]] void add_leaf(const Rows<const T>& k, const Rows<T>& out, LeafIn in) const {
         const LeafTerms<T>& terms = rows.leaf;
         const LeafBody<W> body{k.real(constant::mass), k.real(constant::drag_area)};
@@ -120,8 +120,8 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         out.set(loaded::H, out.symmetric(loaded::H) + H);
     }
 
-    // One row: the frame of its bodies from their parents'. f: of the quantities of `outward`. It stays in memory, as what is loaded does, from
-    // which each part reads what it needs (coupled_in.h, step_in).
+    // Takes one row: finds the frame of its bodies from their parents'. f: the quantities of `outward`. Both f and what is loaded stay in memory,
+    // from which each part reads what it needs (coupled_in.h, step_in).
     template <bool wind, bool gravity, Kind kind>
     BOUGH_FORCE void step_out(const Rows<T>& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
                               W& fastest, SweepFlags& flags, T fold) const {

@@ -27,7 +27,7 @@ template <class T> struct CoupledParts : SweepParts<T, CoupledRows<T>> {
         return {rows.solved_rows + std::ptrdiff_t(row - rows.first_row) * rows.solved_stride * L + lane};
     }
 
-    // Square of the rate from which on the energy guard looks at a body's tree.
+    // Returns the square of the rate from which on the energy guard looks at a body's tree.
     W fast2(bool wood) const {
         const T most = T(wood ? watched_turn : watched_end_turn) / rows.h;
         return all(most * most);
@@ -39,7 +39,7 @@ template <class T> struct CoupledParts : SweepParts<T, CoupledRows<T>> {
             if (rate2[l] > most[l]) rows.watched[base + std::uint32_t(lane + l)] |= wood ? 1 : 2;
     }
 
-    // Half of the last changes, but for joints whose way on cannot be told (midpoint.h). turn: the parent's.
+    // Returns half of the last changes; zero for joints whose way on cannot be told (midpoint.h). turn: the parent's.
     BOUGH_FORCE static void halfway(const Rows<const T>& y0, const M3<W>& G, const V3<W>& turn, V3<W>& half,
                                     V3<W>& half_rate) {
         half = T(0.5) * y0.vector(motion::theta_change);

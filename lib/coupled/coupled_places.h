@@ -7,20 +7,21 @@
 
 namespace bough::fast {
 
-// One quantity's rows, or a record's of several: that of a block's row k begins at first + k * stride, in rows of 64 bytes.
+// The rows of one quantity, or of a record of several. Those of a block's row k begin at first + k * stride, in rows of 64 bytes.
 struct Run {
     std::ptrdiff_t first, stride;
     std::ptrdiff_t at(std::uint32_t k) const { return first + std::ptrdiff_t(k) * stride; }
 };
-// Where in the coupled step's table stand a block's motion at the step's start, at its end, and what is solved. Each is one stretch of
-// memory, as a core likes to read it. Outward, a row's solution is read for the last time where its motion's end is found, and takes
-// more room than that: the one runs along where the others before it have stood, with one solve a step 66 quantities a body, not
-// 78, and the lines that are written are in the core's cache already. From step to step the motions change places, from the front of the
-// block's stretch to its back, and so does the direction in which the rows stand.
+// Where a block's motion at the step's start, its motion at the end, and what is solved stand in the coupled step's table. Each is one stretch of
+// memory, as a core likes to read it. Outward, a row's solution is read for the last time where its motion's end is found, and takes more room than
+// that. So the ends run along where solutions before them have stood: with one solve a step this takes 66 quantities a body, not 78, and the lines
+// that are written are in the core's cache already. From step to step the motions change places, from the front of the block's stretch to its back,
+// and the rows change direction.
 struct CoupledPlaces {
     Run now, next, solved;
 };
-// Quantities a row in all. poles: solves a step. waits: of layout.h, some block's accelerations wait for others', so that what is solved is kept for all rows.
+// Returns the number of quantities a row. poles: solves a step. waits: as in layout.h; some block's accelerations wait for others', so what is solved
+// is kept for all rows.
 constexpr int coupled_columns(bool waits, int poles) {
     if (!waits) return 2 * int(motion::count); // nothing is solved beyond a core's cache
     return int(solved::count) + (poles > 1 ? 2 : 1) * int(motion::count);
@@ -36,7 +37,7 @@ inline CoupledPlaces coupled_places(const Block& block, bool waits, int poles, b
     return {odd ? other : one, odd ? one : other, {front + 2 * m * rows, s}};
 }
 
-// [rows] that the three records of a joint take.
+// [rows] Returns how many the three records of a joint take.
 template <class T> constexpr int records_of_joint() {
     constexpr int L = Row<T>::lanes;
     return int((record(outward::count, L) + record(inward::count, L) + record(accelerated::count, L)) / L);

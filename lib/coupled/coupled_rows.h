@@ -1,5 +1,5 @@
-// coupled_rows.h: what the coupled step's sweeps over lanes (coupled_sweeps.h) read and write: which quantity stands where in a row,
-// and all that a sweep is given (sweep_rows.h). Quantities as in coupled_body.h, where the frame of each is said.
+// coupled_rows.h: what the coupled step's sweeps over lanes (coupled_sweeps.h) read and write: the place of each quantity in a row, and all that a
+// sweep is given (sweep_rows.h). Quantities are those of coupled_body.h, which names the frame of each.
 #pragma once
 #include "../lanes/sweep_rows.h"
 
@@ -21,7 +21,7 @@ enum : int {
 };
 } // namespace constant
 
-// From the first sweep outward to the sweep inward, in a thread's own memory.
+// Goes from the first sweep outward to the sweep inward, in a thread's own memory.
 namespace loaded {
 enum : int {
     c = 0,       // [m]
@@ -37,12 +37,12 @@ enum : int {
 };
 }
 
-// From the first sweep outward (rates, r) and the sweep inward to the second one outward. (E: (A + Z)^-1.)
+// Goes from the first sweep outward (rates, r) and the sweep inward to the second sweep outward. (E: (A + Z)^-1.)
 namespace solved {
 enum : int { Eu = 0, EA = 6, EB = 24, rates = 42, r = 51, count = 54 };
 }
 
-// Between chains, a record a joint.
+// Goes between chains, a record a joint.
 namespace outward {
 enum : int {
     R = 0,
@@ -68,14 +68,14 @@ enum : int { alpha = 0, a = 6, count = 12 };
 }
 
 template <class T> struct CoupledRows : SweepRows<T> {
-    // Of a block's rows from first_row on, each with its stride from row to row [quantities] (CoupledPlaces).
+    // A block's rows from first_row on, each with its stride from row to row [quantities] (CoupledPlaces).
     std::uint32_t first_row;
     const T* now; // motion at the step's start
     T* next;      // and at its end; a row's may stand where its own `solved` stands, or one before it stood
     T* solved_rows;
     std::ptrdiff_t now_stride, next_stride, solved_stride;
     T* accelerated_records;
-    // Of each lane's chain (as base): a body of it turned fast, to be looked at by the energy guard; 1 of wood, 2 of what hangs at its ends.
+    // For each lane's chain (as base): set if a body of it turned fast, for the energy guard to look at; 1 of wood, 2 of what hangs at its ends.
     std::uint8_t* watched;
 
     const std::int32_t*
@@ -87,11 +87,11 @@ template <class T> struct CoupledRows : SweepRows<T> {
     bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
     bool stream;              // solved_rows are more than the caches hold, and go past them
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2
-    // x's weights in the changes of theta_dot and theta, and theta_dot's in that of theta.
+    // The weights of x in the changes of theta_dot and theta, and that of theta_dot in the change of theta.
     T of_rate[2], of_angle[2], eta;
     T wind_change[3]; // [m/s] of `wind` over the step
     FieldTables<T> field_start, field_end;
-    // theta past half a turn, of one body: the shorter way round (coupled/half_turn.h). False where it was not.
+    // Takes one body's theta past half a turn the shorter way round (coupled/half_turn.h). Returns false where it was not past.
     bool (*shorten)(T* theta, T* theta_dot, T* theta_change, T* theta_dot_change, T h);
 };
 

@@ -1,4 +1,4 @@
-// coupled_state.h: what the coupled solver has beside plan and state: constants, what it carries from step to step, what a step works in.
+// coupled_state.h: the coupled solver's own part of plan and state: constants, what it carries from step to step, what a step works in.
 #pragma once
 #include "../plan/plan.h"
 #include "../plan/state.h"
@@ -15,7 +15,7 @@ template <class T> struct CoupledPlan {
     std::vector<Vector3<T>> carried_drag;   // [kg] likewise of kappa rho A; with wind alone
 };
 
-// Whichever way the step is made (plainly, or in lanes).
+// The part of the state that is the same whether the step is made plainly or in lanes.
 template <class T> struct CoupledState : StepperState {
     std::vector<Vector3<T>> theta_change, theta_dot_change; // of the last step; carried, saved
     std::vector<EnergyAccount> account;                     // one a root
@@ -25,7 +25,7 @@ template <class T> struct CoupledState : StepperState {
     Attachments attachments;
 };
 
-// Of the plain step: records of bodies.
+// The plain step's part: records of bodies.
 template <class T> struct CoupledWork : Cloned<CoupledWork<T>, CoupledState<T>, StepperState> {
     std::vector<CoupledBody<T>> coupled;
     std::vector<ResolventBody<std::complex<T>>> resolvent;
@@ -35,10 +35,10 @@ template <class T> struct CoupledWork : Cloned<CoupledWork<T>, CoupledState<T>, 
     std::size_t bytes() const override;
 };
 
-// The constants of `own`, as Stepper::take_constants is asked for them. O(n).
+// Fills in the constants of `own`, for Stepper::take_constants. O(n).
 template <class T> void take_coupled_constants(const Plan<T>&, const Tree&, CoupledPlan<T>& own);
 
-// All of a state that both ways have; roots: of the trees.
+// Allocates all of a state that both ways have. roots: how many the trees have.
 template <class T> void allocate_coupled(const Plan<T>&, State<T>&, CoupledState<T>& own, std::size_t roots);
 
 // Throws std::domain_error for what the coupled solver cannot hold.

@@ -5,12 +5,12 @@
 
 namespace bough {
 
-// The last step's changes, of arrays in document order, times ratio.
+// Multiplies the last step's changes, in arrays in document order, by ratio.
 template <class T> void scale_changes(State<T>&, T ratio);
 
 template <class T> class CoupledStepper final : public Cloned<CoupledStepper<T>, PlainStepper<T>, Stepper<T>> {
 public:
-    // plainly: why it is not the one in lanes.
+    // plainly: why the steps are not made in lanes.
     CoupledStepper(Scheme, std::string plainly);
     const char* name() const override { return "coupled"; }
     const char* scheme() const override { return scheme_of(own.scheme).name; }
@@ -32,14 +32,14 @@ public:
     CoupledPlan<T> own;
 };
 
-// The changes that the coupled solver carries, whichever way its steps are made.
+// Returns the changes that the coupled solver carries, whichever way its steps are made.
 template <class T> std::vector<CarriedArray<T>> carried_by_coupled(State<T>&);
 NonFinite non_finite_in_coupled(std::size_t body);
 
-// What the coupled solver, either way, leaves of a body that broke off: no mass, no inertia, a spring never bent, no motion.
+// Leaves a body that broke off without mass, inertia and motion, on a spring that is never bent; for either way of the coupled solver.
 template <class T> void drop_from_coupled(Plan<T>&, State<T>&, std::size_t body);
 
-// Of a state of the coupled solver.
+// Returns the own part of a state of the coupled solver.
 template <class T> CoupledState<T>& coupled_state(State<T>& state) {
     return static_cast<CoupledState<T>&>(*state.own);
 }

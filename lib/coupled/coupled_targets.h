@@ -6,7 +6,7 @@
 
 namespace bough::fast {
 
-// The target's code, which must be available.
+// Returns the code of the target, which must be available.
 template <class T> CoupledSweeps<T> coupled_sweeps_for(Target, SweepLoads);
 template <class T> EnergySweepOf<T> energy_sweep_for(Target, SweepLoads);
 

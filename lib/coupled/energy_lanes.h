@@ -1,14 +1,13 @@
-// energy_lanes.h: the energy guard (coupled/energy_guard.h) on rows of lanes. Written a second time, as what it weighs stands in rows and not in
-// arrays of bodies; tests/lib/coupled/lanes.cpp holds the two together.
+// energy_lanes.h: the energy guard (coupled/energy_guard.h) on rows of lanes. It is written a second time because it weighs rows and not arrays of
+// bodies. tests/lib/coupled/lanes.cpp holds the two together.
 #pragma once
 #include "coupled_lanes_state.h"
 #include "coupled_rows.h"
 
 namespace bough::fast {
 
-// When a step's motion stands in lanes.next and its start in lanes.now: weighs the trees that lanes.watched marks and scales the
-// rates in lanes.next of those that gained energy. O(n), blocks in parallel; allocates
-// what it works in when it is first needed, and a bit a block.
+// Called when a step's motion stands in lanes.next and its start in lanes.now. Weighs the trees that lanes.watched marks, and scales the rates in
+// lanes.next of those that gained energy. O(n), blocks in parallel. Allocates its working memory when it is first needed, and a bit a block.
 template <class T>
 void guard_lanes(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&, const CoupledRows<T>&);
 

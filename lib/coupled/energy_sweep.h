@@ -1,9 +1,9 @@
-// energy_sweep.h: the energy guard's weighing (coupled/energy_guard.h) in one sweep over a block's rows: what a step has changed of each
-// chain's energies, from the motion at its start and at its end, both still there.
+// energy_sweep.h: the energy guard's weighing (coupled/energy_guard.h) in one sweep over a block's rows: how a step has changed each chain's
+// energies, from the motion at its start and at its end, which are both still there.
 //
-// Three poses go outward side by side: the start's and the end's, as seen from the ground, and with wind that of y*, in which the step took the air's force.
-// Sums go over a lane's chain, in its order; the caller adds them up by trees, group by group. Cost about that of the outward sweep, and only
-// in steps in which something turned fast.
+// Three poses go outward side by side: the start's and the end's, as seen from the ground, and with wind that of y*, in which the step took the air's
+// force. Sums go over a lane's chain, in its order. The caller adds them up by trees, group by group. The cost is about that of the outward sweep,
+// and only arises in steps in which something turned fast.
 #pragma once
 #include "coupled_rows.h"
 
@@ -31,8 +31,8 @@ template <class T> struct EnergyRows {
     T* records;
     T* sums; // of a group: energy::sums rows of lanes, at first_base * energy::sums
     T* fast; // a row of lanes for each row: 1 where the body turns fast; of ends of branches what is kept of its rate
-    // Where the ground is moved, of a group: 6 rows of lanes, at first_base * 6: how far it goes in the step [m], and its
-    // acceleration [m/s^2]; null: all of it rests.
+    // Where the ground is moved, for each group 6 rows of lanes, at first_base * 6: how far it goes in the step [m], and its acceleration [m/s^2].
+    // null: all of it rests.
     const T* ground;
 };
 

@@ -1,11 +1,11 @@
-// half_turn.h: what a step carries on of a joint that turned past half a turn: the shorter way round.
+// half_turn.h: what a step carries on for a joint that turned past half a turn: the shorter way round.
 #pragma once
 #include "../base/math.h"
 
 namespace bough {
 
-// theta [rad] by the other way where it is longer than half a turn, rates [rad/s] of it that are the same motion, and last changes as
-// of a motion that begins here (h: the step [s]). False, and nothing changed, where it is not.
+// Takes theta [rad] the other way where it is longer than half a turn. The rates [rad/s] become those of the same motion, and the last changes those
+// of a motion that begins here (h: the step [s]). Returns false, and changes nothing, where theta is not longer.
 template <class T>
 bool take_shorter_way(Vector3<T>& theta, Vector3<T>& theta_dot, Vector3<T>& theta_change, Vector3<T>& theta_dot_change,
                       T h) {

@@ -5,8 +5,8 @@
 
 namespace bough {
 
-// A body without extent about some axis (a thin rod about itself) would make the joint's inertia singular: four roundings
-// of its trace are added, below any inertia that its arithmetic can tell from none.
+// Adds four roundings of the trace to J where it is singular. A body without extent about some axis (a thin rod about itself) would make the joint's
+// inertia singular. The addition is below any inertia that its arithmetic can tell from none.
 template <class T> Matrix3<T> own_inertia(const Matrix3<T>& J) {
     constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
     const T size = J.trace();

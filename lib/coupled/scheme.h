@@ -1,9 +1,9 @@
 // scheme.h: rational functions that stand for the exponential in the coupled step (coupled_step.h).
 //
-// A linear system y' = L y + f is advanced by y1 = y0 + h phi1(h L) (L y0 + f), phi1(z) = (exp z - 1) / z. With a rational
-// R(z) for exp z, whose poles p are simple and whose degree falls at infinity,
+// A linear system y' = L y + f is advanced by y1 = y0 + h phi1(h L) (L y0 + f), phi1(z) = (exp z - 1) / z. A rational R(z) takes the place of exp z.
+// Its poles p are simple and its degree falls at infinity, so
 //   phi1(z) = (R(z) - 1) / z = sum over poles of c / (z - p),   c the residue of phi1 at p,
-// a complex pole standing for itself and its conjugate: what it adds is 2 Re. For R = N / D, c = N(p) / (p D'(p)).
+// A complex pole stands for itself and its conjugate: it adds 2 Re. For R = N / D, c = N(p) / (p D'(p)).
 // Order q of R: sum of -c / p^(k+1) is 1 / (k + 1)! for k = 0 ... q - 1 (the series of phi1). R(infinity) = 1 + sum of c.
 //
 //   P12       Pade(1, 2), the stability function of Radau IIA of two stages: order 3, R(infinity) = 0. Hairer, Wanner, Solving
@@ -12,7 +12,7 @@
 //             b1 = (1/3 + rho/6) / (1/2 + rho/2), b2 = b1/2 - 1/6, a2 = 1/3 - b1/2. Less damping, more lag of what is stiff
 //   P34       Pade(3, 4), order 7, R(infinity) = 0: two pairs of poles, two solves a step
 //   LIE       R = 1 / (1 - z), order 1: the linearly implicit Euler step
-// None has |R(infinity)| = 1 (midpoint rule, diagonal Pade): undamped, unresolved modes are fed by the nonlinear terms, energy guard or not.
+// None has |R(infinity)| = 1 (midpoint rule, diagonal Pade). The nonlinear terms would feed undamped, unresolved modes, energy guard or not.
 #pragma once
 #include <array>
 #include <complex>

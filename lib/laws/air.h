@@ -1,29 +1,29 @@
-// air.h: the air's force on a body by its velocity relative to it, one law for every solver (§7).
+// air.h: the air's force on a body from its velocity relative to the body, one law for every solver (§7).
 //
-// With u the wind's velocity less the body's at its centre of mass, t its axis (z), n a plate's normal (y), all in world
-// axes, the force over kappa rho A (Plan::drag_area) is
+// u is the wind's velocity less the body's at its centre of mass, t the body's axis (z), n a plate's normal (y), all in world axes. The force over
+// kappa rho A (Plan::drag_area) is
 //   branch       |u_n| u_n,   u_n = u - (u.t) t        (21)
 //   fruit        |u| u                                 (22)
 //   leaf, petal  |u| ((1 - s) (u.n) n + s u)           (23), first term, and the part s that needs no angle of attack
-// s, streaming_drag: a blade that streams with the wind still has the drag of its curled and rough surface. A clump of leaves (tree.h), whose
-// leaves face all ways, meets the air as fruit does, with the mean of its leaves' law over all directions.
-// Folding. Leaves roll up and clumps close as the wind rises (Vogel, J. Exp. Bot. 40:941, 1989): their drag goes with |u|^(2 + E), Vogel's E
-// between -0.5 and -1 at 5 to 20 m/s. All of their force is times g = 1 / (1 + |u| / fold_speed); 1 for wood and fruit. g's own E is -(1 - g), the
-// rest comes of blades that turn with the wind. What comes out, mean drag [N] in a steady wind of
+// s is streaming_drag: a blade that streams with the wind still has the drag of its curled and rough surface. The leaves of a clump (tree.h) face all
+// ways, so a clump meets the air as fruit does, with the mean of its leaves' law over all directions.
+// Folding. Leaves roll up and clumps close as the wind rises (Vogel, J. Exp. Bot. 40:941, 1989). Their drag goes with |u|^(2 + E), with Vogel's E
+// between -0.5 and -1 at 5 to 20 m/s. All of their force is multiplied by g = 1 / (1 + |u| / fold_speed); g is 1 for wood and fruit. g alone gives E
+// = -(1 - g); the rest comes from blades that turn with the wind. The mean drag [N] in a steady wind is then
 //                                     5 m/s    10 m/s   20 m/s   E from 5 to 20 m/s
 //   a leaf of 9 cm, all directions    0.0142   0.0311   0.0612   -0.94
 //   a clump of 14, 30 cm              0.170    0.486    1.24     -0.57
 //   maple of 20 000 bodies            3030     9460     27700    -0.40     its foliage alone -0.57
 //   maple of 1 000, birch of 1 000    3130 840 9340 2550 25700 7190 -0.48 -0.45, foliage -0.57
-// Of 20 000 bodies more of the drag is bare wood's, which does not fold: clumps hold their twigs, as what folds (growth/resolve.h).
+// At 20 000 bodies more of the drag is that of bare wood, which does not fold: clumps hold their twigs, which fold with them (growth/resolve.h).
 // tests/lib/laws/foliage.cpp holds leaf, clump and a crown's foliage within -0.5 and -1.
-// Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges: a torque
+// Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges. This gives a torque
 //   -k g |u| (kappa rho A / m) I w,   I the inertia about the centre of mass
-// I / m being the blade's second moments of area over its area, k = 1 is the normal force (23) strip by strip. Thin plates have more: pi/2
-// rho |u| b^3 a unit of span, b half the chord, in potential flow without the circulation that a fast turn does not build up (Fung, Theory
-// of Aeroelasticity, 6.9): k = 3.9; and half as much again as they swing in their own wake, where plates' drag is 1.5 to 3 times the steady
-// one (Keulegan, Carpenter, J. Res. Natl. Bur. Stand. 60:423, 1958): k = 6. Of a clump, all of whose leaves' drag grows with |u|, 4/3 by
-// the strips, half as much again: 2.
+// I / m is the blade's second moments of area over its area. So k = 1 is the normal force (23), strip by strip. Thin plates have more. Potential flow
+// without the circulation that a fast turn does not build up gives pi/2 rho |u| b^3 a unit of span, b half the chord (Fung, Theory of Aeroelasticity,
+// 6.9): k = 3.9. They have half as much again as they swing in their own wake, where plates' drag is 1.5 to 3 times the steady one (Keulegan,
+// Carpenter, J. Res. Natl. Bur. Stand. 60:423, 1958): k = 6. In a clump the drag of all leaves grows with |u|: the strips give 4/3, with half as much
+// again k = 2.
 #pragma once
 #include "../base/math.h"
 #include "../model/air_constants.h"
@@ -33,7 +33,7 @@
 
 namespace bough {
 
-// kappa rho A [kg/m]. size: as in Tree. plate_kappa: of leaves and petals, where the scene has its own.
+// Returns kappa rho A [kg/m]. size: as in Tree. plate_kappa: kappa of leaves and petals, where the scene has its own.
 inline double drag_area(Kind kind, const Vec3& size, double air_density, double plate_kappa = plate_drag / 2) {
     switch (kind) {
     case Kind::leaf:
@@ -49,7 +49,7 @@ inline double drag_area(Kind kind, const Vec3& size, double air_density, double 
     return cylinder_drag / 2 * air_density * frustum_section(size[0], size[1], size[2]);
 }
 
-// Of a body of the tree, by the law of `kind`: with what is part of it and not in its size (Tree::drag).
+// The same for a body of the tree, by the law of `kind`, with what is part of the body and not in its size (Tree::drag).
 inline double drag_area(const Tree& tree, std::size_t i, Kind kind, double air_density,
                         double plate_kappa = plate_drag / 2) {
     return (tree.drag.empty() ? 1 : tree.drag[i]) * drag_area(kind, tree.size[i], air_density, plate_kappa);
@@ -87,8 +87,8 @@ template <class T> AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, cons
     return {speed * ((1 - s) * u.dot(normal) * normal + s * u), speed};
 }
 
-// Minus the force's derivative with the body's velocity, over kappa rho A [m/s]: symmetric, positive semidefinite. Exact for
-// branches and fruit; of a plate's derivative what is symmetric: that of (u.n) n along the normal alone. With folding, d (g |u|)/d |u| = g^2.
+// Returns minus the force's derivative with the body's velocity, over kappa rho A [m/s]: symmetric, positive semidefinite. It is exact for branches
+// and fruit. For a plate it keeps the symmetric part of the derivative: that of (u.n) n along the normal alone. With folding, d (g |u|)/d |u| = g^2.
 template <class T> Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u) {
     if (kind != Kind::branch) {
         const T U = u.norm();
@@ -111,20 +111,20 @@ template <class T> Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, con
     return speed * plane + across * across.transpose() / speed;
 }
 
-// How fast a plate's moment about its joint may change with its rotation, over kappa rho A and the distance of its centre of
-// mass: [m^2/s^2], symmetric, positive semidefinite. The moment is -(1 - s) g |u| (u.n) x, x the width's axis, and changes by at most
-// (1 - s) g |u|^2 a radian; twice that, so that a plate held broadside to the wind, which turns at up to |u| over that distance and
-// would spin round in a step, turns by half a radian at the most. Zero for the rest, whose wood is stiffer than this.
+// Returns how fast a plate's moment about its joint may change with its rotation, over kappa rho A and the distance of its centre of mass: [m^2/s^2],
+// symmetric, positive semidefinite. The moment is -(1 - s) g |u| (u.n) x, x the width's axis, and changes by at most (1 - s) g |u|^2 a radian. The
+// result is twice that: a plate held broadside to the wind, which turns at up to |u| over that distance and would spin round in a step, then turns by
+// half a radian at most. The result is zero for all else, whose wood is stiffer than this.
 template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u) {
     if (!is_flat(kind)) return Matrix3<T>::Zero();
     const T most = T(1 - streaming_drag) * unfolded(kind, u.norm()) * u.squaredNorm();
     return 2 * most * (R_wb.col(0) * R_wb.col(0).transpose());
 }
 
-// [N m/rad] What the drag of all that a body carries, its own included, resists its turning by where it pulls outward: what hangs in a wind has
-// drag's stiffness as it has gravity's, whose form this is but for its part below zero. P: first moment of kappa rho A [kg], world
-// (Plan::carried_drag); u: the air's velocity past the body, taken for that past all it carries; folds: that is foliage. Symmetric,
-// positive semidefinite.
+// [N m/rad] Returns how the drag of all that a body carries, its own included, resists the body's turning where the drag pulls outward. What hangs in
+// a wind has a stiffness from drag as it has one from gravity, of the same form without its part below zero. P: first moment of kappa rho A [kg],
+// world (Plan::carried_drag). u: the air's velocity past the body, taken as that past all it carries. folds: what it carries is foliage. The result
+// is symmetric, positive semidefinite.
 template <class T> Matrix3<T> streaming_stiffness(bool folds, const Vector3<T>& P, const Vector3<T>& u) {
     const T size = P.squaredNorm(), speed = u.norm();
     if (!(size > 0)) return Matrix3<T>::Zero();
@@ -132,7 +132,7 @@ template <class T> Matrix3<T> streaming_stiffness(bool folds, const Vector3<T>& 
     return along * (Matrix3<T>::Identity() - P * P.transpose() / size);
 }
 
-// [1/s] The rate by which the air takes a blade's or a clump's own turning: the torque is minus this times I w. drag_area: kappa rho A.
+// [1/s] Returns the rate by which the air takes a blade's or a clump's own turning: the torque is minus this times I w. drag_area: kappa rho A.
 template <class T> T spin_rate(Kind kind, T drag_area, T mass, const Vector3<T>& u) {
     if (!is_foliage(kind) || !(mass > 0)) return 0;
     const T speed = u.norm();

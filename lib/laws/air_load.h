@@ -1,5 +1,5 @@
-// air_load.h: all that the air does to one body: the sum of its laws (air.h, leaf_air.h). Whatever steps, guards, estimates or checks a tree takes the
-// air from here and only adds it up; the analytic step takes it parted (parted_air.h), lanes have lanes/wide_air.h and wide_leaf.h.
+// air_load.h: all that the air does to one body: the sum of its laws (air.h, leaf_air.h). Whatever steps, guards, estimates or checks a tree takes
+// the air from here and only adds it up. The analytic step takes it in parts (parted_air.h); lanes have lanes/wide_air.h and wide_leaf.h.
 //
 // u: the wind's velocity less the body's at its centre of mass; R: world from body, or the identity where u is in the body's axes.
 // The results are in the axes of u. O(1). Errors none.
@@ -14,7 +14,7 @@ template <class T> struct AirLoad {
     T spin;            // [1/s] minus this times I w, I the inertia about the centre of mass, w the angular velocity
 };
 
-// I [kg m^2]; J: inertia about the joint, c: the centre of mass from there.
+// Returns I [kg m^2]. J: inertia about the joint. c: the centre of mass from there.
 template <class T> Matrix3<T> central_inertia(T mass, const Matrix3<T>& J, const Vector3<T>& c) {
     return J + mass * (c * c.transpose() - c.squaredNorm() * Matrix3<T>::Identity());
 }
@@ -30,7 +30,8 @@ AirLoad<T> air_load(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matr
     return load;
 }
 
-// [N s/m] What takes the place of minus the force's derivative with the body's velocity: symmetric, positive semidefinite. times: a factor on all of it.
+// [N s/m] Returns what stands for minus the force's derivative with the body's velocity: symmetric, positive semidefinite. times: a factor on all of
+// it.
 template <class T>
 Matrix3<T> air_load_damping(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matrix3<T>& R, const Vector3<T>& u,
                             T times = 1) {
@@ -39,13 +40,13 @@ Matrix3<T> air_load_damping(const AirBody<T>& body, const LeafTerms<T>& leaf, co
     return D;
 }
 
-// What all that a body carries is dragged by (streaming_stiffness of air.h), in the axes of u.
+// The drag of all that a body carries (streaming_stiffness of air.h), in the axes of u.
 template <class T> struct CarriedDrag {
     bool folds;       // it has foliage
     Vector3<T> first; // [kg] first moment of kappa rho A about the joint; zero: not counted
 };
 
-// [N m/rad] How fast the air's moment about the joint may change with the body's rotation, times that factor, onto `turning`.
+// [N m/rad] Adds to `turning` how fast the air's moment about the joint may change with the body's rotation, times the factor `times`.
 template <class T>
 void add_air_turning(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matrix3<T>& R, const Vector3<T>& u,
                      const CarriedDrag<T>& carried, T times, Matrix3<T>& turning) {
@@ -54,8 +55,8 @@ void add_air_turning(const AirBody<T>& body, const LeafTerms<T>& leaf, const Mat
     if (is_flat(body.kind)) turning += times * body.drag_area * body.com.norm() * air_turning(body.kind, R, u);
 }
 
-// [J] The most that the air's force can do to a body in a time h, whatever the body does: its power is at most kappa rho A times 4/27 |U|^3 (branch,
-// fruit, clump; at a third of the wind's speed) or |u| |U|^2 / 4 (plate). U: the wind's velocity; past: [m/s] |u|.
+// [J] Returns the most work that the air's force can do on a body in a time h, whatever the body does. Its power is at most kappa rho A times 4/27
+// |U|^3 (branch, fruit, clump; at a third of the wind's speed) or |u| |U|^2 / 4 (plate). U: the wind's velocity. past: [m/s] |u|.
 template <class T>
 T air_work_bound(const AirBody<T>& body, const LeafTerms<T>& leaf, T h, const Vector3<T>& U, T past) {
     const T speed = U.norm();
@@ -64,7 +65,7 @@ T air_work_bound(const AirBody<T>& body, const LeafTerms<T>& leaf, T h, const Ve
     return has_leaf_air(leaf, body.kind) ? limit + leaf_work(leaf, body, h, speed, past) : limit;
 }
 
-// The most that a wind u can do to a body that stands: of plates, which will turn into it, broadside.
+// The largest load of a wind u on a body that stands. Plates, which will turn into the wind, are taken broadside.
 template <class T> struct AirPeak {
     Vector3<T> force; // [N]
     T own;            // [N m] of plates, about their joints, whichever way they are turned; else 0

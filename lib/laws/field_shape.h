@@ -1,5 +1,5 @@
-// field_shape.h: where the cells and rings of a wind over the ground stand (wind_field.h), in the precision of a run. By itself, so that code that
-// knows nothing of Eigen can carry it.
+// field_shape.h: where the cells and rings of a wind over the ground stand (wind_field.h), in the precision of a run. It is a header of its own, so
+// that code that knows nothing of Eigen can carry it.
 #pragma once
 #include <cstdint>
 

@@ -1,15 +1,14 @@
 // ground_course.h: what a moving ground (root_motion.h) does over one step, whatever it does within it.
 //
-// What the ground does over a step, at the pivot, world. In place of its acceleration stands a + slope (t/h - 1/2), the
-// linear function of time with the same integral, the change of velocity, and the same integral of that:
+// All quantities are at the pivot, world. The ground's acceleration is replaced by a + slope (t/h - 1/2): the linear function of time with the same
+// integral, which is the change of velocity, and the same integral of that:
 //   a = (v_1 - v_0) / h,   slope = 12/h ((v_0 + v_1)/2 - moved/h)
-// so that places and velocities at both ends are met whatever happens in between: the motion is the cubic through them. Where the step
-// resolves the motion, slope is the change of the acceleration. A jump within the step is the pair of impulses that it is.
-// alpha and its slope likewise, with for `moved` the integral of omega. With phi the rotation vector of R_1 R_0^T (of the
-// many the one nearest to the mean omega times h) that is phi + h^2/12 omega_0 x omega_1 to fourth order (Magnus).
-// jumps: the step does not resolve the motion. Slope, or slope_turn, is then off what it should be, the difference of the accelerations
-// at both ends, by more than 1/32 of their sum (of an oscillation: where it has less than four steps a period), and that is more than
-// rounding: a millionth of the way.
+// So places and velocities at both ends are met, whatever happens in between: the motion is the cubic through them. Where the step resolves the
+// motion, slope is the change of the acceleration. A jump within the step becomes the pair of impulses that it is. alpha and its slope are found
+// likewise, with the integral of omega for `moved`. With phi the rotation vector of R_1 R_0^T (of the many, the one nearest to the mean omega times
+// h) that integral is phi + h^2/12 omega_0 x omega_1 to fourth order (Magnus).
+// jumps: the step does not resolve the motion. slope, or slope_turn, should be the difference of the accelerations at both ends. The step jumps if it
+// is off by more than 1/32 of their sum (for an oscillation: with less than four steps a period), and by more than rounding: a millionth of the way.
 #pragma once
 #include "../model/root_motion.h"
 
@@ -23,7 +22,7 @@ struct GroundCourse {
     bool jumps;
 };
 
-// From t for h > 0 [s]. O(log keys).
+// Returns the course from t for h > 0 [s]. O(log keys).
 GroundCourse ground_course(const RootSpline&, double t, double h);
 
 } // namespace bough

@@ -1,10 +1,11 @@
 // leaf_card.h: what the air does to a leaf or petal that flies as one rigid card (free/leaf_flight.h): (23) and (24), with /leaves or their defaults.
 //
-// With u the wind's velocity less the card's, n its normal (either way), u_n = (u.n) n, u_t = u - u_n, A its area, and kappa, nu, xi, phi of LeafAir:
+// u is the wind's velocity less the card's, n the card's normal (either way), u_n = (u.n) n, u_t = u - u_n, A its area; kappa, nu, xi, phi are
+// LeafAir's:
 //   force    kappa rho A |u| u_n + nu m (u_n + u_t / xi)
 //   torque   k (u.n) n x (u cos phi + n x u sin phi) - nu I w,   k = kappa rho A/2 sqrt(A/pi)
-// Apart from leaf_air.h: a card neither folds nor has the streaming part of air.h, its force is taken over its mass, and its step asks for other
-// bounds. tests/lib/free/leaf_flight.cpp holds it against (23) and (24) written out.
+// This differs from leaf_air.h: a card neither folds nor has the streaming part of air.h, its force is taken over its mass, and its step asks for
+// other bounds. tests/lib/free/leaf_flight.cpp holds it against (23) and (24) written out.
 #pragma once
 #include "../model/scene.h"
 #include <algorithm>
@@ -12,7 +13,8 @@
 
 namespace bough {
 
-// Body axes: x along the width, y the normal, z along the length, as in body_shape.h; principal, about the centre of mass.
+// The body axes have x along the width, y along the normal and z along the length, as in body_shape.h. They are principal axes about the centre of
+// mass.
 struct LeafCard {
     double mass = 0;             // [kg] above 0
     Vec3 inertia = Vec3::Zero(); // [kg m^2] above 0
@@ -36,24 +38,24 @@ inline CardAir card_air(const LeafAir& air, const LeafCard& card, double air_den
             std::sin(offset)};
 }
 
-// [m/s^2] The force over the mass, with gravity.
+// [m/s^2] Returns the force over the mass, with gravity.
 inline Vec3 card_acceleration(const CardAir& f, const Vec3& gravity, const Vec3& n, const Vec3& u) {
     const double along = u.dot(n);
     return gravity + along * (f.drag * u.norm() + f.across - f.along) * n + f.along * u;
 }
 
-// [N m] The torque but for nu I w.
+// [N m] Returns the torque without nu I w.
 inline Vec3 card_torque(const CardAir& f, const Vec3& n, const Vec3& u) {
     const Vec3 turning = n.cross(u);
     return f.torque * u.dot(n) * (f.cos_offset * turning + f.sin_offset * n.cross(turning));
 }
 
-// [1/s] nu, the part of it that the card's turning is taken by.
+// [1/s] Returns nu, the rate by which the air takes the card's turning.
 inline double card_spin(const CardAir& f) {
     return f.across;
 }
 
-// [1/s] How fast the acceleration falls with the card's speed: along the normal, along the surface.
+// [1/s] How fast the acceleration falls with the card's speed, along the normal and along the surface.
 struct CardDamping {
     double normal, surface;
 };
@@ -62,12 +64,13 @@ inline CardDamping card_damping(const CardAir& f, const Vec3& n, const Vec3& u) 
     return {f.across + f.drag * falls, f.along};
 }
 
-// [N m/rad] What the torque changes by at most with the card's turning about an axis of its surface, times h2.
+// [N m/rad] Returns the most that the torque changes by when the card turns about an axis of its surface, times h2.
 inline double card_turning(const CardAir& f, double speed, double h2) {
     return h2 * f.torque * speed * speed;
 }
 
-// [1/s] What turns, at `turning`, swings and is dragged, together. lightest: [kg m^2] the smaller moment of inertia about an axis of the surface.
+// [1/s] Returns the rate of turning at `turning`, swinging and drag together. lightest: [kg m^2] the smaller moment of inertia about an axis of the
+// surface.
 inline double card_rates(const CardAir& f, double turning, double lightest, double speed) {
     return turning + (std::sqrt(f.torque / lightest) + 2 * f.drag) * speed + f.across;
 }

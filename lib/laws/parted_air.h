@@ -1,13 +1,13 @@
-// parted_air.h: all that the air does to one body (air_load.h), in two parts as the analytic step takes it (analytic/external_forces.h): on the body at rest,
-// and what the body's own motion changes of that, with what bounds it.
+// parted_air.h: all that the air does to one body (air_load.h), in two parts as the analytic step takes it (analytic/external_forces.h): the load on
+// the body at rest, and what the body's own motion changes of it, with its bounds.
 //
-// A body "stands still" when it does on its tree's ground. The second part of the force is at most drag |v| with drag = kappa rho A (|u| + |u at rest|)
-// (|u_n| for branches), since || u|u - w|w| || <= (|u| + |w|) |u - w|. The part at rest falls by wind = kappa rho A |u at rest|, over the
-// speed, from rest to going with the wind; with the body's direction (force and arm both turn with it) it changes by at most turn = 3, 2, 1
-// (branch, leaf, fruit) times kappa rho A |u at rest|^2 a radian.
-// With /leaves a leaf's resistance and torque (leaf_air.h) are parted likewise and come to the same bounds: nu m and 2 k |u| over the arm to drag (and
-// nu I, as what it is at that arm), nu m to wind, twice their moments over the arm to turn; the arm, AnalyticPlan::com_distance, is then such that
-// its square holds the centre of mass's and the radius of gyration's.
+// A body is at rest here when it is at rest on its tree's ground. The second part of the force is at most drag |v| with drag = kappa rho A (|u| + |u
+// at rest|) (|u_n| for branches), since || u|u - w|w| || <= (|u| + |w|) |u - w|. The part at rest falls by wind = kappa rho A |u at rest|, over the
+// speed, from rest to going with the wind. With the body's direction (force and arm both turn with it) it changes by at most turn = 3, 2, 1 (branch,
+// leaf, fruit) times kappa rho A |u at rest|^2 a radian.
+// With /leaves a leaf's resistance and torque (leaf_air.h) are parted likewise and add to the same bounds. To drag they add nu m and 2 k |u| over the
+// arm (and nu I, as what it is at that arm), to wind nu m, to turn twice their moments over the arm. The square of the arm,
+// AnalyticPlan::com_distance, then holds the square of the centre of mass's distance and that of the radius of gyration.
 #pragma once
 #include "air_load.h"
 #include <algorithm>
@@ -21,14 +21,14 @@ template <class T> struct PartedAir {
     T turn;                             // [N/rad]
 };
 
-// World axes.
+// All are in world axes.
 template <class T> struct AirPast {
     Vector3<T> still, moving; // [m/s] the air's velocity past the body at rest on its ground, and as it goes
     Vector3<T> turning;       // [rad/s] that ground's
     Vector3<T> omega;         // [rad/s] the body's; of foliage alone
 };
 
-// R: world from body. J: [kg m^2] inertia about the joint, body axes. arm: [m] that bounds of torques are taken at.
+// R: world from body. J: [kg m^2] inertia about the joint, body axes. arm: [m] at which bounds of torques are taken.
 template <class T>
 PartedAir<T> parted_air(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matrix3<T>& R, const Matrix3<T>& J,
                         T arm, const AirPast<T>& air) {
@@ -43,7 +43,7 @@ PartedAir<T> parted_air(const AirBody<T>& body, const LeafTerms<T>& leaf, const 
     load.drag = scale * (moving.speed + still.speed);
     const T pressing = is_foliage(body.kind) ? still.speed : air.still.norm();
     load.wind = scale * pressing;
-    // Force and arm both turn: twice the force for a plate's, three times for |u_n| u_n, the arm alone for a sphere.
+    // Force and arm both turn: the change is twice the force for a plate, three times for |u_n| u_n; for a sphere only the arm turns.
     const T turns = body.kind == Kind::branch ? T(3) : is_flat(body.kind) ? T(2) : T(1);
     load.turn = turns * scale * pressing * air.still.norm();
     if (!is_foliage(body.kind)) return load;

@@ -1,5 +1,5 @@
-// turn_guard.h: from which turn on a joint's energy is checked (spring.h, "Large turns"). By itself, so that the SIMD sweeps, which
-// know nothing of Eigen, read the same number.
+// turn_guard.h: the turn from which on a joint's energy is checked (spring.h, "Large turns"). It is a header of its own, so that the SIMD sweeps,
+// which know nothing of Eigen, read the same number.
 #pragma once
 
 namespace bough {

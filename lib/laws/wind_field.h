@@ -2,20 +2,20 @@
 //
 // Grid. In cell c, at the reference height,
 //   v_c(t) = V_c (1 + sum_k p_c^k sin(2^k (2 pi f t + phase_c) + psi_k) / sum_k p_c^k) G(t) + Q(t),   k = 0 ... octaves_c - 1
-// V_c the cell's mean velocity (the wind's own where the grid names none), p the persistence; psi_0 = 0, the others from the seed. So it
-// swings between 0 and 2 V_c, is periodic with 1 / f, and a cell whose phase is ahead has the same gusts earlier: phases that fall along the
-// wind are gusts that travel. G, Q: the gusts' factor and the turbulence of the wind as a whole (wind.h), the same in all cells. Outside
-// the grid: the nearest cell. Without a grid there is one cell, whose octaves are 0.
+// V_c is the cell's mean velocity (the wind's own where the grid names none), p the persistence; psi_0 = 0, the others come from the seed. So v_c
+// swings between 0 and 2 V_c and is periodic with 1 / f. A cell whose phase is ahead has the same gusts earlier: phases that fall along the wind are
+// gusts that travel. G and Q are the gusts' factor and the turbulence of the wind as a whole (wind.h), the same in all cells. Outside the grid the
+// nearest cell holds. Without a grid there is one cell, whose octaves are 0.
 //
 // Swirl. The paper turns v by adding h s, s = v x j normalised, and rescaling to |v|. As v and s are at right angles, that is
 //   v' = v cos a + |v| s sin a,   h = |v| tan a,   a(r, t) = A(r) sin(2 pi (t / period - r / wavelength))
-// with any |a|, r the distance from the axis, A(r) the monotone cubic through the keys (base/monotone.h), constant beyond
-// them. A wind straight up or down stays.
+// for any |a|, with r the distance from the axis and A(r) the monotone cubic through the keys (base/monotone.h), constant beyond them. A wind
+// straight up or down stays as it is.
 //
-// What steps look up (WindField): velocities of cells and, at even radii, the angle's cosine and sine, linear between and brought
-// back to length 1, so that the magnitude stays to rounding. Trees that are ahead in the wind (Placement::start) look theirs up in tables of
-// their own, one set a clock, which hold the wind of t + start; gusts and turbulence are ahead too. The radii are as near as a 64th of a wavelength, of the distance between two keys
-// and of the way to the farthest body; beyond that one they are constant.
+// Steps look up (WindField) the velocities of cells and, at even radii, the angle's cosine and sine. These are linear between the radii and brought
+// back to length 1, so that the magnitude stays to rounding. Trees that are ahead in the wind (Placement::start) use tables of their own, one set a
+// clock, which hold the wind of t + start; gusts and turbulence are ahead too. The radii are as close as a 64th of a wavelength, of the distance
+// between two keys and of the way to the farthest body. Beyond that body the angle is constant.
 #pragma once
 #include "../model/scene.h"
 #include "field_shape.h"
@@ -25,19 +25,19 @@
 
 namespace bough {
 
-// Whether bodies must know where over the ground they are.
+// True if bodies must know where over the ground they are.
 inline bool varies_over_ground(const Wind& wind) {
     return wind.grid || wind.swirl || wind.shelter;
 }
-// What of it makes it so, as JSON pointers.
+// Returns the parts of the wind that make it so, as JSON pointers.
 std::vector<const char*> parts_over_ground(const Wind&);
-// Whether it blows, and one way wherever and whenever it does, but for turbulence.
+// True if the wind blows, and always and everywhere in one direction, apart from turbulence.
 inline bool one_way(const Wind& wind) {
     return !wind.grid && !wind.swirl && !wind.velocity.isZero(0);
 }
-// Whether it is more than still air.
+// True if it is more than still air.
 bool blows(const Wind&);
-// Whether it blows the same at all times.
+// True if it blows the same at all times.
 bool steady(const Wind&);
 
 // The wind as a whole at one time.
@@ -46,12 +46,12 @@ struct WindWeather {
     Vec3 turbulence = Vec3::Zero(); // [m/s] Q
 };
 
-// A period as it is taken: where the wind repeats, the nearest of which a whole number goes into that time.
+// Returns a period as it is taken: where the wind repeats, the nearest period that goes a whole number of times into Wind::period.
 inline double whole_period(const Wind& wind, double period) {
     return wind.period ? *wind.period / std::max(1.0, std::round(*wind.period / period)) : period;
 }
 
-// v turned about the vertical by the angle of cosine c and sine s: of v straight up, v.
+// Returns v turned about the vertical by the angle of cosine c and sine s. A v straight up stays.
 template <class T> Vector3<T> swirled(const Vector3<T>& v, T c, T s) {
     const T flat = v.x() * v.x() + v.z() * v.z();
     if (!(flat > T(1e-30))) return v;
@@ -59,10 +59,10 @@ template <class T> Vector3<T> swirled(const Vector3<T>& v, T c, T s) {
     return {c * v.x() - k * v.z(), c * v.y(), c * v.z() + k * v.x()};
 }
 
-// The clocks of a scene's trees: every start that one has, once, 0 first; one alone where none is ahead.
+// Returns the clocks of a scene's trees: every start that a tree has, once, 0 first; only 0 where no tree is ahead.
 std::vector<double> wind_clocks(const Scene&);
 
-// The cell of a grid that holds for the place (x, z) [m]: cells at the border hold for all beyond.
+// Returns the cell of a grid that holds for the place (x, z) [m]. Cells at the border hold for all beyond them.
 inline std::size_t cell_at(const WindGrid& grid, double x, double z) {
     const auto along = [&](double place, std::int32_t count) {
         return std::size_t(std::clamp(std::floor(place * (1 / grid.cell)), 0.0, double(count - 1)));
@@ -70,15 +70,15 @@ inline std::size_t cell_at(const WindGrid& grid, double x, double z) {
     return along(z - grid.z, grid.rows) * std::size_t(grid.columns) + along(x - grid.x, grid.columns);
 }
 
-// Of a list of one value, or of one a cell.
+// Returns the cell's value of a list that has one value, or one for each cell.
 template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell) {
     return list.size() == 1 ? list.front() : list[cell];
 }
 
-// [m/s] The mean at a place [m] of the wind as a whole, without what cells and turns make of it.
+// [m/s] Returns the mean velocity at a place [m] of the wind as a whole, without the effect of cells and turns.
 Vec3 mean_wind(const Wind&, const Vec3& place);
 
-// Directly: the velocity at (x, z) [m] where the profile is 1.
+// Returns the velocity at (x, z) [m] where the profile is 1, evaluated directly.
 Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double t);
 
 template <class T> struct WindField {
@@ -93,7 +93,7 @@ template <class T> struct WindField {
     bool on() const { return !velocity.empty(); }
 
     Vector3<T> at(T px, T pz, std::size_t which = 0) const {
-        // A place that is not a number, in a run that diverges, is the first cell: max keeps its first argument.
+        // A place that is not a number, in a run that diverges, is taken as the first cell: max keeps its first argument.
         const auto along = [](T place, std::int32_t count) {
             return std::size_t(std::min(std::max(T(0), place), T(count - 1)));
         };
@@ -116,8 +116,8 @@ template <class T> struct WindField {
     }
 };
 
-// reach: [m] how far from the swirl's axis bodies can be. Throws std::domain_error where that takes more entries than there may be, and where
-// cells times clocks do.
+// reach: [m] how far from the swirl's axis bodies can be. Throws std::domain_error if that takes more entries than there may be, or if cells times
+// clocks do.
 template <class T> WindField<T> make_wind_field(const Wind&, double reach, const std::vector<double>& clocks = {0});
 // Fills in velocities and turns at time t. O(clocks (cells octaves + rings)). Allocates nothing.
 template <class T> void evaluate_field(const Wind&, double t, WindField<T>&);

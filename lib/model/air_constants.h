@@ -1,4 +1,4 @@
-// air_constants.h: the numbers of air.h. By themselves, so that the SIMD sweeps, which know nothing of Eigen, read the same.
+// air_constants.h: the numbers of air.h. They have a header of their own because the SIMD sweeps, which know nothing of Eigen, read them too.
 #pragma once
 
 namespace bough {

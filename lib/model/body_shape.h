@@ -1,10 +1,12 @@
 // body_shape.h: mass, centre of mass, inertia and areas of the body shapes (§3, §7, §8), in closed form.
 //
-// Body frame: origin at the joint, z along the body. A frustum has its axis on z from 0 to length; a petal is a thin
-// triangular prism, base edge (width) along x centred on the origin, apex at z = length, thickness along y, uniform; a leaf is the same
-// mass and area as an elliptic blade on a petiole without mass, and a clump of leaves (tree.h) an ellipsoid of their mass;
-// a fruit is a sphere with its centre on z. Each result is exact for the solid named. Cost O(1). No errors: sizes are
-// checked by whoever made them (zero length or radius gives zero mass).
+// The body frame has its origin at the joint and z along the body.
+//   frustum  its axis lies on z from 0 to length
+//   petal    a thin uniform triangular prism: base edge (width) along x, centred on the origin; apex at z = length; thickness along y
+//   leaf     the same mass and area, as an elliptic blade on a petiole without mass
+//   clump    several leaves (tree.h) as an ellipsoid of their mass
+//   fruit    a sphere with its centre on z
+// Each result is exact for the solid named. O(1). Errors none: whoever made the sizes checks them (zero length or radius gives zero mass).
 #pragma once
 #include "../base/math.h"
 

@@ -1,5 +1,4 @@
-// check_parts.h: what the checks of a scene's parts (check_scene.cpp, check_walkers.cpp ...) are made of. `field`: the value's JSON pointer
-// without its first slash.
+// check_parts.h: the parts of a scene's checks (check_scene.cpp, check_walkers.cpp ...). `field` is the value's JSON pointer without its first slash.
 #pragma once
 #include "../base/shortest_text.h"
 #include "scene.h"
@@ -10,7 +9,7 @@ std::optional<Defect> finite(std::string_view field, const Vec3&);
 std::optional<Defect> finite(std::string_view field, double);
 std::optional<Defect> at_least(std::string_view field, double value, double low);
 std::optional<Defect> above_zero(std::string_view field, double value);
-// `trees`: how many the scene has; 0: the caller has the one tree that it is for.
+// `trees`: how many trees the scene has; 0: the caller holds the one tree that the scene is for.
 std::optional<Defect> check(const Selector&, const std::string& at, std::size_t trees);
 std::optional<Defect> check(const Wind&);
 std::optional<Defect> check(const Fracture&, std::size_t trees);

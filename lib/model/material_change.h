@@ -1,12 +1,12 @@
-// material_change.h: a tree's wood with other numbers than those of the material that it was made of (Tree::material, a preset of wood.h):
+// material_change.h: gives a tree's wood other numbers than those of the material it was made of (Tree::material, a preset of wood.h). The result is
 // what stiffness.h would have given with them, without the splines.
 //
 //   bend of branches   times E / E_0        twist   times G / G_0, G = G_0 E / E_0 unless given
 //   mass, inertia of branches   times density / density_0
 //   damping of branches   times (zeta / zeta_0) (omega_0 / omega), omega the first bending frequency of the joint's branch (branch_mode.h)
 //                         before and after: it keeps its ratio, so that wood four times as stiff has half the beta
-// Leaves, petals and fruit stay as they are, and so do clumps with the wood in them (growth/resolve.h); what was edited in a tree keeps its proportion. Tree::material says that it is changed, so that a
-// tree that is saved is not taken for the preset's. O(bodies).
+// Leaves, petals and fruit stay as they are, and so do clumps with the wood in them (growth/resolve.h). What was edited in a tree keeps its
+// proportion. Tree::material then says that the wood is changed, so that a saved tree is not taken for the preset's. O(bodies).
 #pragma once
 #include "tree.h"
 #include <optional>
@@ -25,10 +25,10 @@ struct MaterialChange {
     bool any() const { return wood() || root_stiffness; }
 };
 
-// The first broken rule, or none: finite, above 0; the damping ratio 0 or more.
+// Returns the first broken rule, or none. All values must be finite and above 0, the damping ratio 0 or more.
 std::optional<Defect> check(const MaterialChange&);
 
-// Throws std::domain_error where wood is to change and the tree names no preset: what its wood has been is not known then.
+// Throws std::domain_error if wood is to change and the tree names no preset, since its present wood is then unknown.
 void change_material(Tree&, const MaterialChange&);
 
 } // namespace bough

@@ -1,4 +1,4 @@
-// motion.h: what a simulation gives: a header, then one frame after another. Bodies in document order.
+// motion.h: what a simulation gives: a header, then one frame after another. Bodies stand in document order.
 #pragma once
 #include "../base/math.h"
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace bough {
 
-// Which arrays a frame carries; an unwanted one is neither computed for output nor written.
+// Which arrays a frame carries. An array that is not wanted is neither computed for output nor written.
 struct MotionFields {
     bool pose = true;      // position, rotation
     bool velocity = false; // velocity (of the centre of mass), angular_velocity
@@ -16,12 +16,12 @@ struct MotionFields {
     bool stress = false;   // stress
 };
 
-// What happened in the steps that led to a frame, arrays over events. Bodies as in the motion: the trees', then balls, then walkers.
+// What happened in the steps that led to a frame, as arrays over events. Bodies are numbered as in the motion: the trees', then balls, then walkers.
 struct MotionEvents {
-    // broke   the joint of `body`; value: its spring's torque [N m]
-    // hit     `body`, a ball or the body whose joint broke, met `on`, -1: the ground; value: the impulse [N s]
-    // landed  `body`, a leaf or petal, came to the ground; or a walker to the body `on`; value: its speed [m/s]
-    // leapt   `body`, a walker, from the body `on`; value: its speed [m/s]
+    // broke   The joint of `body` broke. value: its spring's torque [N m].
+    // hit     `body`, a ball or the body whose joint broke, met `on` (-1: the ground). value: the impulse [N s].
+    // landed  `body`, a leaf or petal, came to the ground, or a walker came to the body `on`. value: its speed [m/s].
+    // leapt   `body`, a walker, left the body `on`. value: its speed [m/s].
     std::vector<std::string> what;
     std::vector<std::int32_t> body, on; // on: -1 where there is none
     std::vector<double> value;
@@ -39,7 +39,7 @@ struct MotionHeader {
     std::int64_t bodies = 0; // of the trees, the balls and walkers
     std::int64_t balls = 0;  // how many of them, the last ones
     bool events = false;     // frames list what broke, hit and landed
-    // Of a motion that is a part of another: which, of how many, and where its first body stands in the whole.
+    // For a motion that is part of another: which part, of how many, and the index of its first body in the whole.
     std::int32_t part = 1, parts = 1;
     std::int64_t first_body = 0;
     std::string whole; // 16 hexadecimal digits, the same in all parts of one run
@@ -67,7 +67,7 @@ struct Motion {
     std::vector<MotionFrame> frame;
 };
 
-// A run's state between two frames, enough to go on as if it had not been cut: `treesim --save-state`, `--resume`.
+// A run's state between two frames, enough for the run to go on as if it had not been cut: `treesim --save-state`, `--resume`.
 struct SavedState {
     std::int64_t frame = 0; // the last frame that was made
     double fps = 30;
@@ -80,7 +80,7 @@ struct SavedState {
     std::string whole;
     std::vector<Vec3> theta;     // [rad]; floats are exact in doubles
     std::vector<Vec3> theta_dot; // [rad/s]
-    // What else a solver carries from step to step; each has its own, the others' stay empty.
+    // What else a solver carries from step to step. Each solver fills in its own arrays; the others stay empty.
     std::vector<Vec3> theta_change, theta_dot_change; // coupled: [rad], [rad/s] of the last step
     std::vector<Vec3> scaled_rate;                    // all others: State::scaled_rate; analytic [sqrt(J)]
     std::vector<Vec3> spin_dot;      // analytic with lagged fictitious terms: State::spin_dot [rad/s^2]
@@ -88,7 +88,7 @@ struct SavedState {
     std::vector<double> free_bodies; // saved_world of free/world.h; empty where nothing is free
     std::vector<double> sleep;       // saved_sleep of coupled/sleep.h; empty where nothing has settled
     std::vector<double> attachments; // saved_attachments of coupled/attachment.h; empty without
-    // Where the step was changed in the run: how many steps it had taken by then, and the time [s]; empty where it was not.
+    // If the run changed its step: how many steps it had taken by then, and the time [s]. Else empty.
     std::vector<double> step_change;
     std::string source;
 };

@@ -5,14 +5,14 @@
 
 namespace bough {
 
-// Of each point, how far along the curve it stands from the first [unit of the points]. O(points).
+// Returns how far along the curve each point stands from the first [unit of the points]. O(points).
 inline std::vector<double> arc_lengths(std::span<const Vec3> point) {
     std::vector<double> arc(point.size(), 0);
     for (std::size_t k = 1; k < point.size(); ++k) arc[k] = arc[k - 1] + (point[k] - point[k - 1]).norm();
     return arc;
 }
 
-// Of one branch, base to tip.
+// Returns the points of one branch, base to tip.
 inline std::span<const Vec3> points_of(const Splines& s, std::size_t branch) {
     const auto first = std::size_t(s.first_point[branch]);
     return std::span(s.point).subspan(first, std::size_t(s.first_point[branch + 1]) - first);

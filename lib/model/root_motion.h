@@ -1,12 +1,11 @@
 // root_motion.h: the motion of the ground that a tree stands on (RootMotion, scene.h) as a smooth function of time.
 //
-// Displacements and rotations go through the keys by the same curve (quintic.h), so that pose, velocity and acceleration
-// are continuous everywhere, and the ground rests before the first key and after the last. For the rotation the curve's
-// values are phi_k, rotation vectors in world axes relative to the first key's rotation, R = exp(phi) R_first, each of the
-// many that turn alike being the one nearest to the key before: keys less than half a turn apart keep turning the way they
-// go, a full turn and more. (A key within 1e-6 rad of a whole turn is taken as that turn, whose axis it cannot tell.) The
-// way between keys is the curve in phi: about one axis that is turning at the curve's rate; where the axis changes by much
-// in the course of a whole turn, phi is a poor map and more keys do not mend it.
+// Displacements and rotations go through the keys by the same curve (quintic.h). So pose, velocity and acceleration are continuous everywhere, and
+// the ground rests before the first key and after the last. For the rotation the curve's values are phi_k: rotation vectors in world axes relative to
+// the first key's rotation, R = exp(phi) R_first. Of the many vectors for one rotation, phi_k is the nearest to the key before. So keys less than
+// half a turn apart keep turning the way they go, also beyond a full turn. (A key within 1e-6 rad of a whole turn is taken as that turn, since its
+// axis cannot be told.) Between keys the curve runs in phi: about one axis, the ground turns at the curve's rate. Where the axis changes much in the
+// course of a whole turn, phi is a poor map, and more keys do not mend it.
 // With J_l = J(-phi), J the body rates' Jacobian (math.h): omega = J_l phi', alpha = J_l phi'' + J_l' phi', exactly.
 #pragma once
 #include "../base/quintic.h"
@@ -25,8 +24,8 @@ struct RootSpline {
 // Reads a checked RootMotion; pivot [m]: the tree's own place. O(keys).
 RootSpline make_root_spline(const RootMotion&, const Vec3& pivot);
 
-// A moving ground: its point that was drawn at X is at x + R X, with velocity v + omega x (R X) and acceleration
-// a + alpha x (R X) + omega x (omega x R X). All world.
+// A moving ground. Its point that was drawn at X is at x + R X, with velocity v + omega x (R X) and acceleration a + alpha x (R X) + omega x (omega x
+// R X). All are world vectors.
 struct Ground {
     Mat3 R = Mat3::Identity();
     Vec3 x = Vec3::Zero();                           // [m] where the world's origin has gone
@@ -37,14 +36,14 @@ struct Ground {
 // O(log keys).
 Ground ground_at(const RootSpline&, double t);
 
-// A bound from above on the height [m] at which a point drawn at X ever is. O(keys).
+// Returns an upper bound on the height [m] of a point drawn at X, over all times. O(keys).
 double highest(const RootSpline&, const Vec3& X);
 
-// And on its distance [m] over the ground from the vertical through (x, z). O(keys).
+// Returns an upper bound on its distance [m] over the ground from the vertical through (x, z). O(keys).
 double farthest(const RootSpline&, const Vec3& X, double x, double z);
 
-// Bodies [first, first + count) and the spline that moves their ground: a scene's moved trees, rising. A body's tree
-// stands together in the joined tree, so one entry serves all its roots and joints.
+// Bodies [first, first + count) and the spline that moves their ground. A scene's moved trees stand in rising order. The bodies of a tree stand
+// together in the joined tree, so one entry serves all its roots and joints.
 struct MovedTree {
     std::size_t first_body, bodies;
     std::size_t spline;

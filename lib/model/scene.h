@@ -1,5 +1,5 @@
-// scene.h: what acts on the trees and how the run is to be made: the document that people write. What a scene does not
-// name is absent (std::optional, empty vector), and what is absent is not run, not allocated, not written (plan.h).
+// scene.h: what acts on the trees and how the run is made: the document that people write. What a scene does not name is absent (std::optional, empty
+// vector). What is absent is not run, not allocated and not written (plan.h).
 #pragma once
 #include "../base/math.h"
 #include "tree.h"
@@ -12,7 +12,7 @@
 
 namespace bough {
 
-// Names a body so that it survives another segmentation. Exactly one of the four ways.
+// Names a body so that the name survives another segmentation, in exactly one of four ways.
 struct Selector {
     enum class By : std::uint8_t { body, branch, nearest, level };
     By by = By::body;
@@ -31,8 +31,8 @@ struct Selected {
     Vec3 point_b; // [m] body frame: on the axis at `at` (branch), nearest point on the axis (nearest), centre of mass
 };
 
-// Bodies that a selector names in the joined tree (tree_first: the first body and the first branch of each of the
-// scene's trees). Throws std::out_of_range with what was asked and what there is. O(bodies).
+// Returns the bodies that a selector names in the joined tree. TreeRange: the first body and the first branch of each of the scene's trees. Throws
+// std::out_of_range with what was asked for and what there is. O(bodies).
 struct TreeRange {
     std::size_t first_body, bodies;
     std::int32_t first_branch;
@@ -47,8 +47,8 @@ struct Placement {
     std::shared_ptr<const Tree> tree = nullptr; // in memory, in place of the file; several places may share one
 };
 
-// A square grid over the ground, seen from above: the velocity of the wind in each of its cells, the nearest cell's outside. A list holds
-// one value for all cells or one for each, row by row: columns are counted along x, rows along z.
+// A square grid over the ground, seen from above, with the wind's velocity in each of its cells. Outside, the nearest cell's velocity holds. A list
+// holds one value for all cells or one for each, row by row: columns are counted along x, rows along z.
 struct WindGrid {
     double x = 0, z = 0; // [m] least corner
     double cell = 0;     // [m] side of a cell
@@ -63,7 +63,7 @@ struct WindGrid {
     bool operator==(const WindGrid&) const = default;
 };
 
-// The wind turned to and fro about the vertical, on cylinders about one axis.
+// A wind that turns to and fro about the vertical, on cylinders about one axis.
 struct WindSwirl {
     double x = 0, z = 0;              // [m] where the axis stands
     std::vector<double> radius;       // [m] of the keys, rising; empty: one angle everywhere
@@ -81,10 +81,10 @@ struct WindShelter {
     bool operator==(const WindShelter&) const = default;
 };
 
-// Wind (design: one definition for all). Velocity at height y above the ground, time t:
+// Wind (one definition for all). The velocity at height y above the ground and time t is
 //   u(y, t) = (y / reference_height)^profile * [ V (1 + (gust_factor - 1) g(t / gust_period)) + |V| turbulence q(t) ]
-// g has mean 0, peak 1, period 1; q has unit variance along V, and 0.75 and 0.5 times that across and up.
-// With a grid V's first place is taken by the cell's own velocity; a swirl turns what is in brackets (wind_field.h).
+// g has mean 0, peak 1, period 1. q has unit variance along V, and 0.75 and 0.5 times that across and up. With a grid the cell's own velocity takes
+// the place of the first V; a swirl turns what is in brackets (wind_field.h).
 struct Wind {
     Vec3 velocity = Vec3::Zero(); // [m/s] mean at the reference height, blowing toward
     double reference_height = 10; // [m]
@@ -98,15 +98,15 @@ struct Wind {
     std::optional<WindShelter> shelter;
     std::optional<double>
         period; // [s] after which all of it repeats: each frequency is the nearest multiple of 1 / period, at least one
-    // [s] By how much turbulence and gusts are ahead of time: of a wind that was changed in a run (go_on of laws/wind.h). No part of a document.
+    // [s] How far turbulence and gusts are ahead of time, for a wind that was changed in a run (go_on of laws/wind.h). No document holds these.
     double turbulence_ahead = 0, gust_ahead = 0;
 
     bool operator==(const Wind&) const = default;
 };
-// calm 1, breeze 4, gusty 8, storm 20 m/s along +x. nullopt for another name.
+// The presets are calm 1, breeze 4, gusty 8 and storm 20 m/s along +x. Returns nullopt for another name.
 std::optional<Wind> wind_preset(const std::string& name);
 
-// A force on a point of a body over time: linear between keys, zero before the first and after the last.
+// A force on a point of a body over time: linear between keys, zero before the first and after the last key.
 struct Pull {
     Selector on;
     std::vector<double> time; // [s] rising
@@ -114,11 +114,11 @@ struct Pull {
     bool in_body = false; // in the body's axes, with which it turns; for the coupled solver (coupled/pulled_points.h)
 };
 
-// A spring and a damper between a point of a body and a point in space, which may move: a hand, a rope, a prop, a wire. Force on the body
+// A spring and a damper between a point of a body and a point in space, which may move: a hand, a rope, a prop, a wire. The force on the body is
 //   f = -stiffness (x - target) - damping (x' - target')
-// as long as from <= t < to, taken for each step by its middle (coupled/attachment.h, analytic/held_points.h).
-// Or between points of two bodies, of one tree or of two, with the force's opposite on the other: a hammock, a cable, branches that are tied.
-// x and x' are then as seen from the other point, in the world's axes.
+// while from <= t < to, which each step decides by its middle (coupled/attachment.h, analytic/held_points.h).
+// It may also tie points of two bodies, of one tree or of two, with the opposite force on the other body: a hammock, a cable, tied branches. x and x'
+// are then relative to the other point, in the world's axes.
 struct Attachment {
     Selector on;                  // by level: one for each of its bodies
     std::optional<Selector> with; // the other body; not by level
@@ -131,8 +131,8 @@ struct Attachment {
     double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity(); // [s]
 };
 
-// Moves a tree as a whole, the ground under it and all, by a smooth curve through keys (root_motion.h). At least two keys;
-// position or rotation may be left empty, not both.
+// Moves a tree with the ground under it by a smooth curve through keys (root_motion.h). There are at least two keys. Either position or rotation may
+// be empty, not both.
 struct RootMotion {
     std::int32_t tree = 0;      // which of the scene's trees
     std::vector<double> time;   // [s] rising
@@ -140,7 +140,7 @@ struct RootMotion {
     std::vector<Quat> rotation; // about the tree's own place (its Placement's position), one per time; unit length
 };
 
-// What walks on trees: a weight on a branch that runs from place to place, and leaps where the next is on another tree (walker.h).
+// A walker on the trees: a weight on a branch that runs from place to place, and leaps where the next place is on another tree (walker.h).
 struct Walker {
     double mass = 0.4;    // [kg]
     double radius = 0.06; // [m] of the ball that it is shown as
@@ -153,7 +153,7 @@ struct Walker {
     std::vector<Stop> stops; // at least two
 };
 
-// What a scene changes of its trees' wood (wood_overrides.h), in this order: factors by kind, curves, forks.
+// What a scene changes of its trees' wood (wood_overrides.h): factors by kind, then curves, then forks.
 struct WoodFactors {
     double stiffness = 1, damping = 1, density = 1; // [1]
 };
@@ -174,19 +174,19 @@ struct Wood {
     std::optional<WoodFork> fork;
 };
 
-// What lies on the trees, as snow and rain do: mass over their area seen from above (static_load.h).
+// A load that lies on the trees, as snow and rain do: mass over their area seen from above (static_load.h).
 struct StaticLoad {
     double branch = 0, leaf = 0, petal = 0, fruit = 0; // [kg/m^2]
 };
 
-// Multipliers of (20)'s terms that come of the joints' own motion, one step late: for the analytic solver (fictitious.h).
+// Multipliers of those terms of (20) that come from the joints' own motion, one step late. They are for the analytic solver (fictitious.h).
 struct Fictitious {
     double acceleration = 0; // [1] of -m p x a_j
     double turning = 0;      // [1] of -I (alpha_p + omega_p x omega_c)
     double gyroscopic = 0;   // [1] of -omega x (I omega)
 };
 
-// Which joints move; all others are rigid (hold.h, reduce.h). A joint moves where all of these that are given let it.
+// Which joints move; all others are rigid (hold.h, reduce.h). A joint moves if all of the given rules let it.
 struct Simulate {
     std::optional<std::int32_t> first_level, last_level; // of branches; what grows on one goes with it
     double radius = 0;                                   // [m] least, of a branch's body at its base
@@ -210,8 +210,8 @@ enum class Pose : std::uint8_t {
     rest     // the drawn tree is unloaded; the run starts from it
 };
 
-// A joint breaks when the torque of its spring and damper, |T^T K (theta + beta theta_dot)|, exceeds its threshold; what it carried falls
-// (free/fracture.h). Infinite: never.
+// A joint breaks when the torque of its spring and damper, |T^T K (theta + beta theta_dot)|, exceeds its threshold; what it carried then falls
+// (free/fracture.h). An infinite threshold means never.
 struct Fracture {
     static constexpr double never = std::numeric_limits<double>::infinity();
     double branch = never, leaf = never, petal = never,
@@ -259,14 +259,14 @@ enum class JointInertia : std::uint8_t {
     paper   // the composite's own, as in the paper
 };
 
-// Largest angles of the joints from their springs' rest, about each axis of the joint frame: of branches, of leaves and
-// petals, of fruit (joint_limit.h). Above 0; 180: no limit.
+// The largest angles of the joints from their springs' rest, about each axis of the joint frame, for branches, for leaves and petals, and for fruit
+// (joint_limit.h). Each is above 0; 180 means no limit.
 struct JointLimit {
     Vec3 branch{180, 180, 180}, leaf{180, 180, 180}, fruit{180, 180, 180}; // [deg]
 };
 
-// The air on leaves and petals, (23) and (24) of the paper in full: on those that hang (air.h) and on those that fly (leaf_flight.h).
-// Without it those that hang have the first term of (23) alone, kappa 0.6.
+// The air on leaves and petals by (23) and (24) of the paper in full, both on those that hang (leaf_air.h) and on those that fly (leaf_flight.h).
+// Without it those that hang have only the first term of (23), with kappa 0.6.
 struct LeafAir {
     double kappa = 0.6;        // [1] scales what the air's pressure does: half of a plate's drag coefficient
     double air_resistance = 4; // [1/s] nu: of motion along the normal, and of turning
@@ -297,18 +297,18 @@ struct Scene {
     std::optional<Simulate> simulate;
     std::vector<Walker> walkers;
 
-    // One more tree, as it stands in memory, at a place on the ground [m], turned by yaw [deg] about +Y. Returns its number in `trees`.
+    // Adds a tree that is in memory, at a place on the ground [m], turned by yaw [deg] about +Y. Returns its number in `trees`.
     std::size_t add(Tree, const Vec3& position = Vec3::Zero(), double yaw = 0);
     std::size_t add(std::shared_ptr<const Tree>, const Vec3& position = Vec3::Zero(), double yaw = 0);
 };
 
-// Whether nothing acts on the trees but the weight that they stand under.
+// True if nothing acts on the trees except the weight that they stand under.
 inline bool stands_still(const Scene& s) {
     return !s.wind && s.pulls.empty() && s.attachments.empty() && s.root_motion.empty() && !s.fracture &&
            s.balls.empty() && s.walkers.empty() && (s.pose != Pose::rest || s.gravity.isZero());
 }
 
-// The first broken rule, or none. O(keys).
+// Returns the first broken rule, or none. O(keys).
 std::optional<Defect> check(const Scene&);
 
 } // namespace bough

@@ -1,7 +1,7 @@
-// splines.h: a tree as branches, the document that treegen and the importers make and treeconvert reads.
+// splines.h: a tree as branches: the document that treegen and the importers make and treeconvert reads.
 //
-// A branch is a curve of points with radii from its base to its tip. Branches stand parents before children; points
-// of branch b are first_point[b] .. first_point[b+1]-1. All positions are world, SI units, Y up.
+// A branch is a curve of points with radii from its base to its tip. Parents stand before children. The points of branch b are first_point[b] ..
+// first_point[b+1]-1. All positions are in the world, in SI units, Y up.
 #pragma once
 #include "../base/math.h"
 #include <optional>
@@ -62,16 +62,16 @@ struct Defect {
     std::string message; // e.g. "is 7, expected -1 or less than 3 (parents stand before children)"
 };
 
-// What is drawn where a document names no colours, in the order of Splines::color.
+// The colours that are drawn where a document names none, in the order of Splines::color.
 inline const std::vector<Vec3>& default_colors() {
     static const std::vector<Vec3> colors = {
         {0.45, 0.34, 0.25}, {0.34, 0.56, 0.16}, {0.98, 0.86, 0.89}, {0.8, 0.14, 0.1}};
     return colors;
 }
 
-// The first broken rule of the splines, or none: at least one branch, array lengths, parents before children, indices
-// in range, fractions in 0..1, at least two points a branch, finite numbers, radii >= 0, unit quaternions (1e-6),
-// sizes > 0, a fruit's centre off its joint, colours in 0..1. O(points).
+// Returns the first broken rule of the splines, or none. The rules: at least one branch, array lengths, parents before children, indices in range,
+// fractions in 0..1, at least two points a branch, finite numbers, radii >= 0, unit quaternions (1e-6), sizes > 0, a fruit's centre off its joint,
+// colours in 0..1. O(points).
 std::optional<Defect> check(const Splines&);
 
 } // namespace bough

@@ -1,7 +1,7 @@
-// split.h: a tree of several roots (three trunks) as one tree a root.
+// split.h: splits a tree of several roots (three trunks) into one tree a root.
 //
-// Bodies keep their order, and branch, level and s their values, so that a selector that names a branch still does.
-// Reads a checked tree. O(bodies). Errors none; a tree of one root gives that tree.
+// Bodies keep their order, and branch, level and s keep their values. So a selector that names a branch still names it. Reads a checked tree; a tree
+// of one root gives that tree. O(bodies). Errors none.
 #pragma once
 #include "tree.h"
 #include <vector>

@@ -4,8 +4,8 @@
 
 namespace bough {
 
-// The branches' tips: pieces that no piece goes on from or leaves; the point meant is the far end (its length along z). Leaves
-// and fruit are not tips: what flutters at the end of a twig is chaotic, and no error of the tree.
+// Returns the branches' tips: pieces that no piece continues or leaves. The tip is the piece's far end (its length along z). Leaves and fruit are not
+// tips: what flutters at the end of a twig is chaotic, and no error of the tree.
 std::vector<std::size_t> tip_bodies(const Tree&);
 
 } // namespace bough

@@ -1,12 +1,12 @@
-// tree.h: a tree as articulated rigid bodies (§3), constant after load. Arrays over bodies, one per quantity.
+// tree.h: a tree as articulated rigid bodies (§3), constant after load. There is one array per quantity, over bodies.
 //
-// Order: a parent stands before its children (parent[i] < i), so that a loop over rising indices is the sweep from the
-// root and one over falling indices the sweep from the leaves; bodies keep this order in every output. Body i has one
-// joint, to its parent or (parent -1) to the ground, with three rotational springs about the joint frame's axes. The
-// body frame has its origin at that joint and z along the branch, the leaf's length or the fruit's stalk.
+// Order. A parent stands before its children (parent[i] < i). So a loop over rising indices is the sweep from the root, and one over falling indices
+// the sweep from the leaves. Bodies keep this order in every output. Body i has one joint, to its parent or (parent -1) to the ground, with three
+// rotational springs about the joint frame's axes. The body frame has its origin at that joint and z along the branch, the leaf's length or the
+// fruit's stalk.
 //
-// The geometry is the drawn pose: theta = 0 puts every body where it was drawn. What the springs' rest pose is (the
-// drawn one, or the one that gravity bends into the drawn one) is the scene's `pose` (pose.h).
+// The geometry is the drawn pose: theta = 0 puts every body where it was drawn. The scene's `pose` (pose.h) decides the springs' rest pose: the drawn
+// one, or the one that gravity bends into the drawn one.
 #pragma once
 #include "../base/math.h"
 #include "kind.h"
@@ -35,7 +35,7 @@ struct Tree {
     std::vector<std::int32_t> level;  // that branch's level, 0 for trunks
     std::vector<double> s;            // fraction of that branch's arc length at the body's own joint, 0..1
 
-    // Each may be empty: none.
+    // Each of these may be empty: none.
     std::vector<std::uint8_t> rigid; // 1: the body moves as its parent does, its joint holds the drawn pose (reduce.h)
     std::vector<double> load; // [kg] what of the mass lies on the drawn tree and is not carried in its equilibrium
     std::vector<std::int32_t>
@@ -54,33 +54,33 @@ struct Tree {
     void resize(std::size_t bodies); // every array to this length, values unspecified
 };
 
-// True where body i goes on its parent's branch (both pieces of one branch), as opposed to leaving it.
+// True if body i continues its parent's branch (both are pieces of one branch) rather than leaving it.
 inline bool continues_parent(const Tree& tree, std::size_t i) {
     const std::int32_t p = tree.parent[i];
     return p >= 0 && tree.kind[i] == Kind::branch && tree.kind[std::size_t(p)] == Kind::branch &&
            tree.branch[i] == tree.branch[std::size_t(p)];
 }
 
-// A body that stands for several leaves on their twigs: porous, where a leaf is a plate (leaf_air.h).
+// True for a body that stands for several leaves on their twigs. It is porous, where a leaf is a plate (leaf_air.h).
 inline bool is_clump(const Tree& tree, std::size_t i) {
     return !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
 }
 
-// [m^2] One side of all the leaves or petals that a flat body stands for: length times width / 2 each.
+// [m^2] Returns one side's area of all the leaves or petals that a flat body stands for: length times width / 2 each.
 inline double foliage_area(const Tree& tree, std::size_t i) {
     if (!is_clump(tree, i) || tree.leaf_length.empty() || !(tree.leaf_length[i] > 0))
         return tree.size[i][0] * tree.size[i][1] / 2;
     return tree.leaf_count[i] * tree.leaf_length[i] * tree.leaf_width[i] / 2;
 }
 
-// The first broken rule, or none: at least one body, array lengths equal, parent before child, mass > 0, inertia
-// symmetric and positive semidefinite with the triangle inequality (to rounding, 1e-9 of its trace), stiffness and
-// damping >= 0, unit quaternions (1e-6), sizes >= 0 with a length > 0, finite numbers, s in 0..1. O(bodies).
+// Returns the first broken rule, or none. The rules: at least one body, array lengths equal, parent before child, mass > 0, inertia symmetric and
+// positive semidefinite with the triangle inequality (to rounding, 1e-9 of its trace), stiffness and damping >= 0, unit quaternions (1e-6), sizes >=
+// 0 with a length > 0, finite numbers, s in 0..1. O(bodies).
 std::optional<Defect> check(const Tree&);
 
-// Appends `more` to `tree`, turned by yaw [rad] about +Y and moved by position [m]: how a scene stands several trees
-// in one world. Branch numbers of `more` are shifted behind those present; name, material, source and colours stay those of the
-// first tree. Returns the first body's index.
+// Appends `more` to `tree`, turned by yaw [rad] about +Y and moved by position [m]. A scene stands several trees in one world this way. Branch
+// numbers of `more` are shifted behind those present. Name, material, source and colours stay those of the first tree. Returns the first body's
+// index.
 std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw);
 
 } // namespace bough

@@ -1,4 +1,4 @@
-// wood.h: what a tree is made of. Presets with sources, or the user's own file (formats/documents/material.h).
+// wood.h: what a tree is made of: presets with sources, or the user's own file (formats/documents/material.h).
 #pragma once
 #include "splines.h"
 #include <optional>
@@ -24,12 +24,12 @@ struct Material {
     std::string source;             // where the figures are from
 };
 
-// All presets, each with its source; the first is the default. The names, in order, are for --help.
+// Returns all presets, each with its source; the first is the default. --help lists the names in this order.
 const std::vector<Material>& wood_presets();
-// The preset of this name, or nullptr.
+// Returns the preset of this name, or nullptr.
 const Material* find_wood(const std::string& name);
 
-// The first broken rule, or none: finite; density, moduli and thickness above 0, damping ratios 0 or more.
+// Returns the first broken rule, or none. All values must be finite; density, moduli and thickness above 0, damping ratios 0 or more.
 std::optional<Defect> check(const Material&);
 
 } // namespace bough

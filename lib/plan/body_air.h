@@ -1,5 +1,5 @@
-// body_air.h: what every solver, guard and reference asks of the air at a body of a plan: what its laws take of the body (laws/air_load.h), and the wind
-// there, with its shelter and its tree's clock. What else a wind does at a place stands in WindTable::at and wind_factor (laws/wind.h).
+// body_air.h: what every solver, guard and reference asks about the air at a body of a plan: what the laws take of the body (laws/air_load.h), and
+// the wind there, with its shelter and its tree's clock. WindTable::at and wind_factor (laws/wind.h) hold what else a wind does at a place.
 #pragma once
 #include "../laws/air.h"
 #include "../laws/wind.h"
@@ -7,17 +7,17 @@
 
 namespace bough {
 
-// In a run's precision, or another.
+// Returns the body as the air's laws take it, in a run's precision or another.
 template <class Real, class T> AirBody<Real> air_body(const Plan<T>& plan, std::size_t body) {
     return {plan.kind[body], Real(plan.drag_area[body]), Real(plan.mass[body]), plan.com[body].template cast<Real>()};
 }
 
-// Which of the wind's clocks a body's tree goes by.
+// Returns the wind's clock that a body's tree goes by.
 template <class T> std::size_t clock_of(const Plan<T>& plan, std::size_t body) {
     return plan.clock.empty() ? 0 : plan.clock[body];
 }
 
-// The wind's velocity [m/s] at a body whose centre of mass is at `place` [m].
+// Returns the wind's velocity [m/s] at a body whose centre of mass is at `place` [m].
 template <class T, class Real>
 Vector3<Real> wind_on_body_at(const Plan<T>& plan, std::size_t body, const WindTable<Real>& wind,
                               const Vector3<Real>& place) {
@@ -25,7 +25,7 @@ Vector3<Real> wind_on_body_at(const Plan<T>& plan, std::size_t body, const WindT
     return plan.shelter.empty() ? undisturbed : Vector3<Real>(Real(plan.shelter[body]) * undisturbed);
 }
 
-// What it changes by over a step, of a wind over the ground whose fields at the step's start and end these are.
+// Returns the change of that velocity over a step, for a wind over the ground whose fields at the step's start and end are given.
 template <class T>
 Vector3<T> wind_change_on_body_at(const Plan<T>& plan, std::size_t body, const WindTable<T>& wind,
                                   const WindField<T>& start, const WindField<T>& end, const Vector3<T>& place) {

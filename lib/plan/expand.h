@@ -1,8 +1,8 @@
-// expand.h: all bodies of a tree from a state of its reduced one (reduce.h): each rigid body follows its group as it is drawn on it, what stands
-// still its ground.
+// expand.h: all bodies of a tree from a state of its reduced tree (reduce.h). Each rigid body follows its group as drawn on it; what stands still
+// follows its ground.
 //
-// Its joint has turned by nothing: theta and theta_dot are 0. What torque it passes on is not known without the accelerations of all that it
-// carries: 0 too, as the stress of it.
+// A rigid body's joint does not turn: its theta and theta_dot are 0. The torque that it passes on is unknown without the accelerations of all that it
+// carries, so torque and stress are 0 too.
 #pragma once
 #include "../model/motion.h"
 #include "plan.h"
@@ -11,16 +11,16 @@
 
 namespace bough {
 
-// World from body, and its joint [m].
+// The rotation world from body, and the body's joint [m].
 struct WholePose {
     Mat3 R;
     Vec3 x;
 };
-// Of a body of the whole tree. Needs the state's poses up to date. O(trees) for what stands still, else O(1).
+// Returns the pose of a body of the whole tree. Needs the state's poses up to date. O(trees) for what stands still, else O(1).
 template <class T> WholePose whole_pose(const Reduced&, const Plan<T>&, const State<T>&, std::size_t body);
 
-// A frame of the reduced tree, as filled from this state, becomes one of the whole tree: its arrays grow in place. O(bodies of the whole tree).
-// whole: centres of mass are read of it, for velocities. Allocates nothing once the frame's arrays have grown.
+// Makes a frame of the reduced tree, as filled from this state, one of the whole tree: its arrays grow in place. whole: its centres of mass are read,
+// for velocities. O(bodies of the whole tree). Allocates nothing once the frame's arrays have grown.
 template <class T> void expand_frame(const Reduced&, const Tree& whole, const Plan<T>&, const State<T>&, MotionFrame&);
 
 } // namespace bough

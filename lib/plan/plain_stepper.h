@@ -1,4 +1,4 @@
-// plain_stepper.h: what steppers have in common that keep a state where others read it, in arrays in document order.
+// plain_stepper.h: the common part of steppers that keep a state where others read it, in arrays in document order.
 #pragma once
 #include "state_update.h"
 

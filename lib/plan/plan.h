@@ -1,6 +1,6 @@
-// plan.h: what one scene needs, decided once (§ "leave out"): which stages run, which arrays exist, and the constants
-// they read, in the precision of the run. A stage or array that nothing needs is not run and not allocated; why, says
-// explain.h. Here stands what any solver reads; what one alone reads is its stepper's.
+// plan.h: what one scene needs, decided once (§ "leave out"): which stages run, which arrays exist, and the constants they read, in the precision of
+// the run. A stage or array that nothing needs is not run and not allocated; explain.h says why. The plan holds what any solver reads. The stepper
+// holds what only one solver reads.
 #pragma once
 #include "../laws/leaf_terms.h"
 #include "../model/root_motion.h"
@@ -13,16 +13,16 @@
 
 namespace bough {
 
-// What the caller will read of a state: arrays for it exist only then.
+// What the caller will read of a state. Arrays for the rest do not exist.
 struct Wishes {
     bool velocity = false; // velocity and angular velocity of each body
     bool torque = false;   // spring torque of each joint
-    // Poses and angles as they go. Without (and without velocities, torques and stresses) a step in lanes keeps neither them nor their constants in document
-    // order: a run then has its hash, and the angles that present() brings for a saved state.
+    // Poses and angles in each step. Without this (and without velocities, torques and stresses) a step in lanes keeps neither them nor their
+    // constants in document order. A run then has its hash, and the angles that present() brings for a saved state.
     bool pose = true;
     bool stress = false; // bending_stresses() will be called
     bool loads = false;  // the caller will put forces on bodies into State::loads before steps
-    // [m] What the wind's tables reach at least, whatever the tree at hand does: a part of a larger scene looks its wind up in the same.
+    // [m] What the wind's tables reach at least, whatever the tree at hand needs: a part of a larger scene then uses the same tables.
     double top = 0, reach = 0;
     std::vector<double> clocks{}; // [s] the wind's of the whole, in its order (wind_clocks)
 };
@@ -34,7 +34,7 @@ template <class T> struct PlannedPull {
     std::size_t source; // index into Scene::pulls
 };
 
-// An attachment likewise.
+// An attachment with its target looked up.
 struct PlannedAttachment {
     std::size_t body;
     Vec3 point_b;                        // [m] body frame
@@ -71,7 +71,7 @@ template <class T> struct Plan {
     std::vector<Vector3<T>> theta_limit; // [rad] joint_limit.h; infinite: none
     std::vector<T> stress_of_moment;     // [1/m^3] of wood 1 / section_modulus(), of all else 0; with Wishes::stress
 
-    // Root motion (root_term.h): a curve an entry of Scene::root_motion, and which trees it moves, rising.
+    // Root motion (root_term.h): one curve for each entry of Scene::root_motion, and the trees that it moves, rising.
     std::vector<RootSpline> splines;
     std::vector<MovedTree> moved;
 
@@ -92,8 +92,8 @@ template <class T> struct Plan {
     bool pairs = false; // some of them with another body
 };
 
-// Of what goes by itself (lib/free): what the scene names of it, as a JSON pointer, or null; whether there is any; whether free bodies may
-// push trees.
+// For what is free (lib/free): the part of the scene that names some, as a JSON pointer, or null; whether there is any; whether free bodies may push
+// trees.
 const char* free_part(const Scene&);
 inline bool has_free_bodies(const Scene& scene) {
     return free_part(scene) != nullptr;

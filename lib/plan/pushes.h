@@ -5,11 +5,11 @@
 
 namespace bough {
 
-// visit(body, point [m, body frame], force [N, world]) for every pull at `time` [s] and every load of the step to come.
+// Calls visit(body, point [m, body frame], force [N, world]) for every pull at `time` [s] and every load of the step to come.
 template <class T, class Visit>
 void visit_pushes(const Plan<T>& plan, const State<T>& state, double time, Visit&& visit);
 
-// [N] of a pull at time t [s]: linear between its keys, none outside of them.
+// [N] Returns the force of a pull at time t [s]: linear between its keys, zero outside of them.
 Vec3 pull_force(const Pull&, double t);
 
 template <class T, class Visit>

@@ -1,27 +1,28 @@
-// reduce.h: a tree whose rigid bodies (Tree::rigid) are one with what they hang on: the same wood on fewer joints. What moves is simulated on
-// the reduced tree; expand.h gives all bodies their poses back.
+// reduce.h: joins a tree's rigid bodies (Tree::rigid) with what they hang on: the same wood on fewer joints. What moves is simulated on the reduced
+// tree. expand.h gives all bodies their poses back.
 //
-// Groups. Each body that is not rigid leads a group, whose frame is its own; a rigid body joins its parent's group, held as it is drawn. A
-// rigid root and what is rigid on it stand still: they are not simulated, and what moves on them is a root of the reduced tree, with its
-// joint at its place in the world. Groups stand in the order of their leaders, a parent's before its children's.
+// Groups. Each body that is not rigid leads a group, whose frame is its own. A rigid body joins its parent's group, held as it is drawn. A rigid root
+// and what is rigid on it stand still: they are not simulated, and what moves on them is a root of the reduced tree, with its joint at its place in
+// the world. Groups stand in the order of their leaders, a parent's before its children's.
 //
-// Exact: what turns about each joint, its composite's first moment and inertia about it, from sums over the bodies; joint, stiffness, damping,
-// branch, level, s, its leader's. So statics under gravity and pulls are the whole tree's with those joints held, and so are its dynamics
-// in vacuo. (Tree::load is summed too, and lies at the group's centre of mass.)
+// What turns about each joint is exact: sums over the bodies give its composite's first moment and inertia about the joint. Joint, stiffness,
+// damping, branch, level and s are the leader's. So statics under gravity and pulls are those of the whole tree with those joints held, and so are
+// its dynamics in vacuo. (Tree::load is summed too, and lies at the group's centre of mass.)
 //
-// In the air a group is one body, whose force stands for the sum of its bodies' (air.h). Fitted are a cylinder along the leader and a sphere: the
-// drag area of each is that which comes nearest to the sum over the directions of the wind (least squares over 64 that are even over the sphere;
-// where the wind has one mean direction those near it count, by the eighth power of the cosine); the one that is left with the smaller
-// difference is taken. Bodies parallel to the leader give the cylinder of their summed areas, exactly. Kind and size are what says so: size is
-// (reach of the leader's branch, radius, radius), as a branch's, and where Tree::rigid is round_to_air the air meets a sphere of that radius (kind_in_air).
-// The air's force acts at the centre of mass. A mass at the joint turns nothing about it and moves with what the group hangs on, so it may belong to
-// either; a group gives as much of it to what it hangs on (a root: to the ground) as brings its centre of mass out to the centre of its
-// drag areas, as far along as that is and its inertia allows. So masses and centres of mass are not the wood's own, bodies that bear
-// groups are heavier at their ends, and a body that neither is a group nor bears one is the whole tree's, bit by bit.
-// Left out: that leaves in groups fold with the wind; force across the wind of bodies that are not parallel; what turning adds to the damping of bodies away from the centre; of
-// leaves in groups that they would give way to the wind, and (23)'s second term and (24) of /leaves.
-// A cherry of 20 000 bodies, levels 0 to 1 or 0 to 2 moving, 10 s, RMS error of the tips over that without the two (a sphere's mean over all
-// directions alone, at the centre of mass): bare 0.85 to 0.92 in calm, breeze and gusty; in leaf 0.64 to 0.97, in breeze 1.1.
+// In the air a group is one body, whose force stands for the sum of its bodies' (air.h). A cylinder along the leader and a sphere are fitted. The
+// drag area of each is the one nearest to the sum over the directions of the wind: least squares over 64 directions that are even over the sphere;
+// where the wind has one mean direction, those near it count, by the eighth power of the cosine. The fit with the smaller remaining difference is
+// taken. Bodies parallel to the leader give the cylinder of their summed areas, exactly. Kind and size tell which fit was taken: size is (reach of
+// the leader's branch, radius, radius), as a branch's, and where Tree::rigid is round_to_air the air meets a sphere of that radius (kind_in_air). The
+// air's force acts at the centre of mass. A mass at the joint turns nothing about it and moves with what the group hangs on, so it may belong to
+// either. A group gives as much of such mass to what it hangs on (a root: to the ground) as moves its own centre of mass out to the centre of its
+// drag areas, as far along as that is and its inertia allows. So masses and centres of mass are not the wood's own, and bodies that bear groups are
+// heavier at their ends. A body that neither is a group nor bears one is the whole tree's, bit by bit.
+// Left out: that leaves in groups fold with the wind; force across the wind of bodies that are not parallel; what turning adds to the damping of
+// bodies away from the centre; that leaves in groups would give way to the wind; and for these (23)'s second term and (24) of /leaves.
+// A cherry of 20 000 bodies was run with levels 0 to 1 or 0 to 2 moving for 10 s. The RMS error of its tips, over that without these two measures
+// (only a sphere's mean over all directions, at the centre of mass), was 0.85 to 0.92 bare in calm, breeze and gusty; in leaf 0.64 to 0.97, in breeze
+// 1.1.
 #pragma once
 #include "../model/scene.h"
 #include "../model/tree.h"
@@ -30,10 +31,10 @@
 
 namespace bough {
 
-// In Tree::rigid of a reduced tree, which is else 0.
+// The value in a reduced tree's Tree::rigid, which is 0 elsewhere.
 constexpr std::uint8_t round_to_air = 2;
 
-// What the air takes the body for: by whose law (air.h).
+// Returns what the air takes the body for, that is, by whose law (air.h).
 inline Kind kind_in_air(const Tree& tree, std::size_t i) {
     if (!tree.rigid.empty() && tree.rigid[i] == round_to_air) return Kind::fruit;
     return is_clump(tree, i) ? Kind::clump : tree.kind[i];
@@ -57,17 +58,18 @@ inline bool has_rigid(const Tree& tree) {
     return false;
 }
 
-// plate_kappa: of leaves and petals, where the scene has its own (air.h); toward: the wind's mean direction, zero: none. Reads a checked tree. O(n). Errors none.
+// plate_kappa: of leaves and petals, where the scene has its own (air.h). toward: the wind's mean direction; zero: none. Reads a checked tree. O(n).
+// Errors none.
 Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, double plate_kappa,
                const Vec3& toward = Vec3::Zero());
 Reduced reduce(const Tree& whole, const std::vector<TreeRange>& ranges, const Scene&);
 
-// The same place on the reduced tree; none where it stands still.
+// Returns the same place on the reduced tree; none where it stands still.
 std::optional<Selector> selector_on(const Reduced&, const Selected& in_whole);
 
-// The scene for the reduced tree: what its pulls select becomes points of bodies there; a pull on a level becomes one for each of its bodies, what
-// pulls at a part that stands still is left out; attachments likewise. Nothing else of a scene that goes with rigid parts selects.
-// Throws std::out_of_range as select() does.
+// Returns the scene for the reduced tree. What its pulls select becomes points of bodies there. A pull on a level becomes one for each of its bodies.
+// A pull at a part that stands still is left out. Attachments are treated likewise. Nothing else that a scene may have beside rigid parts selects
+// bodies. Throws std::out_of_range as select() does.
 Scene scene_on(const Reduced&, const Tree& whole, Scene);
 
 } // namespace bough

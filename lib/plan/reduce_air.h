@@ -1,4 +1,4 @@
-// reduce_air.h: the part of reduce.h that the air asks for: where groups have their centre of mass, and as what they meet the wind.
+// reduce_air.h: the part of reduce.h that the air asks for: where groups have their centre of mass, and as which shape they meet the wind.
 #pragma once
 #include "reduce.h"
 
@@ -10,8 +10,8 @@ template <class Visit> void each_joined(const Reduced& r, const std::vector<std:
         if (r.body[i] >= 0 && joined[std::size_t(r.body[i])]) visit(i, std::size_t(r.body[i]));
 }
 
-// joined: 1 for groups of more than one body; the others stay as they are, but for mass that groups on them give away. Both read the
-// places of bodies, and write r.tree: first mass, com and inertia, then size and rigid.
+// joined: 1 for groups of more than one body. The others stay as they are, except for mass that groups on them give away. Both functions read the
+// places of bodies and write r.tree: the first mass, com and inertia, the second size and rigid.
 void center_on_pressure(const Tree& whole, Reduced&, const std::vector<std::uint8_t>& joined, double plate_kappa);
 void fit_air(const Tree& whole, Reduced&, const std::vector<std::uint8_t>& joined, double plate_kappa,
              const Vec3& toward);

@@ -1,4 +1,4 @@
-// stage.h: the parts of a step that are counted, timed and told of, in the order in which they run.
+// stage.h: the parts of a step that are counted, timed and reported, in the order in which they run.
 #pragma once
 #include <array>
 #include <chrono>
@@ -30,12 +30,12 @@ enum class Stage : std::uint8_t {
 constexpr std::size_t stage_count = 18;
 const char* stage_name(Stage);
 
-// Seconds per stage, filled by a step when one is given; without it no clock is read.
+// The seconds per stage. A step fills them in when it is given a clock; without one it reads no time.
 struct StageClock {
     std::array<double, stage_count> seconds{};
 };
 
-// Runs one stage: counted in `state`, and timed where there is a clock.
+// Runs one stage, counts it in `state`, and times it if there is a clock.
 template <class StateType, class Body> void run_stage(Stage stage, StateType& state, StageClock* clock, Body&& body) {
     using Time = std::chrono::steady_clock;
     const Time::time_point start = clock ? Time::now() : Time::time_point{};

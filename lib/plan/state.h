@@ -1,4 +1,4 @@
-// state.h: what a step changes, whatever the solver. Arrays are empty where the plan leaves them out.
+// state.h: what a step changes, with any solver. Arrays are empty where the plan leaves them out.
 #pragma once
 #include "../laws/wind.h"
 #include "plan.h"
@@ -9,7 +9,7 @@
 
 namespace bough {
 
-// What happened in the steps so far; none of it acts on the result but bounded_lambda, energy_guard and limited.
+// What happened in the steps so far. Only bounded_lambda, energy_guard and limited act on the result.
 struct StepFlags {
     std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
     std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
@@ -23,7 +23,7 @@ struct StepFlags {
     std::uint64_t unresolved = 0;  // inner_steps that missed the tolerance at the smallest length (extrapolation.h)
 };
 
-// A force on a body for one step, by a contact.
+// A contact's force on a body for one step.
 template <class T> struct Load {
     std::size_t body;
     Vector3<T> point_b; // [m] body frame
@@ -58,36 +58,37 @@ template <class T> struct State {
     std::array<std::uint64_t, stage_count> calls{}; // how often each stage ran
     StepFlags flags;
 
-    // Allocated by all arrays over bodies, the solver's too, and by the points that the analytic solver holds. Left out are those of the coupled one, what
-    // the threads of a step in lanes work in, and its energy guard once something has turned fast.
+    // Returns the memory of all arrays over bodies, the solver's too, and of the points that the analytic solver holds. It leaves out the coupled
+    // solver's points, what the threads of a step in lanes work in, and the energy guard's memory once something has turned fast.
     std::size_t bytes() const;
 };
 
-// [s] Of the state, or so many steps on.
+// [s] Returns the time of the state, or of `ahead` steps later.
 template <class T> double time_of(const Plan<T>& plan, const State<T>& state, double ahead = 0) {
     return state.time_since + (double(state.step - state.step_since) + ahead) * plan.dt;
 }
 
-// At the plan's start pose, at rest, kinematics up to date.
+// Returns a state at the plan's start pose, at rest, with kinematics up to date.
 template <class T> State<T> make_state(const Plan<T>&);
 
-// Brings the ground, kinematics and the rows of lanes to what theta and theta_dot, what the solver carries beside them and the
-// number of steps say: after they were set from outside (a saved state). O(n).
+// Called after a state was set from outside (a saved state). Brings the ground, kinematics and the rows of lanes to what theta, theta_dot, the
+// solver's carried arrays and the number of steps say. O(n).
 template <class T> void restart(const Plan<T>&, State<T>&);
 
-// One step with the plan's stepper. Needs a state of this plan with kinematics up to date; leaves one, but where the plan is in lanes: there
-// present() does.
+// Takes one step with the plan's stepper. Needs a state of this plan with kinematics up to date, and leaves one. If the plan is in lanes, present()
+// brings them up to date.
 template <class T> void advance(const Plan<T>&, State<T>&, StageClock* clock = nullptr);
 
-// Brings the arrays in document order up to date: theta, theta_dot and, with Plan::pose, all that stand on them. Where they are, nothing happens.
+// Brings the arrays in document order up to date: theta, theta_dot and, with Plan::pose, all that depends on them. Does nothing where they already
+// are.
 template <class T> void present(const Plan<T>&, State<T>&);
 
-// 64 bits (FNV-1a over little-endian bytes) of theta and theta_dot in document order.
+// Returns 64 bits (FNV-1a over little-endian bytes) of theta and theta_dot in document order.
 template <class T> std::uint64_t state_hash(const State<T>&);
-// The same of what the solver holds: nothing need be presented.
+// Returns the same of what the solver holds, which need not be presented.
 template <class T> std::uint64_t state_hash(const Plan<T>&, const State<T>&);
 
-// The first body with a non-finite theta or theta_dot.
+// Returns the first body with a non-finite theta or theta_dot.
 template <class T> std::optional<std::size_t> first_non_finite(const State<T>&);
 
 } // namespace bough

@@ -1,8 +1,8 @@
-// stepper.h: how steps are made, chosen once a run: a solver behind one interface, with its own constants (in the stepper, which a plan
-// holds) and what it works in from step to step (StepperState, which a state holds). Plan and state know of solvers no more than this, and a
-// solver's own functions take its own types: those of another cannot come to them.
+// stepper.h: how steps are made, chosen once a run. A stepper is a solver behind one interface. It has its own constants (in the stepper, which a
+// plan holds) and its own working data from step to step (StepperState, which a state holds). Plan and state know no more of solvers than this. A
+// solver's own functions take its own types, so those of another solver cannot reach them.
 //
-// Calls are a few a step, none of them in a loop over bodies.
+// A step makes a few calls, none of them in a loop over bodies.
 #pragma once
 #include "../base/copied.h"
 #include "../base/math.h"
@@ -30,13 +30,13 @@ public:
     virtual std::size_t bytes() const = 0; // as State::bytes() counts them
 };
 
-// An array that a solver carries from step to step, beside the angles and their rates. name: SavedState's.
+// An array that a solver carries from step to step, beside the angles and their rates. name: as in SavedState.
 template <class T> struct CarriedArray {
     const char* name;
     std::vector<Vector3<T>>* array;
 };
 
-// Where the angles and rates of single bodies stand, wherever the solver keeps them: one number after the other by `stride`.
+// Where the angles and rates of single bodies stand, wherever the solver keeps them. A body's numbers follow each other by `stride`.
 template <class T> struct MotionView {
     const T *theta = nullptr, *theta_dot = nullptr; // of what `first` counts from
     std::size_t stride = 1;
@@ -54,7 +54,7 @@ private:
     Vec3 three(const T* x) const { return {double(x[0]), double(x[stride]), double(x[2 * stride])}; }
 };
 
-// What first became non-finite: stage and array, and whose.
+// What first became non-finite: stage and array, and the body.
 struct NonFinite {
     std::string what; // "spring (theta)"
     std::size_t body;
@@ -73,35 +73,36 @@ public:
     virtual std::size_t pass_bytes() const { return 0; } // [B] a body that articulated passes keep beside those arrays
     virtual const fast::PlannedLanes<T>* lanes() const { return nullptr; } // how bodies stand in them; null: plainly
 
-    // While a plan is made, in this order.
+    // These are called while a plan is made, in this order.
     virtual void refuse(const Scene&) const {} // throws std::domain_error for what it cannot hold
     virtual bool reads_velocities(const Plan<T>&) const { return false; } // of all bodies, in each step
-    // In lanes: each step places the points that are pulled or held, by constants of bodies in document order, which are kept where poses are.
+    // True if each step in lanes places the points that are pulled or held. It does so by constants of bodies in document order, which are kept where
+    // poses are.
     virtual bool places_points() const { return false; }
     virtual void take_constants(const Plan<T>&,
                                 const Tree&) = 0; // the tree is whole yet; the plan has the scene and c_mass
     virtual void lay_out(const Plan<T>&, const std::vector<TreeRange>&) {} // the plan has all of its bodies
 
-    // Makes its part of a state whose other arrays are there.
+    // Makes the solver's part of a state whose other arrays are there.
     virtual void allocate(const Plan<T>&, State<T>&) const = 0;
-    // From theta [rad], the state's other arrays and its number of steps: kinematics, and what is kept elsewhere than in these.
+    // Brings kinematics, and what is kept outside the state's arrays, to theta [rad], the state's other arrays and its number of steps.
     virtual void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const = 0;
     virtual void advance(const Plan<T>&, State<T>&, StageClock*) const = 0;
     // Brings the arrays in document order up to date.
     virtual void present(const Plan<T>&, State<T>&) const {}
     virtual std::uint64_t hash(const Plan<T>&, const State<T>&) const = 0; // state_hash; nothing need be presented
     virtual bool known_finite(const State<T>&) const { return false; }     // the last step has seen to it
-    // Of a state that is presented, and has become non-finite.
+    // Needs a state that is presented and has become non-finite.
     virtual NonFinite non_finite(const State<T>&) const = 0;
     virtual std::vector<CarriedArray<T>> carried(State<T>&) const = 0;
-    // What is saved beside the carried arrays. restore(): after begin(); throws std::invalid_argument for
-    // what sleeps, std::length_error for attachments.
+    // Save and restore what is saved beside the carried arrays. restore() comes after begin(). It throws std::invalid_argument for what sleeps and
+    // std::length_error for attachments.
     virtual void save(const Plan<T>&, const State<T>&, SavedState&) const {}
     virtual void restore(const Plan<T>&, State<T>&, const SavedState&) const {}
 
-    // For what is free and meets the trees.
+    // These are for what is free and meets the trees.
     virtual void view_motion(const Plan<T>&, const State<T>&, MotionView<T>&) const = 0;
-    // [1] Square roots of each joint's factor of inertia where joints move one by one; empty where a tree answers as a whole.
+    // [1] Returns the square roots of each joint's factor of inertia where joints move one by one; empty where a tree answers as a whole.
     virtual const std::vector<Vector3<T>>& inertia_factor() const {
         static const std::vector<Vector3<T>> none;
         return none;
@@ -109,13 +110,13 @@ public:
     virtual bool has_carried_moments() const { return false; }
     virtual void set_carried_moment(const Plan<T>&, std::size_t, const Vec3&) {
     } // of a body [kg m], once it carries less
-    // Bodies have broken off: in plan and state they become bodies of no mass that nothing moves. O(bodies that left), plain O(n).
+    // Called when bodies have broken off: in plan and state they become bodies without mass that nothing moves. O(bodies that left), plain O(n).
     virtual void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) = 0;
 
-    // What is changed between two steps.
+    // These change something between two steps.
     virtual void scale_wood(const Plan<T>&, T, T) {
     } // all stiffness and damping times these; the plan's own are the caller's
-    // The plan's dt is another by now: changes that are carried from the last step times ratio, what counts in steps anew.
+    // Called when the plan's dt has changed: multiplies changes carried from the last step by ratio, and finds anew what counts in steps.
     virtual void step_changed(const Plan<T>&, State<T>&, T ratio) { (void)ratio; }
     virtual bool sleeps() const { return false; } // trees may
     virtual void wake(const Plan<T>&, State<T>&) const {}

@@ -1,11 +1,11 @@
-// tip_position.h: where a body's far end is, as what is estimated and compared of motions takes it.
+// tip_position.h: where a body's far end is, for estimates and comparisons of motions.
 #pragma once
 #include "plan.h"
 #include "state.h"
 
 namespace bough {
 
-// [m] The far end of a body, as seen from its tree's ground: being carried is no deflection. Needs a state that is presented. O(log moved trees).
+// [m] Returns a body's far end as seen from its tree's ground: being carried is no deflection. Needs a state that is presented. O(log moved trees).
 template <class T> Vec3 tip_position(const Plan<T>&, const State<T>&, const Tree&, std::size_t body);
 
 } // namespace bough

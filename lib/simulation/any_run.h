@@ -1,5 +1,5 @@
-// any_run.h: what stands behind the door (simulation.h): a run in either precision, by any solver. For tools and studies too, where what they report
-// is no engine's business; not installed.
+// any_run.h: what stands behind the door (simulation.h): a run in either precision, by any solver. Tools and studies use it too, where what they
+// report is not the engine's business. It is not installed.
 #pragma once
 #include "../coupled/attachment_state.h"
 #include "run.h"
@@ -8,7 +8,7 @@
 
 namespace bough {
 
-// Makes the steppers of a run, in place of those that the options' method says. One of a precision that it lacks is not asked for.
+// Makes the steppers of a run, in place of those that the options' method names. A maker that lacks a precision is never asked for it.
 struct StepperMaker {
     std::function<std::unique_ptr<Stepper<float>>(const Assembly&)> single;
     std::function<std::unique_ptr<Stepper<double>>(const Assembly&)> double_;
@@ -41,26 +41,26 @@ struct RunAccount {
     std::size_t state_bytes = 0, free_bytes = 0;
 };
 
-// How a joint stands and turns, whatever its spring's rest is: in the axes of the body that carries it.
+// How a joint stands and turns, independent of its spring's rest pose, in the axes of the body that carries it.
 struct JointMotion {
     Mat3 R = Mat3::Identity();
     Vec3 omega = Vec3::Zero(); // [rad/s]
 };
 
-// Calls that the door has too are described there.
+// simulation.h describes the calls that Simulation has too.
 class AnyRun {
 public:
     virtual ~AnyRun() = default;
     virtual std::unique_ptr<AnyRun> copy() const = 0; // the assembly is shared
 
     virtual StepReport step(int times) = 0;
-    // step() in its parts: the step alone, then whether it became non-finite, and where.
+    // The two parts of step(): advance() takes the step alone; non_finite() tells whether the run became non-finite, and where.
     virtual void advance(StageClock*) = 0;
     virtual std::string non_finite() = 0;
     virtual void begin_again() = 0; // as at the start, with nothing changed. Where nothing is free: the plan stays
     virtual bool fresh() const = 0; // at its start: no step taken, nothing restored
-    // A run at its start stands as it does so many steps before time 0. In these nothing but trees, wind and ground moves (Simulation::settle); at time 0
-    // what the steps have counted is forgotten.
+    // Sets a run at its start to so many steps before time 0. In these steps only trees, wind and ground move (Simulation::settle). At time 0 the run
+    // forgets what they have counted.
     virtual void set_back(std::int64_t steps) = 0;
 
     virtual std::size_t bodies() const = 0;
@@ -72,7 +72,7 @@ public:
     virtual const std::vector<std::uint32_t>& broken() const = 0; // joints, in the order in which they did
     virtual std::vector<Ball> balls() const = 0;                  // shown_balls
     virtual Tree posed() = 0;
-    // [m] Far ends of bodies (along z): of those that move, and of all that are shown, where some are held.
+    // [m] Far ends of bodies (along z). Where joints are held, ends() takes bodies of the tree that moves, shown_ends() of all that are shown.
     virtual void ends(const std::vector<std::size_t>& bodies, std::vector<Vec3>&) = 0;
     virtual void shown_ends(const std::vector<std::size_t>& bodies, std::vector<Vec3>&) = 0;
 
@@ -102,7 +102,7 @@ public:
     virtual std::string explain() const = 0;
     virtual RunAccount account() const = 0;
 
-    // For what is written for either precision (study/): null where the run is in the other.
+    // For code that is written for either precision (study/); null where the run is in the other one.
     virtual Run<float>* single() { return nullptr; }
     virtual Run<double>* double_() { return nullptr; }
 
@@ -129,7 +129,7 @@ Simulation make_simulation(std::shared_ptr<Assembly>, const RunChoice&);
 AnyRun& run_of(Simulation&);
 const AnyRun& run_of(const Simulation&);
 
-// f of the Run<T> that it is.
+// Calls f with the Run<T> that the run is.
 template <class F> auto visit_run(AnyRun& run, F&& f) {
     if (Run<float>* const single = run.single()) return f(*single);
     return f(*run.double_());

@@ -11,7 +11,7 @@
 
 namespace bough {
 
-// Which part of a scene's trees a run has, and what it must know of the whole.
+// Which part of a scene's trees a run holds, and what it must know of the whole scene.
 struct Part {
     std::int32_t part = 1, parts = 1;
     std::int64_t first_body = 0;  // in the whole scene's order
@@ -23,7 +23,7 @@ struct Part {
         false; // the ground of some tree moves, of this part or another: what a still ground allows is left out
 };
 
-// What a run of a part of a tree is of, where joints are held.
+// The whole from which a run with held joints was reduced.
 struct Whole {
     Tree tree; // all bodies, none held
     Scene scene;
@@ -40,20 +40,20 @@ struct Assembly {
     std::shared_ptr<const Whole> whole{}; // where joints are held; tree, ranges and scene are then of what moves
 };
 
-// The first tree, often the only one and large, is taken as it is; others are copied behind it. O(bodies).
+// Takes the first tree, which is often the only one and large, as it is, and copies others behind it. O(bodies).
 void stand(Assembly&, Tree, const Placement& at);
 
-// Throws SceneError for a selector that names no body. O(bodies).
+// Puts /wood and /load into the tree. Throws SceneError for a selector that names no body. O(bodies).
 void change_wood(Assembly&);
 
-// Nothing changes where nothing is held. Throws SceneError: a selector that names no body, nothing left that moves, free bodies beside rigid
-// ones. O(bodies).
+// Joins held bodies to what they hang on; changes nothing where nothing is held. O(bodies). Throws SceneError for a selector that names no body, if
+// nothing is left that moves, and for free bodies beside rigid ones.
 void join_rigid(Assembly&);
 
-// [s] Simulation::settling_time; of a part of a scene the whole scene's. O(bodies).
+// [s] Simulation::settling_time. A part of a scene gives the whole scene's. O(bodies).
 double settling_time(const Assembly&);
 
-// All of it for a scene that holds its trees (Placement::tree). Throws SceneError, also for what check() finds.
+// Does all of this for a scene that holds its trees (Placement::tree). Throws SceneError, also for what check() finds.
 Assembly assemble(Scene);
 
 } // namespace bough

@@ -1,5 +1,5 @@
-// explain.h: a plan's account of itself: which stages run, which arrays are held, and why, in the order of the step. What it says is what
-// `treesim --report plan` prints; the tests hold it against what really happens (StageClock, the states' arrays).
+// explain.h: a plan's account of itself: which stages run, which arrays are held, and why, in the order of the step. `treesim --report plan` prints
+// it. The tests hold it against what really happens (StageClock, the states' arrays).
 #pragma once
 #include "../plan/plan.h"
 

@@ -4,7 +4,7 @@
 
 namespace bough {
 
-// changes: Assembly::changes. A line each for the plan, what the scene changed of the tree, every stage and array with its reason.
+// Gives a line each for the plan, what the scene changed of the tree (changes: Assembly::changes), and every stage and array with its reason.
 template <class T> std::string explanation(const Plan<T>&, const std::vector<std::string>& changes);
 
 } // namespace bough

@@ -7,16 +7,16 @@ namespace bough {
 
 template <class T> bool has_broken_off(const Run<T>&, std::size_t body);
 
-// All for a run of the coupled solver; each wakes what its stepper has to. O(bodies).
+// All of these are for a run of the coupled solver. Each wakes what its stepper has to. O(bodies).
 
-// At a point [m, body frame] of a body of the whole trees; the target is where the point is. Returns the attachment's number. Throws SceneError for a body
-// that stands still or has broken off, and where the run keeps no poses.
+// Attaches at a point [m, body frame] of a body of the whole trees; the target is where the point is. Returns the attachment's number. Throws
+// SceneError for a body that stands still or has broken off, and where the run keeps no poses.
 template <class T>
 std::uint64_t attach_hand(Run<T>&, const Assembly&, std::size_t body, const Vec3& point, double stiffness,
                           double damping);
-// Those that are still there; none in a run of another solver.
+// Returns the attachments that are still there; none in a run of another solver.
 template <class T> std::vector<Attached> hands_of(const Run<T>&);
-// Of another run, on a body here.
+// Takes over an attachment of another run, on a body of this one.
 template <class T> void adopt_hand(Run<T>&, const Attached&, std::size_t body);
 template <class T> void release_hand(Run<T>&, std::uint64_t number); // of one that is there
 

@@ -1,16 +1,15 @@
 // loop.h: one period of a motion that repeats.
 //
-// The wind is made to repeat after the loop's length (Wind::period), and whole periods are run until the motion repeats as well: a
-// damped tree forgets how it began. Two periods are held beside each other at five times, the seam and the frame after it among
-// them: where the far ends of all that carries nothing (tips, leaves, fruit) are, in all of them, within the tolerance of where they
-// were a period before, so are places and velocities at the seam. Then one period is what is shown, and the frame behind it, which is
-// what the first would be a period later, tells how far its ends are off: the loop's seam.
+// The wind is made to repeat after the loop's length (Wind::period). Whole periods are run until the motion repeats as well: a damped tree forgets
+// how it began. Two periods are compared at five times, among them the seam and the frame after it. The far ends of all that carries nothing (tips,
+// leaves, fruit) are compared. If at all five times each is within the tolerance of where it was a period before, places and velocities at the seam
+// are too. One period is then shown. The frame behind it, which is the first frame a period later, tells how far its ends are off: the loop's seam.
 //
-// What never repeats by itself, as leaves that turn over in the wind, can be made to (blend): over the loop's last third each joint's
-// rotation in its parent's body passes from what it is, q(t), to what it was a period before, q(t - T), which runs into the loop's first frame:
+// What never repeats by itself, as leaves that turn over in the wind, can be blended (blend). Over the loop's last third each joint's rotation in its
+// parent's body passes from its present value q(t) to that of a period before, q(t - T), which runs into the loop's first frame:
 //   q'(t) = slerp(q(t), q(t - T), w),   w = x^2 (3 - 2 x),   x from 0 to 1 over that third
-// so that poses and velocities are continuous, also from the last frame to the first; each body's pose follows from its parent's. It takes a second
-// copy of the run, which is made again from where the third began a period before.
+// So poses and velocities are continuous, also from the last frame to the first. Each body's pose follows from its parent's. Blending takes a second
+// copy of the run, which is run again from a period before the start of the last third.
 #pragma once
 #include "simulation.h"
 #include <functional>
@@ -18,8 +17,8 @@
 
 namespace bough {
 
-// Gives the wind the period of so many seconds. Throws SceneError for a scene without wind, with one of another period, or with something whose
-// times do not repeat.
+// Gives the wind this period [s]. Throws SceneError for a scene without wind, with a wind of another period, or with something whose times do not
+// repeat.
 void make_periodic(double seconds, Scene&);
 
 struct LoopOptions {
@@ -28,10 +27,10 @@ struct LoopOptions {
     std::optional<std::int64_t> periods; // at most, before the one that is shown
     bool blend = false;
 };
-// That, or 20; 5 where ends are blended, for these only let the start be forgotten.
+// LoopOptions::periods, or 20 if not given; 5 where ends are blended, since there they only let the run forget its start.
 std::int64_t most_periods(const LoopOptions&);
 
-// Takes a run to frame f, counted from its start: steps of one frame. May throw to end.
+// Takes a run to frame f, counted from its start, in steps of one frame. It may throw to end the run.
 using ToFrame = std::function<void(Simulation&, std::int64_t f)>;
 
 // How far the ends of two periods are apart [m], at most.
@@ -52,18 +51,18 @@ struct LoopStart {
     std::optional<Simulation> before; // where ends are blended: the run where that begins, a period before
 };
 
-// From a run's start to the loop's first frame. Throws what `to` throws.
+// Runs from the start to the loop's first frame. Throws what `to` throws.
 LoopStart close_loop(Simulation&, const LoopOptions&, const ToFrame& to);
 
-// Of a run that is one frame behind the loop's last.
+// Takes a run that is one frame behind the loop's last.
 LoopGap loop_seam(Simulation&, const LoopStart&);
 
-// Of so many frames, how many are blended.
+// How many of so many frames are blended.
 constexpr std::int64_t blended_frames(std::int64_t frames) {
     return frames - 2 * frames / 3;
 }
 
-// The frames of a loop whose ends are made to meet, one after another from the first that is blended.
+// Blends a loop's frames so that its ends meet, one after another from the first that is blended.
 class LoopBlend {
 public:
     // before: LoopStart's.

@@ -3,9 +3,10 @@
 //   Ray from the eye through the pointer; aperture = atan(15 / (pixels / 2) * tan(angle of view / 2)) for a finger of 15 pixels' radius
 //   if (auto hit = pick(simulation, ray)) simulation.pull(hit->body, hit->point, force);
 //
-// Of the bodies that the ray meets itself, the first. Where it meets none, and the aperture is above 0, the body whose axis is least off the
-// ray, within it: a twig of a millimetre is no wider than a pixel. What is met: branches as frustums with their ends, fruit as spheres without
-// their stalks, leaves and petals as the flat kites that skin.h draws, clumps of leaves as ellipsoids. Balls and walkers are not.
+// The first body that the ray itself meets is picked. If it meets none and the aperture is above 0, the body whose axis is least off the ray is
+// picked, if within the aperture: a twig of a millimetre is no wider than a pixel. The ray meets branches as frustums with their ends, fruit as
+// spheres without their stalks, leaves and petals as the flat kites that skin.h draws, and clumps of leaves as ellipsoids. It does not meet balls and
+// walkers.
 #pragma once
 #include "simulation.h"
 #include <optional>
@@ -25,9 +26,9 @@ struct RayHit {
     double distance;  // [m] from the ray's start
 };
 
-// In the present state. O(bodies), of which most cost a few multiplications. Throws SceneError for a ray that is none.
+// Picks in the present state. O(bodies), of which most cost a few multiplications. Throws SceneError for an invalid ray.
 std::optional<RayHit> pick(const Simulation&, const Ray&);
-// The same of a tree's bodies where they stand: positions of own joints, rotations world from body, at least as many as the tree has bodies.
+// The same for a tree's bodies at these poses: positions of their own joints and rotations world from body, at least one for each body.
 std::optional<RayHit> pick(const Tree&, std::span<const Vec3> positions, std::span<const Quat> rotations, const Ray&);
 
 } // namespace bough

@@ -1,4 +1,4 @@
-// run.h: one run, step after step: plan, state, and what is free beside the trees. any_run.h makes of it what the door (simulation.h) stands on.
+// run.h: one run, step after step: plan, state, and what is free beside the trees. any_run.h builds on it what simulation.h needs.
 #pragma once
 #include "../free/world.h"
 #include "../lanes/target.h"
@@ -16,13 +16,14 @@ struct StepChoice {
     double sleep = 0; // [rad/s] the rate below which what has settled is left out of steps (coupled/sleep.h)
 };
 
-// What a part of a scene must not do that the whole would not: its trees share blocks with others, and the ground of some may move.
+// Takes away what a part of a scene must not do because the whole would not: its trees share blocks with others, and the ground of some may move.
 void keep_to_the_whole(const Part&, Method, StepChoice&);
 
-// Of the coupled or the analytic method.
+// Makes the stepper of the coupled or the analytic method.
 template <class T> std::unique_ptr<Stepper<T>> stepper_of(const Assembly&, StepChoice);
 
-// For steps of dt [s]. Throws SceneError. An assembly that is handed over keeps of its tree what make_plan says, and memory low.
+// Makes a plan for steps of dt [s]. Throws SceneError. An assembly that is handed over keeps of its tree only what make_plan says, which saves
+// memory.
 template <class T> Plan<T> plan_run(const Assembly&, const Wishes&, double dt, std::unique_ptr<Stepper<T>>);
 template <class T> Plan<T> plan_run(Assembly&&, const Wishes&, double dt, std::unique_ptr<Stepper<T>>);
 
@@ -32,18 +33,19 @@ template <class T> struct Run {
     World<T> world;
 };
 
-// At the start. Keeps a reference to the assembly's tree where the scene has something free. Throws SceneError.
+// Makes a run at its start. Keeps a reference to the assembly's tree where the scene has something free. Throws SceneError.
 template <class T> Run<T> start_run(Plan<T> plan, const Assembly&);
 
-// After a step: "", or where the run became non-finite: "stage spring (theta), body 17 (branch 3)". Arrays are brought up to date where that takes it.
+// Called after a step. Returns "", or where the run became non-finite: "stage spring (theta), body 17 (branch 3)". Brings arrays up to date as
+// needed.
 template <class T> std::string non_finite(Run<T>&, const Tree&);
 
-// The arrays of a plan's state that is up to date (present()), as far as `fields` asks for them, in the precision of frames. Returns the first body
-// whose numbers are non-finite, if there is one. Allocates nothing once the frame has grown.
+// Fills in the arrays that `fields` asks for, in the precision of frames, from a state that is up to date (present()). Returns the first body whose
+// numbers are non-finite, if there is one. Allocates nothing once the frame has grown.
 template <class T>
 std::optional<std::size_t> fill_frame(const Plan<T>&, const State<T>&, const MotionFields& fields, MotionFrame&);
 
-// A frame of the run becomes one of all bodies: those that are held, what fell, balls and walkers.
+// Extends a frame of the run to all bodies: those that are held, what fell, balls and walkers.
 template <class T> void show_all(const Assembly&, const Run<T>&, MotionFrame&);
 
 std::string hash_text(std::uint64_t hash); // 16 hex digits

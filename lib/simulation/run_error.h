@@ -1,5 +1,5 @@
-// run_error.h: how wrong a run is at its step, seen while it goes on: beside it goes a companion at a quarter of the step, and the tips of the branches
-// of both are compared. What the estimate is worth, and where it is unknown: error_estimate.h; it is 0.9 to 1.8 times the true error.
+// run_error.h: how wrong a run is at its step, seen while it goes on. A companion goes beside it at a quarter of the step, and the branches' tips of
+// both are compared. The estimate is 0.9 to 1.8 times the true error; error_estimate.h tells what it is worth and where it is unknown.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -22,21 +22,20 @@ struct TipError {
     bool known() const { return finite && rough <= (2 * rms > 100 * rounding ? 2 * rms : 100 * rounding); }
 };
 
-// Of a simulation of the coupled method in which nothing is free. Reads the run, never changes it. A step costs four more, and memory is that of a second
-// run.
+// Estimates the error of a simulation of the coupled method in which nothing is free. Reads the run and never changes it. Each step costs four more,
+// and the memory is that of a second run.
 class RunError {
 public:
-    // As it stands, at its start or on its way: the error that counts is what comes from there on. Throws SceneError. Keeps a reference to the run
-    // (no longer than it may be moved from).
+    // Begins with the run as it stands, at its start or on its way: the error is counted from there on. Throws SceneError. Keeps a reference to the
+    // run, so it must end before the run is moved from.
     explicit RunError(Simulation&);
     RunError(RunError&&) noexcept;
     RunError& operator=(RunError&&) noexcept;
     ~RunError();
 
-    // Before a step, where something was changed since the last one: the companion's next steps have it too, wind, gravity, wood, ground, pulls,
-    // hands, the step.
+    // Tells the companion what was changed since the last step: wind, gravity, wood, ground, pulls, hands, the step. Called before the next step.
     void lead();
-    // After each step, or frame of several. Allocates nothing, but where hands came or went.
+    // Called after each step, or each frame of several steps. Allocates nothing, except where hands came or went.
     void follow();
     TipError result() const;
 

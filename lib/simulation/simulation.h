@@ -9,15 +9,16 @@
 //       use(simulation.positions(), simulation.rotations());
 //   }
 //
-// Errors. What cannot be run throws SceneError, once, from the constructor, with the place as treesim prints it. A call with a number that is
-// none, or for a body that is not there, throws it too and changes nothing. After a step that became non-finite, steps do nothing and return the
-// same report; what is read is the state that it left, where numbers may be none. A simulation keeps all that it needs: the scene and its trees may go.
-// Threads. One simulation is used by one thread at a time; several may run side by side, and share helpers. Results do not hang on the number of
-// threads. A step takes as many as its work pays for: one below about 2 000 bodies, then one more for each thousand or so, to the limit. A helper whose
-// core is busy is not waited for, so more threads than are free cost next to nothing; nothing has to be set for that, and a program's own OpenMP,
-// signals and forked children are let alone (lib/base/parallel.h).
-// Frames of reference. World axes, y up, metres, seconds, kilograms; bodies in document order (tree.h), the trees' one after another, then balls,
-// then walkers.
+// Errors. The constructor throws SceneError for what cannot be run, once, with the place as treesim prints it. A call with a number that is not
+// finite, or for a body that is not there, throws it too and changes nothing. After a step that became non-finite, further steps do nothing and
+// return the same report; what is read is then the state that this step left, in which numbers may be non-finite. A simulation keeps all that it
+// needs: the scene and its trees may be destroyed.
+// Threads. One thread at a time uses a simulation. Several simulations may run side by side; they share helper threads. Results do not depend on the
+// number of threads. A step takes as many threads as its work pays for: one below about 2 000 bodies, then one more for each thousand or so, up to
+// the limit. A step does not wait for a helper whose core is busy, so more threads than free cores cost next to nothing. This needs no settings, and
+// a program's own OpenMP, signals and forked children are left alone (lib/base/parallel.h).
+// Frames of reference. The axes are the world's, y up; the units are metres, seconds and kilograms. Bodies stand in document order (tree.h): the
+// trees' one after another, then balls, then walkers.
 #pragma once
 #include "../model/motion.h"
 #include "../model/scene.h"
@@ -29,7 +30,7 @@
 
 namespace bough {
 
-class AnyRun; // what stands behind the door is no user's business
+class AnyRun; // behind the door; no user needs it
 struct Assembly;
 struct RunChoice;
 
@@ -51,8 +52,8 @@ struct SimulationOptions {
         false; // the plain path, one number at a time, whose rounding does not hang on the machine's SIMD; several times slower
 };
 
-// How a tree's ground has moved from where the tree was drawn: what was drawn at X is at pivot + position + rotation (X - pivot), the pivot the tree's
-// own place (Placement::position).
+// How a tree's ground has moved from where the tree was drawn: a point drawn at X is now at pivot + position + rotation (X - pivot). The pivot is the
+// tree's own place (Placement::position).
 struct GroundMotion {
     Vec3 position = Vec3::Zero(); // [m]
     Quat rotation = Quat::Identity();
@@ -61,7 +62,7 @@ struct GroundMotion {
 
 struct StepReport {
     std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
-    // Bodies of which the steps could not follow the motion, in this call (lib/study/README.md, "What is not promised"): none of it is an error.
+    // Bodies whose motion the steps could not follow, in this call (lib/study/README.md, "What is not promised"). None of this is an error.
     std::uint64_t fast_turns = 0;                // turned by more than a radian
     std::uint64_t guarded = 0;                   // were kept from gaining energy
     std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for
@@ -72,29 +73,29 @@ struct StepReport {
 
 class Simulation {
 public:
-    // Compiles the scene; its start is the state at time 0. O(bodies). Throws SceneError.
+    // Compiles the scene. The run starts with its state at time 0. O(bodies). Throws SceneError.
     explicit Simulation(Scene, const SimulationOptions& = {});
-    // The same, and each tree that has as many bodies as the tree of the same number had before, connected alike, goes on with its motion. For what
-    // cannot change in a run: wood, trees, kinds of wind. Throws SceneError.
+    // The same, but a tree goes on with the motion of the tree of the same number in `before`, if both have the same number of bodies, connected
+    // alike. This serves for what cannot change within a run: wood, trees, kinds of wind. Throws SceneError.
     Simulation(Scene, const SimulationOptions&, const Simulation& before);
     Simulation(Simulation&&) noexcept; // what was moved from may only be assigned to or destroyed
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
-    // A run of its own from here on, which ends as this one. The trees are shared. O(bodies).
+    // Returns a run of its own, which ends as this one does. Both share the trees. O(bodies).
     Simulation copy() const;
 
-    // Before the first step: the wind has blown already. Steps of so many seconds (rounded to whole steps), up to time 0, with the wind, the ground
-    // and the scene's pulls of the times before it: what shows then is the wind's own sway, not how a tree in still air takes the first blow. Balls, walkers and
-    // what may break wait for time 0: what the wind would have broken by then breaks in the first step. Nothing is done by itself: a simulation that is
-    // not told to starts at rest. The report's counts are 0. `seconds`: 0 to most_settled, far beyond any that settling_time() gives. Throws SceneError for
-    // others, and after a step, a restored state or a motion that goes on.
+    // Lets the wind blow for so many seconds (rounded to whole steps) before time 0. It is called before the first step, and takes its steps up to
+    // time 0 with the wind, the ground and the scene's pulls of those times. What is seen then is the sway in the wind, not how a tree in still air
+    // takes the first blow. Balls, walkers and what may break wait for time 0: what the wind would have broken by then breaks in the first step.
+    // Without this call a simulation starts at rest. The report's counts are 0. `seconds` is 0 to most_settled, which is far beyond any that
+    // settling_time() gives. Throws SceneError for others, and after a step, a restored state or a motion that goes on.
     static constexpr double most_settled = 600;
     StepReport settle(double seconds);
-    // [s] How long that takes until the start is forgotten (plan/settling.h): 0 for a scene in which no wind blows. O(bodies).
+    // [s] How long settle() must run until the start is forgotten (plan/settling.h); 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;
-    // From now to now + step, so many times, up to a step that becomes non-finite; the report and events() are of all of them. O(bodies) a step; allocates
-    // nothing once it has run a few times, but where something breaks, where a body first turns so fast that energy
-    // is watched (coupled/energy_guard.h), and where more points are pulled than ever before.
+    // Takes `times` steps, and stops early at one that becomes non-finite. The report and events() cover all of them. A step is O(bodies). After the
+    // first few calls it allocates only where something breaks, where a body first turns so fast that its energy is watched (coupled/energy_guard.h),
+    // and where more points are pulled than ever before.
     StepReport step(int times = 1);
 
     std::size_t bodies() const; // that are shown: of trees, balls and walkers
@@ -105,61 +106,66 @@ public:
     const Tree& tree() const; // the trees joined, as drawn: names, branches, sizes of bodies. Without balls and walkers
     std::span<const TreeRange> trees() const; // which of its bodies are whose
 
-    // Present state, a number for each body, valid until the next step. What is not asked for costs nothing; the first call after a step O(bodies).
+    // The present state: one value for each body, valid until the next step. What is not asked for costs nothing; the first call after a step is
+    // O(bodies).
     std::span<const Vec3> positions() const;          // [m] of own joints (of balls: centres)
     std::span<const Quat> rotations() const;          // world from body
-    std::span<const Vec3> velocities() const;         // [m/s] of centres of mass (Options::velocities)
-    std::span<const Vec3> angular_velocities() const; // [rad/s] (Options::velocities)
+    std::span<const Vec3> velocities() const;         // [m/s] of centres of mass (SimulationOptions::velocities)
+    std::span<const Vec3> angular_velocities() const; // [rad/s] (SimulationOptions::velocities)
     std::span<const Vec3> angles() const;  // [rad] rotation vectors of joints in their joint frames; of trees alone
     std::span<const Vec3> rates() const;   // [rad/s] how those change
     std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (Options::torques)
     std::span<const double>
     stresses() const; // [Pa] that bend the wood at each joint (model/bending_stress.h; Options::stresses)
     const MotionEvents& events() const; // of the last call of step(): what broke, hit, landed
-    // The trees drawn as they stand, to be run again from there or written: with pose drawn they stay so by themselves. Stiffness and damping are the
-    // trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.
+    // Returns the trees drawn as they stand now, to be run again from there or to be written. With pose drawn they stay so by themselves. Stiffness
+    // and damping are the trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.
     Tree posed_tree() const;
 
-    // What may change between two steps. None of it plans anew, nor allocates once it was done before; each is taken from the next step on, and wakes what sleeps.
-    // The wind of a scene that has one (of no velocity at all: still air); turbulence and gusts go on from where they are, at any time, by as little
-    // as the change is (laws/wind.h, go_on). Velocity, turbulence, gusts and seed may change, the rest of it stays; where trees may sleep it stays
-    // without gusts and turbulence. Throws SceneError.
+    // What may change between two steps. No change makes a new plan, and none allocates when it was made before. Each acts from the next step on and
+    // wakes what sleeps.
+    //
+    // Changes the wind of a scene that has one (one of zero velocity is still air). Turbulence and gusts go on from where they are: at any time the
+    // velocity changes by as little as the change asks for (laws/wind.h, go_on). Velocity, turbulence, gusts and seed may change; the rest stays.
+    // Where trees may sleep, the wind must have no gusts and no turbulence. Throws SceneError.
     void set_wind(const Wind&);
-    // Of a scene that has some, with the coupled method. The drawn pose keeps the springs' rest that it had. Throws SceneError.
+    // Changes the gravity of a scene that has some, with the coupled method. With pose drawn the springs keep their rest pose. Throws SceneError.
     void set_gravity(const Vec3&); // [m/s^2]
-    // [s] Above 0: of the steps from here on, time() going on from what it is. What the last step changed, from which the next one extrapolates, is
-    // taken in proportion, so that the motion stays of second order; hands and grounds that are on their way keep to their steps and their
-    // time. Before the first step as if it had begun so. The coupled method. Throws SceneError.
+    // [s] Sets the length, above 0, of the steps from here on; time() goes on from its present value. The next step extrapolates from what the last
+    // one changed: this is scaled in proportion, so the motion stays of second order. Hands and grounds that are on their way keep to their steps and
+    // their time. Before the first step, the run behaves as if it had begun with this step. Coupled method only. Throws SceneError.
     void set_step(double seconds);
-    // [1] All joints' stiffness and damping over what they had when the run began; above 0, 0 or more. The coupled method, nothing that is thrown at
-    // trees. Springs keep their rest: softer wood sags further. Each change rounds. Throws SceneError.
+    // [1] Sets all joints' stiffness (above 0) and damping (0 or more) relative to their values at the start of the run. It needs the coupled method,
+    // and nothing may be thrown at the trees. Springs keep their rest pose, so softer wood sags further. Each change rounds. Throws SceneError.
     void set_wood(double stiffness, double damping);
-    // A force [N], world, on a point [m, body frame] of a body of the trees, in the next step alone. Any number of them. Throws SceneError
-    // without Options::pulls (with which nothing sleeps), where joints are held, for bodies that are not there or have broken off.
+    // Applies a force [N, world] at a point [m, body frame] of a body of the trees, in the next step only. Any number of pulls may act. Throws
+    // SceneError without SimulationOptions::pulls (with it nothing sleeps), where joints are held, and for bodies that are not there or have broken
+    // off.
     void pull(std::size_t body, const Vec3& point, const Vec3& force);
-    // A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in the world,
-    // which is where the point is now. Any stiffness holds. Returns the attachment's number, above 0 and never given twice; any number of them, from the
-    // next step on, until release() or till the body breaks off. Nothing has to be asked for beforehand: O(bodies) a call, which
-    // allocates; a step with it some microseconds more, and nothing allocated. Part of no saved state. The coupled method. Throws SceneError; also for bodies that
-    // are not there, stand still or have broken off.
+    // Attaches a hand, a rope or a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in
+    // the world. The target starts where the point is now. Any stiffness is stable. Returns the attachment's number, which is above 0 and never given
+    // twice. Any number of attachments act, from the next step on until release() or until the body breaks off. Nothing has to be asked for
+    // beforehand. A call is O(bodies) and allocates; a step with an attachment takes some microseconds more and allocates nothing for it. Saved
+    // states do not contain it. Coupled method only. Throws SceneError, also for bodies that are not there, stand still or have broken off.
     std::uint64_t attach(std::size_t body, const Vec3& point, double stiffness, double damping);
-    // The target goes evenly from where it is to `target` [m, world] in the next `steps` steps, and stays there; 0: it is there at once.
-    // Allocates nothing. Throws SceneError for an attachment that is not there.
+    // Moves the target evenly from where it is to `target` [m, world] in the next `steps` steps; it then stays there. With 0 steps it is there at
+    // once. Allocates nothing. Throws SceneError for an attachment that is not there.
     void move_attachment(std::uint64_t attachment, const Vec3& target, int steps = 1);
     void release(std::uint64_t attachment);
     Vec3
     attachment_force(std::uint64_t attachment) const; // [N] on the body, at the last step's end; zero before the first
 
-    // The ground under a tree, its roots with it: in `steps` steps from now it is there with that velocity, on a smooth way from where it is and how it
-    // moves; then it goes on as it moves by then. 0: it is there at once, and the tree as it stands on it, unmoved. A ground that is told of each step
-    // moves as one of the same keys in the scene (/root_motion), to O(step^4). The wind is taken from heights as the trees were drawn: above their top
-    // it is as there. Throws SceneError without Options::grounds, for a tree that is not there or has keys of its own.
+    // Moves the ground under a tree, with its roots. In `steps` steps from now the ground reaches this place and velocity, on a smooth way from its
+    // present place and motion; then it goes on with the motion that it has. With 0 steps the ground is there at once, and the tree stands on it as
+    // before, unmoved. A ground that is set in each step moves, to O(step^4), as one with the same keys in the scene (/root_motion). The wind's table
+    // reaches to the top of the trees as drawn; above that the wind is as at the top. Throws SceneError without SimulationOptions::grounds, and for a
+    // tree that is not there or has keys of its own.
     void set_ground(std::size_t tree, const GroundMotion&, int steps = 1);
 
     std::uint64_t
     hash() const; // of angles and rates, broken joints and free bodies: what `treesim --report hash` prints
-    // A run that goes on from what save() gave ends as this one, bit by bit; wind, gravity, wood and grounds are those that this run has by now. restore() throws
-    // SceneError where it was another run's, and then changes nothing.
+    // A run that goes on from what save() gave ends as this one, bit by bit. Wind, gravity, wood and grounds are those that the restoring run has by
+    // then. restore() throws SceneError for the state of another run, and then changes nothing.
     SavedState save() const;
     void restore(const SavedState&);
 
