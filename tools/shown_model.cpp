@@ -132,10 +132,13 @@ void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting
     } else if (wants_own(o, format) && setting.imported) {
         const bool speedtree = is_speedtree_file(o.run.input) && has_speedtree_mesh(MappedInput(o.run.input).content());
         if (speedtree) model.bound = speedtree_model(o, o.run.input, setting);
-        if (format != "glb" && !model.bound && model_kind(MappedInput(o.run.input).content()))
-            o.common.notes.push_back(input_name(o.run.input) +
-                                     ": the mesh is made from the tree; the file's own, if it "
-                                     "has one, is shown by -o FILE.glb");
+        if (format != "glb" && !model.bound && model_kind(MappedInput(o.run.input).content())) {
+            const std::string name = input_name(o.run.input),
+                              of_glb = ": a mesh that bones move is shown by -o FILE.glb alone";
+            if (o.mesh == "own")
+                throw UsageError("--mesh own: " + name + of_glb + "; --mesh made shows one that is made from the tree");
+            o.common.notes.push_back(name + of_glb + "; this one is made from the tree");
+        }
     }
     if (o.run.input == "-" && setting.imported && o.skin.empty() && o.mesh != "made" && is_mesh(format) &&
         setting.imported->format == "SpeedTree raw XML")

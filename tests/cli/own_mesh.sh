@@ -119,6 +119,7 @@ refused 1 "--leaves-as: only with --mesh made" treesim art/tree.xml --frames 2 -
 refused 1 "--rustle: only with --mesh made" treesim art/tree.xml --wind gusty --frames 2 --rustle -o x.glb
 refused 1 "--mesh: only with a mesh" treesim art/tree.xml --frames 2 --mesh own
 refused 1 "--mesh: not with --skin" treesim own.json --skin art/tree.xml --frames 2 --mesh made -o x.glb
+refused 1 "twig_armature.gltf: a mesh that bones move is shown by -o FILE.glb alone; --mesh made shows one" treesim "$twig" --frames 2 --mesh own -o x_%d.obj
 refused 1 "has no mesh that could be moved" treesim "$maple" --frames 2 --mesh own -o x.glb
 refused 2 "has no mesh of its own" treesim own.json --skin "$maple" --frames 2 -o x.glb
 treegen --age 12 --bodies 300 -q | treeconvert - -q -o other.json
