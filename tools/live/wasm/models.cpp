@@ -27,7 +27,7 @@ void decode_meshopt(GltfDocument& document) {
                                     "command line treeconvert reads it, or save it without compression");
 }
 
-std::string find_texture(const std::string&, const std::string&, std::vector<std::string>&) {
+std::string find_texture(const std::string&, const std::string&, TexturePlaces&) {
     return "";
 }
 Texture read_texture(const std::string& path, const std::string&) {
