@@ -57,6 +57,7 @@ TEST_CASE("an SWC whose radii are all 0 has none: they are guessed, as for other
     const Imported in = imported(without, "none.swc");
     CHECK(in.splines.radius[0] == Approx(20 / 68.0));
     CHECK(in.splines.radius[2] == Approx(20 / 68.0 / std::pow(2, 1 / 2.25)));
+    CHECK(in.notes_hold("with tips of 0.2161 in the file's unit"));
     CHECK(in.notes_hold("the file has no radii: its trunk is taken as 0.5882 m thick at the base"));
     // One that is there is kept, and so are the zeros beside it.
     const Imported some = imported(replaced(without, "0 10 0 1", "0 10 0.2 1"), "some.swc");
