@@ -1,6 +1,7 @@
 #include "forked.h"
 #include "plain_text.h"
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -92,25 +93,30 @@ void keep(const Kept& kept) {
         throw std::runtime_error(std::string("its time and memory could not be limited: ") + std::strerror(errno));
 }
 
+// Of the child: whether it was ever refused memory. assimp catches what is thrown for want of it, and goes on with what it has by then.
+std::atomic<bool> out_of_memory = false;
+
+[[noreturn]] void note_no_memory() {
+    out_of_memory = true;
+    throw std::bad_alloc();
+}
+
 std::string outcome(const std::function<std::string()>& work, const Kept& kept) {
     std::string bytes(1, kFailed);
+    std::set_new_handler(note_no_memory);
     try {
         std::string made = work();
         bytes[0] = kDone;
         bytes += made;
-    } catch (const std::bad_alloc&) {
-        bytes[0] = kLimited;
-        bytes += "needs more memory than " + kept.bytes_text;
+    } catch (const std::bad_alloc&) { // an array of too many elements, too, which asks for none
+        out_of_memory = true;
     } catch (const std::exception& error) {
-        // assimp catches what is thrown in it, and hands on its text.
-        const std::string what = error.what();
-        const bool memory = what.find("std::bad_alloc") != std::string::npos;
-        if (memory) bytes[0] = kLimited;
-        bytes += memory ? "needs more memory than " + kept.bytes_text : in_words(what);
+        bytes += in_words(error.what());
     } catch (...) {
         bytes += unnamed_failure;
     }
-    return bytes;
+    if (!out_of_memory) return bytes;
+    return kLimited + ("needs more memory than " + kept.bytes_text);
 }
 
 struct Job {

@@ -24,13 +24,6 @@ DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, co
     return options;
 }
 
-// Where a scene puts its tree.
-Eigen::Affine3d place_of_tree(const Setting& setting) {
-    if (setting.scene.trees.empty()) return Eigen::Affine3d::Identity();
-    const Placement& place = setting.scene.trees.front();
-    return Eigen::Translation3d(place.position) * Eigen::AngleAxisd(place.yaw * std::numbers::pi / 180, Vec3::UnitY());
-}
-
 // shown: the tree that meshes are made of, the balls with it.
 std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
                                      const std::string& format, std::int64_t first, std::int64_t last,
@@ -38,11 +31,18 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
     std::optional<OwnMesh> own;
-    if (model.bound)
-        own = bound_to(std::move(*model.bound), shown, place_of_tree(setting), o.common.notes);
+    const bool bound = !model.bound.empty();
+    if (bound)
+        own = bound_mesh(
+            std::move(model.bound), shown, setting,
+            [&](const Tree& tree) {
+                std::optional<OwnMesh> made = dressed(tree, o.sides, o.dress, format, plain_leaves(o));
+                return made ? std::move(*made) : dress(tree, Species(), {LeafDetail::kite, 0, o.sides.value_or(8)});
+            },
+            o.common.notes);
     else if (is_mesh(format) && !model.driven)
         own = dressed(shown, o.sides, o.dress, format, plain_leaves(o));
-    if (own && !model.bound && setting.tree_files.size() > 1)
+    if (own && !bound && setting.tree_files.size() > 1)
         o.common.notes.push_back("the trees of " + std::to_string(setting.tree_files.size()) + " files all look as " +
                                  (o.dress.look.empty() ? "the first one's species, " + shown.name : o.dress.look) +
                                  " does (--look)");
@@ -99,9 +99,10 @@ void refuse_broken_cache(const TreesimOptions& o, std::size_t broken) {
 void note_cache(TreesimOptions& o, const Setting& setting, std::size_t balls, bool own) {
     if (balls == 0 && setting.ranges.size() == 1 && !own) return;
     if (own) {
-        o.common.notes.push_back(
-            "the vertices are those of the file's own mesh, material by material: the mesh that they "
-            "move is the first frame of an OBJ sequence (the same run with --frames 1 -o rest_%d.obj)");
+        o.common.notes.push_back(std::string("the vertices are those of ") +
+                                 (setting.ranges.size() > 1 ? "the files' own meshes" : "the file's own mesh") +
+                                 ", material by material: the mesh that they move is the first frame of an OBJ "
+                                 "sequence (the same run with --frames 1 -o rest_%d.obj)");
         return;
     }
     o.common.notes.push_back("the vertices are those of " + counted(setting.ranges.size(), "tree", "trees") + " and " +
@@ -122,7 +123,7 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
     if (!broken.empty() || !balls.empty())
         shown.own = std::make_unique<const Tree>(shown_tree(setting.tree, broken, balls));
     o.gltf.loose = broken.size() + balls.size();
-    const bool bound = model.bound.has_value();
+    const bool bound = !model.bound.empty();
     shown.sink =
         open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, std::move(model));
     if (o.common.output != "-")

@@ -1,5 +1,6 @@
 #include "shown_model.h"
 #include "exits.h"
+#include "formats/documents/scene.h"
 #include "formats/mapped.h"
 #include "formats/models/gltf_document.h"
 #include "formats/models/model_kind.h"
@@ -30,7 +31,7 @@ void add_notes(const std::string& name, const ImportNotes& notes, TreesimOptions
 
 void refuse_unused(const TreesimOptions& o) {
     const std::string made = o.skin.empty()
-                                 ? "only with --mesh made, as " + input_name(o.run.input) + " has a mesh of its own"
+                                 ? "only with --mesh made, as " + input_name(o.run.input) + " shows a file's own mesh"
                                  : "not with --skin, whose mesh is its own";
     if (o.sides) throw UsageError("--sides: " + made);
     if (o.rustle) throw UsageError("--rustle: " + made);
@@ -70,12 +71,25 @@ SpeedtreeModel speedtree_model(TreesimOptions& o, const std::string& path, const
         found = *setting.imported;
     else
         read_import(path, {}, found); // for its unit, its axes and where it stands
-    if (setting.ranges.size() == 1 && kept_its_place(setting, found.moved)) found.moved.setZero();
+    if (!o.skin.empty() && setting.ranges.size() == 1 && kept_its_place(setting, found.moved)) found.moved.setZero();
     const MappedInput file(path);
     SpeedtreeModel model = read_speedtree_model(file.content(), path, found, notes, [&file] { file.give_back(); });
     file.check();
     add_notes(model.name, notes, o);
     return model;
+}
+
+// Of the files that a scene names.
+std::vector<FileModel> models_of_scene(TreesimOptions& o, const Setting& setting) {
+    std::vector<FileModel> models;
+    for (const std::string& path : setting.converted) {
+        std::vector<std::size_t> trees;
+        for (std::size_t k = 0; k < setting.ranges.size(); ++k)
+            if (tree_file(o.run.input, setting.scene.trees[k]) == path) trees.push_back(k);
+        if (trees.empty() || !is_speedtree_file(path) || !has_speedtree_mesh(MappedInput(path).content())) continue;
+        models.push_back({speedtree_model(o, path, setting), std::move(trees)});
+    }
+    return models;
 }
 
 } // namespace
@@ -126,17 +140,21 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
 void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting, const std::string& format) {
     if (!model.failed.empty()) refuse_own_mesh(model.failed, o);
     if (!o.skin.empty() && !model.driven) {
-        model.bound = speedtree_model(o, o.skin, setting);
+        model.bound.push_back({speedtree_model(o, o.skin, setting), {0}});
     } else if (!o.skin.empty()) {
         if (setting.ranges.size() == 1 && kept_its_place(setting, model.driven->moved)) model.driven->moved.setZero();
     } else if (wants_own(o, format) && setting.imported) {
         const bool speedtree = is_speedtree_file(o.run.input) && has_speedtree_mesh(MappedInput(o.run.input).content());
-        if (speedtree) model.bound = speedtree_model(o, o.run.input, setting);
-        if (format != "glb" && !model.bound && model_kind(MappedInput(o.run.input).content()))
-            o.common.notes.push_back(input_name(o.run.input) +
-                                     ": the mesh is made from the tree; the file's own, if it "
-                                     "has one, is shown by -o FILE.glb");
+        if (speedtree) model.bound.push_back({speedtree_model(o, o.run.input, setting), {0}});
+        if (format != "glb" && !speedtree && model_kind(MappedInput(o.run.input).content())) {
+            const std::string name = input_name(o.run.input),
+                              of_glb = ": a mesh that bones move is shown by -o FILE.glb alone";
+            if (o.mesh == "own")
+                throw UsageError("--mesh own: " + name + of_glb + "; --mesh made shows one that is made from the tree");
+            o.common.notes.push_back(name + of_glb + "; this one is made from the tree");
+        }
     }
+    if (wants_own(o, format) && !setting.tree_files.empty()) model.bound = models_of_scene(o, setting);
     if (o.run.input == "-" && setting.imported && o.skin.empty() && o.mesh != "made" && is_mesh(format) &&
         setting.imported->format == "SpeedTree raw XML")
         o.common.notes.push_back(
@@ -144,7 +162,7 @@ void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting
     if (o.mesh == "own" && !model)
         throw UsageError("--mesh own: " + input_name(o.run.input) + " has no mesh that could be moved");
     if (model) refuse_unused(o);
-    if (model && setting.ranges.size() != 1)
+    if (!o.skin.empty() && setting.ranges.size() != 1)
         throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +
                          " trees, expected one, which the model is of");
 }

@@ -1,16 +1,16 @@
 // shown_model.h: the model that treesim shows in place of a mesh made from the tree: the one --skin names, or INPUT's own.
 #pragma once
-#include "formats/models/speedtree_model.h"
+#include "bound_models.h"
 #include "formats/models/user_model.h"
 #include "treesim_options.h"
 
 namespace bough {
 
-struct ShownModel {                      // at most one of them
-    std::optional<UserModel> driven;     // moved by its bones (driven_model.h): a .glb alone
-    std::optional<SpeedtreeModel> bound; // bound to the tree's bodies (speedtree_model.h): any mesh
-    std::string failed;                  // why INPUT's own model cannot be read; its import may say more
-    explicit operator bool() const { return driven || bound; }
+struct ShownModel {                  // at most one of them
+    std::optional<UserModel> driven; // moved by its bones (driven_model.h): a .glb alone
+    std::vector<FileModel> bound;    // bound to the bodies of trees (speedtree_model.h): any mesh
+    std::string failed;              // why INPUT's own model cannot be read; its import may say more
+    explicit operator bool() const { return driven || !bound.empty(); }
 };
 
 // Whether a file is SpeedTree XML, by its head; false for stdin.
@@ -20,7 +20,7 @@ bool is_speedtree_file(const std::string& path);
 // Notes go to o.common. Throws InputError for --skin.
 ShownModel model_before_threads(TreesimOptions& o, const std::string& format);
 
-// What is read once the tree is known: a SpeedTree file's mesh, of --skin or INPUT. Refuses a model that gave a tree but has a mesh that cannot be
+// What is read once the trees are known: a SpeedTree file's mesh, of --skin, of INPUT, or of each such file that a scene names. Refuses a model that gave a tree but has a mesh that cannot be
 // read, and options that the mesh leaves nothing to decide.
 // Throws UsageError, InputError.
 void complete_model(ShownModel&, TreesimOptions& o, const Setting&, const std::string& format);

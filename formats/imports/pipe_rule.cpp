@@ -160,7 +160,7 @@ void fill_radii(Branches& branches, ImportNotes& notes) {
     }
     notes.lines.push_back(std::to_string(unknown) + " of " + std::to_string(points) +
                           " radii are missing or 0; filled by the pipe rule (r^" + shown(pipe_exponent) +
-                          " is the sum over what grows on) with tips of " + shown(tip));
+                          " is the sum over what grows on) with tips of " + shown(tip) + " in the file's unit");
     notes.radii_guessed = unknown == points;
 }
 

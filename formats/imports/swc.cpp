@@ -5,6 +5,7 @@
 #include "formats/exports/skeleton_writer.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
+#include "pipe_rule.h"
 #include "skeleton.h"
 #include <array>
 #include <cmath>
@@ -167,6 +168,14 @@ bool is_our_own(std::string_view content) {
     return false;
 }
 
+// Where no node has one, the column was filled with zeros for want of any.
+bool has_radius(const std::vector<ImportedBranch>& branches) {
+    for (const ImportedBranch& branch : branches)
+        for (const double radius : branch.radius)
+            if (radius > 0) return true;
+    return false;
+}
+
 Splines read_swc(std::string_view content, const ImportOptions& options, ImportNotes& notes) {
     const SampleTable table = parse_table(content, options.name);
     if (table.nodes.empty())
@@ -176,6 +185,7 @@ Splines read_swc(std::string_view content, const ImportOptions& options, ImportN
     leave_out_soma(skeleton, table.nodes, notes);
     ImportedTree tree;
     tree.branches = branches_of(std::move(skeleton), options.name, notes);
+    if (!has_radius(tree.branches)) fill_radii(tree.branches, notes);
     tree.source = "SWC " + options.name;
     if (is_our_own(content)) tree.unit = 1, tree.up = 'z';
     return finish_import(std::move(tree), options, notes);

@@ -1,4 +1,5 @@
 #include "gltf_check.h"
+#include "formats/plain_text.h"
 #include "gltf_accessor.h"
 #include "gltf_uri.h"
 #include "lib/base/counted.h"
@@ -37,6 +38,13 @@ void check_indices(const GltfDocument& document, const Json& primitive, std::siz
                 (vertices > 0 ? ", expected 0 to " + std::to_string(vertices - 1) : ", but there is none"));
 }
 
+void check_finite(const std::vector<double>& values, const std::string& place, const char* element, std::size_t width) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (!std::isfinite(values[k]))
+            throw std::out_of_range(place + ": " + element + " " + std::to_string(k / width) +
+                                    " is not finite, expected numbers");
+}
+
 void check_joints(const GltfDocument& document, const Json& attributes, std::size_t vertices, const std::string& place,
                   HighestJoint& highest) {
     for (const std::string set : {"0", "1"}) {
@@ -53,6 +61,7 @@ void check_joints(const GltfDocument& document, const Json& attributes, std::siz
         check_count(count_of(document, attributes[weights], of_weights), vertices, its_weights);
         const std::vector<double> joint = values_of(document, attributes[joints], of_joints),
                                   weight = values_of(document, attributes[weights], of_weights);
+        check_finite(weight, its_weights, "vertex", 4);
         for (std::size_t i = 0; i < joint.size(); ++i)
             if (weight[i] > 0 && joint[i] > highest.joint) highest = {joint[i], i / 4, its_joints};
     }
@@ -60,16 +69,35 @@ void check_joints(const GltfDocument& document, const Json& attributes, std::siz
 
 void check_finite(const GltfDocument& document, const Json& accessor, const GltfUse& use, const char* element,
                   std::size_t width) {
-    const std::vector<double> values = values_of(document, accessor, use);
-    for (std::size_t k = 0; k < values.size(); ++k)
-        if (!std::isfinite(values[k]))
-            throw std::out_of_range(use.place + ": " + element + " " + std::to_string(k / width) +
-                                    " is not finite, expected numbers");
+    check_finite(values_of(document, accessor, use), use.place, element, width);
+}
+
+// What a model that is moved keeps of each vertex and no reader of ours looks at: floats in it must be numbers. `attributes`: of a primitive or a
+// morph target.
+void check_kept(const GltfDocument& document, const Json& attributes, std::size_t vertices, const std::string& place) {
+    const std::size_t accessors = entries_of(document.json, "accessors");
+    for (const auto& [name, named] : attributes.items()) {
+        if (name == "POSITION" || name.starts_with("JOINTS_") || name == "WEIGHTS_0" || name == "WEIGHTS_1") continue;
+        const std::string its = place + ": " + valid_utf8(name);
+        const Json& array = document.json["accessors"][checked_index(named, its, accessors)];
+        const std::string type = array.value("type", std::string());
+        const std::size_t width = type == "SCALAR" ? 1
+                                  : type == "VEC2" ? 2
+                                  : type == "VEC3" ? 3
+                                  : type == "VEC4" ? 4
+                                                   : 0;
+        if (width == 0 || whole_number(array, "componentType", its, 0) != 5126) continue;
+        const GltfUse use{its, type.c_str(), GltfNumbers::floats};
+        check_count(count_of(document, named, use), vertices, its);
+        check_finite(document, named, use, "vertex", width);
+    }
 }
 
 HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh, bool quantized) {
     HighestJoint highest;
     const Json& primitives = document.json["meshes"][mesh].at("primitives");
+    if (primitives.empty())
+        throw std::out_of_range("mesh " + std::to_string(mesh) + " has no primitives, expected one or more");
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         const std::string place = primitive_place(mesh, p);
         const Json& attributes = primitives[p].at("attributes");
@@ -81,6 +109,10 @@ HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh, bool qua
         check_finite(document, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::any}, "vertex", 3);
         check_indices(document, primitives[p], vertices, place);
         check_joints(document, attributes, vertices, place, highest);
+        check_kept(document, attributes, vertices, place);
+        const Json targets = primitives[p].value("targets", Json::array());
+        for (std::size_t t = 0; t < targets.size(); ++t)
+            check_kept(document, targets[t], vertices, place + ", target " + std::to_string(t));
     }
     return highest;
 }

@@ -1,4 +1,5 @@
 #include "own_materials.h"
+#include "formats/inside.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
 #include "texture_file.h"
@@ -70,13 +71,14 @@ public:
     }
 
     void add_notes() {
-        for (const auto& [file, places] : missing_) {
-            std::string text =
-                "texture " + bough::in_ascii_quotes(file) + " not found, its material does without it; looked for";
-            for (std::size_t k = 0; k < places.size(); ++k) text += (k > 0 ? ", " : " ") + places[k];
-            notes_.lines.push_back(places.empty() ? "texture " + bough::in_ascii_quotes(file) +
-                                                        " not looked for, as what is read from a pipe stands nowhere"
-                                                  : text);
+        for (const auto& [file, looked] : missing_) {
+            const std::string texture = "texture " + bough::in_ascii_quotes(file);
+            std::string text = texture + " not found, its material does without it; looked for";
+            for (std::size_t k = 0; k < looked.tried.size(); ++k) text += (k > 0 ? ", " : " ") + looked.tried[k];
+            if (looked.tried.empty()) text = texture + " not looked for, as what is read from a pipe stands nowhere";
+            if (!looked.outside.empty())
+                text = texture + " not opened, its material does without it; " + looked.outside + " " + out_of_reach;
+            notes_.lines.push_back(text);
         }
         if (left_out_.empty()) return;
         std::string names;
@@ -91,7 +93,7 @@ private:
         used_.insert(map);
         if (const auto found = texture_.find(map->file); found != texture_.end()) return &found->second;
         if (!not_found_.insert(map->file).second) return nullptr;
-        std::vector<std::string> looked;
+        TexturePlaces looked;
         const std::string path = find_texture(map->file, folder_, looked);
         if (path.empty()) {
             missing_.emplace_back(map->file, std::move(looked));
@@ -165,7 +167,7 @@ private:
     std::map<std::string, Texture> texture_;
     std::map<std::string, int> image_;
     std::set<std::string> not_found_;
-    std::vector<std::pair<std::string, std::vector<std::string>>> missing_;
+    std::vector<std::pair<std::string, TexturePlaces>> missing_;
     std::set<const Map*> used_;
     std::set<std::string> left_out_;
 };

@@ -155,7 +155,7 @@ bool Pixels::transparent() const {
     return false;
 }
 
-std::string find_texture(const std::string& name, const std::string& folder, std::vector<std::string>& looked) {
+std::string find_texture(const std::string& name, const std::string& folder, TexturePlaces& looked) {
     const std::string file = with_slashes(name);
     const bool absolute = file.starts_with("/") || (file.size() > 2 && file[1] == ':' && file[2] == '/');
     std::vector<fs::path> places;
@@ -165,7 +165,9 @@ std::string find_texture(const std::string& name, const std::string& folder, std
     for (const fs::path& place : places) {
         const std::string found = within_reach(place.string(), folder) ? existing(place) : "";
         if (!found.empty() && within_reach(found, folder)) return found; // a name but for capitals may be a link
-        looked.push_back(place.string());
+        looked.tried.push_back(place.string());
+        std::error_code none;
+        if (looked.outside.empty() && fs::is_regular_file(place, none)) looked.outside = place.string();
     }
     return "";
 }

@@ -17,8 +17,13 @@ struct Pixels {
     bool transparent() const;                // any pixel less than opaque
 };
 
-// The path of the file, "" if there is none; `looked` gets the places that were tried.
-std::string find_texture(const std::string& name, const std::string& folder, std::vector<std::string>& looked);
+// Where a texture was looked for in vain.
+struct TexturePlaces {
+    std::vector<std::string> tried;
+    std::string outside; // of them the one where a file stands that is out of the folder, "": none
+};
+// The path of the file, "" if there is none that may be opened; `looked` gets the places that were tried.
+std::string find_texture(const std::string& name, const std::string& folder, TexturePlaces& looked);
 
 struct Texture {
     std::string bytes, type; // of the file if it is PNG or JPEG, else empty

@@ -113,12 +113,48 @@ twig=$top/data/fixtures/twig_armature.gltf
 expect 0 treesim "$twig" --wind storm --frames 4 -o twig.glb
 expect 0 treesim "$top/data/fixtures/lines.gltf" --frames 2 -o lines.glb
 
+# Scenes that name such files: each tree shows its file's mesh, moved and turned as the scene says; what else stands there is made.
+cp "$top/data/fixtures/two_trunks_spines.xml" art/bare.xml
+cat >several.json <<'S'
+{"format": "bough-scene", "version": 1, "trees": [{"file": "art/tree.xml"}, {"file": "art/bare.xml", "position": [-6, 0, 0]}, {"file": "art/tree.xml", "position": [5, 0.5, 2], "yaw": 90}]}
+S
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "art/tree.xml", "position": [5, 0.5, 2], "yaw": 90}]}' >single.json
+for scene in several single; do
+    expect 0 treesim $scene.json --frames 1 -o ${scene}_%d.obj
+    expect 0 treesim $scene.json --frames 1 -o $scene.glb
+done
+expect 0 treesim several.json --frames 2 -o several.pc2
+grep -q "the files' own meshes" err || fail "what a cache of a scene moves is not told: $(cat err)"
+expect 0 treesim single.json --wind gusty --frames 2 -o single.mdd
+expect 0 treesim several.json --mesh made --frames 1 -o made_%d.obj
+! grep -q "^usemtl Leaf" made_0.obj || fail "--mesh made of a scene"
+[[ $(json several.glb '[i["name"] for i in g["images"]]') == "['bark', 'leaf']" ]] || fail "the images of a file that stands twice: $(json several.glb 'g["images"]')"
+python3 - <<'P' || fail "the meshes of a scene's trees"
+def read(name):
+    vertices, used, part = [], {}, None
+    for word, *rest in (line.split() for line in open(name) if line.strip()):
+        if word == "v": vertices.append([float(x) for x in rest[:3]])
+        if word == "usemtl": part = rest[0]
+        if word == "f": used.setdefault(part, set()).update(int(c.split("/")[0]) - 1 for c in rest)
+    return vertices, used
+own, _ = read("skin_0.obj") # where the file has them
+turned = [(5 + z, 0.5 + y, 2 - x) for x, y, z in own] # by 90 degrees about +Y, x goes to -z
+single, _ = read("single_0.obj")
+several, used = read("several_0.obj")
+def apart(a, b): return max(abs(x - y) for p, q in zip(a, b) for x, y in zip(p, q))
+assert len(single) == len(own) > 100 and apart(single, turned) < 3e-6
+n = len(own)
+assert apart(several[:n], own) < 3e-6 and apart(several[n:2 * n], turned) < 3e-6
+assert len(several) > 2 * n and all(v[0] < -3 for v in several[2 * n:]), "the made tree stands at -6"
+P
+
 # Refused: what the mesh leaves nothing to decide, other trees, broken files and images.
 refused 1 "--sides: only with --mesh made" treesim art/tree.xml --frames 2 --sides 5 -o x.glb
 refused 1 "--leaves-as: only with --mesh made" treesim art/tree.xml --frames 2 --leaves-as instances -o x.glb
 refused 1 "--rustle: only with --mesh made" treesim art/tree.xml --wind gusty --frames 2 --rustle -o x.glb
 refused 1 "--mesh: only with a mesh" treesim art/tree.xml --frames 2 --mesh own
 refused 1 "--mesh: not with --skin" treesim own.json --skin art/tree.xml --frames 2 --mesh made -o x.glb
+refused 1 "twig_armature.gltf: a mesh that bones move is shown by -o FILE.glb alone; --mesh made shows one" treesim "$twig" --frames 2 --mesh own -o x_%d.obj
 refused 1 "has no mesh that could be moved" treesim "$maple" --frames 2 --mesh own -o x.glb
 refused 2 "has no mesh of its own" treesim own.json --skin "$maple" --frames 2 -o x.glb
 treegen --age 12 --bodies 300 -q | treeconvert - -q -o other.json

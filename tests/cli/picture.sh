@@ -18,6 +18,27 @@ echo 'no model' >broken.glb
 refused 2 "broken.glb: is no .glb of glTF 2.0" "$pose" box broken.glb
 refused 2 "gone.glb" "$pose" box gone.glb
 
+# A triangle of a vertex that is not there is refused, before f3d reads past the end.
+python3 - <<'P'
+import json, struct
+data = bytearray(open("maple.glb", "rb").read())
+size = struct.unpack_from("<I", data, 12)[0]
+glb = json.loads(data[20:20 + size])
+accessor = glb["accessors"][glb["meshes"][0]["primitives"][0]["indices"]]
+at = 28 + size + glb["bufferViews"][accessor["bufferView"]].get("byteOffset", 0) + accessor.get("byteOffset", 0)
+struct.pack_into({5123: "<H", 5125: "<I"}[accessor["componentType"]], data, at, 65535)
+open("index.glb", "wb").write(data)
+P
+refused 2 "index.glb: mesh 0, primitive 0: its indices name vertex 65535, expected 0 to " "$pose" at 0 index.glb x.glb
+# A video wants ffmpeg: without it, it is said what to install.
+mkdir -p without
+for program in bash awk tr head dirname f3d Xvfb mogrify python3; do
+    ! command -v $program >/dev/null || ln -sf "$(command -v $program)" without/
+done
+code=0
+PATH=$PWD/without "$top/tools/picture" none.mp4 maple.glb >out 2>err || code=$?
+[[ $code -eq 1 ]] && grep -q '^picture: not installed: .*ffmpeg (apt-get install .* ffmpeg ' err || fail "a video without ffmpeg: exit $code, $(cat err)"
+
 for program in f3d xvfb-run convert; do
     command -v $program >/dev/null || { echo "picture: no $program, nothing drawn"; exit 0; }
 done
@@ -32,13 +53,20 @@ for kind in gif webp; do
     expect 0 "$picture" --size 60x80 --every 3 moving.$kind maple.glb
     [[ $(identify moving.$kind | wc -l) -eq 3 ]] || fail "a .$kind of 3 frames has $(identify moving.$kind | wc -l)"
 done
+if command -v ffmpeg >/dev/null; then
+    expect 0 "$picture" --size 60x80 --every 3 moving.mp4 maple.glb
+    [[ $(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 moving.mp4) == 3* ]] || fail "an .mp4 of 3 frames"
+else
+    echo "notice: no ffmpeg here, no .mp4 is made"
+fi
 # A texture of its own, red above and blue below, is drawn.
 expect 0 treesim "$top/data/fixtures/meshed_tree.xml" --frames 1 -q -o meshed.glb
 expect 0 "$picture" --size 120x160 meshed.png meshed.glb
 [[ $(colours meshed.png) -gt 50 ]] || fail "the textured tree shows nothing"
+refused 2 "index.glb: mesh 0, primitive 0: its indices name vertex" "$picture" none.png index.glb
 refused 2 "has no animation" "$picture" none.gif half.glb
 refused 2 "no vertices" "$picture" none.png broken.glb
 head -c 40 maple.glb >cut.glb
 refused 2 "is no glTF 2.0" "$picture" none.png cut.glb
 refused 1 "does not end in" "$picture" none.tif maple.glb
-absent none.gif none.png
+absent none.gif none.png none.mp4

@@ -43,6 +43,13 @@ for name in trap ../trap "$PWD/trap"; do
     expect 0 timeout 60 treegen --envelope own/mtllib.obj --bodies 60 -q -o x.json
 done
 rm -f x.json
+# A texture that stands outside: said so, where one that is nowhere is said to be looked for.
+sed 's/File="textures.bark.TGA"/File="..\/points.bin"/; s/File="bark_normal.tga"/File="..\/none.tga"/' "$top/data/fixtures/meshed_tree.xml" >own/tree.xml
+expect 0 treesim own/tree.xml --frames 1 -o x.glb
+grep -q 'texture "../points.bin" not opened, .*; own/../points.bin leads out of the folder of the file that names it; --outside lets it$' err || fail "a texture outside: $(cat err)"
+grep -q 'texture "../none.tga" not found, .*; looked for own/../none.tga, own/none.tga$' err || fail "a texture that is nowhere: $(cat err)"
+refused 2 "own/../points.bin: is no image that can be read" treesim own/tree.xml --frames 1 --outside -o x.glb
+rm x.glb
 
 # What reading a model may take: named where it bites, whatever sets it. (A sanitizer's own memory is no matter of limits.)
 python3 - >large.obj <<'END'

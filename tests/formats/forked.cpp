@@ -90,6 +90,19 @@ TEST_CASE("memory is limited, and what limits it is named") {
     CHECK(large.failure == "needs more memory than the 200 MB it may take (as the test says)");
     CHECK(large.limited);
     CHECK(!run_forked([]() -> std::string { throw std::runtime_error("why"); }, of_memory(200)).limited);
+    // Code that catches what is thrown and goes on with less, as assimp does.
+    const ChildResult less = run_forked(
+        []() -> std::string {
+            try {
+                return taking(300)();
+            } catch (const std::exception&) {
+                return "a smaller tree";
+            }
+        },
+        of_memory(200));
+    CHECK(less.failure == "needs more memory than the 200 MB it may take (as the test says)");
+    CHECK(less.limited);
+    CHECK(less.bytes.empty());
     // Code that does not outlive the lack of it.
     const auto crashes = []() noexcept { return taking(400)(); };
     const auto fills = [&] {

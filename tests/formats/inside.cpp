@@ -109,16 +109,23 @@ TEST_CASE("a glTF file reaches no buffer or image outside its folder, nor the ne
 
 TEST_CASE("a texture outside the folder of the file that names it is not found") {
     const Places places;
-    std::vector<std::string> looked;
+    TexturePlaces looked;
     for (const std::string name : {"file", "below/file", "FILE", "below\\file"})
         CHECK(!find_texture(name, places.own, looked).empty());
-    CHECK(looked.empty());
+    CHECK(looked.tried.empty());
     for (const std::string name :
          {"link", "twice", "LINK", "up/secret", "../secret", "..\\secret", "..\\own2\\secret"}) {
         CAPTURE(name);
-        looked.clear();
+        looked = {};
         CHECK(find_texture(name, places.own, looked).empty());
-        CHECK(!looked.empty());
+        CHECK(!looked.tried.empty());
+    }
+    // It is told where one stands that may not be opened; of what is nowhere, nothing.
+    for (const auto& [name, outside] :
+         {std::pair("link", "/link"), std::pair("../secret", "/../secret"), std::pair("../none", "")}) {
+        looked = {};
+        CHECK(find_texture(name, places.own, looked).empty());
+        CHECK(looked.outside == (*outside ? places.own + outside : ""));
     }
     CHECK(find_texture(places.folder / "secret", places.own, looked).empty());
     CHECK(find_texture("/etc/passwd", places.own, looked).empty());

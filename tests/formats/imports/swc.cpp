@@ -51,6 +51,21 @@ TEST_CASE("units of an SWC follow from its height unless given") {
     CHECK(given.notes.lines.empty());
 }
 
+TEST_CASE("an SWC whose radii are all 0 has none: they are guessed, as for other files without any") {
+    // A trunk of 20 m and a branch at half its height: the longest way over 68 is the base's radius, and each of two tips carries half.
+    const std::string without = "1 3 0 0 0 0 -1\n2 3 0 0 10 0 1\n3 3 0 0 20 0 2\n4 3 5 0 10 0 2\n";
+    const Imported in = imported(without, "none.swc");
+    CHECK(in.splines.radius[0] == Approx(20 / 68.0));
+    CHECK(in.splines.radius[2] == Approx(20 / 68.0 / std::pow(2, 1 / 2.25)));
+    CHECK(in.notes_hold("with tips of 0.2161 in the file's unit"));
+    CHECK(in.notes_hold("the file has no radii: its trunk is taken as 0.5882 m thick at the base"));
+    // One that is there is kept, and so are the zeros beside it.
+    const Imported some = imported(replaced(without, "0 10 0 1", "0 10 0.2 1"), "some.swc");
+    CHECK(some.splines.radius[1] == 0.2);
+    CHECK(some.splines.radius[2] == 0);
+    CHECK_FALSE(some.notes.radii_guessed);
+}
+
 TEST_CASE("wrong SWC files are refused with their line") {
     const std::string good = fixture("shuffled.swc");
     CHECK(error_of(replaced(good, "0.5   9\n12", "0.5   99\n12"), "s.swc") ==

@@ -61,6 +61,43 @@ TEST_CASE("joints and weights come together, one for each vertex") {
     reads([](Json& j) { attributes(j)["WEIGHTS_1"] = weights, attributes(j)["JOINTS_1"] = joints; });
 }
 
+TEST_CASE("numbers that a moved model keeps are finite, and a mesh has primitives") {
+    // NaN and infinity in one vertex after another of what is kept beside positions.
+    const auto with = [](const char* name, const char* type, std::size_t width, std::size_t at, const char* hex) {
+        return [=](Json& j) {
+            std::string all;
+            for (std::size_t k = 0; k < 4 * width; ++k) all += k == at ? hex : half;
+            j["buffers"].push_back(buffer(all));
+            j["bufferViews"].push_back({{"buffer", 4}, {"byteLength", 16 * width}});
+            j["accessors"].push_back({{"bufferView", 4}, {"componentType", 5126}, {"count", 4}, {"type", type}});
+            attributes(j)[name] = 4;
+        };
+    };
+    const char *const nan = "0000C07F", *const infinite = "0000807F";
+    const std::string place = "mesh 0, primitive 0: ", wrong = " is not finite, expected numbers";
+    refuses(with("NORMAL", "VEC3", 3, 7, nan), place + "NORMAL: vertex 2" + wrong);
+    refuses(with("TEXCOORD_1", "VEC2", 2, 0, infinite), place + "TEXCOORD_1: vertex 0" + wrong);
+    refuses(with("COLOR_0", "VEC4", 4, 15, nan), place + "COLOR_0: vertex 3" + wrong);
+    refuses(with("_AGE", "SCALAR", 1, 1, nan), place + "_AGE: vertex 1" + wrong);
+    for (const char* name : {"NORMAL", "_AGE"}) reads(with(name, "VEC3", 3, 12, ""));
+    refuses(
+        [](Json& j) {
+            put(j, weights, 5126,
+                one + zero + zero + zero + half + half + zero + zero + zero + "0000C07F" + zero + zero + one + zero +
+                    zero + zero);
+        },
+        place + "WEIGHTS_0: vertex 2" + wrong);
+    refuses(
+        [&](Json& j) {
+            with("NORMAL", "VEC3", 3, 4, nan)(j);
+            attributes(j).erase("NORMAL");
+            j["meshes"][0]["primitives"][0]["targets"] = {{{"NORMAL", 4}}};
+        },
+        "mesh 0, primitive 0, target 0: NORMAL: vertex 1" + wrong);
+    refuses([](Json& j) { j["meshes"][0]["primitives"] = Json::array(); },
+            "mesh 0 has no primitives, expected one or more");
+}
+
 TEST_CASE("a vertex is moved by joints that its skin has") {
     refuses([](Json& j) { put(j, joints, 5121, "00010000 00010000 00020000 01000000"); },
             "mesh 0, primitive 0: JOINTS_0 has joint 2 move vertex 2, but skin 0 has 2 joints");

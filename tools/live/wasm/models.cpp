@@ -5,7 +5,7 @@
 
 namespace bough {
 
-std::string find_texture(const std::string&, const std::string&, std::vector<std::string>&) {
+std::string find_texture(const std::string&, const std::string&, TexturePlaces&) {
     return "";
 }
 Texture read_texture(const std::string& path, const std::string&) {

@@ -1,0 +1,134 @@
+#include "bound_models.h"
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace bough {
+namespace {
+
+using Bodies = std::vector<std::int32_t>;
+
+// These bodies by themselves; of each the parent is among them.
+Tree tree_of(const Tree& all, const Bodies& bodies) {
+    const auto taken = [&bodies](const auto& from) {
+        std::decay_t<decltype(from)> to;
+        if (!from.empty())
+            for (const std::int32_t i : bodies) to.push_back(from[std::size_t(i)]);
+        return to;
+    };
+    Tree tree;
+    Bodies place(all.size_bodies(), -1);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const std::int32_t parent = all.parent[std::size_t(bodies[k])];
+        place[std::size_t(bodies[k])] = std::int32_t(k);
+        tree.parent.push_back(parent < 0 ? -1 : place[std::size_t(parent)]);
+    }
+    tree.kind = taken(all.kind);
+    tree.mass = taken(all.mass);
+    tree.com = taken(all.com);
+    tree.inertia = taken(all.inertia);
+    tree.joint_position = taken(all.joint_position);
+    tree.joint_rotation = taken(all.joint_rotation);
+    tree.stiffness = taken(all.stiffness);
+    tree.damping = taken(all.damping);
+    tree.size = taken(all.size);
+    tree.branch = taken(all.branch);
+    tree.level = taken(all.level);
+    tree.s = taken(all.s);
+    tree.rigid = taken(all.rigid);
+    tree.load = taken(all.load);
+    tree.leaf_count = taken(all.leaf_count);
+    tree.leaf_length = taken(all.leaf_length);
+    tree.leaf_width = taken(all.leaf_width);
+    tree.drag = taken(all.drag);
+    tree.name = all.name;
+    tree.material = all.material;
+    tree.color = all.color;
+    return tree;
+}
+
+// Where a scene puts its tree.
+Eigen::Affine3d place_of(const Scene& scene, std::size_t tree) {
+    if (scene.trees.empty()) return Eigen::Affine3d::Identity();
+    const Placement& place = scene.trees[tree];
+    return Eigen::Translation3d(place.position) * Eigen::AngleAxisd(place.yaw * std::numbers::pi / 180, Vec3::UnitY());
+}
+
+// A glTF material whose images are `by` further on.
+std::string with_images(const std::string& material, std::size_t by) {
+    using Json = nlohmann::ordered_json;
+    const std::function<void(Json&)> move = [&](Json& of) {
+        for (auto& [key, value] : of.items()) {
+            if (!value.is_object()) continue;
+            if (key.ends_with("Texture") && value.contains("index"))
+                value["index"] = value["index"].get<std::size_t>() + by;
+            move(value);
+        }
+    };
+    Json json = Json::parse(material);
+    move(json);
+    return json.dump();
+}
+
+// Where a mesh's shapes and materials stand in the one that it is put into.
+struct Shared {
+    std::size_t shape, material;
+};
+
+Shared share(OwnMesh& to, OwnMesh& more) {
+    const Shared at{to.shape.size(), to.material.size()};
+    for (const std::string& material : more.material) to.material.push_back(with_images(material, to.image.size()));
+    std::move(more.image.begin(), more.image.end(), std::back_inserter(to.image));
+    std::move(more.shape.begin(), more.shape.end(), std::back_inserter(to.shape));
+    return at;
+}
+
+// bodies: of each body of the tree that `more` is bound to, its number among all.
+void add_parts(OwnMesh& to, OwnMesh&& more, const Shared& at, const Bodies& bodies) {
+    for (OwnPart& part : more.part) {
+        part.material += std::int32_t(at.material);
+        for (auto& two : part.body)
+            for (std::int32_t& body : two) body = bodies[std::size_t(body)];
+        for (OwnPlace& place : part.placed) {
+            place.shape += std::int32_t(at.shape);
+            place.body = bodies[std::size_t(place.body)];
+        }
+        to.part.push_back(std::move(part));
+    }
+}
+
+} // namespace
+
+OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setting& setting,
+                   const std::function<OwnMesh(const Tree&)>& made, std::vector<std::string>& notes) {
+    const std::vector<TreeRange>& ranges = setting.whole ? setting.whole->places.whole : setting.ranges;
+    if (ranges.size() == 1 && ranges.front().bodies == shown.size_bodies())
+        return bound_to(std::move(models.front().model), shown, place_of(setting.scene, 0), notes);
+    OwnMesh mesh;
+    std::vector<char> bound(shown.size_bodies(), false);
+    for (FileModel& file : models) {
+        std::optional<Shared> at;
+        std::vector<std::string> said;
+        for (const std::size_t k : file.trees) {
+            Bodies bodies;
+            for (std::size_t i = 0; i < ranges[k].bodies; ++i) bodies.push_back(std::int32_t(ranges[k].first_body + i));
+            for (const std::int32_t i : bodies) bound[std::size_t(i)] = true;
+            said.clear(); // of each tree the same
+            const bool last = k == file.trees.back();
+            OwnMesh own = bound_to(last ? std::move(file.model) : file.model, tree_of(shown, bodies),
+                                   place_of(setting.scene, k), said);
+            if (!at) at = share(mesh, own);
+            add_parts(mesh, std::move(own), *at, bodies);
+        }
+        notes.insert(notes.end(), said.begin(), said.end());
+    }
+    Bodies rest;
+    for (std::size_t i = 0; i < bound.size(); ++i)
+        if (!bound[i]) rest.push_back(std::int32_t(i));
+    if (rest.empty()) return mesh;
+    OwnMesh others = made(tree_of(shown, rest));
+    const Shared at = share(mesh, others);
+    add_parts(mesh, std::move(others), at, rest);
+    return mesh;
+}
+
+} // namespace bough
