@@ -189,7 +189,8 @@ void SmallMotion::go_over(const Tree& tree) {
         std::vector<Mat3> to_joint(a.size());
         for (std::size_t i = 0; i < a.size(); ++i)
             to_joint[i] = rotation_from_vector<double>(before.theta[i]) * R_[i].transpose();
-        for (double scale = std::min(1.0, 0.5 / largest); scale > 1e-9; scale /= 2) {
+        const double first = std::min(1.0, 0.5 / largest);
+        for (double scale = first; scale > 1e-9 * first; scale /= 2) {
             for (std::size_t i = 0; i < a.size(); ++i)
                 pose_.theta[i] =
                     vector_from_quaternion<double>(quaternion_from_vector<double>(Vec3(scale * (to_joint[i] * a[i]))) *
