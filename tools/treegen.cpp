@@ -89,6 +89,14 @@ void leave_out(Splines& splines, const GrowthOptions& o, std::vector<std::string
     }
 }
 
+// Asked for, and not there.
+void name_missing(const Splines& splines, const GrowthOptions& o, const std::string& file,
+                  std::vector<std::string>& notes) {
+    constexpr const char* why = ", and none grow on what is imported";
+    if (o.leaves && splines.leaves() == 0) notes.push_back("--leaves: " + file + " has no leaves" + why);
+    if (o.fruit && splines.fruits() == 0) notes.push_back("--fruit: " + file + " has no fruit" + why);
+}
+
 std::string chosen_skeleton(const CommonOptions& common) {
     if (!common.format.empty()) return common.format == "swc" || common.format == "treetools" ? common.format : "";
     const std::string kind = ending(common.output);
@@ -106,6 +114,7 @@ Splines imported(Options& o) {
     if (o.strict && !notes.lines.empty()) throw InputError(name, notes.lines.front() + " (--strict)");
     if (!o.stats) // which has told them
         for (const std::string& line : notes.lines) o.common.notes.push_back(name + ": " + line);
+    name_missing(splines, o.growth, name, o.common.notes);
     leave_out(splines, o.growth, o.common.notes);
     if (o.growth.radii == "carry") {
         const Material* const named = find_wood(splines.material);

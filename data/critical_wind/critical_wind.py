@@ -10,7 +10,6 @@ import argparse
 import json
 import os
 import re
-import subprocess
 import sys
 
 import matplotlib
@@ -20,20 +19,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.collections import LineCollection
-
-
-def strength(wood):
-    """[Pa] Of a preset, or of a material's file: its own, or that of the preset that it is like."""
-    presets = pd.read_csv(subprocess.Popen(["treeconvert", "--list-materials"], stdout=subprocess.PIPE).stdout, sep="\t", index_col="name")
-    if os.path.exists(wood):
-        with open(wood) as file:
-            material = json.load(file)
-        if "strength" in material:
-            return material["strength"]
-        wood = material["like"]
-    if wood not in presets.index:
-        sys.exit(f"critical_wind: {wood} is no preset (treeconvert --list-materials) and no file")
-    return presets["strength[Pa]"][wood]
+from wood_strength import strength
 
 
 def tensors(path):

@@ -57,27 +57,67 @@ Pieces pieces_of(const Branches& branches, const Trunks& trunks, std::vector<std
     return pieces;
 }
 
-// Length of wood of each piece, and which begin in the lowest twentieth of all.
 struct Measured {
-    std::vector<double> wood; // [file unit]
-    std::vector<char> on_ground;
+    double wood = 0;                                                   // [file unit] length of all
+    double low = std::numeric_limits<double>::infinity(), high = -low; // [file unit] along the up axis
+    double height() const { return high - low; }
 };
 
-Measured measured(const Pieces& pieces, char up) {
-    const int axis = up == 'z' ? 2 : 1;
-    Measured m{std::vector<double>(pieces.size(), 0), {}};
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+std::vector<Measured> measured(const Pieces& pieces, int axis) {
+    std::vector<Measured> all(pieces.size());
     for (const LineSegment& s : pieces.segment) {
-        m.wood[s.piece] += (pieces.point[s.b] - pieces.point[s.a]).norm();
+        Measured& m = all[s.piece];
+        m.wood += (pieces.point[s.b] - pieces.point[s.a]).norm();
         for (const std::int32_t p : {s.a, s.b}) {
-            low = std::min(low, pieces.point[p][axis]);
-            high = std::max(high, pieces.point[p][axis]);
+            m.low = std::min(m.low, pieces.point[p][axis]);
+            m.high = std::max(m.high, pieces.point[p][axis]);
         }
     }
-    for (const std::int32_t base : pieces.base)
-        m.on_ground.push_back(pieces.point[base][axis] <= low + 0.05 * (high - low));
-    return m;
+    return all;
 }
+
+// Which pieces stay trunks.
+class Standing {
+public:
+    Standing(const Pieces& pieces, const std::vector<Measured>& size, int axis)
+        : pieces_(pieces), size_(size), axis_(axis) {
+        for (const Measured& m : size) all_.low = std::min(all_.low, m.low), all_.high = std::max(all_.high, m.high);
+    }
+
+    std::vector<char> of(const std::vector<JoinedPiece>& joined) const {
+        std::vector<std::int32_t> parent;
+        for (const JoinedPiece& on : joined) parent.push_back(on.parent);
+        std::vector<std::int32_t> tree(joined.size()); // the trunk that carries each piece
+        std::vector<char> stands(joined.size());
+        for (const std::int32_t k : parents_first(parent).order) {
+            const JoinedPiece& on = joined[k];
+            stands[k] = on.parent < 0 || in_lowest_twentieth(k, all_) || on.gap > 0.5 * size_[k].wood ||
+                        is_tree_beside(k, tree[on.parent], on.gap);
+            tree[k] = stands[k] ? k : tree[on.parent];
+        }
+        return stands;
+    }
+
+private:
+    const Vec3& base(std::int32_t k) const { return pieces_.point[pieces_.base[k]]; }
+    double radius(std::int32_t k) const { return pieces_.radius[pieces_.base[k]]; }
+    bool in_lowest_twentieth(std::int32_t k, const Measured& of) const {
+        return base(k)[axis_] <= of.low + 0.05 * of.height();
+    }
+    bool is_tree_beside(std::int32_t k, std::int32_t tree, double gap) const {
+        Vec3 way = base(k) - base(tree);
+        const double rise = way[axis_];
+        way[axis_] = 0;
+        if (!in_lowest_twentieth(k, size_[k]) || rise > way.norm() || gap < 5 * radius(k)) return false;
+        const bool alike = radius(k) > 0.25 * radius(tree) && size_[k].height() > 0.25 * size_[tree].height();
+        return alike || gap > size_[k].height();
+    }
+
+    const Pieces& pieces_;
+    const std::vector<Measured>& size_;
+    const int axis_;
+    Measured all_;
+};
 
 double fraction_at(const ImportedBranch& b, std::size_t piece, double t) {
     const std::vector<double> arc = arc_lengths(b.point);
@@ -91,8 +131,10 @@ void join_loose_trunks(Branches& branches, char up, ImportNotes& notes) {
     if (trunks.branch.size() < 2) return;
     std::vector<std::int32_t> first; // point of each branch in the pieces
     Pieces pieces = pieces_of(branches, trunks, first);
-    const Measured size = measured(pieces, up); // before its segments are taken out
+    const int axis = up == 'z' ? 2 : 1;
+    const std::vector<Measured> size = measured(pieces, axis); // before its segments are taken out
     const std::vector<JoinedPiece> joined = attach_pieces(pieces, up);
+    const std::vector<char> stands = Standing(pieces, size, axis).of(joined);
     std::vector<double> bridge(branches.size(), 0); // [file unit] of each branch, to its parent's axis
     std::vector<double> length(branches.size(), 0); // of those before
     std::vector<Vec3> from(joined.size());
@@ -100,7 +142,7 @@ void join_loose_trunks(Branches& branches, char up, ImportNotes& notes) {
     double widest = 0;
     for (std::size_t k = 0; k < joined.size(); ++k) {
         const JoinedPiece& on = joined[k];
-        if (on.parent < 0 || size.on_ground[k] || on.gap > 0.5 * size.wood[k]) continue;
+        if (stands[k]) continue;
         const auto host = std::upper_bound(first.begin(), first.end(), on.a) - first.begin() - 1;
         ImportedBranch& b = branches[trunks.branch[k]];
         b.parent = std::int32_t(host);

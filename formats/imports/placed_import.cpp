@@ -2,11 +2,12 @@
 #include "formats/error.h"
 #include "formats/plain_text.h"
 #include <algorithm>
+#include <cmath>
 
 namespace bough {
 namespace {
 
-constexpr double stands = 0.01;               // of the tree's extent
+constexpr double aside = 0.01, stands = 1e-3; // of the tree's extent; [m]: below the ground the wind is zero
 constexpr double tallest = 120, lowest = 0.1; // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
@@ -50,7 +51,8 @@ void set_on_ground(Splines& s, bool keep, ImportNotes& notes) {
     }
     base /= double(std::max<std::size_t>(1, roots));
     base.y() = ground;
-    if (base.cwiseAbs().maxCoeff() <= stands * extent) return;
+    const double off = std::max(std::abs(base.x()), std::abs(base.z()));
+    if (off <= aside * extent && std::abs(ground) <= std::min(stands, aside * extent)) return;
     notes.moved = -base;
     for (Vec3& p : s.point) p -= base;
     for (Vec3& p : s.leaf_position) p -= base;

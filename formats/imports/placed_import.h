@@ -5,8 +5,8 @@
 namespace bough {
 
 // Moves the tree so that its foot, the middle of its bases at the height of the lowest of them, stands at the origin: wind blows over the
-// ground at y = 0, and a scene's position says where the foot is. A foot within 1 % of the tree's extent stays (a stem sunk a little into the
-// ground, float's rounding), and so does every one where `keep`. One note with the way. O(points).
+// ground at y = 0, and a scene's position says where the foot is. A foot stays that is within 1 mm of the
+// ground and 1 % of the tree's extent of the origin, and so does every one where `keep`. One note with the way. O(points).
 void set_on_ground(Splines&, bool keep, ImportNotes&);
 
 // A note where the tree is higher than any (120 m) or lower than 0.1 m: the unit is then the likely mistake. Where the

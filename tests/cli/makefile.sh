@@ -35,5 +35,11 @@ if /usr/bin/python3 -c 'import matplotlib, pandas' 2>/dev/null; then
 else
     echo "critical_wind's table: SKIPPED, no pandas or matplotlib"
 fi
+# A wood without a strength is told before anything is made.
+echo '{"format": "bough-material", "version": 1, "name": "own", "density": 800}' >own.json
+for wood in european-asch own.json; do
+    ! make -s -f "$top/data/critical_wind/Makefile" SCAN=other.csv WOOD=$wood >log 2>&1 || fail "critical_wind took $wood"
+    grep -q "WOOD is '$wood'" log || fail "critical_wind with $wood says: $(cat log)"
+done
 ! make -s -f "$top/data/critical_wind/Makefile" >log 2>&1 || fail "critical_wind took no scan"
 grep -q 'SCAN is empty' log || fail "critical_wind without a scan says: $(cat log)"

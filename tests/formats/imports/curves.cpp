@@ -125,8 +125,14 @@ TEST_CASE("a tree is set on the ground at its foot, an absurd size is named") {
     const Imported kept = imported(aside, "x.csv", options);
     CHECK(near(kept.splines.point[0], {30, -0.3, 0}));
     CHECK_FALSE(kept.notes_hold("its foot stood"));
+    // A foot less than a hundredth of the height under the ground has no wind there either.
     const Imported sunk = imported("spline,x,y,z,radius\n0,0,0,-0.05,0.1\n0,0,0,6,0.05\n", "x.csv", options, true);
-    CHECK(near(sunk.splines.point[0], {0, -0.05, 0})); // as an artist sinks a stem into the ground
+    CHECK(near(sunk.splines.point[0], {0, 0, 0}));
+    CHECK(near(sunk.splines.point[1], {0, 6.05, 0}));
+    CHECK(sunk.notes_hold("its foot stood at 0, -0.05, 0 m (x, y up, z): set on the ground"));
+    const Imported rounded = imported("spline,x,y,z,radius\n0,0,0,-5e-4,0.1\n0,0,0,6,0.05\n", "x.csv", options, true);
+    CHECK(near(rounded.splines.point[0], {0, -5e-4, 0}));
+    CHECK_FALSE(rounded.notes_hold("its foot stood"));
     CHECK(imported("spline,x,y,z,radius\n0,0,0,0,0.1\n0,0,0,0.05,0.05\n", "x.csv")
               .notes_hold("0.05 m high, hardly a tree"));
 }

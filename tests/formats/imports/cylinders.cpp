@@ -90,6 +90,48 @@ TEST_CASE("a trunk in the air grows on the nearest wood, one on the ground stays
     CHECK_FALSE(imported(replaced(table, "2,0,0.5", "2,1,0.5"), "air.csv").notes_hold("in the air"));
 }
 
+TEST_CASE("trees of a slope stay trees, and what the upper one lost is joined to it") {
+    // Two of 20 m, 12 m apart on a slope of a quarter, each with boughs on all sides, and between them a bush of 2 m; the last row is wood in
+    // the air beside the upper tree.
+    std::string table = "id,parent,startX,startY,startZ,endX,endY,endZ,radius\n";
+    int id = 0;
+    const auto row = [&](int parent, double x, double y, double z, double to_x, double to_y, double to_z, double r) {
+        std::ostringstream text;
+        text << ++id << "," << parent << "," << x << "," << y << "," << z << "," << to_x << "," << to_y << "," << to_z
+             << "," << r << "\n";
+        table += text.str();
+        return id;
+    };
+    for (const double x : {0., 12.}) {
+        int below = 0;
+        for (int k = 0; k < 20; ++k) {
+            below = row(below, x, 0, x / 4 + k, x, 0, x / 4 + k + 1, 0.2 - 0.009 * k);
+            for (int side = 0; k > 3 && side < 4; ++side) {
+                const double turn = side * 1.5707963;
+                row(below, x, 0, x / 4 + k, x + 3 * std::cos(turn), 3 * std::sin(turn), x / 4 + k + 1, 0.03);
+            }
+        }
+    }
+    int stem = 0;
+    for (int k = 0; k < 4; ++k) {
+        stem = row(stem, 5, 5, 2 + k * 0.5, 5, 5, 2.5 + k * 0.5, 0.01);
+        for (int side = 0; side < 4; ++side)
+            row(stem, 5, 5, 2 + k * 0.5, 5 + std::cos(side * 1.5707963), 5 + std::sin(side * 1.5707963), 2.2 + k * 0.5,
+                0.005);
+    }
+    row(0, 12.4, 0, 5, 14, 0, 5.5, 0.04);
+    const Imported in = imported(table, "slope.csv");
+    const Splines& s = in.splines;
+    CHECK(std::count(s.parent.begin(), s.parent.end(), -1) == 3);
+    CHECK(in.notes_hold("1 of 4 trunks begin in the air: joined to the nearest wood, the farthest over 0.4 units"));
+    for (std::size_t b = 0; b < s.branches(); ++b) {
+        double longest = 0;
+        for (auto k = std::size_t(s.first_point[b]) + 1; k < std::size_t(s.first_point[b + 1]); ++k)
+            longest = std::max(longest, (s.point[k] - s.point[k - 1]).norm());
+        CHECK(longest < 3.2); // no wood is invented
+    }
+}
+
 TEST_CASE("the same table in another dress is the same tree") {
     const std::string plain = fixture("archi_small.csv");
     const Splines expected = imported(plain, "a.csv").splines;
