@@ -1,4 +1,4 @@
-// lane_memory.h: rows and records (layout.h) as the steps in lanes fill them from outside the sweeps, and which thread is at work.
+// lane_memory.h: rows and records (layout.h) as the steps in lanes fill them from outside the sweeps, and the number of the working thread.
 #pragma once
 #include "../base/math.h"
 #include "row.h"
@@ -15,7 +15,7 @@ template <class T> T& entry(RowVector<T>& rows, std::size_t joint, int count, in
     return data(rows)[joint * record(count, Row<T>::lanes) + std::size_t(quantity)];
 }
 
-// Of a state's array in document order; zero where the array is left out.
+// An element of a state's array in document order; zero where the array is left out.
 template <class T> Vector3<T> entry(const std::vector<Vector3<T>>& array, std::size_t body) {
     return array.empty() ? Vector3<T>(Vector3<T>::Zero()) : array[body];
 }
