@@ -1,7 +1,7 @@
 // eager.h: sums and products of 3-vectors and 3x3 matrices, worked out at once. Eigen's own operators make a type for each expression, and a compiler
-// of bough would spend half of its time on declaring those. These operators are found in namespace bough, and are better matches than Eigen's members.
-// What is not here is Eigen's. Each operator gives Eigen's numbers. Two expressions differ in rounding: s * (A * B) is worked out as it is written, where
-// Eigen works out (s * A) * B, and (A * B).trace() is of a finished product.
+// of bough would spend half of its time on declaring those. These operators are found in namespace bough, and are better matches than Eigen's
+// members. Eigen provides what is not here. Each operator gives Eigen's numbers. Two expressions differ in rounding: s * (A * B) is worked out as it
+// is written, where Eigen works out (s * A) * B, and (A * B).trace() is that of a finished product.
 #pragma once
 #include <Eigen/Core>
 #include <concepts>
