@@ -1,4 +1,4 @@
-// subtree.h: who hangs on whom, outward, and how far a subtree reaches (§6).
+// subtree.h: which bodies hang on which, outward, and how far a subtree reaches (§6).
 //
 //   reach_p = max(eta_p, max over children c of |d_c| + reach_c)
 // eta_p is the body's farthest point from its joint, radius included; d_c is the child's joint from the parent's. The reach is constant: what breaks

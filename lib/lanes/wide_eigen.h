@@ -42,7 +42,7 @@ template <class X> BOUGH_FORCE void rotate_columns(const Rotation<X>& turn, V3<X
 // Returns the eigenvectors of A as columns; A becomes diagonal. It is as symmetric_eigen (spring.h), except that a lane is left alone once its
 // elements off the diagonal are below half a rounding error. Elements whose squares are no normal numbers are not looked at.
 template <class X> BOUGH_FORCE M3<X> symmetric_eigen(Symmetric<X>& A) {
-    // The first sweep, of which the axes are still what they were.
+    // The first sweep, whose axes are still the original ones.
     const Rotation<X> a = rotate(A.xx, A.yy, A.xy, A.xz, A.yz), b = rotate(A.xx, A.zz, A.xz, A.xy, A.yz),
                       c = rotate(A.yy, A.zz, A.yz, A.xy, A.xz);
     const V3<X> z{b.s * a.c, -b.s * a.s, b.c};

@@ -35,7 +35,7 @@ template <class W> BOUGH_FORCE Pair<W> operator-(const Pair<W>& x) {
     return {-x.a, -x.b};
 }
 
-// Of a register or a pair: its real, and its registers.
+// For a register or a pair: its real, and its registers.
 template <class X> struct Registers {
     using Real = LaneOf<X>;
     static constexpr int count = 1;

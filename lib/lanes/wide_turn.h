@@ -52,7 +52,7 @@ template <class X> BOUGH_FORCE X t2_of(const X& q) {
     return choose_above(q, one, series<S::many>(S::dc1, q) / (-2 * series<S::many>(S::c1, q)), t2);
 }
 
-// 1 + a theta* + b theta*^2. (As rotation_form of wide_maps.h, of which compilers for different targets fuse other products.)
+// 1 + a theta* + b theta*^2. (It is not shared with rotation_form of wide_maps.h: compilers for different targets fuse other products of that.)
 template <class X> BOUGH_FORCE M3<X> turn_form(const V3<X>& t, const X& q, const X& a, const X& b) {
     const X d = 1 - b * q;
     const V3<X> s = a * t, bt = b * t;
