@@ -21,7 +21,8 @@ template <class T> class TreeResponse {
 public:
     // sprung: with Z; without, it is the instantaneous response, of a step of no length.
     void make(const Plan<T>&, const Tree&, const Subtrees&, bool sprung = true);
-    // Called after what some bodies carried is gone (Plan's constants say so). Brings `bodies` up to date: those and all on their ways to the root, falling.
+    // Called after what some bodies carried is gone (Plan's constants say so). Brings `bodies` up to date: those and all on their ways to the root,
+    // falling.
     void remake(const Plan<T>&, const Subtrees&, const std::vector<std::size_t>& bodies);
     struct Joint { // body axes, about the joint
         Mat3 E, A, B, M;
