@@ -1,14 +1,14 @@
-// cholesky.h: Cholesky's factor of a symmetric 3 x 3 matrix, A = L L^T, and what is solved with L. Eigen's own reaches for its
-// products of large matrices, which takes the compiler seconds in each source. Cost: 30 operations the factor, 12 a column solved.
+// cholesky.h: Cholesky's factor of a symmetric 3 x 3 matrix, A = L L^T, and solving with L. Eigen's own reaches for its products of large matrices,
+// which take the compiler seconds in each source. Cost: 30 operations for the factor, 12 a column solved.
 #pragma once
 #include "math.h"
 
 namespace bough {
 
-// Of A, its lower half is read.
+// Reads the lower half of A.
 template <class T> struct Cholesky {
-    Matrix3<T> L;          // where A is not positive definite, as far as it came, and then A's own lower half
-    bool positive = false; // A is positive definite; not a number is taken for positive, and found in L
+    Matrix3<T> L;          // complete up to the first pivot that is not above 0; from there on A's own lower half
+    bool positive = false; // true if A is positive definite; NaN passes as positive, and shows in L
 
     explicit Cholesky(const Matrix3<T>& A) {
         L << A(0, 0), T(0), T(0), A(1, 0), A(1, 1), T(0), A(2, 0), A(2, 1), A(2, 2);
@@ -26,7 +26,7 @@ template <class T> struct Cholesky {
         positive = true;
     }
 
-    // A^-1 b.
+    // Returns A^-1 b.
     Vector3<T> solve(Vector3<T> b) const {
         b[0] /= L(0, 0);
         b[1] = (b[1] - L(1, 0) * b[0]) / L(1, 1);
@@ -38,7 +38,7 @@ template <class T> struct Cholesky {
     }
 };
 
-// X becomes L^-1 X; L is lower triangular.
+// Makes X L^-1 X. L is lower triangular.
 template <class T> void solve_lower(const Matrix3<T>& L, Matrix3<T>& X) {
     const Vector3<T> scale = L.diagonal().cwiseInverse();
     for (int c = 0; c < 3; ++c) {
@@ -48,7 +48,7 @@ template <class T> void solve_lower(const Matrix3<T>& L, Matrix3<T>& X) {
     }
 }
 
-// X becomes L^-T X.
+// Makes X L^-T X.
 template <class T> void solve_lower_transposed(const Matrix3<T>& L, Matrix3<T>& X) {
     const Vector3<T> scale = L.diagonal().cwiseInverse();
     for (int c = 0; c < 3; ++c) {

@@ -1,11 +1,11 @@
-// copied.h: a pointer to an object of a type known at run time that is copied with what it holds, as a value is: a copy shares nothing.
+// copied.h: a pointer to an object whose type is known at run time. It is copied with what it holds, as a value is: a copy shares nothing.
 #pragma once
 #include <memory>
 #include <utility>
 
 namespace bough {
 
-// T: has clone() const, which returns std::unique_ptr<T>. Constant as a value is: through a const Copied only const T is reached.
+// T has clone() const, which returns std::unique_ptr<T>. It is constant as a value is: through a const Copied only const T is reached.
 template <class T> class Copied {
 public:
     Copied() = default;
@@ -28,7 +28,7 @@ private:
     std::unique_ptr<T> held_;
 };
 
-// A struct that gives clone() for a base of many kinds: struct Own : Cloned<Own, Parent, Base>, Parent derived from Base, or Base itself.
+// Gives a struct clone() for a base of many kinds: struct Own : Cloned<Own, Parent, Base>, with Parent derived from Base, or Base itself.
 template <class Own, class Parent, class Base = Parent> struct Cloned : Parent {
     using Parent::Parent;
     std::unique_ptr<Base> clone() const override { return std::make_unique<Own>(static_cast<const Own&>(*this)); }

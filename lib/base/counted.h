@@ -1,4 +1,4 @@
-// counted.h: a count with what it counts, in the number that it asks for: "1 point repeats", "3 points repeat".
+// counted.h: a count with what it counts, in singular or plural: "1 point repeats", "3 points repeat".
 #pragma once
 #include <concepts>
 #include <string>

@@ -1,7 +1,7 @@
 // eager.h: sums and products of 3-vectors and 3x3 matrices, worked out at once. Eigen's own operators make a type for each expression, and a compiler
-// of bough would spend half of its time on declaring those. These operators are found in namespace bough, and are better matches than Eigen's members.
-// What is not here is Eigen's. Each operator gives Eigen's numbers. Two expressions differ in rounding: s * (A * B) is worked out as it is written, where
-// Eigen works out (s * A) * B, and (A * B).trace() is of a finished product.
+// of bough would spend half of its time on declaring those. These operators are found in namespace bough, and are better matches than Eigen's
+// members. Eigen provides what is not here. Each operator gives Eigen's numbers. Two expressions differ in rounding: s * (A * B) is worked out as it
+// is written, where Eigen works out (s * A) * B, and (A * B).trace() is that of a finished product.
 #pragma once
 #include <Eigen/Core>
 #include <concepts>
@@ -38,7 +38,7 @@ BOUGH_EAGER_SCALED Vector3<T> operator/(const Vector3<T>& a, S s) {
     return {a.x() / T(s), a.y() / T(s), a.z() / T(s)};
 }
 
-// Of two matrices' numbers, or of one's, those that `of` makes.
+// Makes a matrix of the numbers that `of` makes of two matrices' numbers, or of one's.
 template <class T, class Of>
 [[gnu::always_inline]] inline Matrix3<T> number_by_number(const Matrix3<T>& a, const Matrix3<T>& b, Of of) {
     Matrix3<T> made;
@@ -72,7 +72,7 @@ BOUGH_EAGER Vector3<T> operator*(const Matrix3<T>& a, const Vector3<T>& b) {
     return Eigen::Product<Matrix3<T>, Vector3<T>>(a, b);
 }
 
-// With a transpose or the identity on one side.
+// Products with a transpose or the identity on one side.
 template <class M, class T>
 concept Is3x3 = std::same_as<std::remove_const_t<M>, Matrix3<T>>;
 template <class T> using Transposed = Eigen::Transpose<const Matrix3<T>>;

@@ -17,14 +17,14 @@ using Vec3 = Vector3<double>;
 using Mat3 = Matrix3<double>;
 using Quat = Quaternion<double>;
 
-// The cross-product matrix r*: cross_matrix(r) * f == r.cross(f).
+// Returns the cross-product matrix r*: cross_matrix(r) * f == r.cross(f).
 template <class T> Matrix3<T> cross_matrix(const Vector3<T>& r) {
     Matrix3<T> m;
     m << T(0), -r.z(), r.y(), r.z(), T(0), -r.x(), -r.y(), r.x(), T(0);
     return m;
 }
 
-// Rotation of |theta| radians about theta (Rodrigues). Series below 1e-4 rad, where 1 - cos loses its digits.
+// Returns the rotation of |theta| radians about theta (Rodrigues). It takes series below 1e-4 rad, where 1 - cos loses its digits.
 template <class T> Matrix3<T> rotation_from_vector(const Vector3<T>& theta) {
     const T a2 = theta.squaredNorm();
     const T a = std::sqrt(a2);
@@ -44,7 +44,7 @@ template <class T> Quaternion<T> quaternion_from_vector(const Vector3<T>& theta)
     return Quaternion<T>(std::cos(half), s * theta.x(), s * theta.y(), s * theta.z());
 }
 
-// The rotation vector of a unit quaternion, |theta| <= pi.
+// Returns the rotation vector of a unit quaternion, |theta| <= pi.
 template <class T> Vector3<T> vector_from_quaternion(const Quaternion<T>& q) {
     const T sign = q.w() < T(0) ? T(-1) : T(1);
     const Vector3<T> v = sign * q.vec();
@@ -53,7 +53,8 @@ template <class T> Vector3<T> vector_from_quaternion(const Quaternion<T>& q) {
     return (T(2) * std::atan2(n, sign * q.w()) / n) * v;
 }
 
-// The same rotation by a vector of at most half a turn: past pi it is the rotation the other way round. True where it was.
+// Makes theta a vector of at most half a turn for the same rotation: past pi it becomes the rotation the other way round. Returns true if it was past
+// pi.
 template <class T> bool shorten_rotation(Vector3<T>& theta) {
     constexpr T pi = T(3.14159265358979323846);
     const T angle = theta.norm();
@@ -62,8 +63,8 @@ template <class T> bool shorten_rotation(Vector3<T>& theta) {
     return true;
 }
 
-// J: body rates from the rates of a rotation vector, omega_b = J theta_dot for R_jb = exp(theta) (the right Jacobian of
-// SO(3); in the joint frame omega_j = J^T theta_dot). J = 1 - a theta* + c theta* theta*.
+// Returns J: body rates from the rates of a rotation vector, omega_b = J theta_dot for R_jb = exp(theta) (the right Jacobian of SO(3); in the joint
+// frame omega_j = J^T theta_dot). J = 1 - a theta* + c theta* theta*.
 template <class T> Matrix3<T> body_rate_jacobian(const Vector3<T>& theta) {
     const T a2 = theta.squaredNorm();
     const T a = std::sqrt(a2);
@@ -76,7 +77,7 @@ template <class T> Matrix3<T> body_rate_jacobian(const Vector3<T>& theta) {
     return Matrix3<T>::Identity() - first * x + second * (x * x);
 }
 
-// T = J^-1: theta_dot = T omega_b. Finite up to |theta| = 2 pi, where J is singular.
+// Returns T = J^-1: theta_dot = T omega_b. It is finite up to |theta| = 2 pi, where J is singular.
 template <class T> Matrix3<T> body_rate_jacobian_inverse(const Vector3<T>& theta) {
     const T a2 = theta.squaredNorm();
     const T a = std::sqrt(a2);
@@ -86,11 +87,11 @@ template <class T> Matrix3<T> body_rate_jacobian_inverse(const Vector3<T>& theta
     return Matrix3<T>::Identity() + T(0.5) * x + c * (x * x);
 }
 
-// The shortest turn that brings the direction of `from` to that of `to` (unit length not needed); of opposite ones, half a turn.
+// Returns the shortest turn that brings the direction of `from` to that of `to` (unit length not needed). For opposite ones it is half a turn.
 Quat shortest_turn(const Vec3& from, const Vec3& to);
 
-// A frame whose z axis is `axis` (unit length not needed), turned the least from `near`'s own z axis. Branch bodies
-// take their frames this way along the branch, so that x and y do not spin about it (a twist-free frame).
+// Returns a frame whose z axis is `axis` (unit length not needed), turned the least from `near`'s own z axis. Branch bodies take their frames this
+// way along the branch, so that x and y do not spin about it (a twist-free frame).
 Quat least_turn(const Quat& near, const Vec3& axis);
 
 } // namespace bough

@@ -1,21 +1,21 @@
-// parallel.h: the loops of a step, shared out among threads that cost nothing while other programs want the machine.
+// parallel.h: shares the loops of a step out among threads that cost nothing while other programs want the machine.
 //
 //   parallel_blocks(blocks, ns, [&](std::size_t block, int worker) { ... });    // a block at a time, in any order, on any thread
 //   parallel_for(bodies, ns, [&](std::size_t body) { ... });                    // many small things, in blocks as large as pay
 //
-// Threads. The caller works too; helpers, which all callers share, take blocks as long as there are any. The caller waits for helpers inside a block
-// alone, not for those that have not come: a helper whose core is busy is not missed. Between loops a helper looks out for the next one for
-// `patience`, then sleeps until it is called, and so does the caller while it waits. (OpenMP's barrier waits for every thread, and spins for
-// milliseconds in just the time that the late one needs: with two programs on two cores, ten times the time of one thread.)
-// How many: as many as the work pays for, `ns` being about what one block or body takes one thread, and at most thread_limit(). A helper that
-// is awake is worth letting in for 10 us of work, one that sleeps is worth waking for 40: less is the caller's own.
-// Cost: less than a microsecond where nobody has to be woken, some microseconds where somebody has; nothing is allocated but when helpers are started.
-// What is done must not depend on who does it: blocks of one loop write to different places. `worker`, 0 <= worker < threads_for(...), is the caller's
-// alone at a time, for memory to work in; what was written before the loop is seen in it, and after it what was written in it.
-// Errors. What a block throws reaches the caller when the loop has ended, that of the first block which threw; no block is begun after it. Where
-// no thread can be started, the caller works alone.
-// In a block a loop runs on the thread it is in. Several threads may run loops at once. A block runs with its caller's rounding, and treatment
-// of denormals. After a fork() the child starts helpers of its own (not from a block). When the library is unloaded, or the program ends, helpers end
+// Threads. The caller works too. Helpers, which all callers share, take blocks as long as there are any. The caller waits only for helpers inside a
+// block, not for those that have not come: a helper whose core is busy is not missed. Between loops a helper looks out for the next one for
+// `patience`, then sleeps until it is called. The caller does the same while it waits. (OpenMP's barrier waits for every thread, and spins for
+// milliseconds in just the time that the late one needs: with two programs on two cores this takes ten times the time of one thread.)
+// How many. A loop takes as many threads as the work pays for, and at most thread_limit(). `ns` is about what one block or body takes one thread. A
+// helper that is awake pays from 10 us of work on, one that must be woken from 40 us on; the caller does less than that alone.
+// Cost: less than a microsecond where nobody has to be woken, some microseconds where somebody has. Allocates only when helpers are started. What is
+// done must not depend on who does it: blocks of one loop write to different places. `worker`, 0 <= worker < threads_for(...), belongs to one thread
+// at a time, for memory to work in. The loop sees what was written before it, and the code after the loop sees what the loop wrote.
+// Errors. What a block throws reaches the caller when the loop has ended: that of the first block which threw. No block is begun after it. Where no
+// thread can be started, the caller works alone.
+// A loop within a block runs on the block's thread. Several threads may run loops at once. A block runs with its caller's rounding, and treatment of
+// denormals. After a fork() the child starts helpers of its own (not from a block). When the library is unloaded, or the program ends, helpers end
 // with the block they are at.
 #pragma once
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace bough {
 constexpr int most_threads = 4096;
 int machine_threads(); // cores that this process may use
 
-// Loops of this thread run on at most so many threads, the thread itself among them; every thread begins with machine_threads().
+// Limits the loops of this thread to so many threads, the thread itself among them. Every thread begins with machine_threads().
 int thread_limit();
 void set_thread_limit(int threads); // 0: machine_threads()
 
@@ -41,7 +41,7 @@ private:
     int before_;
 };
 
-// A loop of `blocks` that take one thread `ns` in all: on how many threads it runs.
+// Returns on how many threads a loop of `blocks` runs that take one thread `ns` in all.
 int threads_for(std::size_t blocks, double ns);
 
 namespace parallel {

@@ -6,7 +6,7 @@
 //   T = J^-1 = 1 - X/2 + t2 X^2              t2 = (1 - (a/2) cot(a/2)) / a^2
 //   J_dot eta = c1' theta x eta + c2' theta x (theta x eta) + c2 eta x (theta x eta),  eta = theta_dot,
 //     c1' = (s - 2 c1) / a^2 (theta.eta), c2' = (c1 - 3 c2) / a^2 (theta.eta)
-// (math.h's body_rate_jacobian is the transpose of this J.) Series for small a. T is finite up to a = 2 pi.
+// (math.h's body_rate_jacobian is the transpose of this J.) Small a takes series. T is finite up to a = 2 pi.
 #pragma once
 #include "math.h"
 

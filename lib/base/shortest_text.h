@@ -4,9 +4,9 @@
 
 namespace bough {
 
-// With as few digits as read back as the same number.
+// Writes as few digits as read back as the same number.
 std::string shortest_text(double);
-// Rounded to so many digits that count.
+// Rounds to so many significant digits.
 std::string rounded_text(double, int digits);
 std::string four_digits(double);
 

@@ -6,7 +6,7 @@
 
 namespace bough {
 
-// One of the bodies that it is made of, in axes of the whole about its centre of mass.
+// One of the bodies that it is made of, in the axes of the whole, about its centre of mass.
 struct FreePart {
     std::int64_t body = -1;    // of the tree; -1: a ball
     Kind kind = Kind::fruit;   // its shape, as in Tree
@@ -40,13 +40,13 @@ struct FreeBody {
     } // arm from the centre of mass, world
 };
 
-// [m] World, of a part of a body that stands so.
+// [m] Returns the capsule, in the world, of a part of a body with this motion.
 Capsule placed(const FreeMotion&, const FreePart&);
 
-// Sets inverse_inertia, axes, moments and bound from inertia and parts. A body without extent about some axis is given four roundings of the trace there.
+// Sets inverse_inertia, axes, moments and bound from inertia and parts. A body without extent about some axis gets four roundings of the trace there.
 void finish(FreeBody&);
 
-// A ball at rest in the air, as the scene describes it. drag_area from air_density and C_d = 0.47.
+// Returns the scene's ball, in free air. drag_area is from air_density and C_d = 0.47.
 struct Ball;
 FreeBody free_ball(const Ball&, double air_density);
 

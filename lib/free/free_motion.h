@@ -1,4 +1,4 @@
-// free_motion.h: where a body that no joint holds is, and how it moves. In double, whatever the trees are in: there are few of them.
+// free_motion.h: where a body that no joint holds is, and how it moves. It is in double, whatever the trees are in, since there are few such bodies.
 #pragma once
 #include "../base/math.h"
 

@@ -1,11 +1,11 @@
-// near_pairs.h: which parts of free bodies may meet which bodies of the trees in a step, for all free bodies at once: the broad phase of
-// the search for contacts (contact.h) where many fly.
+// near_pairs.h: which parts of free bodies may meet which bodies of the trees in a step, for all free bodies at once. This is the broad phase of the
+// search for contacts (contact.h) where many fly.
 //
-// One free body is looked for along the tree (subtree.h), in about a thousand tests where it flies within a crown. Hundreds are looked for the
-// other way round: the boxes that their parts pass through go into a grid of cells, and each body of the trees looks into the cells that its own
-// box passes through. Boxes hold what moves through them from the step's start to its end, and are wider by what angles in float may be off, so that
-// no meeting is lost: what is found is that of looking at every body.
-// Bodies look in blocks, which threads share out; the pairs are sorted, so that nothing hangs on who found them.
+// A single free body is looked for along the tree (subtree.h), in about a thousand tests where it flies within a crown. Hundreds are looked for the
+// other way round. The boxes that their parts pass through go into a grid of cells, and each body of the trees looks into the cells that its own box
+// passes through. Boxes hold what moves through them from the step's start to its end. They are wider by the error that angles in float may have, so
+// that no meeting is lost: the result is that of looking at every body. Bodies look in blocks, which threads share out. The pairs are sorted, so
+// nothing depends on who found them.
 // Cost: O(bodies + cells that boxes overlap) a step, however many free bodies there are; 28 bytes a body.
 #pragma once
 #include "../model/tree.h"
@@ -21,10 +21,10 @@ struct NearPair {
 
 template <class T> class NearPairs {
 public:
-    // Before a step whose pairs are asked for: where the bodies stand, unless they are known. Presents the state.
+    // Called before a step whose pairs are asked for. Notes where the bodies stand, unless that is known. Presents the state.
     void begin(const Plan<T>&, State<T>&, const Tree&, const Subtrees&);
-    // After it: the pairs by free body, rank and part. ends[k]: where free body k would be at the step's end. Left out is what no contact is looked for
-    // of: free bodies at rest, trees' bodies that fell, leaves unless contact.leaves. Presents the state.
+    // Called after the step. Returns the pairs by free body, rank and part. ends[k]: where free body k would be at the step's end. Bodies without
+    // contacts are left out: free bodies at rest, trees' bodies that fell, leaves unless contact.leaves. Presents the state.
     const std::vector<NearPair>& find(const Plan<T>&, State<T>&, const Tree&, const Contact& contact,
                                       const std::vector<FreeBody>& free, const std::vector<FreeMotion>& ends);
     void forget() { at_ = -1; } // the state was set from outside

@@ -1,4 +1,4 @@
-// shape.h: what a body is to a contact: a segment of its axis with a radius at each end, linear between.
+// shape.h: what a body is to a contact: a segment of its axis with a radius at each end, linear between them.
 //
 //   branch       its axis from joint to tip, base and tip radius
 //   fruit, ball  its centre, its radius
@@ -14,20 +14,20 @@ struct Capsule {
     double radius_a, radius_b;
 };
 
-// In the body's frame. size: as in Tree.
+// Returns the capsule in the body's frame. size: as in Tree.
 Capsule capsule_of(Kind kind, const Vec3& size);
 
 Capsule placed(const Capsule&, const Quat&, const Vec3&);
 
-// The sphere about a capsule's middle that holds it.
+// A sphere about a capsule's middle that holds the capsule.
 struct Bound {
     Vec3 middle; // [m]
     double radius;
 };
 Bound bound_of(const Capsule&);
 
-// How near two capsules are: along the line between the nearest points of their axes, where their radii are those of these points (exact for
-// equal radii; for a branch's taper of a few per cent off by the square of it).
+// How near two capsules are, along the line between the nearest points of their axes, with the radii at these points. This is exact for equal radii.
+// For a branch's taper of a few per cent it is off by the square of the taper.
 struct Nearest {
     double gap;     // [m] between the surfaces, negative where they overlap
     Vec3 normal;    // from the second to the first, unit
@@ -35,9 +35,9 @@ struct Nearest {
 };
 Nearest nearest(const Capsule& first, const Capsule& second);
 
-// The part of their ways that two capsules go before they meet, by conservative advancement: each advance goes as far as a plane
-// between the two keeps them apart, or by the gap over the fastest approach of any of their points where that is more, so that nothing is passed
-// through and nothing that only grazes counts as met. Ends go straight, from where they are to first_end, second_end. at: the nearest points then.
+// The part of their ways that two capsules go before they meet, by conservative advancement. Each advance goes as far as a plane between the two
+// keeps them apart, or by the gap over the fastest approach of any of their points where that is more. So nothing is passed through, and nothing that
+// only grazes counts as met. Ends go straight, from where they are to first_end, second_end. at: the nearest points then.
 struct Meeting {
     double way = 1; // 0..1; 1 where they do not meet
     bool meets = false;

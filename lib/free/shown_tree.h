@@ -1,8 +1,8 @@
 // shown_tree.h: the tree that a mesh of a run with free bodies is made of.
 //
-// What breaks off in the run stands on its own from the start: a root at its joint's drawn place, so that its mesh ends there and its joint may leave; a piece
-// of a branch goes on as a branch of its own. Balls follow as fruit that are roots. Bodies keep their numbers; a motion's poses, which are the
-// world's, fit it as they fit the tree. O(n).
+// What breaks off in the run stands on its own from the start: it is a root at its joint's drawn place, so that its mesh ends there and its joint may
+// leave. A piece of a branch goes on as a branch of its own. Balls follow as fruit that are roots. Bodies keep their numbers. A motion's poses are in
+// the world, so they fit this tree as they fit the original. O(n).
 #pragma once
 #include "../model/scene.h"
 

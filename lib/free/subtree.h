@@ -1,8 +1,8 @@
-// subtree.h: who hangs on whom, outward, and how far a subtree reaches (§6).
+// subtree.h: which bodies hang on which, outward, and how far a subtree reaches (§6).
 //
 //   reach_p = max(eta_p, max over children c of |d_c| + reach_c)
-// eta_p: the body's farthest point from its joint, radius included; d_c: the child's joint from the parent's. Constant: what breaks off
-// only ever makes it less. Cost: 12 bytes a body, made once, O(n).
+// eta_p is the body's farthest point from its joint, radius included; d_c is the child's joint from the parent's. The reach is constant: what breaks
+// off only makes it less. Cost: 12 bytes a body, made once, O(n).
 #pragma once
 #include "../model/tree.h"
 
@@ -17,7 +17,7 @@ struct Subtrees {
 
 Subtrees make_subtrees(const Tree&, bool with_reach);
 
-// visit(body) for `body` and all outboard of it, parents before children; where it returns false, what is outboard of that body is left out.
+// Calls visit(body) for `body` and all outboard of it, parents before children. Where visit returns false, what is outboard of that body is left out.
 template <class Visit>
 void visit_subtree(const Subtrees& trees, std::size_t body, std::vector<std::uint32_t>& stack, Visit&& visit) {
     stack.assign(1, std::uint32_t(body));

@@ -1,8 +1,8 @@
-// tree_poses.h: where single bodies of a tree are and how they move, worked out for those that are asked for and what carries them.
+// tree_poses.h: where single bodies of a tree are and how they move, worked out only for those that are asked for and what carries them.
 //
-// A contact or a break concerns a few bodies of a tree that may have millions, whose state stands in rows of lanes: no array over
-// bodies is made for them. Poses are kept until the next begin(). In double, from the angles in the run's precision.
-// Cost    O(bodies on the way to the root that were not asked for yet) a body; begin: O(bodies asked for), with lanes and O(rows).
+// A contact or a break concerns a few bodies of a tree that may have millions, whose state stands in rows of lanes. So no array over bodies is made
+// for them. Poses are kept until the next begin(). They are in double, from the angles in the run's precision.
+// Cost    O(bodies on the way to the root that were not asked for yet) a body; begin: O(bodies asked for), and with lanes O(rows).
 #pragma once
 #include "../plan/plan.h"
 #include "../plan/state.h"
@@ -21,13 +21,13 @@ struct BodyPose {
 
 template <class T> class TreePoses {
 public:
-    // From here on, those of the state as it stands. Both are kept by reference until the next begin().
+    // From here on, poses are those of the state as it stands. Both arguments are kept by reference until the next begin().
     void begin(const Plan<T>&, const State<T>&);
-    // The same, to stay when the state moves on: all angles are copied, O(n), and there are poses alone, no velocities.
+    // The same, but the poses stay when the state moves on: all angles are copied, O(n). There are poses alone, no velocities.
     void begin_copy(const Plan<T>&, const State<T>&);
-    // Stays where it is until the next begin().
+    // Returns a pose, which stays where it is until the next begin().
     const BodyPose& of(std::size_t body);
-    // The same of a body that was asked for: several threads may.
+    // The same for a body that was asked for before. Several threads may call it.
     const BodyPose& known(std::size_t body) const { return pose_[place_[body]]; }
     // [rad], [rad/s] joint frame.
     Vec3 theta(std::size_t body) const;

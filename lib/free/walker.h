@@ -1,16 +1,18 @@
 // walker.h: a weight that runs along branches, leaps and lands (§10, figure 15).
 //
-// Way. From stop to stop of the same wood along the bodies' axes, through the body that carries both; the part of it that lies behind after the part x of
-// the time is x^3 (10 - 15 x + 6 x^2), so that it starts and ends at rest. To another tree, another trunk, or where the stop says so, it leaps: for `push` seconds it is
-// pushed off, flies on a parabola, and is caught for `push` seconds, its velocity rising and falling by x - sin(2 pi x) / 2 pi. Two stops at
-// one place: it waits. At its first stop it sets its weight (g below) down over `push` seconds; after its last it stays.
-// Force. The branch gives it all of its momentum but what gravity does. In a step of length h from t, with its velocity V on the drawn trees,
+// Way. A walker goes from stop to stop of the same wood along the bodies' axes, through the body that carries both. After the part x of the time it
+// has gone the part x^3 (10 - 15 x + 6 x^2) of the way, so that it starts and ends at rest. To another tree or another trunk, or where the stop says
+// so, it leaps. It is pushed off for `push` seconds, flies on a parabola, and is caught for `push` seconds; its velocity rises and falls by x - sin(2
+// pi x) / 2 pi. At two stops at one place it waits. At its first stop it sets its weight (g below) down over `push` seconds. After its last stop it
+// stays.
+// Force. The branch gives it all of its momentum except gravity's. In a step of length h from t, with its velocity V on the drawn trees, the force
 //   F = m (g - (V(t + h) - V(t)) / h)
-// on the body it is on at the middle of the step, or, where that is in the air, on the nearer end of the leap; in the air F is 0 of
-// itself. Over a walk from rest to rest the sum of F h is m g times its time exactly, leaps and corners included.
-// What is left out: the branch's own motion is not V's, so the weight does not swing with the branch as a mass would, and a moved root carries nothing into V.
-// Reads   the joined tree as drawn, gravity. Cost O(bodies on the way) once, O(stops) a step. Errors: std::out_of_range with the stop's
-// pointer for a selector that names no body or many, and for a leap that has no time to fly.
+// acts on the body that it is on at the middle of the step. If it is then in the air, the force acts on the nearer end of the leap; in the air F is 0
+// of itself. Over a walk from rest to rest the sum of F h is exactly m g times its time, leaps and corners included.
+// What is left out: the branch's own motion is not part of V, so the weight does not swing with the branch as a mass would, and a moved root carries
+// nothing into V.
+// Reads   the joined tree as drawn, gravity. Cost O(bodies on the way) once, O(stops) a step. Errors: std::out_of_range with the stop's pointer for a
+// selector that names no body or many, and for a leap that has no time to fly.
 #pragma once
 #include "../model/scene.h"
 
@@ -46,7 +48,7 @@ struct WalkerLoad {
     Vec3 point_b; // [m] body frame
     Vec3 force;   // [N] world
 };
-// In the step from t to t + h; none before the first stop and in the air.
+// Returns the force in the step from t to t + h; none before the first stop and in the air.
 std::optional<WalkerLoad> walker_load(const Walk&, double t, double h);
 
 // Where it is at time t: on a body, or in the air between two.

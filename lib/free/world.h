@@ -1,8 +1,9 @@
-// world.h: what is free in a scene: what breaks off its trees, balls, and who walks on them (§6, §8). world_step.h moves it.
+// world.h: what is free in a scene: what breaks off its trees, balls, and walkers (§6, §8). world_step.h moves it.
 //
 // A scene without /fracture, /balls and /walkers has no World, and its step is advance() alone.
-// What lies slow on the ground for half a second is at rest from then on. A leaf that comes to the ground lies down on it within some tenths of a second.
-// The hash of a run with free bodies goes on over them; saved() and restore() hold them for a run that is cut. Nothing hangs on threads.
+// A body that lies slow on the ground for half a second is at rest from then on. A leaf that comes to the ground lies down on it within some tenths
+// of a second. The hash of a run with free bodies includes them. saved_world() and restore_world() hold them for a run that is cut. Nothing depends
+// on threads.
 #pragma once
 #include "../model/motion.h"
 #include "contact.h"
@@ -44,24 +45,25 @@ template <class T> struct World {
     std::size_t bytes() const;
 };
 
-// Empty (on() false) where the scene has nothing free. The tree is kept by reference: joined, unscaled, as the plan was made from. Throws
-// std::out_of_range for a selector of /fracture or /walkers that names no body, std::domain_error for walkers on what may break. O(n).
+// Makes the world; it is empty (on() false) where the scene has nothing free. The tree is kept by reference: joined, unscaled, as the plan was made
+// from. Throws std::out_of_range for a selector of /fracture or /walkers that names no body, and std::domain_error for walkers on what may break.
+// O(n).
 template <class T> World<T> make_world(const Plan<T>&, const Tree&, const std::vector<TreeRange>&);
 
-// state_hash, gone on over broken joints and free bodies.
+// Returns state_hash, continued over broken joints and free bodies.
 template <class T> std::uint64_t state_hash(const Plan<T>&, const State<T>&, const World<T>&);
 
-// The first free body that is non-finite.
+// Returns the first free body that is non-finite.
 template <class T> std::optional<std::size_t> first_non_finite(const World<T>&);
 
-// Poses (and velocities, where the frame has them) of what fell, in place of the tree's, and behind them the balls', then the walkers'.
+// Puts the poses (and velocities, where the frame has them) of what fell in place of the tree's, and appends the balls', then the walkers'.
 template <class T> void place_free_bodies(const World<T>&, MotionFrame&);
 
-// The balls of the scene, and behind them the walkers as the balls that they are shown as, where they begin.
+// Returns the balls of the scene, and behind them the walkers as the balls that they are shown as, where they begin.
 std::vector<Ball> shown_balls(const Tree&, const Scene&, const std::vector<Walk>&);
 
-// All that a run needs to go on besides State; restore() into a world, plan and state that were just made, before restart(). Throws
-// std::invalid_argument for what does not fit them.
+// saved_world() returns all that a run needs to go on besides State. restore_world() puts it into a world, plan and state that were just made, before
+// restart(). Throws std::invalid_argument for what does not fit them.
 template <class T> std::vector<double> saved_world(const State<T>&, const World<T>&);
 template <class T> void restore_world(Plan<T>&, State<T>&, World<T>&, const std::vector<double>&);
 

@@ -1,4 +1,4 @@
-// lane_memory.h: rows and records (layout.h) as the steps in lanes fill them from outside the sweeps, and which thread is at work.
+// lane_memory.h: rows and records (layout.h) as the steps in lanes fill them from outside the sweeps, and the number of the working thread.
 #pragma once
 #include "../base/math.h"
 #include "row.h"
@@ -15,7 +15,7 @@ template <class T> T& entry(RowVector<T>& rows, std::size_t joint, int count, in
     return data(rows)[joint * record(count, Row<T>::lanes) + std::size_t(quantity)];
 }
 
-// Of a state's array in document order; zero where the array is left out.
+// Returns an element of a state's array in document order; zero where the array is left out.
 template <class T> Vector3<T> entry(const std::vector<Vector3<T>>& array, std::size_t body) {
     return array.empty() ? Vector3<T>(Vector3<T>::Zero()) : array[body];
 }
@@ -24,7 +24,7 @@ template <class T> void put(T (&to)[3], const Vec3& v) {
     for (int k = 0; k < 3; ++k) to[k] = T(v[k]);
 }
 
-// Of a body's lane in rows of `count` quantities.
+// Returns a vector of a body's lane in rows of `count` quantities.
 template <class T> Vector3<T> vector_at(const RowVector<T>& rows, int count, std::size_t slot, int quantity) {
     const Row<T>* row = &rows[slot / Row<T>::lanes * std::size_t(count) + std::size_t(quantity)];
     const std::size_t lane = slot % Row<T>::lanes;

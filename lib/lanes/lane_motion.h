@@ -10,14 +10,14 @@ template <class... Arrays> void give_back(Arrays&... arrays) {
     (Arrays().swap(arrays), ...);
 }
 
-// Rows of `count` quantities each: where each row's stand.
+// Rows of `count` quantities each, and where each row's quantities stand.
 inline std::vector<std::size_t> even_rows(const Layout& layout, std::size_t count) {
     std::vector<std::size_t> at(layout.rows);
     for (std::size_t row = 0; row < at.size(); ++row) at[row] = row * count;
     return at;
 }
 
-// Of theta and theta_dot of all bodies, in document order, as state_hash has them.
+// Returns the hash of theta and theta_dot of all bodies, in document order, as state_hash has it.
 template <class T> std::uint64_t hash_of(const MotionView<T>& view, std::size_t bodies) {
     Fnv hash;
     for (const T* quantity : {view.theta, view.theta_dot})
@@ -26,7 +26,7 @@ template <class T> std::uint64_t hash_of(const MotionView<T>& view, std::size_t 
     return hash.value();
 }
 
-// All of the view but where each row's quantities stand. theta is a row's quantity 0.
+// Fills in the view, except where each row's quantities stand. theta is a row's quantity 0.
 template <class T>
 void view_rows(const PlannedLanes<T>& planned, const RowVector<T>& rows, int theta_dot, MotionView<T>& view) {
     view.theta = rows.front().lane;

@@ -25,14 +25,14 @@ struct BlockRest {
     Rest rest = Rest::awake;
 };
 
-// Whether rows of constants that are equal are kept once (shared_constants.h).
+// Whether equal rows of constants are kept only once (shared_constants.h).
 struct PlannedSharing {
     bool on = false;
     std::string reason;             // why not
     std::vector<std::uint32_t> row; // on: of each row, and of one beyond the last, which row of the constants it reads
 };
 
-// Of a plan; constant once it is made, but for what breaks off.
+// A plan's part. It is constant once it is made, except for what breaks off.
 template <class T> struct PlannedLanes {
     Target target = Target::baseline; // what the code is compiled for
     Layout layout;
@@ -47,7 +47,7 @@ template <class T> struct PlannedLanes {
     PlannedSleep sleep;
 };
 
-// Of a state.
+// A state's part.
 template <class T> struct Lanes {
     RowVector<T> now;                          // of the analytic step: motion
     RowVector<T> table;                        // of the coupled step: CoupledColumns
@@ -67,7 +67,7 @@ template <class T> struct Lanes {
     bool presented = true;       // the state's arrays in document order hold what `now` holds
     bool finite = true;          // no theta or theta_dot has become non-finite
 
-    // Of rows, but what threads work in, and the energy guard's.
+    // Counts rows, without what threads work in and without the energy guard's.
     std::size_t bytes() const {
         std::size_t rows = 0;
         for (const auto* some : {&now, &table, &outward, &inward, &accelerated}) rows += some->capacity();

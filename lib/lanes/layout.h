@@ -1,16 +1,18 @@
 // layout.h: how a forest's bodies are laid out in rows of lanes (coupled_sweeps.h).
 //
 // A row is 64 bytes of one quantity: 16 bodies in float, 8 in double (its lanes), whatever the machine's registers.
-//   chain   bodies one upon the other, all branches, or one leaf, petal or fruit. At a fork the chain goes on into the child of
-//           the highest level, of these the longest: levels are few (Strahler's order)
-//   group   as many chains side by side as a row has lanes, of one kind of body: of one level, longest first, and where these leave
-//           lanes empty, of lower levels. Its row k holds their k-th bodies; where a chain has ended, or is missing, stand bodies of no mass that nothing moves (pads)
-//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; threads share blocks out. What
-//           is above, bodies that carry more than a block, is the first one, the top. Trees share blocks, and the top's groups, only within a stand
-//   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for
-//           each chain that begins on another block's body (port), and one for each ground
-// Within a block groups are in the order of a sweep outward; those of level 0, on which nothing begins, last. None of it depends on threads or
-// registers, nor a tree's on those beyond its stand (trees one after another until they have 256 bodies), so no sum's order does.
+//   chain   bodies one upon the other, all branches, or one leaf, petal or fruit. At a fork the chain goes on into the child of the highest level, of
+//           these the longest: levels are few (Strahler's order)
+//   group   as many chains side by side as a row has lanes, of one kind of body. They are of one level, longest first; where these leave lanes empty,
+//           chains of lower levels fill them. Its row k holds their k-th bodies. Where a chain has ended, or is missing, stand bodies of no mass that
+//           nothing moves (pads)
+//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; threads share blocks out. The first block, the
+//           top, is what is above: bodies that carry more than a block. Trees share blocks, and the top's groups, only within a stand
+//   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for each chain that begins on
+//           another block's body (port), and one for each ground
+// Within a block groups are in the order of a sweep outward, with those of level 0, on which nothing begins, last. None of it depends on threads or
+// registers. Nor does a tree's part depend on trees beyond its stand (trees one after another until they have 256 bodies). So no sum's order depends
+// on these.
 // Cost O(n log n). Reads parent and kind; parent[i] < i.
 #pragma once
 #include "block.h"
@@ -39,11 +41,11 @@ struct Layout {
     std::vector<std::uint32_t> fork;       // joint of each lane's body; ground 0 where it is none
 };
 
-// ground: of each root, in the order of roots, the record that it stands on, 0 ... grounds - 1; ground 0 is at rest.
+// ground: of each root, in the order of roots, the record that it stands on, 0 ... grounds - 1. Ground 0 is at rest.
 Layout make_layout(const std::vector<std::int32_t>& parent, const std::vector<Kind>& kind,
                    const std::vector<std::uint32_t>& ground, std::uint32_t grounds, int lanes);
 
-// Whether some block's accelerations have to wait for others: then what is solved is kept for all rows.
+// True if some block's accelerations have to wait for others: then what is solved is kept for all rows.
 inline bool waits(const Layout& layout) {
     for (const Block& block : layout.blocks)
         if (!block.whole && block.first_row < block.end_row) return true;

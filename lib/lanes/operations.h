@@ -1,18 +1,18 @@
-// operations.h: what a step in lanes computes, counted by running it: its kernels are compiled once more for a target
-// whose registers hold one number that counts what is done to it (wide_counted.h). Pads are counted as bodies are, since a
-// machine's registers compute them too. What a branch leaves out for a lane is not, though a register pays for all its lanes where one needs
-// it: a lower bound there (the analytic step's eigenvectors and oscillators, fast turns).
+// operations.h: how many operations a step in lanes computes, counted by running it. Its kernels are compiled once more for a target whose registers
+// hold one number that counts what is done to it (wide_counted.h). Pads are counted as bodies are, since a machine's registers compute them too. What
+// a branch leaves out for a lane is not counted, though a register pays for all its lanes where one needs it. The count is a lower bound there (the
+// analytic step's eigenvectors and oscillators, fast turns).
 //
 // One operation is one addition, subtraction, multiplication, division or square root of reals. A fused multiply-add is two.
-// Not counted: comparisons, changes of sign, moves, whole numbers, and what few bodies need one by one (half turns, pulls).
+// These are not counted: comparisons, changes of sign, moves, whole numbers, and what few bodies need one by one (half turns, pulls).
 #pragma once
 #include "target.h"
 #include <cstdint>
 
 namespace bough::fast {
 
-// Takes the place of a machine's target in Plan::target. Not among all_targets: no machine is it, and --simd does not name it. It steps as
-// baseline does, bit for bit, far more slowly. Available where bough was built with BOUGH_COUNTING.
+// A target that takes the place of a machine's target in Plan::target. It is not among all_targets: no machine is it, and --simd does not name it. It
+// steps as baseline does, bit for bit, far more slowly. It is available where bough was built with BOUGH_COUNTING.
 constexpr Target counted_target = Target(all_targets.size());
 
 struct Operations {
@@ -20,8 +20,8 @@ struct Operations {
     std::uint64_t total() const { return additions + multiplications + divisions + roots; }
 };
 
-// Of the counted target's code in this thread, since it began or was set back. To count a whole step, run it in one thread.
-// (The attribute: found without a call, as every operation goes through it.)
+// The operations of the counted target's code in this thread, since it began or was set back. To count a whole step, run it in one thread. (The
+// attribute lets it be found without a call, as every operation goes through it.)
 extern constinit thread_local Operations operations_of_thread [[gnu::tls_model("initial-exec")]];
 inline Operations& counted_operations() {
     return operations_of_thread;

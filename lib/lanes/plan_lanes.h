@@ -5,11 +5,11 @@
 
 namespace bough::fast {
 
-// Fills in layout, whether constants are shared, pulls, and the wind's tables; the constants of bodies are the step's own. ranges: of the scene's
-// trees, as make_plan has them.
+// Fills in layout, whether constants are shared, pulls, and the wind's tables. The step itself fills in the constants of bodies. ranges: of the
+// scene's trees, as make_plan has them.
 template <class T> void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>& ranges, PlannedLanes<T>&);
 
-// Of a plan in lanes; null where it is on the plain path.
+// Returns the lanes of a plan; null where it is on the plain path.
 template <class T> const PlannedLanes<T>* planned_lanes(const Plan<T>& plan) {
     return plan.stepper->lanes();
 }

@@ -10,8 +10,8 @@ template <class T> struct alignas(64) Row {
     T lane[lanes];
 };
 
-// Aligned memory, in huge pages where it is large and the system gives them: a sweep goes through megabytes, and looking up
-// small pages took a third of the time that reading them did. Throws std::bad_alloc.
+// Gives aligned memory, in huge pages where it is large and the system gives them. A sweep goes through megabytes, and looking up small pages took a
+// third of the time that reading them did. Throws std::bad_alloc.
 void* allocate_rows(std::size_t bytes);
 void free_rows(void*) noexcept;
 

@@ -1,5 +1,5 @@
-// sweep_rows.h: what the sweeps of both steps in lanes (coupled_rows.h, analytic_rows.h) read and write alike, as plain memory. No SIMD
-// type here, so that every target sees the same.
+// sweep_rows.h: what the sweeps of both steps in lanes (coupled_rows.h, analytic_rows.h) read and write alike, as plain memory. It has no SIMD type,
+// so that every target sees the same.
 //
 // A row of a table is `count` quantities of 64 bytes each.
 #pragma once
@@ -40,7 +40,7 @@ template <class T> struct PullOnLane {
     std::size_t order = 0; // of those on one row
 };
 
-// A wind that varies over the ground, as WindField (laws/wind_field.h) has it: its place, and its tables at one time.
+// A wind that varies over the ground, as in WindField (laws/wind_field.h): its place, and its tables at one time.
 template <class T> struct FieldTables {
     const T* velocity;
     const T* turn; // null: no swirl
@@ -73,13 +73,13 @@ template <class T> struct SweepRows {
     LeafTerms<T> leaf;
 };
 
-// What of the scene the sweeps are compiled for.
+// The parts of a scene that sweeps are compiled for.
 struct SweepLoads {
     bool wind, pulls, gravity;
     bool field; // the wind varies over the ground
 };
 
-// What a sweep over a block met with.
+// What a sweep over a block met.
 struct SweepFlags {
     std::uint64_t fast_turns = 0, half_turns = 0;
     std::uint64_t buckling = 0, bounded_lambda = 0, energy_guard = 0; // of the analytic step (StepFlags)

@@ -1,8 +1,8 @@
-// target_code.h: code that is compiled once for each SIMD target, in a namespace of the target's name, found when the program runs.
+// target_code.h: code that is compiled once for each SIMD target, in a namespace of the target's name, and found when the program runs.
 //
 //   BOUGH_IN_TARGETS(template <class T> Sweeps<T> sweeps(bool wind);)          declares it in the namespace of each target that is compiled in
 //   return BOUGH_OF_TARGET(target, sweeps<T>(wind));                           calls that of `target`, which must be available
-// What the counted target does not have is declared and called by the same names ending in _MACHINE.
+// The macros ending in _MACHINE declare and call what the counted target does not have.
 #pragma once
 #include "operations.h"
 #include "target.h"

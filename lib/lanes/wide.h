@@ -1,10 +1,9 @@
-// wide.h: the narrow layer between the kernels over lanes and a machine's SIMD registers: one vector of reals, as wide as the
-// target for which this file is compiled (targets.h), by the compilers' vector extension (GCC, clang: x86, NEON, WebAssembly).
+// wide.h: the narrow layer between the kernels over lanes and a machine's SIMD registers: one vector of reals, as wide as the target for which this
+// file is compiled (target.h), by the compilers' vector extension (GCC, clang: x86, NEON, WebAssembly).
 //
-// Why this and not a library: the kernels need arithmetic, a square root, a comparison and a transpose, no more; a row of
-// lanes is 64 bytes in memory whatever the target (layout.h), and is worked on in 1, 2 or 4 parts of the register's width, so
-// that nothing of the partition depends on it.
-// Everything here has the target in its name (inline namespace): two targets' code never meets in the linker.
+// Why this and not a library. The kernels need arithmetic, a square root, a comparison and a transpose, no more. A row of lanes is 64 bytes in memory
+// whatever the target (layout.h). It is worked on in 1, 2 or 4 parts of the register's width, so nothing of the partition depends on it. Everything
+// here has the target in its name (inline namespace), so two targets' code never meets in the linker.
 #pragma once
 #include <cmath>
 #include <cstring>
@@ -50,8 +49,8 @@ template <class T> [[gnu::always_inline]] inline void write(T* at, Wide<T> w) {
     std::memcpy(at, &w, sizeof w);
 }
 #ifndef BOUGH_COUNTED
-// Past the caches, for what is not read again soon; `at` is aligned. Whole lines only: where a register is a part of one, its
-// other parts come much later, and memory would be written twice (measured with AVX2: half as fast as through the caches).
+// Writes past the caches what is not read again soon; `at` is aligned. It is for whole lines only. Where a register is a part of one, its other parts
+// come much later, and memory would be written twice (measured with AVX2: half as fast as through the caches).
 #if BOUGH_WIDTH == 64
 [[gnu::always_inline]] inline void stream(float* at, WideFloat w) {
     _mm512_stream_ps(at, __m512(w));
@@ -124,8 +123,8 @@ template <class W> [[gnu::always_inline]] inline bool any_above(W a, W b) {
 #endif
 #endif // BOUGH_COUNTED
 
-// While it stands, results too small for a normal number are 0: what comes to rest would otherwise pass through numbers on which
-// every operation takes a hundred times as long.
+// While it lives, results too small for a normal number are 0. What comes to rest would otherwise pass through numbers on which every operation takes
+// a hundred times as long.
 class FlushToZero {
 public:
 #ifdef __x86_64__
@@ -147,7 +146,7 @@ public:
 };
 
 #ifndef BOUGH_COUNTED
-// value where a > b, else 0.
+// Returns value where a > b, else 0.
 template <class W> [[gnu::always_inline]] inline W where_above(W a, W b, W value) {
     return a > b ? value : W{};
 }
@@ -163,7 +162,7 @@ template <class W> [[gnu::always_inline]] inline W larger(W a, W b) {
     return a > b ? a : b;
 }
 
-// In place, m square: m[i][k] <-> m[k][i]. log2(width) rounds of width two-input shuffles.
+// Transposes a square m in place: m[i][k] <-> m[k][i]. It takes log2(width) rounds of width two-input shuffles.
 [[gnu::always_inline]] inline void transpose(WideDouble (&m)[width<double>]) {
 #if BOUGH_WIDTH == 64
     WideDouble t[8], u[8];
@@ -268,8 +267,8 @@ typedef float FourFloats __attribute__((vector_size(16)));
     std::memcpy(&four, reinterpret_cast<const char*>(&w) + 16 * q, sizeof four);
     return four;
 }
-// Four numbers of each of 16 records: in the quarter q of m[k] those of record 4 q + k, or m[k] the k-th of all records. In place, from either to the
-// other.
+// Transposes four numbers of each of 16 records, in place, in either direction: between those of record 4 q + k in the quarter q of m[k], and the
+// k-th of all records in m[k].
 [[gnu::always_inline]] inline void transpose_quarters(WideFloat (&m)[4]) {
     WideFloat t[4];
     for (int i = 0; i < 4; i += 2) {

@@ -1,7 +1,7 @@
-// wide_air.h: the air's law (laws/air.h, air_load.h) in lanes, but for leaves' own (wide_leaf.h).
+// wide_air.h: the air's law (laws/air.h, air_load.h) in lanes, except leaves' own (wide_leaf.h).
 //
-// Written a second time: a kind is known for a whole group of rows, and speed and its inverse are worked out once and early for force, damping and
-// turning together; each of the scalar's functions takes a root and a quotient of its own. The lanes' tests hold the two together.
+// It is written a second time because a kind is known for a whole group of rows, and speed and its inverse are worked out once and early for force,
+// damping and turning together. Each of the scalar's functions takes a root and a quotient of its own. The lanes' tests hold the two together.
 #pragma once
 #include "../model/air_constants.h"
 #include "../model/kind.h"
@@ -13,7 +13,7 @@ inline namespace BOUGH_TARGET {
 template <class W> struct AirSpeed {
     W speed, inverse;
 }; // [m/s] of the air that drags, and 1 over it, finite where it is 0
-// Of the air at velocity u past the body. Apart from air_on(), so that what does not wait for it can go in between.
+// Returns the speed of the air at velocity u past the body. It is apart from air_on(), so that what does not wait for it can go in between.
 template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE AirSpeed<W> air_speed(const V3<W>& u, const M3<W>& R) {
     V3<W> across = u;
     if constexpr (kind == Kind::branch) across = u - dot(u, R.z) * R.z;
@@ -21,7 +21,7 @@ template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE AirSpeed<W> air_s
     return {speed, 1 / larger(speed, all(T(1e-30)))};
 }
 
-// 1 / fold_speed for what folds (air.h), else 0: a clump is a fruit but for that.
+// Returns 1 / fold_speed for what folds (air.h), else 0. Only in this does a clump differ from a fruit.
 template <class T> constexpr T fold_of(Kind kind) {
     return is_foliage(kind) ? T(1 / fold_speed) : T(0);
 }
@@ -35,7 +35,7 @@ template <class W> struct AirOn {
     Symmetric<W> D;
 };
 
-// Force and damping, and onto H what a plate's moment changes by with its turning; arm: |com|.
+// Returns force and damping, and adds to H how a plate's moment changes with its turning. arm: |com|.
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
                             Symmetric<W>& H, const W& arm, T fold) {
@@ -73,7 +73,7 @@ BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& a
     return out;
 }
 
-// streaming_stiffness; past: |u|, P: first moment of what is carried.
+// streaming_stiffness. past: |u|. P: first moment of what is carried.
 template <class W, class T = RealOf<W>>
 BOUGH_FORCE Symmetric<W> streaming_stiffness(T fold, const V3<W>& P, const V3<W>& u, const W& past) {
     const W along = past * unfolded(fold, past) * larger(dot(P, u), W{});
@@ -81,13 +81,13 @@ BOUGH_FORCE Symmetric<W> streaming_stiffness(T fold, const V3<W>& P, const V3<W>
     return {along - p.x * P.x, -(p.x * P.y), -(p.x * P.z), along - p.y * P.y, -(p.y * P.z), along - p.z * P.z};
 }
 
-// spin_rate of foliage; folded: [m/s] g |u|.
+// spin_rate of foliage. folded: [m/s] g |u|.
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE W spin_rate(const W& scale, const W& mass, const W& folded) {
     return T(kind == Kind::leaf ? blade_turning : clump_turning) * scale / larger(mass, all(T(1e-30))) * folded;
 }
 
-// air_work_bound but for leaves' own. U: the wind's velocity, speed2 its square; relative: u.
+// air_work_bound without leaves' own. U: the wind's velocity, speed2 its square. relative: u.
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& relative) {
     W most;
@@ -98,7 +98,7 @@ BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& 
     return h * scale * most;
 }
 
-// The force over kappa rho A in the body's own axes, and the speed that scales it (AirForce).
+// Returns the force over kappa rho A in the body's own axes, and the speed that scales it (AirForce).
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, T fold) {
     if constexpr (kind == Kind::branch) {

@@ -1,5 +1,5 @@
-// wide_algebra.h: 3-vectors and 3x3 matrices whose elements are registers of lanes (wide.h), real or complex. Complex elements
-// are two real registers; a product of a real and a complex one costs half.
+// wide_algebra.h: 3-vectors and 3x3 matrices whose elements are registers of lanes (wide.h), real or complex. A complex element is two real
+// registers. A product of a real and a complex one costs half.
 #pragma once
 #include "wide.h"
 
@@ -42,7 +42,7 @@ template <class W> BOUGH_FORCE Complex<W> inverse(const Complex<W>& a) {
     return {a.re * scale, -a.im * scale};
 }
 
-// sum + a b and sum - a b: written out so that each of their products can be fused with a sum; a complex product by itself fuses half.
+// sum + a b and sum - a b. They are written out so that each of their products can be fused with a sum; a complex product by itself fuses half.
 template <class W> BOUGH_FORCE W plus(const W& sum, const W& a, const W& b) {
     return sum + a * b;
 }
@@ -104,7 +104,7 @@ template <class W> BOUGH_FORCE V3<Complex<W>> complex(const V3<W>& re, const V3<
     return {{re.x, im.x}, {re.y, im.y}, {re.z, im.z}};
 }
 
-// By columns: a matrix times a vector is a sum of them.
+// Stored by columns: a matrix times a vector is a sum of them.
 template <class X> struct M3 { V3<X> x, y, z; };
 template <class X, class Y> BOUGH_FORCE auto operator*(const M3<X>& m, const V3<Y>& v) -> V3<decltype(m.x.x * v.x)> {
     return {plus(plus(m.x.x * v.x, m.y.x, v.y), m.z.x, v.z), plus(plus(m.x.y * v.x, m.y.y, v.y), m.z.y, v.z),
@@ -150,7 +150,7 @@ template <class W> BOUGH_FORCE Symmetric<W> turned(const M3<W>& R, const Symmetr
     const M3<W> rows = transposed(R);
     return {dot(q.x, rows.x), dot(q.x, rows.y), dot(q.x, rows.z), dot(q.y, rows.y), dot(q.y, rows.z), dot(q.z, rows.z)};
 }
-// The symmetric product of a and b: its upper half, b's symmetric part taken where rounding has left another.
+// The symmetric product of a and b. It is its upper half, and takes b's symmetric part where rounding has left another.
 template <class X, class Y> BOUGH_FORCE auto symmetric_product(const Symmetric<X>& a, const M3<Y>& b) {
     const V3<X> rx{a.xx, a.xy, a.xz}, ry{a.xy, a.yy, a.yz}, rz{a.xz, a.yz, a.zz};
     using R = decltype(a.xx * b.x.x);
@@ -182,7 +182,7 @@ BOUGH_FORCE Symmetric<Complex<W>> plus(const Symmetric<Complex<W>>& sum, const C
             plus(sum.yy, s, a.yy), plus(sum.yz, s, a.yz), plus(sum.zz, s, a.zz)};
 }
 
-// The inverse of a complex symmetric matrix = L D L^T, L with unit diagonal. scale: about 1 over its elements, as what a float's square
+// The inverse of a complex symmetric matrix = L D L^T, L with unit diagonal. scale: about 1 over its elements. Without it, what a float's square
 // loses would make 1/0 of the lightest leaves.
 template <class W> BOUGH_FORCE Symmetric<Complex<W>> inverse(const Symmetric<Complex<W>>& s, const W& scale) {
     using X = Complex<W>;

@@ -1,5 +1,6 @@
 // wide_cholesky.h: factors of positive symmetric 3x3 matrices, for registers of lanes.
-// Written a second time beside base/cholesky.h: that solves with L, which divides; lanes divide three times a matrix, for L^-1, and multiply from there.
+// It is written a second time beside base/cholesky.h. That one solves with L, which divides; lanes divide three times a matrix, for L^-1, and
+// multiply from there.
 #pragma once
 #include "wide_pair.h"
 

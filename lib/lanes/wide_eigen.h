@@ -1,16 +1,17 @@
 // wide_eigen.h: eigenvectors of symmetric 3x3 matrices by Jacobi rotations (analytic/spring.h), for registers of lanes.
 //
-// Written a second time: one number stops where its matrix is diagonal; lanes turn until the last of them is, and a choice keeps those that are.
-// A sweep of three rotations is about 150 operations a register; two mostly do in float, three in double. Each operation of a rotation
-// waits for the one before: hence pairs (wide_pair.h), and the machine's square roots, which are there sooner than an iteration's result.
+// It is written a second time because one number stops where its matrix is diagonal, while lanes turn until the last of them is, and a choice keeps
+// those that are. A sweep of three rotations is about 150 operations a register. Two sweeps mostly suffice in float, three in double. Each operation
+// of a rotation waits for the one before. Hence pairs (wide_pair.h), and the machine's square roots, which are there sooner than an iteration's
+// result.
 #pragma once
 #include "wide_pair.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
-// One Jacobi rotation of the axes p and q, r the third: off the diagonal pq becomes 0. tan phi = 2 a_pq / (d + sqrt(d^2 + 4 a_pq^2)),
-// d = |a_qq - a_pp|. Lanes in which there is nothing to turn keep what they have.
+// Does one Jacobi rotation of the axes p and q, with r the third: the off-diagonal element pq becomes 0. tan phi = 2 a_pq / (d + sqrt(d^2 + 4
+// a_pq^2)), d = |a_qq - a_pp|. Lanes in which there is nothing to turn keep what they have.
 template <class X> struct Rotation { X c, s; };
 template <class X> constexpr RealOf<X> negligible2() { // square of an element off the diagonal, over the diagonal ones
     constexpr RealOf<X> e = std::numeric_limits<RealOf<X>>::epsilon() / 2;
@@ -38,10 +39,10 @@ template <class X> BOUGH_FORCE void rotate_columns(const Rotation<X>& turn, V3<X
     q = turn.s * old + turn.c * q;
 }
 
-// Of A, which becomes diagonal: the columns of what is returned. As symmetric_eigen (spring.h), but that a lane is left alone once
-// its elements off the diagonal are below half a rounding error. Elements whose squares are no normal numbers are not looked at.
+// Returns the eigenvectors of A as columns; A becomes diagonal. It is as symmetric_eigen (spring.h), except that a lane is left alone once its
+// elements off the diagonal are below half a rounding error. Elements whose squares are no normal numbers are not looked at.
 template <class X> BOUGH_FORCE M3<X> symmetric_eigen(Symmetric<X>& A) {
-    // The first sweep, of which the axes are still what they were.
+    // The first sweep, whose axes are still the original ones.
     const Rotation<X> a = rotate(A.xx, A.yy, A.xy, A.xz, A.yz), b = rotate(A.xx, A.zz, A.xz, A.xy, A.yz),
                       c = rotate(A.yy, A.zz, A.yz, A.xy, A.xz);
     const V3<X> z{b.s * a.c, -b.s * a.s, b.c};

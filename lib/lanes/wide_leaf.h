@@ -1,7 +1,7 @@
-// wide_leaf.h: leaf_air.h in lanes: all that the sweeps of both steps and of the energy guard take of it. Called for scenes with /leaves alone; what uses it
-// is never inlined into a sweep, which is then the same code for all others.
-// Written a second time: registers have no Eigen, symmetric matrices are six numbers, and sums stand in the order that can be fused.
-// tests/lib/coupled/lanes.cpp and tests/lib/analytic/lanes.cpp hold the two together.
+// wide_leaf.h: leaf_air.h in lanes: all that the sweeps of both steps and of the energy guard take from it. It is called only for scenes with
+// /leaves. What uses it is never inlined into a sweep, which is then the same code for all others. It is written a second time because registers have
+// no Eigen, symmetric matrices are six numbers, and sums stand in the order that can be fused. tests/lib/coupled/lanes.cpp and
+// tests/lib/analytic/lanes.cpp hold the two together.
 #pragma once
 #include "../laws/leaf_terms.h"
 #include "wide_pair.h"
@@ -17,14 +17,14 @@ template <class T, class W> BOUGH_FORCE W leaf_lever(const LeafTerms<T>& terms, 
     return terms.torque * body.drag_area * root(body.drag_area);
 }
 
-// The torque but for nu I w. n: the normal.
+// The torque without nu I w. n: the normal.
 template <class T, class W>
 BOUGH_FORCE V3<W> leaf_torque(const LeafTerms<T>& terms, const LeafBody<W>& body, const V3<W>& n, const V3<W>& u) {
     const V3<W> turning = cross(n, u);
     return W(leaf_lever(terms, body) * dot(u, n)) * (terms.cos_offset * turning + terms.sin_offset * cross(n, turning));
 }
 
-// Of the force.
+// The force's damping.
 template <class T, class W>
 BOUGH_FORCE Symmetric<W> leaf_damping(const LeafTerms<T>& terms, const LeafBody<W>& body, const M3<W>& R,
                                       const V3<W>& /*u*/) {
@@ -34,7 +34,7 @@ BOUGH_FORCE Symmetric<W> leaf_damping(const LeafTerms<T>& terms, const LeafBody<
     return {along + m.x * n.x, m.x * n.y, m.x * n.z, along + m.y * n.y, m.y * n.z, along + m.z * n.z};
 }
 
-// With the drag of the velocity ahead; D: leaf_damping at the same u.
+// The force with the drag of the velocity ahead. D: leaf_damping at the same u.
 template <class T, class W>
 BOUGH_FORCE V3<W> leaf_force(const LeafTerms<T>&, const LeafBody<W>&, const M3<W>&, const V3<W>& u, const V3<W>& ahead,
                              const Symmetric<W>& D) {
@@ -56,7 +56,7 @@ BOUGH_FORCE Symmetric<W> leaf_turning(const LeafTerms<T>& terms, const LeafBody<
            across(W(2 * terms.most * body.mass * arm * root(speed2)), R.z);
 }
 
-// leaf_work. speed2: |U|^2; relative: u.
+// leaf_work. speed2: |U|^2. relative: u.
 template <class T, class W>
 BOUGH_FORCE W leaf_work(const LeafTerms<T>& terms, const LeafBody<W>& body, T h, const W& speed2,
                         const V3<W>& /*relative*/) {
@@ -68,7 +68,7 @@ template <class T> T leaf_spin(const LeafTerms<T>& terms) {
     return terms.across;
 }
 
-// Its share of parted_air.h, in the body's own axes. arm: that torques are taken at.
+// The leaf's share of parted_air.h, in the body's own axes. arm: at which torques are taken.
 template <class W> struct PartedLeaf {
     V3<W> force, taken;       // [N] on the body at rest, and minus what its motion changes of that
     V3<W> at_rest, in_motion; // [N m] about the centre of mass: of the body at rest, and as it goes
@@ -92,7 +92,7 @@ BOUGH_FORCE PartedLeaf<W> parted_leaf(const LeafTerms<T>& terms, const LeafBody<
     return leaf;
 }
 
-// rate I; J: inertia about the joint, c: the centre of mass from there.
+// rate I. J: inertia about the joint. c: the centre of mass from there.
 template <class W>
 BOUGH_FORCE Symmetric<W> spin_damping(const W& rate, const W& mass, const Symmetric<W>& J, const V3<W>& c) {
     const V3<W> mc = mass * c;

@@ -5,7 +5,7 @@
 //   c1' = (s - 2 c1) / q = -sum 2k (-q)^(k-1) / (2k+2)!  over k >= 1,   c2' = (c1 - 3 c2) / q = -sum 2k (-q)^(k-1) / (2k+3)!
 //   t2 = (1 - s / (2 c1)) / q = -c1' / (2 c1)
 // to rounding up to |theta| = 3.5: half a turn and half a step on.
-// Written a second time: without branches there is no quotient of sines for large angles, so the series are longer, and end at 3.5.
+// It is written a second time because without branches there is no quotient of sines for large angles. So the series are longer, and end at 3.5.
 #pragma once
 #include "wide_algebra.h"
 

@@ -1,7 +1,7 @@
 // wide_oscillator.h: one step of damped oscillators in closed form (base/oscillator.h), for registers of lanes.
 //
-// Written a second time: a register has lanes of every case, so sine, cosine and exponentials are series that all lanes go through, several
-// oscillators at once, where one number takes its case and the C library's functions. tests/lib/lanes/wide_spring.cpp holds the two together.
+// It is written a second time because a register has lanes of every case. So sine, cosine and exponentials are series that all lanes go through,
+// several oscillators at once, while one number takes its case and the C library's functions. tests/lib/lanes/wide_spring.cpp holds the two together.
 #pragma once
 #include "wide_pair.h"
 
@@ -10,9 +10,9 @@ inline namespace BOUGH_TARGET {
 
 template <class W> struct WidePropagator { W B, C, E; };
 
-// Of n oscillators side by side: each waits for its own roots and series, which is long, and meanwhile the others go on.
-// In units of the step: y = b h / 2, x = lambda h^2, z = x - y^2. Up to z = -(pi/4)^2 sine and cosine of sqrt z are their power series in z,
-// on both sides of critical damping; below, both roots' exponentials. Where |x| < 0.2 there, E is its own series in x and y.
+// Steps n oscillators side by side. Each waits long for its own roots and series, and meanwhile the others go on. In units of the step: y = b h / 2,
+// x = lambda h^2, z = x - y^2. Up to z = -(pi/4)^2 sine and cosine of sqrt z are their power series in z, on both sides of critical damping. Below,
+// they are both roots' exponentials. Where |x| < 0.2 there, E is its own series in x and y.
 template <class W, int n>
 BOUGH_FORCE void propagate(const W (&b)[n], const W (&lambda)[n], RealOf<W> h, WidePropagator<W> (&p)[n]) {
     using T = RealOf<W>;

@@ -1,5 +1,5 @@
-// wide_pair.h: two registers worked on as one number, so that a kernel whose every operation waits for the one before it has two
-// to choose from; and what such kernels need beyond arithmetic, for one register and for two.
+// wide_pair.h: two registers worked on as one number, so that a kernel whose every operation waits for the one before it has two to choose from. It
+// also has what such kernels need beyond arithmetic, for one register and for two.
 #pragma once
 #include "wide_algebra.h"
 #include <cstdint>
@@ -35,7 +35,7 @@ template <class W> BOUGH_FORCE Pair<W> operator-(const Pair<W>& x) {
     return {-x.a, -x.b};
 }
 
-// Of a register or a pair: its real, and its registers.
+// For a register or a pair: its real, and its registers.
 template <class X> struct Registers {
     using Real = LaneOf<X>;
     static constexpr int count = 1;
@@ -150,7 +150,7 @@ BOUGH_FORCE X series(const Coefficients<RealOf<X>, n>& c, const X& x) { // its f
     return sum;
 }
 
-// The power of two at or below |x|, and one over it; at most the largest one whose inverse is a normal number.
+// The power of two at or below |x|, and one over it. It is at most the largest power whose inverse is a normal number.
 template <class X> struct Scale { X power, inverse; };
 template <class W> BOUGH_FORCE Scale<W> scale_of(const W& x) {
     using B = Bits<RealOf<W>>;
@@ -165,8 +165,8 @@ template <class W> BOUGH_FORCE Scale<Pair<W>> scale_of(const Pair<W>& x) {
     return {{a.power, b.power}, {a.inverse, b.inverse}};
 }
 
-// 1 / sqrt(x), x > 0 and normal, to a rounding or two: a first guess from the exponent's half and two or three iterations of third
-// order; for a machine's own guess would be another on another machine. Finite for x = 0.
+// 1 / sqrt(x), x > 0 and normal, to a rounding or two. It takes a first guess from the exponent's half and two or three iterations of third order,
+// since a machine's own guess would differ on another machine. It is finite for x = 0.
 template <class W> BOUGH_FORCE W inverse_root(const W& x) {
     using T = RealOf<W>;
     using I = typename Bits<T>::WideUnsigned;
@@ -190,7 +190,7 @@ BOUGH_FORCE void series(const Coefficients<RealOf<X>, count>& c, const X (&x)[n]
         for (int i = 0; i < n; ++i) sum[i] = sum[i] * x[i] + c.of[k];
 }
 
-// e^x of each. Far below it stays the smallest number there is, far above (88 in float, 709 in double) it is infinite.
+// e^x of each. Far below it stays the smallest number there is; far above (88 in float, 709 in double) it is infinite.
 template <class W, int n> BOUGH_FORCE void exponentials(const W (&x)[n], W (&e)[n]) {
     using T = RealOf<W>;
     using B = Bits<T>;

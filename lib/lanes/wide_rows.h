@@ -1,4 +1,4 @@
-// wide_rows.h: a part of a row, as wide as a register, read and written by quantity; records gathered and scattered by transposing.
+// wide_rows.h: a part of a row, as wide as a register, read and written by quantity, and records gathered and scattered by transposing.
 #pragma once
 #include "sweep_rows.h"
 #include "wide_algebra.h"
@@ -7,7 +7,7 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
-// Reads quantity by quantity; T may be const. streamed: written past the caches.
+// Reads quantity by quantity. T may be const. streamed: written past the caches.
 template <class T, bool streamed = false> struct Rows {
     T* at; // of the row's quantity 0, at the part's first lane
     using Real = std::remove_const_t<T>;
@@ -57,7 +57,7 @@ template <class T, bool streamed = false> struct Rows {
     }
 };
 
-// Of `count` quantities, one record for each lane of a register, in memory one behind the other as in a row.
+// Records of `count` quantities, one for each lane of a register. In memory they stand one behind the other, as in a row.
 template <class T, int count> struct Records {
     static constexpr int left = count % width<T>;            // quantities that fill no register,
     static constexpr bool few = width<T> == 16 && left <= 8; // of float's 16 so few that they are taken by four
@@ -68,7 +68,7 @@ template <class T, int count> struct Records {
 
     BOUGH_FORCE Rows<T> rows() { return {row}; }
 
-    // The quantities of joints[l] into lane l.
+    // Gathers the quantities of joints[l] into lane l.
     [[gnu::noinline]] void gather(const T* records, const std::uint32_t* joints) {
         for (int k = 0; k < parts; k += width<T>) {
             Wide<T> m[width<T>];
@@ -87,7 +87,7 @@ template <class T, int count> struct Records {
             }
 #endif
     }
-    // Lane l into the record of joints[l], but for `skip`; added to what stands there, or set.
+    // Scatters lane l into the record of joints[l], except for `skip`. It is added to what stands there, or replaces it.
     template <bool added> [[gnu::noinline]] void scatter(T* records, const std::uint32_t* joints, std::uint32_t skip) {
         for (int k = 0; k < parts; k += width<T>) {
             Wide<T> m[width<T>];

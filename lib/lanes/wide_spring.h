@@ -1,10 +1,10 @@
 // wide_spring.h: one joint's own step (analytic/spring.h, drag.h) for registers of lanes, apart from all traversal, in the axes of its body.
 //
-// Written a second time: the plain step parts the work into stages over all joints; here one goes through in registers, and the order of sums is another.
-// X is a register or a pair of them (wide_pair.h). What lanes do depends on what stands in them alone, never on their neighbours: a branch
-// here leaves out what no lane asks for, and where one does, the others keep theirs by a choice. So registers of all widths come to the same, but
-// for products that compilers fuse with what is added to them in one way or another.
-// Cost about 1100 operations a register with wind and gravity, most of them eigenvectors and oscillators.
+// It is written a second time because the plain step parts the work into stages over all joints. Here one joint goes through in registers, and the
+// order of sums is another. X is a register or a pair of them (wide_pair.h). What lanes do depends only on what stands in them, never on their
+// neighbours: a branch here leaves out what no lane asks for, and where one does, the others keep theirs by a choice. So registers of all widths come
+// to the same result, except for products that compilers fuse in one way or another with what is added to them.
+// The cost is about 1100 operations a register with wind and gravity, most of them eigenvectors and oscillators.
 #pragma once
 #include "wide_cholesky.h"
 #include "wide_eigen.h"
@@ -40,7 +40,7 @@ template <class X> BOUGH_FORCE Symmetric<X> joint_inertia(const JointLoad<X>& in
     return S;
 }
 
-// K + G, and of G the part that is a multiple of 1. rates: T.
+// K + G, and the part of G that is a multiple of 1. rates: T.
 template <bool gravity, class X>
 BOUGH_FORCE Symmetric<X> joint_stiffness(const JointLoad<X>& in, const M3<X>& rates, X& weight) {
     using T = RealOf<X>;

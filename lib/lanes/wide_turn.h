@@ -1,9 +1,9 @@
 // wide_turn.h: a joint's turn theta, for registers of lanes (wide_pair.h): exp(theta) = 1 + s theta* + c1 theta*^2,
 // J = 1 - c1 theta* + c2 theta*^2, T = J^-1 = 1 + theta*/2 + t2 theta*^2 (math.h; J, T of the body's rates).
 //
-// The third of its kind: rotation_maps.h takes one sine and cosine and branches by |theta|, wide_maps.h gives the coupled step's maps in its two axes;
-// the analytic step has no sine to spare, and asks for J's derivative.
-// With q = |theta|^2 all are power series: few terms up to one radian, more up to 3.5, for the lanes that ask for them.
+// This is the third of its kind. rotation_maps.h takes one sine and cosine and branches by |theta|; wide_maps.h gives the coupled step's maps in its
+// two axes. The analytic step has no sine to spare, and asks for J's derivative. With q = |theta|^2 all are power series: few terms up to one radian,
+// more up to 3.5, for the lanes that ask for them.
 #pragma once
 #include "wide_maps.h"
 #include "wide_pair.h"
@@ -52,7 +52,7 @@ template <class X> BOUGH_FORCE X t2_of(const X& q) {
     return choose_above(q, one, series<S::many>(S::dc1, q) / (-2 * series<S::many>(S::c1, q)), t2);
 }
 
-// 1 + a theta* + b theta*^2. (As rotation_form of wide_maps.h, of which compilers for different targets fuse other products.)
+// 1 + a theta* + b theta*^2. (It is not shared with rotation_form of wide_maps.h: compilers for different targets fuse other products of that.)
 template <class X> BOUGH_FORCE M3<X> turn_form(const V3<X>& t, const X& q, const X& a, const X& b) {
     const X d = 1 - b * q;
     const V3<X> s = a * t, bt = b * t;
@@ -62,7 +62,7 @@ template <class X> BOUGH_FORCE M3<X> turn_form(const V3<X>& t, const X& q, const
             {xz + s.y, yz - s.x, d + bt.z * t.z}};
 }
 
-// T v, v the body's rate; t2 of theta.
+// T v, with v the body's rate. t2: of theta.
 template <class X> BOUGH_FORCE V3<X> rate_of(const V3<X>& theta, const X& t2, const V3<X>& v) {
     const V3<X> across = cross(theta, v);
     return v + RealOf<X>(0.5) * across + t2 * cross(theta, across);

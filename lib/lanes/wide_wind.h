@@ -1,6 +1,6 @@
-// wide_wind.h: the wind at bodies in lanes: what WindTable and WindField (laws/wind.h, wind_field.h) and plan/body_air.h look up for one body, here a
-// second time, as tables are looked up for all lanes at once. The one place in lanes that knows what of a wind varies in space: sweeps ask for wind_on.
-// tests/lib/laws/wind_field_steps.cpp and the solvers' lanes.cpp hold the two together.
+// wide_wind.h: the wind at bodies in lanes. WindTable and WindField (laws/wind.h, wind_field.h) and plan/body_air.h look it up for one body; it is
+// written a second time because tables are looked up for all lanes at once. It is the one place in lanes that knows how a wind varies in space:
+// sweeps ask for wind_on. tests/lib/laws/wind_field_steps.cpp and the solvers' lanes.cpp hold the two together.
 #pragma once
 #include "sweep_rows.h"
 #include "wide_pair.h"
@@ -9,7 +9,7 @@
 namespace bough::fast {
 inline namespace BOUGH_TARGET {
 
-// Given: a SweepRows and more.
+// Given is a SweepRows and more.
 template <class T, class Given> struct WideWind {
     using W = Wide<T>;
     static constexpr int L = lanes<T>;
@@ -23,19 +23,19 @@ template <class T, class Given> struct WideWind {
         typename Bits<T>::Wide cell, ring;
         W weight; // of the ring after
     };
-    // At a body: the factor on all of the wind (WindTable::factor, shelter), and where what it is a factor on stands.
+    // At a body: the factor on all of the wind (WindTable::factor, shelter), and where the wind that it scales stands.
     struct WindOn {
         W factor;
         OverGround over;
     };
     BOUGH_FORCE WindOn wind_on(const W& y) const { return {profile(y), OverGround{}}; }
-    // Of a wind that varies over the ground, on the bodies of a row whose centres of mass are there.
+    // For a wind that varies over the ground, on the bodies of a row whose centres of mass are there.
     BOUGH_FORCE WindOn wind_on(std::uint32_t row, int lane, const W& x, const W& y, const W& z) const {
         const W factor = profile(y);
         return {sheltered(row, lane, factor), over_ground(row, lane, x, z)};
     }
 
-    // The wind there where the profile is 1.
+    // Returns the wind there where the profile is 1.
     BOUGH_FORCE V3<W> field_at(const OverGround& at, const FieldTables<T>& tables) const {
         const FieldRows<T>& f = rows.field;
         const V3<W> v{look_up(tables.velocity, at.cell), look_up(tables.velocity + f.all_cells, at.cell),
@@ -46,7 +46,7 @@ template <class T, class Given> struct WideWind {
         const W cosine = c_0 + at.weight * (look_up(c + 1, at.ring) - c_0),
                 sine = s_0 + at.weight * (look_up(s + 1, at.ring) - s_0);
         const W one = 1 / root(W(cosine * cosine + sine * sine));
-        // A wind straight up or down stays. (What is chosen is no sum of products, which targets with masks would not fuse as the others do.)
+        // A wind straight up or down stays. (The choice is not a sum of products, which targets with masks would fuse differently from the others.)
         const W flat = v.x * v.x + v.z * v.z, all_of_it = flat + v.y * v.y, least = all(T(1e-30));
         const W c_v = choose_above(flat, least, W(one * cosine), all(T(1))),
                 s_v = choose_above(flat, least, W(one * sine), W{}),
@@ -56,7 +56,7 @@ template <class T, class Given> struct WideWind {
     }
 
 private:
-    // Wind's profile at height y: linear between even heights, constant beyond; the lanes' places looked up at once.
+    // Returns the wind's profile at height y: linear between even heights, constant beyond. The lanes' places are looked up at once.
     BOUGH_FORCE W profile(const W& y) const {
         using B = Bits<T>;
         const std::size_t last = rows.profile_entries - 1;
@@ -68,7 +68,7 @@ private:
         return low + (place - (rounded - B::rounder)) * (high - low);
     }
 
-    // The integer below, of 0 <= place < 2^22.
+    // Returns the integer below `place`, 0 <= place < 2^22.
     BOUGH_FORCE static W floor_of(const W& place) {
         const W nearest = W(place + Bits<T>::rounder) - Bits<T>::rounder;
         return nearest - where_above(nearest, place, all(T(1)));
@@ -77,7 +77,7 @@ private:
         using B = Bits<T>;
         return typename B::Wide(W(whole + B::rounder)) & 0x3fffff;
     }
-    // Clamped; NaN: 0.
+    // Returns the place clamped; NaN gives 0.
     BOUGH_FORCE static W within(const W& place, std::int32_t most) { return smaller(larger(place, W{}), all(T(most))); }
 
     BOUGH_FORCE OverGround over_ground(std::uint32_t body_row, int lane, const W& x, const W& z) const {

@@ -10,7 +10,7 @@ namespace bough {
 
 template <class T> struct AirLoad {
     Vector3<T> force;  // [N] at the centre of mass
-    Vector3<T> torque; // [N m] about it, but for what its own turning changes, which is
+    Vector3<T> torque; // [N m] about it, without what its own turning changes, which is
     T spin;            // [1/s] minus this times I w, I the inertia about the centre of mass, w the angular velocity
 };
 

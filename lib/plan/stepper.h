@@ -91,7 +91,7 @@ public:
     // Brings the arrays in document order up to date.
     virtual void present(const Plan<T>&, State<T>&) const {}
     virtual std::uint64_t hash(const Plan<T>&, const State<T>&) const = 0; // state_hash; nothing need be presented
-    virtual bool known_finite(const State<T>&) const { return false; }     // the last step has seen to it
+    virtual bool known_finite(const State<T>&) const { return false; }     // true if the last step found all finite
     // Needs a state that is presented and has become non-finite.
     virtual NonFinite non_finite(const State<T>&) const = 0;
     virtual std::vector<CarriedArray<T>> carried(State<T>&) const = 0;
@@ -115,7 +115,7 @@ public:
 
     // These change something between two steps.
     virtual void scale_wood(const Plan<T>&, T, T) {
-    } // all stiffness and damping times these; the plan's own are the caller's
+    } // multiplies all stiffness and damping by these; the caller does so to the plan's own
     // Called when the plan's dt has changed: multiplies changes carried from the last step by ratio, and finds anew what counts in steps.
     virtual void step_changed(const Plan<T>&, State<T>&, T ratio) { (void)ratio; }
     virtual bool sleeps() const { return false; } // trees may

@@ -21,7 +21,7 @@ struct RunChoice {
     bool poses = true;       // Wishes::pose
     bool saves = true;       // save() and restore() are called
     bool keeps_trees =
-        true; // else, where nothing is free, the assembly's tree keeps what make_plan says, and memory low
+        true; // else, where nothing is free, the assembly's tree keeps only what make_plan says, which saves memory
 };
 
 // What a run says of itself.
@@ -34,8 +34,8 @@ struct RunAccount {
     std::int64_t steps = 0;
     std::array<std::uint64_t, stage_count> calls{};
     StepFlags flags;
-    bool free = false; // something is, or may become so
-    bool fell = false; // something is, or has broken off
+    bool free = false; // something is free, or may become so
+    bool fell = false; // something is free by now, or has broken off
     WorldCounts counts;
     ContactModel contact{};
     std::size_t state_bytes = 0, free_bytes = 0;
@@ -67,9 +67,9 @@ public:
     virtual std::int64_t steps() const = 0;
     virtual double time() const = 0;
     virtual const MotionFrame& frame() = 0;
-    virtual std::optional<std::size_t> fill(const MotionFields&, MotionFrame&) = 0; // the first body that is non-finite
+    virtual std::optional<std::size_t> fill(const MotionFields&, MotionFrame&) = 0; // returns the first non-finite body
     virtual const MotionEvents& events() const = 0;
-    virtual const std::vector<std::uint32_t>& broken() const = 0; // joints, in the order in which they did
+    virtual const std::vector<std::uint32_t>& broken() const = 0; // joints, in the order in which they broke
     virtual std::vector<Ball> balls() const = 0;                  // shown_balls
     virtual Tree posed() = 0;
     // [m] Far ends of bodies (along z). Where joints are held, ends() takes bodies of the tree that moves, shown_ends() of all that are shown.

@@ -35,7 +35,7 @@
 
 namespace bough {
 
-// Of all joints, over what they had when the run began.
+// Factors on all joints, relative to their values at the start of the run.
 struct WoodScale {
     double stiffness = 1, damping = 1;
 };

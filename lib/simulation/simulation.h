@@ -35,21 +35,21 @@ struct Assembly;
 struct RunChoice;
 
 struct SimulationOptions {
-    double step = 1.0 / 30; // [s] above 0: of one step; set_step() changes it
+    double step = 1.0 / 30; // [s] length of a step, above 0; set_step() changes it
     Precision precision = Precision::double_;
     Method method = Method::coupled;
     double sleep =
-        0; // [rad/s] slower than this for a while, trees are left out of steps until something moves them; 0: never
+        0; // [rad/s] trees that have been slower than this for a while are left out of steps until something moves them; 0: never
     int threads =
-        0; // of a step at most, the caller's among them; 0: as many as the process has cores. Small work takes fewer ("Threads")
-    bool velocities = false; // velocities() and angular_velocities() are wanted: else empty
-    bool torques = false;    // likewise torques()
-    bool stresses = false;   // likewise stresses()
-    bool pulls = false;      // pull() will be called: without, the step has no place for it
+        0; // the most threads a step takes, the caller's included; 0: one a core of the process. Small work takes fewer ("Threads")
+    bool velocities = false; // velocities() and angular_velocities() will be read; else they are empty
+    bool torques = false;    // the same for torques()
+    bool stresses = false;   // the same for stresses()
+    bool pulls = false;      // pull() will be called; without this, the step has no place for it
     bool grounds =
-        false; // set_ground() will be called: nothing sleeps then, and the analytic method takes the plain path
+        false; // set_ground() will be called. Nothing sleeps then, and the analytic method takes the plain path
     bool portable =
-        false; // the plain path, one number at a time, whose rounding does not hang on the machine's SIMD; several times slower
+        false; // take the plain path, one number at a time: rounding does not depend on the machine's SIMD; several times slower
 };
 
 // How a tree's ground has moved from where the tree was drawn: a point drawn at X is now at pivot + position + rotation (X - pivot). The pivot is the
@@ -102,21 +102,21 @@ public:
     std::int64_t steps() const; // taken
     double time() const;        // [s]
     const SimulationOptions& options() const;
-    bool has_events() const;  // the scene may have some: something may break, fall, fly or leap
+    bool has_events() const;  // the scene may have events: something may break, fall, fly or leap
     const Tree& tree() const; // the trees joined, as drawn: names, branches, sizes of bodies. Without balls and walkers
-    std::span<const TreeRange> trees() const; // which of its bodies are whose
+    std::span<const TreeRange> trees() const; // which of the tree's bodies belong to which tree
 
     // The present state: one value for each body, valid until the next step. What is not asked for costs nothing; the first call after a step is
     // O(bodies).
     std::span<const Vec3> positions() const;          // [m] of own joints (of balls: centres)
     std::span<const Quat> rotations() const;          // world from body
-    std::span<const Vec3> velocities() const;         // [m/s] of centres of mass (SimulationOptions::velocities)
-    std::span<const Vec3> angular_velocities() const; // [rad/s] (SimulationOptions::velocities)
+    std::span<const Vec3> velocities() const;         // [m/s] of centres of mass (option velocities)
+    std::span<const Vec3> angular_velocities() const; // [rad/s] (option velocities)
     std::span<const Vec3> angles() const;  // [rad] rotation vectors of joints in their joint frames; of trees alone
     std::span<const Vec3> rates() const;   // [rad/s] how those change
-    std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (Options::torques)
+    std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (option torques)
     std::span<const double>
-    stresses() const; // [Pa] that bend the wood at each joint (model/bending_stress.h; Options::stresses)
+    stresses() const; // [Pa] that bend the wood at each joint (model/bending_stress.h; option stresses)
     const MotionEvents& events() const; // of the last call of step(): what broke, hit, landed
     // Returns the trees drawn as they stand now, to be run again from there or to be written. With pose drawn they stay so by themselves. Stiffness
     // and damping are the trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.
