@@ -28,6 +28,7 @@ struct VatFrames {
     double fps = 30;
     std::int64_t count = 0; // promised
     bool looping = false;
+    bool of_file = false; // they show a file's own mesh
 };
 
 // Written by finish(). own: what the skin was made of. Keeps references to the tree and the notes. Throws UsageError for more vertices or frames than a texture holds.

@@ -57,7 +57,7 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
             return obj_sink(o.common.output, shown, std::move(skin), own ? &*own : nullptr, rustle, o.common.notes);
         if (format == "vat")
             return vat_sink(o.common.output, shown, std::move(skin), std::move(own), rustle,
-                            {o.run.fps, last - first + 1, o.loop.seconds.has_value()}, o.vat,
+                            {o.run.fps, last - first + 1, o.loop.seconds.has_value(), bound}, o.vat,
                             with_command_line(setting.source, o.common), o.common.notes);
         if (format == "usda")
             return usda_sink(o.common.output, shown, std::move(skin), std::move(own), o.run.fps, o.gltf,

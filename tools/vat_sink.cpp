@@ -42,9 +42,11 @@ private:
 };
 
 // What would make fewer of them, where none are left out yet.
-[[noreturn]] void refuse_vertices(const std::string& folder, std::size_t vertices, const VatChoice& choice) {
+[[noreturn]] void refuse_vertices(const std::string& folder, std::size_t vertices, const VatChoice& choice,
+                                  bool of_file) {
     const std::string fewer =
-        "; treeconvert --max-bodies makes fewer, with leaves in clumps; --sides 3 gives wood fewer corners";
+        of_file ? "; --mesh made --sides 3 shows one that is made from the tree, of fewer"
+                : "; treeconvert --max-bodies makes fewer, with leaves in clumps; --sides 3 gives wood fewer corners";
     if (!choice.vertices)
         throw UsageError("-o is '" + folder + "': the mesh has " + std::to_string(vertices) +
                          " vertices, and a texture holds " + std::to_string(vat_side) + "; --vat-vertices " +
@@ -95,9 +97,9 @@ std::unique_ptr<FrameSink> vat_sink(const std::string& folder, const Tree& tree,
                          (options.png ? "" : " with their normals (--vat-image png: 8192)") +
                          "; take fewer seconds, or a lower --fps");
     const std::size_t all = skin.position.size(), most = choice.vertices ? std::size_t(*choice.vertices) : vat_side;
-    if (!choice.vertices && all > most) refuse_vertices(folder, all, choice);
+    if (!choice.vertices && all > most) refuse_vertices(folder, all, choice, frames.of_file);
     ReducedSkin mesh = reduced_skin(skin, tree, most);
-    if (mesh.vertex.size() > most) refuse_vertices(folder, mesh.vertex.size(), choice);
+    if (mesh.vertex.size() > most) refuse_vertices(folder, mesh.vertex.size(), choice, frames.of_file);
     if (mesh.vertex.size() < all)
         notes.push_back("--vat-vertices: " + std::to_string(mesh.vertex.size()) + " of " + std::to_string(all) +
                         " vertices are left: wood is off by " +

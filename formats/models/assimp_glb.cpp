@@ -164,6 +164,8 @@ std::string convert(std::string_view content, AssimpKind kind, const std::string
             to_metres[r][c] = static_cast<ai_real>((frame.unit > 0 ? frame.unit : 1) * frame.axes(r, c));
     root = to_metres * root;
     const std::vector<TakenSkin> skins = take_skins(const_cast<aiScene&>(*scene));
+    // What this says of joined vertices would have the exporter take them apart, and not join them again.
+    const_cast<aiScene*>(scene)->mFlags &= ~unsigned(AI_SCENE_FLAGS_NON_VERBOSE_FORMAT);
     Assimp::Exporter exporter;
     const aiExportDataBlob* blob = exporter.ExportToBlob(scene, "glb2", 0u);
     if (!blob) throw std::runtime_error(exporter.GetErrorString());

@@ -1,4 +1,5 @@
 #include "formats/exports/reduced_skin.h"
+#include "formats/exports/simplified.h"
 #include "tests/support/skin_checks.h"
 
 using namespace bough;
@@ -59,6 +60,28 @@ TEST_CASE("fewer vertices: wood's are some of its own, leaves are whole, and kee
             for (const std::int32_t v : t) used[std::size_t(v)] = true;
         CHECK(std::all_of(used.begin(), used.end(), [](bool is) { return is; }));
     }
+}
+
+TEST_CASE(
+    "of more pieces than vertices are wished those that are near become one, but not where the tree would be lost") {
+    const Skin skin = build_skin(make_tree::random_tree(800, 5), {8, false});
+    Vec3 low = Vec3::Constant(INFINITY), high = -low;
+    for (const Vec3& p : skin.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const double size = (high - low).maxCoeff();
+    const std::size_t least = simplified(skin.position, skin.triangle, 3).vertex.size(); // of the pieces, by themselves
+    REQUIRE(least > 100);
+    const Simplified some = simplified(skin.position, skin.triangle, least * 3 / 4);
+    CHECK(some.vertex.size() <= least * 3 / 4);
+    CHECK(some.vertex.size() > least / 2);
+    CHECK(some.error <= 0.02 * size);
+    double farthest = 0; // of the tree's vertices from those that are left
+    for (const Vec3& p : skin.position) {
+        double nearest = INFINITY;
+        for (const std::int32_t v : some.vertex)
+            nearest = std::min(nearest, (skin.position[std::size_t(v)] - p).norm());
+        farthest = std::max(farthest, nearest);
+    }
+    CHECK(farthest <= 0.15 * size);
 }
 
 TEST_CASE("a leaf that grows stays where it is attached") {
