@@ -24,7 +24,7 @@ public:
     Index cols() const { return motion_.rows(); }
     void perform_op(const double* y, double* out) const {
         if (progress_) progress_(++operations_);
-        motion_.operate(y, out);
+        motion_.operate(y, out, work_);
         if (found_.cols() == 0) return;
         Eigen::Map<VectorXd> v(out, rows());
         v -= found_ * (found_.transpose() * v).eval();
@@ -34,10 +34,13 @@ private:
     const SmallMotion& motion_;
     const MatrixXd& found_;
     const std::function<void(std::int64_t)>& progress_;
+    mutable std::vector<SmallMotion::Moving> work_;
     mutable std::int64_t operations_ = 0;
 };
 
 constexpr Index sway_steps = 24;
+// Of vectors; of values its square. The looser one finds whether there is anything to look for.
+constexpr double precise = 1e-9, rough = 1e-4;
 
 struct Pairs {
     VectorXd value; // falling
@@ -45,13 +48,12 @@ struct Pairs {
 };
 
 // The largest `count`.
-Pairs largest(Swings swings, Index count) {
+Pairs largest(Swings swings, Index count, double tolerance) {
     const Index n = swings.rows();
     count = std::min(count, n - 1);
     const Index basis = std::min(n, std::max<Index>(2 * count + 10, 20));
     Spectra::SymEigsSolver<Swings> solver(swings, count, basis);
     solver.init();
-    constexpr double tolerance = 1e-9; // of vectors; of values its square
     if (solver.compute(Spectra::SortRule::LargestAlge, 2000, tolerance, Spectra::SortRule::LargestAlge) < count)
         throw std::domain_error(
             "the lowest modes do not converge: there are too many of nearly the same frequency; ask "
@@ -60,7 +62,7 @@ Pairs largest(Swings swings, Index count) {
 }
 
 // A Krylov space has one direction of each eigenspace: of modes of the same frequency, as a round trunk has them, others turn up once those are taken
-// out. So what is left is looked at until nothing above the last of the `count` is in it.
+// out. So what is left is looked at until nothing above the last of the `count` is in it: roughly, as mostly there is not.
 Pairs lowest_modes(const SmallMotion& motion, Index count, const std::function<void(std::int64_t)>& progress) {
     const Index n = motion.rows();
     MatrixXd found(n, 0);
@@ -68,8 +70,9 @@ Pairs lowest_modes(const SmallMotion& motion, Index count, const std::function<v
     for (Index more = count;; more = std::min<Index>(4, count)) {
         if (found.cols() >= n - 1) break;
         const Swings swings(motion, found, progress);
-        const Pairs next = largest(swings, std::min(more, n - 1 - found.cols()));
         const double last = value.size() < count ? 0 : value[count - 1];
+        if (last > 0 && largest(swings, 1, rough).value[0] * (1 + rough) < last) break;
+        const Pairs next = largest(swings, std::min(more, n - 1 - found.cols()), precise);
         Index fresh = 0;
         while (fresh < next.value.size() && next.value[fresh] > last * (1 + 1e-12)) ++fresh;
         if (fresh == 0) break;
@@ -188,9 +191,10 @@ Sway sway_along(const SmallMotion& small, const Vec3& direction) {
     MatrixXd basis(small.rows(), steps);
     VectorXd diagonal(steps), beside(steps), next(small.rows());
     basis.col(0) = start.normalized();
+    std::vector<SmallMotion::Moving> work;
     Index made = 0;
     while (made < steps) {
-        small.operate(basis.col(made).data(), next.data());
+        small.operate(basis.col(made).data(), next.data(), work);
         diagonal[made] = next.dot(basis.col(made));
         for (int twice = 0; twice < 2; ++twice) // orthogonal to rounding
             next -= basis.leftCols(made + 1) * (basis.leftCols(made + 1).transpose() * next).eval();

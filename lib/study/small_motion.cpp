@@ -267,44 +267,47 @@ void SmallMotion::inward(const std::vector<Vec3>& torque, double* out) const {
     }
 }
 
-void SmallMotion::inward(std::vector<Vec3>& linear, std::vector<Vec3>& angular, double* out) const {
+void SmallMotion::inward(std::vector<Moving>& work, double* out) const {
+    for (Moving& m : work) m.turn.setZero(); // from here on what the children's y have of it
     for (std::size_t i = body_.size(); i-- > 0;) {
-        if (body_[i].parent < 0) continue;
-        const auto p = std::size_t(body_[i].parent);
-        linear[p] += linear[i];
-        angular[p] += angular[i] + body_[i].arm.cross(linear[i]);
+        const Body& body = body_[i];
+        const Moving& m = work[i];
+        const Vec3 of_turn = m.angular + m.turn;
+        Eigen::Map<Vec3>(out + 3 * i) = solve_lower(body.L, of_turn);
+        if (body.parent < 0) continue;
+        Moving& base = work[std::size_t(body.parent)];
+        base.linear += m.linear;
+        base.angular += m.angular + body.arm.cross(m.linear);
+        base.turn += m.turn - body.W_C.transpose() * of_turn;
     }
-    inward(angular, out);
 }
 
-void SmallMotion::operate(const double* y, double* out) const {
-    const std::size_t n = body_.size();
-    std::vector<Vec3> phi(n), shift(n), linear(n), angular(n);
-    for (std::size_t i = 0; i < n; ++i) {
+void SmallMotion::operate(const double* y, double* out, std::vector<Moving>& work) const {
+    work.resize(body_.size());
+    for (std::size_t i = 0; i < body_.size(); ++i) {
         const Body& body = body_[i];
-        Vec3 turn = solve_upper(body.L, Eigen::Map<const Vec3>(y + 3 * i));
-        shift[i] = Vec3::Zero();
+        Moving& m = work[i];
+        m.turn = solve_upper(body.L, Eigen::Map<const Vec3>(y + 3 * i));
+        m.shift = Vec3::Zero();
         if (body.parent >= 0) {
-            const auto p = std::size_t(body.parent);
-            turn += phi[p] - body.W_C * phi[p];
-            shift[i] = shift[p] + phi[p].cross(body.arm);
+            const Moving& base = work[std::size_t(body.parent)];
+            m.turn += base.turn - body.W_C * base.turn;
+            m.shift = base.shift + base.turn.cross(body.arm);
         }
-        phi[i] = turn;
-        linear[i] = body.mass * shift[i] + turn.cross(body.moment);
-        angular[i] = times(body.J, turn) + body.moment.cross(shift[i]);
+        m.linear = body.mass * m.shift + m.turn.cross(body.moment);
+        m.angular = times(body.J, m.turn) + body.moment.cross(m.shift);
     }
-    inward(linear, angular, out);
+    inward(work, out);
 }
 
 Eigen::VectorXd SmallMotion::excited(const Vec3& direction) const {
-    const std::size_t n = body_.size();
-    std::vector<Vec3> linear(n), angular(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        linear[i] = body_[i].mass * direction;
-        angular[i] = body_[i].moment.cross(direction);
+    std::vector<Moving> work(body_.size());
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+        work[i].linear = body_[i].mass * direction;
+        work[i].angular = body_[i].moment.cross(direction);
     }
     Eigen::VectorXd out(rows());
-    inward(linear, angular, out.data());
+    inward(work, out.data());
     return out;
 }
 

@@ -33,8 +33,12 @@ public:
     const std::vector<std::size_t>& buckled() const { return buckled_; }
 
     Eigen::Index rows() const { return 3 * Eigen::Index(body_.size()); }
+    // What an operation works in, kept from one to the next.
+    struct Moving {
+        Vec3 turn, shift, linear, angular;
+    };
     // out = R^-T M R^-1 y. y, out: rows() numbers.
-    void operate(const double* y, double* out) const;
+    void operate(const double* y, double* out, std::vector<Moving>& work) const;
     // a = R^-1 y.
     std::vector<Vec3> turns(const double* y) const;
     // R^-T M times a translation of the ground along a direction: what of y an acceleration of it excites.
@@ -70,9 +74,9 @@ private:
     std::vector<Vec3> carried_moments() const; // H
     std::vector<Vec3> unbalanced(const Tree&) const; // [N m] on each joint, world: what of gravity its spring leaves
     double energy(const Tree&) const;                // [J]
-    // Dual of a to that of y: of torques on joints; of momenta of bodies.
+    // Dual of a to that of y: of torques on joints; of momenta of bodies, which it changes.
     void inward(const std::vector<Vec3>& torque, double* out) const;
-    void inward(std::vector<Vec3>& linear, std::vector<Vec3>& angular, double* out) const;
+    void inward(std::vector<Moving>& work, double* out) const;
 
     Vec3 gravity_;
     StartPose pose_;
