@@ -177,7 +177,8 @@ void work(ModesCommand& o) {
     if (!buckled.empty())
         o.common.notes.push_back("the tree does not stand as drawn: branch " + std::to_string(*buckled.begin()) +
                                  (buckled.size() > 1 ? " and others buckle" : " buckles") +
-                                 " under what it carries; modes are of the pose in which it comes to stand");
+                                 " under what it carries; modes are of the pose in which it comes to stand; " +
+                                 buckling_remedy);
     if (std::size_t(swing) > modes.size())
         throw UsageError("--swing " + std::to_string(swing) + ": the tree has " + std::to_string(modes.size()) +
                          " modes");

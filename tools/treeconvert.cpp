@@ -199,7 +199,7 @@ std::string sway_text(const Tree& tree) {
              << std::min(x.lowest, z.lowest) << " Hz (treeprofile modes)";
         if (!small.buckled().empty())
             text << "; branch " << tree.branch[small.buckled().front()]
-                 << " buckles under what it carries, and leans over";
+                 << " buckles under what it carries, and leans over; " << buckling_remedy;
     } catch (const std::domain_error& error) {
         text << "none: " << error.what();
     }
