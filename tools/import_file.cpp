@@ -5,6 +5,7 @@
 #include "formats/mapped.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
+#include "formatted.h"
 #include "lib/base/counted.h"
 #include "lib/growth/carry.h"
 #include "reader_options.h"
@@ -74,6 +75,9 @@ Splines read_import(const std::string& name, const ImportChoice& choice, ImportN
     } catch (const InputError&) {
         file.check(); // half a file is no fault of its format
         throw;
+    } catch (const std::bad_alloc&) {
+        throw InputError(options.name, "out of memory while its " + bytes_text(double(content.size())) +
+                                           " were read as branches, which takes up to 25 times as much");
     }
 }
 

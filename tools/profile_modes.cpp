@@ -18,7 +18,7 @@
 namespace bough {
 namespace {
 
-constexpr int modes_default = 20, frames_of_a_swing = 24, shapes_of_a_picture = 6;
+constexpr int modes_default = 20, branches_default = 8, frames_of_a_swing = 24, shapes_of_a_picture = 6;
 constexpr double drawn_amplitude = 1.0 / 12; // [1] of the height
 constexpr double seen_to_move = 0.1;         // [1] of that: what a picture of a shape shows apart
 
@@ -26,7 +26,7 @@ struct ModesCommand {
     CommonOptions& common;
     RunOptions run;
     std::string report;
-    int modes = modes_default;
+    int modes = modes_default, branches = branches_default;
     std::optional<int> swing;
 };
 
@@ -34,6 +34,10 @@ void declare(OptionList& list, ModesCommand& o) {
     list.add("INPUT", o.run.input, "A tree, or a scene whose trees, gravity and wood are taken; - for stdin");
     list.group("Measuring");
     list.add("--modes", o.modes, "How many, from the lowest on (20)").takes("N").check(whole_number(1, 1000));
+    list.add("--branches", o.branches,
+             "Of each mode's shape, how many branches --report lists, those with most of the energy first (8)")
+        .takes("N")
+        .check(whole_number(0, 1'000'000));
     list.group("Wind");
     list.add("--wind", o.run.wind,
              "The air's drag at this wind's mean damps as well: a preset or a file, as of treesim (still air)")
@@ -67,7 +71,9 @@ ModesReport report_of(const ModesCommand& o, const Setting& setting, const Small
     for (const NaturalMode& mode : modes) {
         report.branch.push_back(tree.branch[mode.farthest]);
         report.level.push_back(tree.level[mode.farthest]);
+        report.moves.push_back(moving_branches(small, tree, mode, std::size_t(o.branches)));
     }
+    report.branches = std::int64_t(std::set<std::int32_t>(tree.branch.begin(), tree.branch.end()).size());
     report.modes = std::move(modes);
     return report;
 }
@@ -177,7 +183,8 @@ void work(ModesCommand& o) {
     if (!buckled.empty())
         o.common.notes.push_back("the tree does not stand as drawn: branch " + std::to_string(*buckled.begin()) +
                                  (buckled.size() > 1 ? " and others buckle" : " buckles") +
-                                 " under what it carries; modes are of the pose in which it comes to stand");
+                                 " under what it carries; modes are of the pose in which it comes to stand; " +
+                                 buckling_remedy);
     if (std::size_t(swing) > modes.size())
         throw UsageError("--swing " + std::to_string(swing) + ": the tree has " + std::to_string(modes.size()) +
                          " modes");
@@ -195,7 +202,7 @@ void work(ModesCommand& o) {
 } // namespace
 
 Subcommand profile_modes(CommonOptions& common) {
-    const auto o = std::make_shared<ModesCommand>(ModesCommand{common, {}, {}, modes_default, {}});
+    const auto o = std::make_shared<ModesCommand>(ModesCommand{common, {}, {}, modes_default, branches_default, {}});
     ToolInfo info{.name = profile_name,
                   .about = "Finds the lowest natural frequencies, their damping, and which branches move in them.",
                   .usage = "treeprofile modes TREE|SCENE [--modes N] [--wind NAME] [--report FILE]\ntreeprofile modes "

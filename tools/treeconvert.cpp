@@ -199,7 +199,7 @@ std::string sway_text(const Tree& tree) {
              << std::min(x.lowest, z.lowest) << " Hz (treeprofile modes)";
         if (!small.buckled().empty())
             text << "; branch " << tree.branch[small.buckled().front()]
-                 << " buckles under what it carries, and leans over";
+                 << " buckles under what it carries, and leans over; " << buckling_remedy;
     } catch (const std::domain_error& error) {
         text << "none: " << error.what();
     }
@@ -331,6 +331,9 @@ void work(Options& o) {
         if (what.starts_with("bodies: ")) throw InputError(name, "/" + what);
         throw UsageError(what.starts_with(most) ? "--max-bodies: " + what.substr(most.size())
                                                 : "--segment-length: " + what);
+    } catch (const std::bad_alloc&) {
+        throw InputError(name,
+                         "out of memory while bodies were made of its " + counted(splines.points(), "point", "points"));
     }
     if (o.root_stiffness) stand_on_springs(tree, *o.root_stiffness);
     for (std::string& line : repairs(report)) notes.push_back(std::move(line));

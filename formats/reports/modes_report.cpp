@@ -26,6 +26,35 @@ ReportRow row_of(const ModesReport& report, std::size_t k) {
     return row;
 }
 
+ReportRow row_of(const BranchMotion& b) {
+    return {{"branch", std::int64_t(b.branch)},
+            {"level", std::int64_t(b.level)},
+            {"x", b.way.x()},
+            {"y", b.way.y()},
+            {"z", b.way.z()},
+            {"amplitude", b.way.norm()},
+            {"share", b.share}};
+}
+
+std::vector<ReportRow> shapes_of(const ModesReport& report) {
+    std::vector<ReportRow> rows;
+    for (std::size_t k = 0; k < report.moves.size(); ++k)
+        for (const BranchMotion& b : report.moves[k]) {
+            rows.push_back({{"mode", std::int64_t(k + 1)}});
+            for (auto& cell : row_of(b)) rows.back().push_back(std::move(cell));
+        }
+    return rows;
+}
+
+// CSV has one row a mode, so that its shape stands in columns.
+ReportRow with_shape(const ModesReport& report, std::size_t k) {
+    ReportRow row = row_of(report, k);
+    for (std::size_t j = 0; j < report.moves[k].size(); ++j)
+        for (auto& [name, value] : row_of(report.moves[k][j]))
+            row.emplace_back("shape_" + std::to_string(j + 1) + "_" + name, std::move(value));
+    return row;
+}
+
 std::vector<ReportRow> rows_of(const ModesReport& report) {
     std::vector<ReportRow> rows;
     for (std::size_t k = 0; k < report.modes.size(); ++k) rows.push_back(row_of(report, k));
@@ -68,12 +97,17 @@ void write_modes_json(Output& output, const ModesReport& report, const ReportMet
                             {"wind", report.wind},
                             {"bodies", report.bodies},
                             {"mass", report.mass},
-                            {"height", report.height}};
-    write_rows_json(output, "bough-modes-report", meta, head, "modes", rows_of(report));
+                            {"height", report.height},
+                            {"branches", report.branches},
+                            {"listed", std::int64_t(report.moves.empty() ? 0 : report.moves.front().size())}};
+    write_lists_json(output, "bough-modes-report", meta, head,
+                     {{"modes", rows_of(report)}, {"shapes", shapes_of(report)}});
 }
 
 void write_modes_csv(Output& output, const ModesReport& report) {
-    write_rows_csv(output, report.modes.empty() ? ReportRow() : row_of(report, 0), rows_of(report));
+    std::vector<ReportRow> rows;
+    for (std::size_t k = 0; k < report.modes.size(); ++k) rows.push_back(with_shape(report, k));
+    write_rows_csv(output, rows.empty() ? ReportRow() : rows.front(), rows);
 }
 
 std::string modes_svg(const std::vector<DrawnShape>& shapes, const std::string& name) {

@@ -14,6 +14,8 @@ struct ModesReport {
     std::vector<NaturalMode> modes;
     std::vector<std::int32_t> branch; // of each mode's farthest end
     std::vector<std::int32_t> level;
+    std::int64_t branches = 0;                    // of the tree
+    std::vector<std::vector<BranchMotion>> moves; // of each mode, as many as were asked for or there are
 };
 
 std::string modes_table(const ModesReport&);

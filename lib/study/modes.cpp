@@ -121,6 +121,12 @@ Vec3 far_end(const Tree& tree, std::size_t i, const Mat3& R) {
     return R.col(2) * tree.size[i][0];
 }
 
+// Twice the kinetic energy of body i.
+double energy_of(const Tree& tree, const SmallMotion::Motion& m, const Mat3& R, std::size_t i) {
+    const Vec3 turn_b = R.transpose() * m.turn;
+    return tree.mass[i] * m.com.squaredNorm() + turn_b.dot(tree.inertia[i] * turn_b);
+}
+
 NaturalMode mode_of(const Tree& tree, const SmallMotion& small, const std::vector<AirDamping>& air, double value,
                     std::vector<Vec3> a) {
     const double omega = 1 / std::sqrt(value);
@@ -133,8 +139,7 @@ NaturalMode mode_of(const Tree& tree, const SmallMotion& small, const std::vecto
     for (std::size_t i = 0; i < a.size(); ++i) {
         const Mat3& R = small.rotations()[i];
         const SmallMotion::Motion& m = moved[i];
-        const Vec3 turn_b = R.transpose() * m.turn;
-        const double energy = tree.mass[i] * m.com.squaredNorm() + turn_b.dot(tree.inertia[i] * turn_b);
+        const double energy = energy_of(tree, m, R, i);
         kinetic += energy;
         mode.share[tree.kind[i] == Kind::branch ? std::size_t(tree.level[i]) : levels] += energy;
         momentum += tree.mass[i] * m.com;
@@ -164,6 +169,32 @@ std::vector<NaturalMode> natural_modes(const SmallMotion& small, const Tree& tre
     for (Index k = 0; k < pairs.value.size(); ++k)
         modes.push_back(mode_of(tree, small, air, pairs.value[k], small.turns(pairs.vector.col(k).data())));
     return modes;
+}
+
+std::vector<BranchMotion> moving_branches(const SmallMotion& small, const Tree& tree, const NaturalMode& mode,
+                                          std::size_t most) {
+    const std::vector<SmallMotion::Motion> moved = small.motion(mode.turn);
+    std::vector<BranchMotion> all(std::size_t(*std::max_element(tree.branch.begin(), tree.branch.end())) + 1);
+    double kinetic = 0;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const Mat3& R = small.rotations()[i];
+        BranchMotion& b = all[std::size_t(tree.branch[i])];
+        b.branch = tree.branch[i];
+        if (tree.kind[i] == Kind::branch) b.level = tree.level[i];
+        const double energy = energy_of(tree, moved[i], R, i);
+        b.share += energy;
+        kinetic += energy;
+        const Vec3 way = moved[i].joint + moved[i].turn.cross(far_end(tree, i, R));
+        if (way.norm() > b.way.norm()) b.way = way;
+    }
+    for (BranchMotion& b : all) b.share /= kinetic;
+    std::erase_if(all, [](const BranchMotion& b) { return b.branch < 0; }); // of which no body is left
+    const auto listed = all.begin() + std::ptrdiff_t(std::min(most, all.size()));
+    std::partial_sort(all.begin(), listed, all.end(), [](const BranchMotion& a, const BranchMotion& b) {
+        return a.share != b.share ? a.share > b.share : a.branch < b.branch;
+    });
+    all.erase(listed, all.end());
+    return all;
 }
 
 ShapePose swung(const SmallMotion& small, const Tree& tree, const NaturalMode& mode, double amplitude) {

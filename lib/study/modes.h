@@ -45,6 +45,15 @@ struct ShapePose {
 };
 ShapePose swung(const SmallMotion&, const Tree&, const NaturalMode&, double amplitude);
 
+// What of a mode's shape one branch has, and what hangs on it.
+struct BranchMotion {
+    std::int32_t branch = -1, level = 0;
+    Vec3 way = Vec3::Zero(); // [1] of its end of a body that moves farthest, over the way of the mode's farthest end
+    double share = 0;        // [1] of the kinetic energy
+};
+// The `most` branches with the largest shares, falling. O(n).
+std::vector<BranchMotion> moving_branches(const SmallMotion&, const Tree&, const NaturalMode&, std::size_t most);
+
 // How a tree as a whole sways along a horizontal direction. Lanczos' method from the bend that a steady push of that direction on all of its mass gives
 // it, 24 steps, O(n) each: its values are the modes that the bend is made of, each with its share of the bend's energy. In a crown of many alike
 // branches no one mode sways; what stands out is then a band of modes, which so few steps show as one.

@@ -175,7 +175,7 @@ std::vector<Vec3> SmallMotion::softest(std::size_t body) const {
 
 // Where a branch buckles, downhill.
 void SmallMotion::go_over(const Tree& tree) {
-    const auto refuse = [&](std::int64_t i, const char* why) {
+    const auto refuse = [&](std::int64_t i, const std::string& why) {
         throw std::domain_error("body " + std::to_string(i) + " of branch " +
                                 std::to_string(tree.branch[std::size_t(i)]) + why);
     };
@@ -223,7 +223,8 @@ void SmallMotion::go_over(const Tree& tree) {
         if (!step(a)) break;
     }
     if (const std::int64_t soft = factor(tree, false); soft >= 0)
-        refuse(soft, " buckles under what it carries, and no pose is found in which the tree stands");
+        refuse(soft, std::string(" buckles under what it carries, and no pose is found in which the tree stands; ") +
+                         buckling_remedy);
 }
 
 std::vector<Vec3> SmallMotion::turns(const double* y) const {

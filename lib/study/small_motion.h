@@ -22,6 +22,10 @@
 
 namespace bough {
 
+// What a message says of a branch that buckles.
+constexpr const char* buckling_remedy =
+    "thicker wood would carry it: treeconvert --radii carry makes it so, of a scan with --scan-radii";
+
 class SmallMotion {
 public:
     // Of a tree without rigid bodies, its wood as scaled by the scene, standing under gravity [m/s^2]: as drawn (Pose::drawn), else where its springs

@@ -68,6 +68,19 @@ for what in leaves fruit; do
     grep -q -- "--$what: $fixtures/archi_small.csv has no $what, and none grow on what is imported" err || fail "$(cat err)"
 done
 
+# Where memory ends, what was read is named. (A sanitizer maps terabytes.)
+if [[ -z $sanitizers ]]; then
+    awk 'BEGIN { print "1 2 0 0 0 1 -1"; for (k = 2; k < 600000; ++k) print k, 2, k % 9, k % 7, k % 5, 1, 1 }' >wide.swc
+    for tool in treegen\ --import treeconvert; do
+        code=0
+        # shellcheck disable=SC2086 # two words
+        (ulimit -v 250000 -c 0 && exec $tool wide.swc --units m --up z --threads 1 -o none.json) >out 2>err </dev/null || code=$?
+        [[ $code -eq 2 ]] || fail "$tool without memory: exit $code: $(cat err)"
+        one_line "wide.swc: out of memory while its" "${tool%% *}"
+    done
+    absent none.json
+fi
+
 # Wood that cannot carry what it is drawn with says what would, and --radii carry does.
 cat >soft.swc <<'END'
 1 2 0 0 0 0.01 -1

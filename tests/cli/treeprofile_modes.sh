@@ -42,6 +42,25 @@ for a, b in zip(m["modes"], w["modes"]):
 assert [a["frequency"] for a in m["modes"]] == sorted(a["frequency"] for a in m["modes"])
 END
 
+# Shapes: of all branches the shares are whole, of few the largest are listed, and CSV has the same.
+expect 0 treeprofile modes tree.json --modes 2 --branches 1000000 --report all.json
+expect 0 treeprofile modes tree.json --modes 2 --branches 3 --report few.csv
+python3 - <<'END' || fail "the shapes do not fit"
+import csv, json
+r, few = json.load(open("all.json")), list(csv.DictReader(open("few.csv")))
+assert r["listed"] == r["branches"] == len({s["branch"] for s in r["shapes"]})
+for mode, row in zip(r["modes"], few):
+    shape = [s for s in r["shapes"] if s["mode"] == mode["mode"]]
+    assert abs(sum(s["share"] for s in shape) - 1) < 1e-9
+    farthest = max(shape, key=lambda s: s["amplitude"])
+    assert farthest["branch"] == mode["branch"] and abs(farthest["amplitude"] - 1) < 1e-9
+    assert [s["share"] for s in shape] == sorted((s["share"] for s in shape), reverse=True)
+    for k in 1, 2, 3:
+        assert all(abs(float(row[f"shape_{k}_{name}"]) - shape[k - 1][name]) < 1e-6 for name in ("branch", "level", "x", "y", "z", "amplitude", "share"))
+    assert "shape_4_branch" not in row
+END
+refused 1 "--branches" treeprofile modes tree.json --branches -1
+
 # A swing of one period; who cannot stand is told.
 expect 0 treeprofile modes tree.json --modes 2 --swing 2 -o swing.glb
 python3 - <<'END' || fail "the swing does not last one period of its mode"
@@ -58,5 +77,5 @@ if command -v gnuplot >/dev/null; then
     grep -q "mode 2" shapes.svg || fail "the picture has no second shape"
 fi
 expect 0 treeprofile modes rod.tree.json --modes 1 --set stiffness_scale=0.01
-grep -q "branch 0 buckles" err || fail "nothing is said of a rod that cannot stand: $(cat err)"
+grep -q "branch 0 buckles .*--radii carry" err || fail "what carries a rod that cannot stand is not said: $(cat err)"
 absent

@@ -48,46 +48,49 @@ Measured measured(const Tree& tree, const Material& wood) {
     return m;
 }
 
-// Three frequencies [Hz], and the mean of their damping ratios in still air, and in 8 m/s along x and along z.
+// Three frequencies [Hz], and the mean of their damping ratios in still air, and in 8 m/s along each way.
 struct Sways {
     std::vector<double> frequency;
     double still = 0, damping = 0;
 };
 
-Sways sways(const Tree& tree) {
+using Ways = std::vector<Vec3>;
+
+Sways sways(const Tree& tree, const Ways& ways) {
     ModeOptions options;
     options.count = 3;
     const SmallMotion small(tree, Vec3(0, -9.81, 0), Pose::drawn);
     CHECK(small.buckled().empty());
     Sways s;
     options.air = true;
-    for (const Vec3& wind : {Vec3(8, 0, 0), Vec3(0, 0, 8)}) {
+    for (const Vec3& way : ways) {
         Scene scene;
-        scene.wind.emplace().velocity = wind;
+        scene.wind.emplace().velocity = 8 * way;
         s.frequency.clear();
         for (const NaturalMode& mode : natural_modes(small, tree, scene, options)) {
             s.frequency.push_back(mode.frequency);
-            s.damping += mode.damping / 6;
-            s.still += mode.wood / 6;
+            s.damping += mode.damping / double(3 * ways.size());
+            s.still += mode.wood / double(3 * ways.size());
         }
     }
     return s;
 }
 
-// damped_within: for 300 bodies; from 1000 on a tenth.
+// damped_within: for 300 bodies; from 1000 on damped_within_more.
 void check_one_tree(const GrowthParameters& growth, const Material& wood, std::initializer_list<std::int64_t> numbers,
-                    double damped_within) {
+                    double damped_within, double damped_within_more = 0.1,
+                    const Ways& ways = {Vec3::UnitX(), Vec3::UnitZ()}) {
     const Items in_leaf{true, false, false};
     Splines splines = grow(growth, 1, in_leaf);
-    const Sways whole = sways(segment(splines, wood, {}));
+    const Sways whole = sways(segment(splines, wood, {}), ways);
     for (const std::int64_t bodies : cases<std::int64_t>(1, numbers)) {
         ask_for_bodies(splines, bodies);
-        const Sways now = sways(segment(splines, wood, {}));
+        const Sways now = sways(segment(splines, wood, {}), ways);
         INFO(growth.name << ", " << bodies << " bodies");
         for (std::size_t k = 0; k < whole.frequency.size(); ++k)
             CHECK(now.frequency[k] == Approx(whole.frequency[k]).epsilon(0.1));
         CHECK(now.still == Approx(whole.still).epsilon(0.25));
-        CHECK(now.damping == Approx(whole.damping).epsilon(bodies < 1000 ? damped_within : 0.1));
+        CHECK(now.damping == Approx(whole.damping).epsilon(bodies < 1000 ? damped_within : damped_within_more));
     }
 }
 
@@ -128,6 +131,15 @@ TEST_CASE(
         if (file.name != "cherry" && file.name != (sanitized ? "" : "apple")) continue;
         const Species species = read_species(file.content, std::string(file.name));
         check_one_tree(species.growth, wood_for(species), {300, 1000, 10000}, 0.15);
+    }
+}
+
+TEST_CASE("A full-grown oak keeps its frequencies, and of its damping in wind no less than three fifths") {
+    // The tenth of the others is missed: by 15 to 33 % (lib/growth/README.md). Of so many bodies one way of the wind is enough.
+    for (const SpeciesFile& file : species_files()) {
+        if (file.name != "oak" || sanitized) continue;
+        const Species species = read_species(file.content, std::string(file.name));
+        check_one_tree(species.growth, wood_for(species), {1000}, 0.4, 0.4, {Vec3::UnitX()});
     }
 }
 
