@@ -112,6 +112,8 @@ std::string outcome(const std::function<std::string()>& work, const Kept& kept) 
         out_of_memory = true;
     } catch (const std::exception& error) {
         bytes += in_words(error.what());
+        if (bytes.find("needs more memory than") != std::string::npos)
+            return bytes; // it says so itself, with its place
     } catch (...) {
         bytes += unnamed_failure;
     }

@@ -109,7 +109,7 @@ HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh, bool qua
         check_finite(document, attributes["POSITION"], {place + ": POSITION", "VEC3", GltfNumbers::any}, "vertex", 3);
         check_indices(document, primitives[p], vertices, place);
         check_joints(document, attributes, vertices, place, highest);
-        check_kept(document, attributes, vertices, place);
+        if (whole_number(primitives[p], "mode", place, 4) >= 4) check_kept(document, attributes, vertices, place);
         const Json targets = primitives[p].value("targets", Json::array());
         for (std::size_t t = 0; t < targets.size(); ++t)
             check_kept(document, targets[t], vertices, place + ", target " + std::to_string(t));
