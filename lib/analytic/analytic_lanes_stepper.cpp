@@ -56,8 +56,7 @@ void AnalyticLanesStepper<T>::begin(const Plan<T>& plan, State<T>& state, const 
     update_kinematics(plan, state);
     pack_analytic(plan, own, state, work, theta);
     if (plan.pose) return;
-    if (!plan.root_motion) // a ground may be put elsewhere in each step, which reads them
-        give_back(state.theta, state.theta_dot, work.scaled_rate); // present() makes them again
+    give_back(state.theta, state.theta_dot, work.scaled_rate); // present() makes them again
     work.lanes.presented = false;
 }
 

@@ -55,8 +55,7 @@ void CoupledLanesStepper<T>::begin(const Plan<T>& plan, State<T>& state, const s
     update_kinematics(plan, state);
     pack(plan, own, state, work, theta);
     if (plan.pose) return;
-    if (!plan.root_motion) // a ground may be put elsewhere in each step, which reads them
-        give_back(state.theta, state.theta_dot, work.theta_change, work.theta_dot_change); // present() makes them again
+    give_back(state.theta, state.theta_dot, work.theta_change, work.theta_dot_change); // present() makes them again
     work.lanes.presented = false;
 }
 

@@ -222,7 +222,7 @@ TEST_CASE("A scene ties two of its trees; what cannot be tied is refused; a run 
     };
     Scene wrong = scene;
     wrong.attachments[0].with->by = Selector::By::level;
-    CHECK_THAT(refused(wrong), Catch::Contains("attachments/0/with is by level"));
+    CHECK_THAT(refused(wrong), Catch::Contains("/attachments/0/with: is by level"));
     wrong = scene;
     wrong.attachments[0].with->tree = 0;
     CHECK_THAT(refused(wrong), Catch::Contains("/attachments/0/with") && Catch::Contains("expected another"));
