@@ -111,9 +111,9 @@ std::string outcome(const std::function<std::string()>& work, const Kept& kept) 
     } catch (const std::bad_alloc&) { // an array of too many elements, too, which asks for none
         out_of_memory = true;
     } catch (const std::exception& error) {
+        const std::string_view what = error.what();
         bytes += in_words(error.what());
-        if (bytes.find("needs more memory than") != std::string::npos)
-            return bytes; // it says so itself, with its place
+        if (what.find("needs more memory than") != std::string::npos) return bytes; // it says so itself, with its place
     } catch (...) {
         bytes += unnamed_failure;
     }
