@@ -1,4 +1,5 @@
 #include "bound_models.h"
+#include "lib/model/split.h"
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -6,45 +7,6 @@ namespace bough {
 namespace {
 
 using Bodies = std::vector<std::int32_t>;
-
-// These bodies by themselves; of each the parent is among them.
-Tree tree_of(const Tree& all, const Bodies& bodies) {
-    const auto taken = [&bodies](const auto& from) {
-        std::decay_t<decltype(from)> to;
-        if (!from.empty())
-            for (const std::int32_t i : bodies) to.push_back(from[std::size_t(i)]);
-        return to;
-    };
-    Tree tree;
-    Bodies place(all.size_bodies(), -1);
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-        const std::int32_t parent = all.parent[std::size_t(bodies[k])];
-        place[std::size_t(bodies[k])] = std::int32_t(k);
-        tree.parent.push_back(parent < 0 ? -1 : place[std::size_t(parent)]);
-    }
-    tree.kind = taken(all.kind);
-    tree.mass = taken(all.mass);
-    tree.com = taken(all.com);
-    tree.inertia = taken(all.inertia);
-    tree.joint_position = taken(all.joint_position);
-    tree.joint_rotation = taken(all.joint_rotation);
-    tree.stiffness = taken(all.stiffness);
-    tree.damping = taken(all.damping);
-    tree.size = taken(all.size);
-    tree.branch = taken(all.branch);
-    tree.level = taken(all.level);
-    tree.s = taken(all.s);
-    tree.rigid = taken(all.rigid);
-    tree.load = taken(all.load);
-    tree.leaf_count = taken(all.leaf_count);
-    tree.leaf_length = taken(all.leaf_length);
-    tree.leaf_width = taken(all.leaf_width);
-    tree.drag = taken(all.drag);
-    tree.name = all.name;
-    tree.material = all.material;
-    tree.color = all.color;
-    return tree;
-}
 
 // Where a scene puts its tree.
 Eigen::Affine3d place_of(const Scene& scene, std::size_t tree) {
@@ -114,7 +76,7 @@ OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setti
             for (const std::int32_t i : bodies) bound[std::size_t(i)] = true;
             said.clear(); // of each tree the same
             const bool last = k == file.trees.back();
-            OwnMesh own = bound_to(last ? std::move(file.model) : file.model, tree_of(shown, bodies),
+            OwnMesh own = bound_to(last ? std::move(file.model) : file.model, part_of(shown, bodies),
                                    place_of(setting.scene, k), said);
             if (!at) at = share(mesh, own);
             add_parts(mesh, std::move(own), *at, bodies);
@@ -125,7 +87,7 @@ OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setti
     for (std::size_t i = 0; i < bound.size(); ++i)
         if (!bound[i]) rest.push_back(std::int32_t(i));
     if (rest.empty()) return mesh;
-    OwnMesh others = made(tree_of(shown, rest));
+    OwnMesh others = made(part_of(shown, rest));
     const Shared at = share(mesh, others);
     add_parts(mesh, std::move(others), at, rest);
     return mesh;

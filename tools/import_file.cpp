@@ -77,7 +77,7 @@ Splines read_import(const std::string& name, const ImportChoice& choice, ImportN
         throw;
     } catch (const std::bad_alloc&) {
         throw InputError(options.name, "out of memory while its " + bytes_text(double(content.size())) +
-                                           " were read as branches, which takes up to 25 times as much");
+                                           " were read as branches, which takes 4 to 21 times as much");
     }
 }
 

@@ -1,4 +1,5 @@
 #include "split.h"
+#include <algorithm>
 
 namespace bough {
 namespace {
@@ -27,26 +28,31 @@ void copy_body(Tree& to, const Tree& from, std::size_t i, std::int32_t parent) {
 
 } // namespace
 
-std::vector<Tree> split_roots(const Tree& tree) {
-    const std::size_t n = tree.size_bodies();
-    std::vector<Tree> trees;
-    std::vector<std::size_t> root(n);   // which of the trees a body goes to
-    std::vector<std::int32_t> place(n); // its index there
-    for (std::size_t i = 0; i < n; ++i) {
-        const bool is_root = tree.parent[i] < 0;
-        const auto p = std::size_t(is_root ? 0 : tree.parent[i]);
-        if (is_root) {
-            trees.emplace_back();
-            trees.back().name = tree.name;
-            trees.back().material = tree.material;
-            trees.back().source = tree.source;
-            trees.back().color = tree.color;
-        }
-        root[i] = is_root ? trees.size() - 1 : root[p];
-        Tree& own = trees[root[i]];
-        place[i] = std::int32_t(own.size_bodies());
-        copy_body(own, tree, i, is_root ? -1 : place[p]);
+Tree part_of(const Tree& tree, const std::vector<std::int32_t>& bodies) {
+    Tree part;
+    part.name = tree.name;
+    part.material = tree.material;
+    part.source = tree.source;
+    part.color = tree.color;
+    for (const std::int32_t i : bodies) {
+        const auto p = std::lower_bound(bodies.begin(), bodies.end(), tree.parent[std::size_t(i)]);
+        const bool is_there = p != bodies.end() && *p == tree.parent[std::size_t(i)];
+        copy_body(part, tree, std::size_t(i), is_there ? std::int32_t(p - bodies.begin()) : -1);
     }
+    return part;
+}
+
+std::vector<Tree> split_roots(const Tree& tree) {
+    std::vector<std::vector<std::int32_t>> bodies; // of each root
+    std::vector<std::size_t> root(tree.size_bodies());
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        const bool is_root = tree.parent[i] < 0;
+        if (is_root) bodies.emplace_back();
+        root[i] = is_root ? bodies.size() - 1 : root[std::size_t(tree.parent[i])];
+        bodies[root[i]].push_back(std::int32_t(i));
+    }
+    std::vector<Tree> trees;
+    for (const auto& own : bodies) trees.push_back(part_of(tree, own));
     return trees;
 }
 
