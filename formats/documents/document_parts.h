@@ -49,6 +49,7 @@ void write_json(Output&, const DocumentType&, const std::vector<Field>&);
 bool is_left_out(const Field&);                             // optional and empty
 void append_string(std::string& to, std::string_view text); // quoted and escaped
 void append_number(std::string& to, double value);          // shortest text that reads back the same; finite
+void append_number(std::string& to, float value);           // the same, where it is read into a float
 // {"a": ..., ...} on one line, without a line end; of a document if a type is given.
 void write_json_line(Output&, const DocumentType*, const std::vector<Field>&, const Digits& of_arrays = {});
 std::string value_text(const Field&); // a field that is no array of numbers and no list of objects, as JSON text

@@ -4,6 +4,7 @@
 namespace bough {
 namespace {
 
+constexpr const char* minus_zero = "-0.0"; // "-0" would be read as an integer, which has no such zero
 constexpr std::size_t numbers_a_line = 12; // whole entries a line of a document: 12 numbers, 4 vectors, 3 quaternions
 
 template <class T> void append_digits(std::string& to, T value) {
@@ -82,7 +83,14 @@ void write_fields(Output& output, const DocumentType* type, const std::vector<Fi
 
 void append_number(std::string& to, double value) {
     if (value == 0 && std::signbit(value))
-        to += "-0.0"; // "-0" would be read as an integer, which has no such zero
+        to += minus_zero;
+    else
+        append_digits(to, value);
+}
+
+void append_number(std::string& to, float value) {
+    if (value == 0 && std::signbit(value))
+        to += minus_zero;
     else
         append_digits(to, value);
 }

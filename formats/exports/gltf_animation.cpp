@@ -22,9 +22,9 @@ std::string time_bounds(const JointKeys& keys, std::size_t joint, double fps) {
     while (!keys.has_key(joint, first)) ++first;
     while (!keys.has_key(joint, last)) --last;
     std::string text = ",\"min\":[";
-    append_number(text, double(time_of(first, fps)));
+    append_number(text, time_of(first, fps));
     text += "],\"max\":[";
-    append_number(text, double(time_of(last, fps)));
+    append_number(text, time_of(last, fps));
     return text + "]";
 }
 
@@ -71,7 +71,7 @@ int add_all_times(GltfFile& file, std::size_t frames, double fps) {
         for (std::size_t f = 0; f < frames; ++f) to.add(time_of(f, fps));
     });
     std::string bounds = ",\"min\":[0],\"max\":[";
-    append_number(bounds, double(time_of(frames - 1, fps)));
+    append_number(bounds, time_of(frames - 1, fps));
     return file.add_accessor(view, 0, GltfType::f32, frames, "SCALAR", bounds + "]");
 }
 

@@ -77,7 +77,7 @@ template <class Numbers> std::string gltf_list(const Numbers& numbers) {
     std::string text = "[";
     for (const auto number : numbers) {
         if (text.size() > 1) text += ',';
-        append_number(text, double(number));
+        append_number(text, number);
     }
     return text + "]";
 }

@@ -14,16 +14,28 @@ bool is_index(double number) {
 
 // False where it is not what we write.
 bool read(const Json& list, std::vector<OwnRod>& rods) {
-    if (!list.is_array() || list.size() % std::tuple_size_v<OwnRod> != 0) return false;
-    for (std::size_t from = 0; from < list.size(); from += std::tuple_size_v<OwnRod>) {
-        OwnRod rod;
-        for (std::size_t k = 0; k < rod.size(); ++k) {
-            if (!list[from + k].is_number()) return false;
-            rod[k] = list[from + k].get<double>();
-            if (!std::isfinite(rod[k])) return false;
+    if (!list.is_array()) return false;
+    std::vector<double> number;
+    number.reserve(list.size());
+    for (const Json& value : list) {
+        if (!value.is_number()) return false;
+        number.push_back(value.get<double>());
+        if (!std::isfinite(number.back())) return false;
+    }
+    for (std::size_t from = 0; from < number.size();) {
+        if (number.size() - from < 3) return false;
+        const double branch = number[from], parent = number[from + 1], points = number[from + 2];
+        from += 3;
+        if (!is_index(branch) || branch < 0 || !is_index(parent) || !is_index(points) || points < 2) return false;
+        if (double(number.size() - from) < 4 * points) return false;
+        for (std::size_t point = 0; point < std::size_t(points); ++point, from += 4) {
+            for (std::size_t k = 0; k < 4; ++k) number[from + k] = double(float(number[from + k])); // as it was written
+            if (number[from + 3] < 0) return false;
+            if (point == 0) continue;
+            OwnRod rod{branch, point == 1 ? parent : branch};
+            for (std::size_t k = 0; k < 8; ++k) rod[2 + k] = number[from - 4 + k];
+            rods.push_back(rod);
         }
-        if (!is_index(rod[0]) || rod[0] < 0 || !is_index(rod[1]) || rod[5] < 0 || rod[9] < 0) return false;
-        rods.push_back(rod);
     }
     return true;
 }
@@ -38,8 +50,8 @@ OwnRods own_rods(const Json& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (!nodes[i].contains("extras") || !nodes[i]["extras"].is_object()) continue;
         const Json& extras = nodes[i]["extras"];
-        if (!extras.contains("bough_rods")) continue;
-        if (!read(extras["bough_rods"], own.rods[i])) return {};
+        if (!extras.contains("bough_wood")) continue;
+        if (!read(extras["bough_wood"], own.rods[i])) return {};
         own.ours[i] = true;
         any = any || !own.rods[i].empty();
         if (extras.contains("bough_others") && extras["bough_others"].is_number())

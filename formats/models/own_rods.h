@@ -1,9 +1,9 @@
 // own_rods.h: the bodies of wood that our own .glb says each joint holds, so that it can be read as the tree it shows and
 // not as bones guessed from its mesh (private to this folder).
 //
-// Every joint of ours has extras: "bough_rods", ten numbers for each body of wood in it, in the order of bodies: its
-// branch, the branch of the body that carries it (-1: the ground), its start and its end in the joint's own axes [m],
-// each x y z and the radius there; and "bough_others", how many leaves, petals and fruit it holds, where it holds some.
+// Every joint of ours has extras: "bough_wood", runs of bodies of wood that it holds, in the order of bodies. A run has the branch, the branch of the
+// body that carries its first body (-1: the ground), the number of points, two at least, and each point in the joint's own axes [m]: x y z and the
+// wood's radius there. From one point to the next is a body. "bough_others" says how many leaves, petals and fruit the joint holds, where it holds some.
 // They are relative to the joint: moved or scaled with the armature in another program, they still say where the wood is.
 #pragma once
 #include "formats/imports/imported_tree.h"
@@ -12,6 +12,7 @@
 
 namespace bough {
 
+// A body of wood: its branch, the branch of the body that carries it, its start and its end, each x y z and the radius there.
 using OwnRod = std::array<double, 10>;
 
 struct OwnRods {

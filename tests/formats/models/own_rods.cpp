@@ -91,9 +91,9 @@ TEST_CASE("our own .glb is read as the tree it shows, whatever joints were merge
 
 TEST_CASE("extras that are not as we write them are passed over: the joints are then bones") {
     std::string content = glb_of_tree(segment(orchard_tree(), wood_presets().front(), {}), 1000, false, false);
-    const std::size_t at = content.find("bough_rods\":[0,-1");
+    const std::size_t at = content.find("bough_wood\":[0,-1");
     REQUIRE(at != std::string::npos);
-    content.replace(at, 17, "bough_rods\":[0.5 ");
+    content.replace(at, 17, "bough_wood\":[0.5 ");
     const Imported back = imported(content, "own.glb");
     CHECK(back.notes_hold("bones measured on the mesh"));
 }
