@@ -55,7 +55,7 @@ Splines import_splines(std::string_view content, const ImportOptions& options, I
         notes.format = "bough-splines";
         Splines splines = read_splines(content, options.name);
         refuse_too_far(splines, 0, options.name);
-        refuse_outlier(splines, options.name);
+        find_outlier(splines, options.name, notes);
         return splines;
     }
     const std::optional<std::string> lines = with_line_feeds(content);
@@ -64,7 +64,7 @@ Splines import_splines(std::string_view content, const ImportOptions& options, I
     if (!format) refuse_unread(content, options.name);
     notes.format = format->name;
     Splines splines = format->read(content, options, notes);
-    refuse_outlier(splines, options.name);
+    find_outlier(splines, options.name, notes);
     return splines;
 }
 

@@ -12,7 +12,8 @@ constexpr double tallest = 120, lowest = 0.1; // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
-constexpr double aloof = 1e4;                       // of the median distance: a neuron's axon stays below it
+constexpr double aloof = 1e4,
+                 far = 100; // of the median distance: a neuron's axon stays below the first, trees below the second
 
 struct Box {
     Vec3 low, high;
@@ -86,7 +87,7 @@ void refuse_too_small(const Splines& s, const std::string& name) {
         throw InputError(name, "is " + shown(extent) + " m large, expected at least " + shown(smallest) + " m" + right);
 }
 
-void refuse_outlier(const Splines& s, const std::string& name) {
+void find_outlier(const Splines& s, const std::string& name, ImportNotes& notes) {
     if (s.point.empty()) return;
     std::vector<double> values(s.point.size());
     Vec3 middle;
@@ -98,14 +99,15 @@ void refuse_outlier(const Splines& s, const std::string& name) {
     std::transform(s.point.begin(), s.point.end(), values.begin(), distance);
     const std::size_t worst = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
     const double most = values[worst], half = middle_of(values);
-    if (!(most > aloof * half) || half == 0) return;
+    if (!(most > far * half) || half == 0) return;
     const Vec3& p = s.point[worst];
     const auto after = std::upper_bound(s.first_point.begin(), s.first_point.end(), std::int32_t(worst));
-    throw InputError(name, "a point of branch " + std::to_string(after - s.first_point.begin() - 1) + " is at " +
-                               shown(p.x() + 0.0) + ", " + shown(p.y() + 0.0) + ", " + shown(p.z() + 0.0) +
-                               " m (x, y up, z), " + shown(most) +
-                               " m from the middle of the tree, half of which is within " + shown(half) +
-                               " m; expected all of it in one place" + right);
+    const std::string found = "a point of branch " + std::to_string(after - s.first_point.begin() - 1) + " is at " +
+                              shown(p.x() + 0.0) + ", " + shown(p.y() + 0.0) + ", " + shown(p.z() + 0.0) +
+                              " m (x, y up, z), " + shown(most) +
+                              " m from the middle of the tree, half of which is within " + shown(half) + " m";
+    if (most > aloof * half) throw InputError(name, found + "; expected all of it in one place" + right);
+    notes.lines.push_back(found + ": is it a slip? Beside it all else is short");
 }
 
 } // namespace bough

@@ -19,8 +19,9 @@ void name_absurd_scale(const Splines&, bool unit_given, ImportNotes&);
 void refuse_too_far(const Splines&, double reach, const std::string& name);
 void refuse_too_small(const Splines&, const std::string& name);
 
-// Throws InputError where a point of a branch is 10 000 times as far from the middle of all (their medians along x, y, z) as half of them
-// are: beside such a branch all others are without length, and what is left of the tree is a slip in one number. O(points).
-void refuse_outlier(const Splines&, const std::string& name);
+// Looks for a point of a branch that is far from the middle of all (their medians along x, y, z). Beyond 10 000 times the distance within which half
+// of them are, it throws InputError: beside such a branch all others are without length, and what is left of the tree is a slip in one number.
+// Beyond 100 times, it adds a note. O(points).
+void find_outlier(const Splines&, const std::string& name, ImportNotes&);
 
 } // namespace bough

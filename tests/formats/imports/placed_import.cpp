@@ -16,12 +16,11 @@ std::string trunk(int n, int moved, double aside) {
     return swc.str();
 }
 
-std::string error_with(const std::string& content) {
+std::string error_with(const std::string& content, ImportNotes&& notes = {}) {
     ImportOptions options;
     options.name = "t.swc";
     options.unit = 1;
     options.up = 'z';
-    ImportNotes notes;
     try {
         import_splines(content, options, notes);
     } catch (const InputError& error) {
@@ -42,6 +41,21 @@ TEST_CASE("one coordinate far off is a slip, which is named with its place") {
     CHECK(error_with(trunk(41, 17, 5'000)) == ""); // far, as a root's survey point or an axon may be
     CHECK(error_with(trunk(41, 17, 0)) == "");
     CHECK(error_with(trunk(2, 1, 1e6)) == ""); // of so few none is the odd one
+}
+
+TEST_CASE("a point far off is noted where it may be meant, and not in a tree of usual shape") {
+    const auto noted = [](double aside) {
+        ImportNotes notes;
+        CHECK(error_with(trunk(41, 17, aside), std::move(notes)) == "");
+        return std::any_of(notes.lines.begin(), notes.lines.end(), [](const std::string& line) {
+            return line.find("a point of branch 0 is at ") == 0 &&
+                   line.ends_with("is it a slip? Beside it all else is short");
+        });
+    };
+    CHECK(noted(5'000));
+    CHECK(noted(120));
+    CHECK_FALSE(noted(100)); // of 1.1 m
+    CHECK_FALSE(noted(0));
 }
 
 TEST_CASE("one coordinate of a SpeedTree file far off is refused, wherever it stands") {
