@@ -1,5 +1,6 @@
 #include "mesh_interior.h"
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -41,7 +42,26 @@ MeshInterior::MeshInterior(const std::vector<Vec3>& vertex, const std::vector<Tr
             lower_ = lower_.cwiseMin(vertex_[static_cast<std::size_t>(c)]);
             upper_ = upper_.cwiseMax(vertex_[static_cast<std::size_t>(c)]);
         }
+    count_crossings();
     for (int axis = 0; axis < 3; ++axis) plane_[static_cast<std::size_t>(axis)] = plane(axis);
+}
+
+// A line along an axis meets a triangle with the chance that its projection's area has in that of the box.
+void MeshInterior::count_crossings() {
+    const Vec3 size = (upper_ - lower_).cwiseMax(1e-300);
+    Vec3 area = Vec3::Zero();
+    for (const Triangle& t : triangle_) {
+        const auto at = [&](std::size_t k) { return vertex_[static_cast<std::size_t>(t[k])]; };
+        area += (at(1) - at(0)).cross(at(2) - at(0)).cwiseAbs() / 2;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        closure_.crossings += area[axis] / (size[(axis + 1) % 3] * size[(axis + 2) % 3]) / 3;
+    if (closure_.crossings > most_crossings)
+        throw std::invalid_argument("a straight line through it crosses " +
+                                    std::to_string(std::llround(closure_.crossings)) + " of its " +
+                                    std::to_string(triangle_.size()) + " triangles on average, expected at most " +
+                                    std::to_string(std::llround(most_crossings)) +
+                                    ", as through the surface of a crown; are the corners of its faces in order?");
 }
 
 // Equal positions become one corner; triangles without three different ones are left out.

@@ -38,6 +38,7 @@ TEST_CASE("A box, points on its edges' lines included") {
     CHECK(inside.closure().open_edges == 0);
     CHECK(inside.closure().alike);
     CHECK(inside.closure().volume == Approx(1));
+    CHECK(inside.closure().crossings == Approx(2));
     // A lattice whose rays meet corners, edges and diagonals.
     for (int i = -4; i <= 12; ++i)
         for (int j = -4; j <= 12; ++j)
@@ -71,6 +72,7 @@ TEST_CASE("An icosphere is between its inscribed and its circumscribed sphere, a
         differ += inside.contains(p) != (winding(s, p) > 0.5);
     }
     CHECK(differ == 0);
+    CHECK(inside.closure().crossings == Approx(std::numbers::pi / 2).epsilon(0.01)); // two discs in a square
 }
 
 TEST_CASE("Overlapping parts unite, turned over or not; a shell that faces inward is a hollow") {
@@ -113,6 +115,27 @@ TEST_CASE("What is no mesh is refused by name") {
                       Catch::Contains("names vertex 8") && Catch::Contains("0 to 7"));
     CHECK_THROWS_WITH(MeshInterior(s.vertex, {{0, 0, 1}}), Catch::Contains("no triangle has an area"));
     CHECK_THROWS_WITH(MeshInterior({Vec3(0, NAN, 0)}, {}), Catch::Contains("not finite"));
+}
+
+TEST_CASE("Corners out of order are refused, as many layers as a crown has are not") {
+    const auto boxes = [](int n) {
+        Solid all = unit_box();
+        for (int k = 1; k < n; ++k) all = together(all, moved(unit_box(), 1, {0, 0, 0}));
+        return all;
+    };
+    const Solid dense = boxes(49), denser = boxes(51);
+    CHECK_NOTHROW(MeshInterior(dense.vertex, dense.triangle));
+    CHECK_THROWS_WITH(
+        MeshInterior(denser.vertex, denser.triangle),
+        "a straight line through it crosses 102 of its 612 triangles on average, expected at most 100, as "
+        "through the surface of a crown; are the corners of its faces in order?");
+    Solid shuffled = icosphere(4);
+    for (std::size_t i = 0; i < shuffled.triangle.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double other = random_unit(1, Draw::x, 3 * i + k) * double(shuffled.vertex.size());
+            shuffled.triangle[i][k] = std::int32_t(other);
+        }
+    CHECK_THROWS_WITH(MeshInterior(shuffled.vertex, shuffled.triangle), Catch::Contains("in order?"));
 }
 
 // Looking at all triangles for each point would take as many hours as CTest gives minutes.
