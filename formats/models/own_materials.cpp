@@ -4,6 +4,7 @@
 #include "lib/base/counted.h"
 #include "texture_file.h"
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -80,6 +81,7 @@ public:
                 text = texture + " not opened, its material does without it; " + looked.outside + " " + out_of_reach;
             notes_.lines.push_back(text);
         }
+        for (const std::string& text : unread_) notes_.lines.push_back(text);
         if (left_out_.empty()) return;
         std::string names;
         for (const std::string& name : left_out_) names += (names.empty() ? "" : ", ") + name;
@@ -99,8 +101,30 @@ private:
             missing_.emplace_back(map->file, std::move(looked));
             return nullptr;
         }
+        const std::string read = readable(map->file, path);
+        if (read.empty()) return nullptr;
         not_found_.erase(map->file);
-        return &texture_.emplace(map->file, read_texture(path, file_line(name_, map->line))).first->second;
+        return &texture_.emplace(map->file, read_texture(read, file_line(name_, map->line))).first->second;
+    }
+
+    // The path itself; of an image of a kind that is not read, that of one of the same name beside it that may be, "" where there is none. A note
+    // says so, once.
+    std::string readable(const std::string& file, const std::string& path) {
+        const std::string kind = unread_kind(path);
+        if (kind.empty()) return path;
+        const std::string text =
+            "texture " + bough::in_ascii_quotes(file) + " is a " + kind + " image, which is not read: ";
+        const std::string stem = file.substr(0, file.size() - std::filesystem::path(file).extension().string().size());
+        std::string found;
+        for (const char* ending : {".png", ".tga", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp"})
+            if (TexturePlaces looked; found.empty()) found = find_texture(stem + ending, folder_, looked);
+        if (noted_.insert(file).second)
+            unread_.push_back(
+                text +
+                (found.empty()
+                     ? "its material does without it; a PNG, TGA, TIFF, JPEG or BMP of that name beside it is taken"
+                     : found + " is taken"));
+        return found;
     }
 
     int add_image(const std::string& key, const std::string& name, std::string type, std::string bytes) {
@@ -168,6 +192,8 @@ private:
     std::map<std::string, int> image_;
     std::set<std::string> not_found_;
     std::vector<std::pair<std::string, TexturePlaces>> missing_;
+    std::set<std::string> noted_;     // files of kinds that are not read
+    std::vector<std::string> unread_; // notes of them
     std::set<const Map*> used_;
     std::set<std::string> left_out_;
 };

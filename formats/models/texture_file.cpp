@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <tiffio.h>
 
 // Debian's stb, whose code comes with its header; its warnings are its own.
@@ -169,6 +170,17 @@ std::string find_texture(const std::string& name, const std::string& folder, Tex
         std::error_code none;
         if (looked.outside.empty() && fs::is_regular_file(place, none)) looked.outside = place.string();
     }
+    return "";
+}
+
+std::string unread_kind(const std::string& path) {
+    std::string head(12, ' ');
+    std::ifstream(path, std::ios::binary)
+        .read(head.data(), std::streamsize(head.size())); // what cannot be opened is read_texture's to name
+    if (head.starts_with("DDS ")) return "DDS";
+    if (head.starts_with("\xABKTX ")) return "KTX";
+    if (head.starts_with("RIFF") && head.ends_with("WEBP")) return "WebP";
+    if (head.starts_with("\x76\x2F\x31\x01")) return "OpenEXR";
     return "";
 }
 

@@ -25,6 +25,10 @@ struct TexturePlaces {
 // The path of the file, "" if there is none that may be opened; `looked` gets the places that were tried.
 std::string find_texture(const std::string& name, const std::string& folder, TexturePlaces& looked);
 
+// What kind of image the file is, by its first bytes, where it is one that games and the web use and that is not read here: "DDS", "KTX", "WebP",
+// "OpenEXR"; "" for others.
+std::string unread_kind(const std::string& path);
+
 struct Texture {
     std::string bytes, type; // of the file if it is PNG or JPEG, else empty
     Pixels pixels;

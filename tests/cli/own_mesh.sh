@@ -184,6 +184,25 @@ for bad in /dev/null half.png art/tree.xml; do
 done
 absent x.glb
 
+# A kind of image that games use and that is not read: the one of that name beside it that is read, or none.
+mkdir games
+cp -r art/* games
+for kind in 'DDS \x7c' '\xABKTX 11' 'RIFF\0\0\0\0WEBPVP8 ' '\x76\x2F\x31\x01\x02'; do
+    printf "$kind" >games/leaf.dds
+    head -c 200 /dev/zero >>games/leaf.dds
+    sed 's/leaf\.png/leaf.dds/' art/tree.xml >games/tree.xml
+    cp art/leaf.png games/leaf.png
+    expect 0 treesim games/tree.xml --frames 1 -o converted.glb
+    grep -q "texture \"leaf.dds\" is a .* image, which is not read: games/leaf.png is taken" err || fail "beside it: $(cat err)"
+    [[ $(grep -c leaf.dds err) == 1 ]] || fail "said more than once: $(cat err)"
+    rm games/leaf.png
+    expect 0 treesim games/tree.xml --frames 1 -o bare.glb
+    grep -q "is not read: its material does without it" err || fail "none beside it: $(cat err)"
+    for pair in converted:leaf bare:leaf_opacity; do
+        [[ $(json ${pair%:*}.glb '[i["name"] for i in g["images"]]') == "['bark', '${pair#*:}']" ]] || fail "$pair: $(json ${pair%:*}.glb 'g["images"]')"
+    done
+done
+
 # OBJ frames: the .mtl names the file's images, which stand in a folder of their own, byte for byte what the .glb holds.
 expect 0 treesim art/tree.xml --frames 1 -o textured_%d.obj
 expect 0 treesim art/tree.xml --frames 1 -o textured.glb

@@ -8,6 +8,9 @@ namespace bough {
 std::string find_texture(const std::string&, const std::string&, TexturePlaces&) {
     return "";
 }
+std::string unread_kind(const std::string&) {
+    return "";
+}
 Texture read_texture(const std::string& path, const std::string&) {
     throw InputError(path, "is a texture, which this page does not read");
 }
