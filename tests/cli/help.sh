@@ -16,12 +16,12 @@ for page in "${pages[@]}"; do
     cp out all
     ! grep -nE '^.{81}' short all || fail "$page: help is wider than 80 columns"
     [[ $(wc -l <short) -le $(wc -l <all) ]] || fail "$page: --help is longer than --help-all"
-    grep -oE '^  (-[a-zA-Z], )?-?-[a-z-]+' all | grep -oE -- '--[a-z-]+' | sort >options
+    grep -oE '^  (-[a-zA-Z], )?-?-[a-z-]+' all | grep -oE -- '--[a-z-]+' | sort -u >options
     [[ $(wc -l <options) -ge 5 ]] || fail "$page has $(wc -l <options) options"
     [[ -z $(comm -13 options <(grep -oE '^  (-[a-zA-Z], )?--[a-z-]+' short | grep -oE -- '--[a-z-]+' | sort)) ]] || fail "$page: --help knows more"
     # shellcheck disable=SC2086
     $page --help-as man >man
-    sed -n 's/^\\fB//p' man | sed 's/\\fR.*//; s/\\-/-/g' | grep -oE -- '--[a-z-]+' | sort | cmp -s - options ||
+    sed -n 's/^\\fB//p' man | sed 's/\\fR.*//; s/\\-/-/g' | grep -oE -- '--[a-z-]+' | sort -u | cmp -s - options ||
         fail "$page: the manual has other options than the help: $(sed -n 's/^\\fB//p' man)"
     if command -v groff >/dev/null; then
         groff -man -Tutf8 -ww man >shown 2>err && [[ ! -s err ]] || fail "$page: groff does not like the manual: $(cat err)"
@@ -30,9 +30,8 @@ for page in "${pages[@]}"; do
     [[ $page == *" "* ]] || words="$page "
     for shell in bash zsh fish; do
         "${page%% *}" --help-as "$shell" >"$shell.of"
-        while read -r option; do
-            grep -qE -- "(${option}|-l ${option#--})\b" "$shell.of" || fail "$shell completes no $option of $page"
-        done <options
+        grep -oE -- '--[a-z-]+|-l [a-z-]+' "$shell.of" | sed 's/^-l /--/' | sort -u >known
+        [[ -z $(comm -23 options known) ]] || fail "$shell completes no $(comm -23 options known) of $page"
         ! command -v $shell >/dev/null || $shell -n "$shell.of" || fail "$shell does not like $page's completions"
     done
 done
