@@ -18,8 +18,8 @@ DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, co
     options.key_tolerance = gltf_options(o.gltf, source).key_tolerance;
     options.source = source;
     if (!setting.scene.trees.empty()) {
-        options.position = setting.scene.trees.front().position;
-        options.yaw = setting.scene.trees.front().yaw * std::numbers::pi / 180;
+        options.place.position = setting.scene.trees.front().position;
+        options.place.yaw = setting.scene.trees.front().yaw * std::numbers::pi / 180;
     }
     return options;
 }
