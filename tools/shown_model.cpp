@@ -132,6 +132,7 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
             return model;
         }
         if (format != "glb" && is_packed(own)) {
+            if (o.mesh == "own") refuse_own_mesh("is in Draco's form, which is not read", o);
             o.common.notes.push_back(own.name + ": its mesh is in Draco's form, which is not read: one made from the "
                                                 "tree is shown");
             return model;

@@ -2,6 +2,7 @@
 #include "bone_bodies.h"
 #include "formats/plain_text.h"
 #include "gltf_document.h"
+#include "lib/base/counted.h"
 #include "lib/model/drawn_pose.h"
 
 namespace bough {
@@ -47,6 +48,15 @@ DrivenBones::DrivenBones(const UserModel& model, const Tree& tree, const DrivenP
         bone_of_[node] = std::int32_t(bone_.size());
         bone_.push_back(std::move(driven));
     }
+    std::size_t still = 0;
+    for (std::size_t i = 0; i < nodes_.parent.size(); ++i) {
+        const auto& node = model.document->json["nodes"][i];
+        still += node.contains("mesh") && !node.contains("skin") && bone_over(std::int32_t(i)) < 0;
+    }
+    if (still > 0)
+        notes.push_back(
+            model.name + ": " +
+            counted(still, "mesh stays still: no bone carries it", "meshes stay still: no bone carries them"));
 }
 
 std::int32_t DrivenBones::bone_over(std::int32_t node) const {

@@ -37,7 +37,7 @@ public:
         Quat turned = Quat::Identity();                      // D_turn R
     };
 
-    // The tree is drawn where the scene puts it. Notes: bones that lie beside the tree.
+    // The tree is drawn where the scene puts it. Notes: bones that lie beside the tree, meshes that no bone moves.
     DrivenBones(const UserModel&, const Tree&, const DrivenPlace&, std::vector<std::string>& notes);
 
     const std::vector<DrivenBone>& bone() const { return bone_; } // each after those above it

@@ -15,15 +15,6 @@ float time_of(std::size_t frame, double fps) {
     return float(double(frame) / fps);
 }
 
-// Meshes that no bone moves: neither skinned nor hung on one.
-std::size_t still_meshes(const Json& json, const DrivenBones& bones) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < bones.nodes().parent.size(); ++i)
-        count += json["nodes"][i].contains("mesh") && !json["nodes"][i].contains("skin") &&
-                 bones.bone_over(std::int32_t(i)) < 0;
-    return count;
-}
-
 } // namespace
 
 DrivenModel::DrivenModel(UserModel model, const Tree& tree, const DrivenOptions& options,
@@ -74,10 +65,6 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
         notes.push_back(model_.name + ": " +
                         counted(unequal, "bone hangs on a node scaled unequally: its rotation is only near",
                                 "bones hang on nodes scaled unequally: their rotations are only near"));
-    if (const std::size_t still = still_meshes(model_.document->json, bones_))
-        notes.push_back(
-            model_.name + ": " +
-            counted(still, "mesh stays still: no bone carries it", "meshes stay still: no bone carries them"));
 }
 
 void DrivenModel::clear_matrix(std::size_t bone) {

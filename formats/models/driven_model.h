@@ -25,7 +25,7 @@ struct DrivenOptions {
 
 class DrivenModel {
 public:
-    // Throws InputError as DrivenBones does, and for a bone below a node scaled to nothing. Notes: theirs, animations left out, meshes that nothing moves.
+    // Throws InputError as DrivenBones does, and for a bone below a node scaled to nothing. Notes: theirs, animations left out, bones on nodes scaled unequally.
     DrivenModel(UserModel, const Tree&, const DrivenOptions&, std::vector<std::string>& notes);
     void write(const MotionFrame&);
     std::string finish(const std::string& output_name); // the .glb; once. Throws OutputError beyond 4 GiB

@@ -44,11 +44,13 @@ P
 mkdir -p art frames
 python3 leafy.py "$twig" art
 
-# compare FILE.glb PATTERN FRAME,... [X,Y,Z YAW]: the OBJ frames beside the .glb's vertices, which stand in the scene where it says.
+# compare FILE.glb PATTERN FRAME,... [X,Y,Z YAW [MOST]]: the OBJ frames beside the .glb's vertices, which stand in the scene where it says: MOST of
+# the height apart (1e-5).
 cat >compare.py <<'P'
 import json, math, struct, sys
 glb, pattern, frames = sys.argv[1:4]
 place, yaw = ([float(x) for x in sys.argv[4].split(",")], math.radians(float(sys.argv[5]))) if len(sys.argv) > 4 else ([0, 0, 0], 0)
+allowed = float(sys.argv[6]) if len(sys.argv) > 6 else 1e-5
 data = open(glb, "rb").read()
 size = struct.unpack("<I", data[12:16])[0]
 g, binary = json.loads(data[20:20 + size]), data[28 + size:]
@@ -127,8 +129,8 @@ for frame in map(int, frames.split(",")):
     rest = rest or ours
     most = max([most] + [math.dist(a, b) / height for a, b in zip(rest, ours)])
 print("%d vertices, off by %.2g of the height, moved by %.2g" % (len(ours), worst, most))
-assert worst < 1e-5, worst
-assert most > 0.02, "nothing moves"
+assert worst < allowed, worst
+assert most > (0.02 if allowed == 1e-5 else 1e-3), "nothing moves"
 P
 
 soft=(--set material.E=2e8) # so that it bends
@@ -137,6 +139,7 @@ expect 0 "${run[@]}" --key-tolerance 0 -o leafy.glb
 expect 0 "${run[@]}" -o frames/leafy_%d.obj
 grep -q "4 bones of the model moved" err || fail "OBJ frames say nothing of bones: $(cat err)"
 ! grep -q "made from the tree" err || fail "a made mesh: $(cat err)"
+grep -q "1 mesh stays still" err || fail "the pot is not told of: $(cat err)"
 python3 compare.py leafy.glb frames/leafy_%d.obj 0,1,7,15,30 >said 2>&1 || fail "OBJ frames and the .glb: $(cat said)"
 # At rest the bark's vertices are the file's, which its bones draw where it has them.
 python3 - "$top" <<'P' || fail "at rest the vertices are not the file's"
@@ -179,11 +182,21 @@ small, plain = read("small_1.obj"), read("plain_1.obj")
 assert max(min(math.dist(a, b) for b in small) for a in plain) < 2e-3 # of 14 bits, 2 m high
 P
 
+# A user's own, of Blender as FBX. (A .glb has no key of a bone that leaves its place by less than 1e-5 of the bones' size, and these bones lie in chains.)
+if [[ -n ${BOUGH_CASES_DIR:-} ]]; then
+    aspen=$BOUGH_CASES_DIR/sapling/sapling_quaking_aspen_s0_skin.fbx
+    expect 0 treesim "$aspen" "${soft[@]}" --wind gusty --seconds 1 --key-tolerance 0 -o aspen.glb
+    expect 0 treesim "$aspen" "${soft[@]}" --wind gusty --seconds 1 -o aspen_%d.obj
+    python3 compare.py aspen.glb aspen_%d.obj 0,30 0,0,0 0 3e-5 >said 2>&1 || fail "the aspen: $(cat said)"
+else
+    echo "notice: BOUGH_CASES_DIR is not set, no model of another program's is compared"
+fi
+
 # Materials in the scene's order, with the image that stands in a folder beside the .mtl; coordinates count from the bottom.
 python3 - <<'P' || fail "materials and coordinates"
 mtl = open("frames/leafy.mtl").read()
 assert mtl.index("newmtl spring_leaf") < mtl.index("newmtl bark"), mtl
-assert "map_Kd leafy_textures/spring.png\nmap_d -imfchan m leafy_textures/spring.png" in mtl or "map_Kd leafy_textures/spring_leaf.png" in mtl, mtl
+assert "map_Kd leafy_textures/spring_leaf.png\nmap_d -imfchan m leafy_textures/spring_leaf.png" in mtl, mtl
 image = mtl.split("map_Kd ")[1].split("\n")[0]
 assert open("frames/" + image, "rb").read() == open("art/spring.png", "rb").read()
 kd = [float(x) for x in mtl[mtl.index("newmtl bark"):].split("Kd ")[1].split("\n")[0].split()]
@@ -193,6 +206,19 @@ assert coordinates[9:] == [[v / 32, 1 - v % 4 / 4] for v in range(32)]
 lines = open("frames/leafy_3.obj").read().split("\n")
 assert lines[0] == "mtllib leafy.mtl" and [l for l in lines if l.startswith("usemtl")] == ["usemtl spring_leaf", "usemtl bark"]
 P
+
+# Draco's form is in a .glb alone: else ours is shown, with a note.
+python3 - <<'P'
+import json
+model = json.load(open("art/leafy.gltf"))
+model["extensionsUsed"] = ["KHR_draco_mesh_compression"]
+model["meshes"][0]["primitives"][0]["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}
+json.dump(model, open("art/packed.gltf", "w"))
+P
+expect 0 treesim art/packed.gltf --frames 1 -o packed_%d.obj
+grep -q "its mesh is in Draco's form, which is not read: one made from the tree is shown" err || fail "a packed mesh: $(cat err)"
+refused 2 "its own mesh: is in Draco's form" treesim art/packed.gltf --mesh own --frames 1 -o x_%d.obj
+refused 2 "holds a mesh in Draco's form" treesim twig.json --skin art/packed.gltf --frames 1 -o x_%d.obj
 
 # Ours where it is asked for; refused: what is out of range, with its place, and nothing is written.
 expect 0 treesim art/leafy.gltf --mesh made --frames 1 -o made_%d.obj
