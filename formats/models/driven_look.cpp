@@ -3,6 +3,7 @@
 #include "gltf_document.h"
 #include "gltf_uri.h"
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 

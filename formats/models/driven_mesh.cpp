@@ -1,5 +1,6 @@
 #include "driven_mesh.h"
 #include "formats/plain_text.h"
+#include <cmath>
 #include <limits>
 
 namespace bough {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <tuple>
 
 namespace bough {
 namespace {
@@ -134,6 +135,9 @@ private:
             made.position.push_back(point[v].cast<float>());
             made.normal.push_back(normal[v].normalized().cast<float>());
             const Eigen::Vector2d at = map.at + map.turn * Eigen::Vector2d(uv[2 * v], uv[2 * v + 1]);
+            if (!(at.cwiseAbs().maxCoeff() < double(std::numeric_limits<float>::max()))) // by KHR_texture_transform
+                throw std::out_of_range(place + ": " + set + " of vertex " + std::to_string(v) +
+                                        " is moved beyond any float by its texture");
             made.uv.push_back({float(at[0]), float(1 - at[1])});
         }
         for (std::size_t k = 0; k + 2 < faces.corner.size(); k += 3) {

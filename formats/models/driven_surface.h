@@ -4,9 +4,9 @@
 //     sum_k w_k M_k p / sum_k w_k,   M_k = G_n B,
 // G_n the matrix of a node n. Of a mesh with a skin n is a joint and B its inverse bind matrix; joints and weights are those of all sets
 // JOINTS_n, WEIGHTS_n. Of a mesh without one, and of a vertex without weights, n is the node that has the mesh and B is the identity.
-// Parts are of one material each, in the order in which the scene comes to it; in a part come meshes and primitives by their numbers, then
-// nodes as the scene has them. Vertices that no triangle names are left out; the others keep their order.
-// Normals are the file's, else the sum of the corners' triangles. Morph targets are at rest.
+// A part has one material. Parts stand in the order in which the scene, its nodes depth first, comes to their materials. In a part meshes and
+// primitives stand by their numbers, each as often as nodes show it. Vertices that no triangle names are left out; the others keep their order.
+// Normals are the file's; where it has none, a vertex has the sum of its triangles' areas. Morph targets are at rest.
 #pragma once
 #include "driven_look.h"
 

@@ -342,6 +342,11 @@ TEST_CASE("normals that a skinned file has not are made, what it cannot show is 
         std::vector<Vec3> far(20, Vec3(3e38, 0, 0));
         bark["POSITION"] = model.file.floats(far);
     });
+    refuses("TEXCOORD_1 of vertex 4 is moved beyond any float", [](TwoBones& model, GltfJson&) {
+        model.file.json["textures"] = {GltfJson::object()};
+        model.file.json["materials"][1]["normalTexture"] = {
+            {"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", {{"scale", {1, 1e300}}}}}}};
+    });
     refuses("Draco", [](TwoBones& model, GltfJson&) {
         model.file.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
         model.file.json["meshes"][0]["primitives"][0]["extensions"] = {
