@@ -55,6 +55,23 @@ private:
     OwnMover mover_;
 };
 
+// A model's own mesh, moved by its bones.
+class DrivenVertices {
+public:
+    explicit DrivenVertices(DrivenMesh mesh) : mesh_(std::move(mesh)) {}
+    std::size_t count() const { return mesh_.vertices(); }
+    bool floats_suffice() const {
+        std::vector<Vec3> drawn(mesh_.vertices());
+        mesh_.positions(0, drawn);
+        return bough::floats_suffice(drawn);
+    }
+    void go_to(const MotionFrame& frame) { mesh_.go_to(frame); }
+    void positions(std::size_t first, std::span<Vec3> to) const { mesh_.positions(first, to); }
+
+private:
+    DrivenMesh mesh_;
+};
+
 template <class Vertices> class CacheSink : public FrameSink {
 public:
     template <class... From>
@@ -112,6 +129,11 @@ std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string
 std::unique_ptr<FrameSink> own_cache_sink(const std::string& file, const std::string& format, const Tree& tree,
                                           OwnMesh mesh, const CacheFrames& frames, std::vector<std::string>& notes) {
     return cache_of<OwnVertices>(file, format, frames, notes, std::move(mesh), tree);
+}
+
+std::unique_ptr<FrameSink> driven_cache_sink(const std::string& file, const std::string& format, DrivenMesh mesh,
+                                             const CacheFrames& frames, std::vector<std::string>& notes) {
+    return cache_of<DrivenVertices>(file, format, frames, notes, std::move(mesh));
 }
 
 } // namespace bough

@@ -24,11 +24,15 @@ private:
     MotionWriter writer_;
 };
 
+// Puts the vertices of a skin where a frame has them.
+using Mover = std::function<void(const MotionFrame&, std::vector<Vec3>& position, std::vector<Vec3>& normal)>;
+
 class ObjSink : public FrameSink {
 public:
-    ObjSink(const std::string& pattern, const Tree& tree, Skin skin, const OwnMesh* own, const RustleMaker& rustle,
+    // mover: makes the skin's, and may keep a reference to it.
+    ObjSink(const std::string& pattern, Skin skin, const OwnMesh* own, const std::function<Mover(const Skin&)>& mover,
             std::vector<std::string>& notes)
-        : pattern_(pattern), notes_(notes), skin_(std::move(skin)), mover_(skin_, tree, rustle(skin_, false)),
+        : pattern_(pattern), notes_(notes), skin_(std::move(skin)), mover_(mover(skin_)),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
         const OwnMaps maps = own ? maps_of(*own, mtl_) : OwnMaps{};
         write_images(maps);
@@ -37,7 +41,7 @@ public:
         output.finish();
     }
     void write(const MotionFrame& frame) override {
-        mover_.move(frame, position_, normal_);
+        mover_(frame, position_, normal_);
         try {
             Output output(sequence_name(pattern_, frame.frame));
             write_obj(output, skin_, position_, normal_, mtl_);
@@ -78,7 +82,7 @@ private:
     std::string pattern_;
     std::vector<std::string>& notes_;
     Skin skin_;
-    SkinMover mover_;
+    Mover mover_;
     std::string mtl_;
     std::vector<Vec3> position_, normal_;
     std::int64_t written_ = 0, last_ = -1;
@@ -97,7 +101,27 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const OwnMesh* own,
                                     const RustleMaker& rustle, std::vector<std::string>& notes) {
-    return std::make_unique<ObjSink>(pattern, tree, std::move(skin), own, rustle, notes);
+    const auto mover = [&](const Skin& kept) -> Mover {
+        const auto moved = std::make_shared<SkinMover>(kept, tree, rustle(kept, false));
+        return [moved](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
+            moved->move(frame, position, normal);
+        };
+    };
+    return std::make_unique<ObjSink>(pattern, std::move(skin), own, mover, notes);
+}
+
+std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh mesh,
+                                           std::vector<std::string>& notes) {
+    const auto moved = std::make_shared<DrivenMesh>(std::move(mesh));
+    const Mover mover = [moved](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
+        moved->go_to(frame);
+        position.resize(moved->vertices());
+        normal.resize(moved->vertices());
+        moved->positions(0, position);
+        moved->normals(0, normal);
+    };
+    return std::make_unique<ObjSink>(
+        pattern, moved->skin(), &moved->look(), [&](const Skin&) { return mover; }, notes);
 }
 
 } // namespace bough

@@ -1,6 +1,7 @@
 // frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, a point cache, or an animated glTF file.
 #pragma once
 #include "formats/exports/gltf.h"
+#include "formats/models/driven_mesh.h"
 #include "formats/models/driven_model.h"
 #include "formats/text.h"
 #include "lib/growth/rustle.h"
@@ -33,6 +34,9 @@ using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool toge
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, Skin, const OwnMesh* own,
                                     const RustleMaker&, std::vector<std::string>& notes);
 
+// The same of a model's own mesh, moved by its bones.
+std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh, std::vector<std::string>& notes);
+
 // One point cache, `format` mdd or pc2: of `count` frames from number `first` on. Keeps a reference to the tree; what the
 // user should know is added to the notes. Throws UsageError where the format cannot count so many.
 struct CacheFrames {
@@ -44,6 +48,10 @@ std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string
 // The same of a mesh that came with the tree, or stands for it: no skin is made of it.
 std::unique_ptr<FrameSink> own_cache_sink(const std::string& file, const std::string& format, const Tree&, OwnMesh,
                                           const CacheFrames&, std::vector<std::string>& notes);
+
+// The same of a model's own mesh, moved by its bones.
+std::unique_ptr<FrameSink> driven_cache_sink(const std::string& file, const std::string& format, DrivenMesh,
+                                             const CacheFrames&, std::vector<std::string>& notes);
 
 // --max-joints, --leaves-as and --key-tolerance (treesim alone).
 struct GltfChoice {

@@ -12,15 +12,18 @@
 namespace bough {
 namespace {
 
+DrivenPlace place_of(const Setting& setting) {
+    if (setting.scene.trees.empty()) return {};
+    const Placement& first = setting.scene.trees.front();
+    return {first.position, first.yaw * std::numbers::pi / 180};
+}
+
 DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, const std::string& source) {
     DrivenOptions options;
     options.fps = o.run.fps;
     options.key_tolerance = gltf_options(o.gltf, source).key_tolerance;
     options.source = source;
-    if (!setting.scene.trees.empty()) {
-        options.position = setting.scene.trees.front().position;
-        options.yaw = setting.scene.trees.front().yaw * std::numbers::pi / 180;
-    }
+    options.place = place_of(setting);
     return options;
 }
 
@@ -47,6 +50,13 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
                                  (o.dress.look.empty() ? "the first one's species, " + shown.name : o.dress.look) +
                                  " does (--look)");
     const CacheFrames cached{o.run.fps, first, last - first + 1};
+    if (model.driven && format != "glb") {
+        DrivenMesh mesh(*model.driven, shown, place_of(setting), o.common.notes);
+        model.driven.reset(); // its arrays are in the mesh
+        o.common.notes.push_back(counted(mesh.bones(), "bone", "bones") + " of the model moved");
+        if (format == "obj") return driven_obj_sink(o.common.output, std::move(mesh), o.common.notes);
+        return driven_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
+    }
     if (is_point_cache(format) && own)
         return own_cache_sink(o.common.output, format, shown, std::move(*own), cached, o.common.notes);
     if (is_mesh(format) && format != "glb") {
@@ -123,7 +133,7 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
     if (!broken.empty() || !balls.empty())
         shown.own = std::make_unique<const Tree>(shown_tree(setting.tree, broken, balls));
     o.gltf.loose = broken.size() + balls.size();
-    const bool bound = !model.bound.empty();
+    const bool of_file = bool(model);
     shown.sink =
         open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, std::move(model));
     if (o.common.output != "-")
@@ -132,7 +142,7 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
             clear_progress();
             std::cerr << treesim_info.name << ": " << text << "\n";
         });
-    if (is_point_cache(format)) note_cache(o, setting, balls.size(), bound);
+    if (is_point_cache(format)) note_cache(o, setting, balls.size(), of_file);
     return shown;
 }
 

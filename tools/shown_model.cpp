@@ -18,6 +18,18 @@ bool wants_own(const TreesimOptions& o, const std::string& format) {
     return is_mesh(format) && o.skin.empty() && o.mesh != "made" && o.run.input != "-";
 }
 
+// A model's mesh that its bones move is shown by these.
+bool shows_bones(const std::string& format) {
+    return format == "glb" || format == "obj" || is_point_cache(format);
+}
+constexpr const char* bones_shown_by = ".glb, frames of .obj, .mdd and .pc2 alone";
+
+// Whether a mesh of it is in Draco's form, which a .glb keeps and no other output can show.
+bool is_packed(const UserModel& model) {
+    const auto used = model.document->json.value("extensionsUsed", nlohmann::ordered_json::array());
+    return std::find(used.begin(), used.end(), "KHR_draco_mesh_compression") != used.end();
+}
+
 // Whether a node of it has all these.
 bool has_node_with(const UserModel& model, const std::initializer_list<const char*>& keys) {
     for (const auto& node : model.document->json.value("nodes", nlohmann::ordered_json::array()))
@@ -104,18 +116,25 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
     ImportNotes notes;
     if (!o.skin.empty()) {
         if (is_speedtree_file(o.skin)) return model;
-        if (format != "glb") throw UsageError("--skin: only with -o FILE.glb, where it is no SpeedTree XML");
+        if (!shows_bones(format))
+            throw UsageError(std::string("--skin: only with ") + bones_shown_by + ", where it is no SpeedTree XML");
         model.driven = read_user_model(o.skin, notes);
         add_notes(model.driven->name, notes, o);
         return model;
     }
-    if (format != "glb" || !wants_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
+    if (!shows_bones(format) || !wants_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
     try {
         UserModel own = read_user_model(o.run.input, notes);
         if (!has_node_with(own, {"mesh", "skin"})) {
             if (has_node_with(own, {"mesh"}))
                 o.common.notes.push_back(own.name +
                                          ": no bones move its mesh (it has no skin): one made from the tree is shown");
+            return model;
+        }
+        if (format != "glb" && is_packed(own)) {
+            if (o.mesh == "own") refuse_own_mesh("is in Draco's form, which is not read", o);
+            o.common.notes.push_back(own.name + ": its mesh is in Draco's form, which is not read: one made from the "
+                                                "tree is shown");
             return model;
         }
         model.driven = std::move(own);
@@ -146,12 +165,13 @@ void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting
     } else if (wants_own(o, format) && setting.imported) {
         const bool speedtree = is_speedtree_file(o.run.input) && has_speedtree_mesh(MappedInput(o.run.input).content());
         if (speedtree) model.bound.push_back({speedtree_model(o, o.run.input, setting), {0}});
-        if (format != "glb" && !speedtree && model_kind(MappedInput(o.run.input).content())) {
+        if (!shows_bones(format) && !speedtree && model_kind(MappedInput(o.run.input).content())) {
             const std::string name = input_name(o.run.input),
-                              of_glb = ": a mesh that bones move is shown by -o FILE.glb alone";
+                              of_others = std::string(": a mesh that bones move is shown by ") + bones_shown_by;
             if (o.mesh == "own")
-                throw UsageError("--mesh own: " + name + of_glb + "; --mesh made shows one that is made from the tree");
-            o.common.notes.push_back(name + of_glb + "; this one is made from the tree");
+                throw UsageError("--mesh own: " + name + of_others +
+                                 "; --mesh made shows one that is made from the tree");
+            o.common.notes.push_back(name + of_others + "; this one is made from the tree");
         }
     }
     if (wants_own(o, format) && !setting.tree_files.empty()) model.bound = models_of_scene(o, setting);

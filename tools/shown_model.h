@@ -7,7 +7,7 @@
 namespace bough {
 
 struct ShownModel {                  // at most one of them
-    std::optional<UserModel> driven; // moved by its bones (driven_model.h): a .glb alone
+    std::optional<UserModel> driven; // moved by its bones (driven_model.h, driven_mesh.h): .glb, .obj, .mdd, .pc2
     std::vector<FileModel> bound;    // bound to the bodies of trees (speedtree_model.h): any mesh
     std::string failed;              // why INPUT's own model cannot be read; its import may say more
     explicit operator bool() const { return driven || !bound.empty(); }
@@ -16,7 +16,7 @@ struct ShownModel {                  // at most one of them
 // Whether a file is SpeedTree XML, by its head; false for stdin.
 bool is_speedtree_file(const std::string& path);
 
-// What is read by a child process, and so before threads are started: --skin, or a skinned model that INPUT is, where a .glb is written.
+// What is read by a child process, and so before threads are started: --skin, or a skinned model that INPUT is, where an output shows it.
 // Notes go to o.common. Throws InputError for --skin.
 ShownModel model_before_threads(TreesimOptions& o, const std::string& format);
 

@@ -51,16 +51,17 @@ void declare_mesh(OptionList& list, TreesimOptions& o) {
     add_max_joints(list, o.gltf);
     add_leaves_as(list, o.gltf);
     list.add("--mesh", o.mesh,
-             "own: the mesh that INPUT itself has is shown, a SpeedTree XML's with its materials, in a .glb a skinned "
-             "model's too (where it has one, the default); made: one made from the tree")
+             "own: the mesh that INPUT itself has is shown, with its materials: a SpeedTree XML's, in .glb, .obj, .mdd "
+             "and .pc2 a skinned model's too (where it has one, the default); made: one made from the tree")
         .takes("NAME")
         .one_of({"own", "made"});
-    list.add("--skin", o.skin,
-             "With -o FILE.glb: write this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: "
-             "its own meshes, skins and materials, with the motion as an animation of its bones; or, for any mesh "
-             "(.glb, .obj, .mdd, .pc2, .usda, NAME_vat/), a SpeedTree XML with mesh. The tree must have been made from "
-             "it, or stand "
-             "where its bones do")
+    list.add(
+            "--skin", o.skin,
+            "Show this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: in a .glb its own meshes, "
+            "skins and materials, with the motion as an animation of its bones; in .obj, .mdd and .pc2 its vertices as "
+            "the bones move them; or, in these, .usda and NAME_vat/, a SpeedTree XML with mesh. The tree must have "
+            "been "
+            "made from it, or stand where its bones do")
         .takes("FILE")
         .check(file_name());
     list.add("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
@@ -257,7 +258,8 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (!o.mesh.empty() && !mesh)
         throw UsageError("--mesh: only with a mesh (.obj, .glb, .mdd, .pc2, .usda, NAME_vat/)");
     if (!o.skin.empty()) {
-        if (!mesh) throw UsageError("--skin: only with -o FILE.glb, of SpeedTree XML also the other meshes");
+        if (!mesh)
+            throw UsageError("--skin: only with a mesh (.glb, .obj, .mdd, .pc2; of SpeedTree XML .usda, NAME_vat/)");
         if (!o.mesh.empty()) throw UsageError("--mesh: not with --skin, which says what is shown");
         if (o.sides) throw UsageError("--sides: not with --skin, whose mesh is its own");
         if (!o.gltf.max_joints.empty() && !is_speedtree_file(o.skin))

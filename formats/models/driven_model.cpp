@@ -1,10 +1,8 @@
 #include "driven_model.h"
 #include "formats/plain_text.h"
 #include "gltf_document.h"
-#include "gltf_nodes.h"
 #include "gltf_prune.h"
 #include "lib/base/counted.h"
-#include "lib/model/drawn_pose.h"
 #include <algorithm>
 #include <map>
 
@@ -17,56 +15,12 @@ float time_of(std::size_t frame, double fps) {
     return float(double(frame) / fps);
 }
 
-// Meshes that no bone moves: neither skinned nor hung on one.
-std::size_t still_meshes(const Json& json, const GltfNodes& nodes, const std::vector<char>& driven) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < nodes.parent.size(); ++i) {
-        if (!json["nodes"][i].contains("mesh") || json["nodes"][i].contains("skin")) continue;
-        std::int32_t at = std::int32_t(i);
-        while (at >= 0 && !driven[std::size_t(at)]) at = nodes.parent[std::size_t(at)];
-        count += at < 0;
-    }
-    return count;
-}
-
 } // namespace
 
 DrivenModel::DrivenModel(UserModel model, const Tree& tree, const DrivenOptions& options,
                          std::vector<std::string>& notes)
-    : model_(std::move(model)), options_(options) {
-    const Eigen::Affine3d world_from_file = Eigen::Translation3d(options.position) *
-                                            Eigen::AngleAxisd(options.yaw, Vec3::UnitY()) *
-                                            Eigen::Translation3d(model_.moved);
-    file_from_world_ = world_from_file.inverse();
-    const DrawnPose pose = drawn_pose(tree);
-    drawn_R_wb_ = pose.R_wb;
-    drawn_x_w_ = pose.x_w;
-    std::vector<speedtree::Bone> bones = model_.armature.bones;
-    for (speedtree::Bone& bone : bones) {
-        bone.start = world_from_file * bone.start;
-        bone.end = world_from_file * bone.end;
-    }
-    const BoneBodies bodies = bodies_of_bones(bones, tree, drawn_R_wb_, drawn_x_w_);
-    constexpr const char* expected = "; expected the model that the tree was made from, in its own units and up axis";
-    const double ratio = bodies.tree_size / bodies.bones_size;
-    if (!(ratio > 0.5 && ratio < 2))
-        throw InputError(model_.name, "its bones are " + shown(bodies.bones_size) + " m large, the tree is " +
-                                          shown(bodies.tree_size) + " m" + expected);
-    if (2 * bodies.missed > bones.size())
-        throw InputError(model_.name, std::to_string(bodies.missed) + " of its " + std::to_string(bones.size()) +
-                                          " bones lie beside the tree, up to " + shown(bodies.worst) + " m" + expected);
-    if (bodies.missed > 0)
-        notes.push_back(model_.name + ": " + std::to_string(bodies.missed) + " of " + std::to_string(bones.size()) +
-                        " bones lie beside the tree, up to " + shown(bodies.worst) + " m: they go with the bone above");
-    for (std::size_t b = 0; b < bones.size(); ++b) {
-        if (bodies.turn[b] < 0) continue;
-        Driven driven;
-        driven.node = model_.joint[b];
-        driven.turn = bodies.turn[b];
-        driven.place = bodies.place[b];
-        bone_.push_back(std::move(driven));
-    }
-    size_ = bodies.bones_size;
+    : model_(std::move(model)), options_(options), bones_(model_, tree, options.place, notes),
+      bone_(bones_.bone().size()) {
     try {
         find_nodes(notes);
         leave_out_animations(notes);
@@ -79,27 +33,21 @@ DrivenModel::DrivenModel(UserModel model, const Tree& tree, const DrivenOptions&
 }
 
 void DrivenModel::find_nodes(std::vector<std::string>& notes) {
-    const GltfNodes nodes = nodes_of(model_.document->json, model_.name);
-    std::vector<std::int32_t> bone_of(nodes.parent.size(), -1), above;
+    const GltfNodes& nodes = bones_.nodes();
+    std::vector<std::int32_t> above;
     std::vector<Quat> drawn;
-    std::vector<char> is_driven(nodes.parent.size(), false);
     std::size_t unequal = 0;
-    // A bone stands after those above it in the armature; so do the nodes.
     for (std::size_t b = 0; b < bone_.size(); ++b) {
         Driven& d = bone_[b];
-        const auto node = std::size_t(d.node);
-        bone_of[node] = std::int32_t(b);
-        is_driven[node] = true;
+        const DrivenBone& bone = bones_.bone()[b];
+        const auto node = std::size_t(bone.node);
         const std::int32_t p = nodes.parent[node];
-        std::int32_t at = p;
         bool equal = true;
-        for (; at >= 0; at = nodes.parent[std::size_t(at)]) equal = equal && nodes.unequal[std::size_t(at)] <= 1e-3;
+        for (std::int32_t at = p; at >= 0; at = nodes.parent[std::size_t(at)])
+            equal = equal && nodes.unequal[std::size_t(at)] <= 1e-3;
         unequal += !equal;
-        for (at = p; at >= 0 && bone_of[std::size_t(at)] < 0;) at = nodes.parent[std::size_t(at)];
-        d.above = at < 0 ? -1 : bone_of[std::size_t(at)];
-        d.turned = nodes.turned[node];
-        d.linear = nodes.world[node].linear();
-        d.start = nodes.world[node].translation();
+        d.above = bones_.bone_over(p);
+        const std::int32_t at = d.above < 0 ? -1 : bones_.bone()[std::size_t(d.above)].node;
         d.translation = nodes.local[node].translation();
         const Eigen::Affine3d parent = p < 0 ? Eigen::Affine3d::Identity() : nodes.world[std::size_t(p)];
         const Quat parent_turned = p < 0 ? Quat(Quat::Identity()) : nodes.turned[std::size_t(p)];
@@ -109,7 +57,7 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
         if (std::abs(d.to_parent.linear().determinant()) < 1e-300)
             throw InputError(model_.name, "has a bone below a node scaled to nothing");
         above.push_back(d.above);
-        drawn.push_back(from_above * d.turned);
+        drawn.push_back(from_above * bone.turned);
         clear_matrix(b);
     }
     keys_ = std::make_unique<JointKeys>(above, drawn);
@@ -117,14 +65,10 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
         notes.push_back(model_.name + ": " +
                         counted(unequal, "bone hangs on a node scaled unequally: its rotation is only near",
                                 "bones hang on nodes scaled unequally: their rotations are only near"));
-    if (const std::size_t still = still_meshes(model_.document->json, nodes, is_driven))
-        notes.push_back(
-            model_.name + ": " +
-            counted(still, "mesh stays still: no bone carries it", "meshes stay still: no bone carries them"));
 }
 
 void DrivenModel::clear_matrix(std::size_t bone) {
-    Json& node = model_.document->json["nodes"][std::size_t(bone_[bone].node)];
+    Json& node = model_.document->json["nodes"][std::size_t(bones_.bone()[bone].node)];
     if (!node.contains("matrix")) return;
     Eigen::Matrix4d m;
     for (int k = 0; k < 16; ++k) m(k % 4, k / 4) = node["matrix"][std::size_t(k)].get<double>();
@@ -140,7 +84,7 @@ void DrivenModel::clear_matrix(std::size_t bone) {
 void DrivenModel::leave_out_animations(std::vector<std::string>& notes) {
     if (!model_.document->json.contains("animations")) return;
     std::vector<std::size_t> nodes;
-    for (const Driven& d : bone_) nodes.push_back(std::size_t(d.node));
+    for (const DrivenBone& bone : bones_.bone()) nodes.push_back(std::size_t(bone.node));
     std::sort(nodes.begin(), nodes.end());
     Json kept = Json::array();
     std::string left_out;
@@ -169,24 +113,13 @@ void DrivenModel::leave_out_animations(std::vector<std::string>& notes) {
 }
 
 void DrivenModel::write(const MotionFrame& frame) {
+    bones_.poses(frame, pose_);
     std::vector<Quat> turned(bone_.size());
-    std::vector<Eigen::Affine3d> world(bone_.size());
-    const Mat3 file_R = file_from_world_.linear();
     for (std::size_t b = 0; b < bone_.size(); ++b) {
         Driven& d = bone_[b];
-        const auto t = std::size_t(d.turn), p = std::size_t(d.place);
-        const Mat3 turn =
-            file_R * frame.rotation[t].toRotationMatrix() * drawn_R_wb_[t].transpose() * file_R.transpose();
-        const Vec3 start_w = file_from_world_.inverse() * d.start;
-        const Vec3 place =
-            file_from_world_ * Vec3(frame.position[p] + frame.rotation[p].toRotationMatrix() *
-                                                            (drawn_R_wb_[p].transpose() * (start_w - drawn_x_w_[p])));
-        world[b].linear() = turn * d.linear;
-        world[b].translation() = place;
-        world[b].makeAffine();
-        turned[b] = Quat(turn) * d.turned;
-        const Eigen::Affine3d parent = d.above < 0 ? d.to_parent : world[std::size_t(d.above)] * d.to_parent;
-        const Vec3 local = parent.inverse() * place;
+        turned[b] = pose_[b].turned;
+        const Eigen::Affine3d parent = d.above < 0 ? d.to_parent : pose_[std::size_t(d.above)].world * d.to_parent;
+        const Vec3 local = parent.inverse() * Vec3(pose_[b].world.translation());
         d.off = std::max(d.off, (parent.linear() * (local - d.translation)).norm());
         d.path.push_back(local.cast<float>());
     }
@@ -222,16 +155,16 @@ std::string DrivenModel::finish(const std::string& output_name) {
         }
         if (!times.empty()) {
             const std::size_t input = input_of(times);
-            add(input, add_floats(document, values, "VEC4", false), d.node, "rotation");
+            add(input, add_floats(document, values, "VEC4", false), bones_.bone()[b].node, "rotation");
         }
-        if (!(d.off > 1e-5 * size_)) continue;
+        if (!(d.off > 1e-5 * bones_.size())) continue;
         times.clear(), values.clear();
         for (std::size_t f = 0; f < d.path.size(); ++f) {
             times.push_back(time_of(f, options_.fps));
             for (int k = 0; k < 3; ++k) values.push_back(d.path[f][k]);
         }
         const std::size_t input = input_of(times);
-        add(input, add_floats(document, values, "VEC3", false), d.node, "translation");
+        add(input, add_floats(document, values, "VEC3", false), bones_.bone()[b].node, "translation");
     }
     Json motion{{"name", "motion"}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}};
     if (!options_.source.empty()) motion["extras"] = Json{{"source", options_.source}};

@@ -1,6 +1,7 @@
 #include "gltf_check.h"
 #include "formats/plain_text.h"
 #include "gltf_accessor.h"
+#include "gltf_faces.h"
 #include "gltf_uri.h"
 #include "lib/base/counted.h"
 #include <algorithm>
@@ -47,7 +48,7 @@ void check_finite(const std::vector<double>& values, const std::string& place, c
 
 void check_joints(const GltfDocument& document, const Json& attributes, std::size_t vertices, const std::string& place,
                   HighestJoint& highest) {
-    for (const std::string set : {"0", "1"}) {
+    for (const std::string& set : joint_sets(attributes)) {
         const std::string joints = "JOINTS_" + set, weights = "WEIGHTS_" + set, its_joints = place + ": " + joints,
                           its_weights = place + ": " + weights;
         const bool has_joints = attributes.contains(joints), has_weights = attributes.contains(weights);

@@ -1,5 +1,6 @@
 #include "gltf_faces.h"
 #include "gltf_accessor.h"
+#include <algorithm>
 
 namespace bough {
 
@@ -43,6 +44,22 @@ std::vector<Vec3> points_of(const GltfDocument& document, const Json& primitive,
     for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
         point.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
     return point;
+}
+
+std::vector<std::string> joint_sets(const Json& attributes) {
+    std::vector<std::string> sets;
+    for (const auto& [name, accessor] : attributes.items())
+        for (const std::string_view kind : {"JOINTS_", "WEIGHTS_"}) {
+            if (!name.starts_with(kind)) continue;
+            std::string set = name.substr(kind.size());
+            if (!set.empty() && set.find_first_not_of("0123456789") == std::string::npos)
+                sets.push_back(std::move(set));
+        }
+    std::sort(sets.begin(), sets.end(), [](const std::string& a, const std::string& b) {
+        return std::pair(a.size(), std::string_view(a)) < std::pair(b.size(), std::string_view(b));
+    });
+    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+    return sets;
 }
 
 } // namespace bough

@@ -18,4 +18,7 @@ GltfFaces faces_of(const GltfDocument&, const nlohmann::ordered_json& primitive,
 // POSITION, as its numbers stand for (KHR_mesh_quantization), in the mesh's own axes. O(points). Throws as values_of does.
 std::vector<Vec3> points_of(const GltfDocument&, const nlohmann::ordered_json& primitive, const std::string& place);
 
+// The sets of JOINTS_n and WEIGHTS_n that a primitive names one or both of: "0", "1" and so on, in order. O(attributes).
+std::vector<std::string> joint_sets(const nlohmann::ordered_json& attributes);
+
 } // namespace bough

@@ -120,9 +120,8 @@ private:
         }
         std::vector<Vec3> moved(point.size(), Vec3::Zero());
         std::vector<double> sum(point.size(), 0), largest(point.size(), 0);
-        for (const std::string set : {"0", "1"}) {
+        for (const std::string& set : joint_sets(attributes)) {
             const std::string joints = "JOINTS_" + set, weights = "WEIGHTS_" + set;
-            if (!attributes.contains(joints)) continue;
             const std::vector<double> of = values_of(document_, attributes[joints],
                                                      {place + ": " + joints, "VEC4", GltfNumbers::joints}),
                                       share = values_of(document_, attributes[weights],

@@ -154,7 +154,11 @@ refused 1 "--leaves-as: only with --mesh made" treesim art/tree.xml --frames 2 -
 refused 1 "--rustle: only with --mesh made" treesim art/tree.xml --wind gusty --frames 2 --rustle -o x.glb
 refused 1 "--mesh: only with a mesh" treesim art/tree.xml --frames 2 --mesh own
 refused 1 "--mesh: not with --skin" treesim own.json --skin art/tree.xml --frames 2 --mesh made -o x.glb
-refused 1 "twig_armature.gltf: a mesh that bones move is shown by -o FILE.glb alone; --mesh made shows one" treesim "$twig" --frames 2 --mesh own -o x_%d.obj
+for other in x.usda x_vat/; do
+    refused 1 "twig_armature.gltf: a mesh that bones move is shown by .glb, frames of .obj, .mdd and .pc2 alone; --mesh made shows one" treesim "$twig" --frames 2 --mesh own -o $other
+done
+expect 0 treesim "$twig" --frames 2 -o bones.usda
+grep -q "alone; this one is made from the tree" err || fail "a made mesh is not told of: $(cat err)"
 refused 1 "has no mesh that could be moved" treesim "$maple" --frames 2 --mesh own -o x.glb
 refused 2 "has no mesh of its own" treesim own.json --skin "$maple" --frames 2 -o x.glb
 treegen --age 12 --bodies 300 -q | treeconvert - -q -o other.json
@@ -182,7 +186,7 @@ for bad in /dev/null half.png art/tree.xml; do
     grep -q "art/leaf.png: .*art/tree.xml:11 names it" err || fail "where the image is named: $(cat err)"
     cp good.png art/leaf.png
 done
-absent x.glb
+absent x.glb x.usda x_vat
 
 # A kind of image that games use and that is not read: the one of that name beside it that is read, or none.
 mkdir games

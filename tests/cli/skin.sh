@@ -1,4 +1,4 @@
-# treesim --skin: the user's own model moved; armatures from the command line; what is refused.
+# treesim --skin: the user's own model moved; armatures from the command line; what is refused. Its vertices: skin_frames.sh.
 . "$(dirname "$0")/common.sh" "$@"
 
 twig=$top/data/fixtures/twig_armature.gltf
@@ -35,7 +35,8 @@ expect 0 treesim one.json --frames 5 --skin "$twig" -o scene.glb
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig.json"}, {"file": "twig.json", "position": [3, 0, 0]}]}' >two.json
 refused 1 "expected one" treesim two.json --frames 5 --skin "$twig" -o two.glb
 
-refused 1 "--skin: only with -o FILE.glb" "${run[@]}" --skin "$twig" -o x.jsonl
+refused 1 "--skin: only with a mesh" "${run[@]}" --skin "$twig" -o x.jsonl
+refused 1 "--skin: only with .glb, frames of .obj, .mdd and .pc2 alone" "${run[@]}" --skin "$twig" -o x.usda
 refused 1 "--sides: not with --skin" "${run[@]}" --skin "$twig" --sides 8 -o x.glb
 refused 1 "--max-joints: not with --skin" "${run[@]}" --skin "$twig" --max-joints 8 -o x.glb
 cp a.glb own.glb

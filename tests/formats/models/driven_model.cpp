@@ -303,8 +303,8 @@ TEST_CASE("scaled nodes, a matrix, and a tree that a scene has moved") {
     const Mat3 to_world = Eigen::AngleAxisd(yaw, Vec3::UnitY()).toRotationMatrix();
     turn_branch(moved, 1, to_world * about_z(0.5) * to_world.transpose(), position + to_world * joint_of_side, bent);
     DrivenOptions options;
-    options.position = position;
-    options.yaw = yaw;
+    options.place.position = position;
+    options.place.yaw = yaw;
     const Glb glb = driven(file, moved, {rest, bent}, options);
     CHECK_FALSE(glb.json["nodes"][1].contains("matrix"));
     const std::vector<Vec3> corners = ring_corners();

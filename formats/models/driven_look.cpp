@@ -1,0 +1,144 @@
+#include "driven_look.h"
+#include "formats/plain_text.h"
+#include "gltf_document.h"
+#include "gltf_uri.h"
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace bough {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double srgb(double linear) {
+    const double l = std::clamp(linear, 0.0, 1.0);
+    return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+}
+
+const Json& at_or_empty(const Json& object, const char* key) {
+    static const Json empty = Json::object();
+    const auto found = object.find(key);
+    return found == object.end() ? empty : *found;
+}
+
+const Json& color_texture(const Json& material) {
+    return at_or_empty(at_or_empty(material, "pbrMetallicRoughness"), "baseColorTexture");
+}
+
+class Looks {
+public:
+    Looks(const GltfDocument& document, OwnMesh& mesh, std::vector<std::string>& notes)
+        : document_(document), mesh_(mesh), notes_(notes) {}
+
+    void add(std::int32_t number) {
+        OwnPart part;
+        part.name = number < 0 ? "none" : "material_" + std::to_string(number);
+        part.material = -1;
+        if (number >= 0) {
+            const Json& material = document_.json["materials"][std::size_t(number)];
+            part.name = free_name(material.value("name", part.name));
+            part.material = std::int32_t(mesh_.material.size());
+            Vec3 color = Vec3::Ones();
+            const Json& factor = at_or_empty(at_or_empty(material, "pbrMetallicRoughness"), "baseColorFactor");
+            for (std::size_t k = 0; k < 3 && factor.is_array(); ++k) color[int(k)] = factor.at(k).get<double>();
+            part.color = color.unaryExpr([](double c) { return srgb(c); });
+            Json pbr{{"baseColorFactor", Json::array({color[0], color[1], color[2], 1.0})}};
+            if (const int image = image_of(color_texture(material), part.name); image >= 0)
+                pbr["baseColorTexture"] = {{"index", image}};
+            Json look{{"name", part.name}, {"pbrMetallicRoughness", std::move(pbr)}};
+            if (const int image = image_of(at_or_empty(material, "normalTexture"), part.name + "_normal"); image >= 0)
+                look["normalTexture"] = {{"index", image}};
+            for (const char* kept : {"alphaMode", "alphaCutoff", "doubleSided"})
+                if (material.contains(kept)) look[kept] = material[kept];
+            mesh_.material.push_back(look.dump(-1, ' ', false, Json::error_handler_t::replace));
+        } else {
+            part.name = free_name(part.name);
+        }
+        mesh_.part.push_back(std::move(part));
+    }
+
+private:
+    std::string free_name(std::string name) {
+        for (char& c : name)
+            if (static_cast<unsigned char>(c) <= ' ' || c == 127) c = '_';
+        if (name.empty()) name = "material";
+        const std::string stem = name;
+        for (int k = 2; !name_.insert(name).second; ++k) name = stem + "_" + std::to_string(k);
+        return name;
+    }
+
+    // The mesh's image of a texture that a material names, -1: none that could be written. otherwise: its name, where the file has none.
+    int image_of(const Json& texture, const std::string& otherwise) {
+        if (!texture.contains("index")) return -1;
+        const Json& of = document_.json.at("textures").at(texture["index"].get<std::size_t>());
+        if (!of.contains("source")) { // an extension names one of another kind
+            note("a texture has neither PNG nor JPEG");
+            return -1;
+        }
+        const auto number = of["source"].get<std::size_t>();
+        const auto [known, fresh] = image_.try_emplace(number, -1);
+        if (!fresh) return known->second;
+        const Json& image = document_.json.at("images").at(number);
+        const std::string bytes = bytes_of(image), place = "image " + std::to_string(number);
+        const char* const type = image_type(bytes);
+        if (!type || (type != std::string("image/png") && type != std::string("image/jpeg"))) {
+            note(place + (bytes.empty() ? " is not in the file" : " is neither PNG nor JPEG"));
+            return -1;
+        }
+        known->second = int(mesh_.image.size());
+        const std::string name = valid_utf8(image.value("name", std::string()));
+        mesh_.image.push_back({name.empty() ? otherwise : name, type, bytes});
+        return known->second;
+    }
+
+    std::string bytes_of(const Json& image) const {
+        if (!image.contains("bufferView")) {
+            const std::string uri = image.value("uri", std::string());
+            return uri.starts_with("data:") ? bytes_of_uri(uri, "") : std::string();
+        }
+        const Json& view = document_.json.at("bufferViews").at(image["bufferView"].get<std::size_t>());
+        const std::size_t first = whole_number(view, "byteOffset", "an image's view", 0),
+                          size = whole_number(view, "byteLength", "an image's view");
+        if (first > document_.binary.size() || size > document_.binary.size() - first)
+            throw std::out_of_range("an image's view names bytes that the file does not hold");
+        return document_.binary.substr(first, size);
+    }
+
+    void note(const std::string& what) { notes_.push_back(what + ": its material does without it"); }
+
+    const GltfDocument& document_;
+    OwnMesh& mesh_;
+    std::vector<std::string>& notes_;
+    std::map<std::size_t, int> image_; // of each of the document's that was asked for
+    std::set<std::string> name_;
+};
+
+} // namespace
+
+MapPlace map_place_of(const GltfDocument& document, std::int32_t number) {
+    MapPlace place;
+    if (number < 0) return place;
+    const Json& material = document.json["materials"][std::size_t(number)];
+    const Json& color = color_texture(material);
+    const Json& texture = color.empty() ? at_or_empty(material, "normalTexture") : color;
+    place.set = whole_number(texture, "texCoord", "a texture", 0);
+    const Json& moved = at_or_empty(at_or_empty(texture, "extensions"), "KHR_texture_transform");
+    place.set = whole_number(moved, "texCoord", "a texture", place.set);
+    const double turn = moved.value("rotation", 0.0), c = std::cos(turn), s = std::sin(turn);
+    place.turn << c, s, -s, c;
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (moved.contains("scale")) place.turn.col(int(k)) *= moved["scale"].at(k).get<double>();
+        if (moved.contains("offset")) place.at[int(k)] = moved["offset"].at(k).get<double>();
+    }
+    return place;
+}
+
+void add_looks(const GltfDocument& document, const std::vector<std::int32_t>& materials, OwnMesh& mesh,
+               std::vector<std::string>& notes) {
+    Looks looks(document, mesh, notes);
+    for (const std::int32_t material : materials) looks.add(material);
+}
+
+} // namespace bough

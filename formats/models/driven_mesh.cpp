@@ -1,0 +1,109 @@
+#include "driven_mesh.h"
+#include "formats/plain_text.h"
+#include <cmath>
+#include <limits>
+
+namespace bough {
+namespace {
+
+// take(vertex, its place in `to`) for each, on all threads.
+template <class Take> void each(std::size_t first, std::span<Vec3> to, Take&& take) {
+    const auto count = std::int64_t(to.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t k = 0; k < count; ++k) to[std::size_t(k)] = take(first + std::size_t(k));
+}
+
+// |A| A^-T, which exists where A has no inverse.
+Mat3 cofactors(const Mat3& A) {
+    Mat3 C;
+    C.col(0) = A.col(1).cross(A.col(2));
+    C.col(1) = A.col(2).cross(A.col(0));
+    C.col(2) = A.col(0).cross(A.col(1));
+    return C;
+}
+
+} // namespace
+
+DrivenMesh::DrivenMesh(const UserModel& model, const Tree& tree, const DrivenPlace& place,
+                       std::vector<std::string>& notes)
+    : bones_(model, tree, place, notes), surface_(surface_of(*model.document, model.name, notes)) {
+    const GltfNodes& nodes = bones_.nodes();
+    for (const DrivenSurface::Matrix& matrix : surface_.matrix) {
+        const std::int32_t bone = bones_.bone_over(matrix.node);
+        Eigen::Affine3d below = matrix.bind;
+        if (bone < 0) {
+            below = bones_.world_from_file() * nodes.world[std::size_t(matrix.node)] * matrix.bind;
+        } else { // not by the bone's inverse: it may be scaled to nothing
+            for (std::int32_t n = matrix.node; n != bones_.bone()[std::size_t(bone)].node;
+                 n = nodes.parent[std::size_t(n)])
+                below = nodes.local[std::size_t(n)] * below;
+        }
+        way_.push_back({bone, below});
+        moved_.push_back(bones_.world_from_file() * nodes.world[std::size_t(matrix.node)] * matrix.bind);
+    }
+    turn_mirrored();
+    check_range(model.name);
+}
+
+// A mirrored triangle is seen from its other side: its corners change places.
+void DrivenMesh::turn_mirrored() {
+    for (std::array<std::int32_t, 3>& corner : surface_.triangle)
+        if (blended(std::size_t(corner[0])).linear().determinant() < 0) std::swap(corner[1], corner[2]);
+}
+
+void DrivenMesh::check_range(const std::string& name) const {
+    for (std::size_t v = 0; v < vertices(); ++v) {
+        const Vec3 at = blended(v) * surface_.position[v].cast<double>();
+        if (!(at.cwiseAbs().maxCoeff() < double(std::numeric_limits<float>::max()))) // false for NaN
+            throw InputError(name, "vertex " + std::to_string(v) + " of its mesh is drawn beyond any float, at " +
+                                       shown(at.x()) + ", " + shown(at.y()) + ", " + shown(at.z()));
+    }
+}
+
+void DrivenMesh::go_to(const MotionFrame& frame) {
+    bones_.poses(frame, pose_);
+    for (DrivenBones::Pose& pose : pose_) pose.world = bones_.world_from_file() * pose.world;
+    for (std::size_t k = 0; k < way_.size(); ++k)
+        moved_[k] = way_[k].bone < 0 ? way_[k].from_bone : pose_[std::size_t(way_[k].bone)].world * way_[k].from_bone;
+}
+
+Eigen::Affine3d DrivenMesh::blended(std::size_t vertex) const {
+    Eigen::Affine3d M;
+    M.matrix().setZero();
+    double sum = 0;
+    for (std::size_t s = surface_.first_share[vertex]; s < surface_.first_share[vertex + 1]; ++s) {
+        const DrivenSurface::Share& share = surface_.share[s];
+        M.affine() += double(share.weight) * moved_[std::size_t(share.matrix)].affine();
+        sum += double(share.weight);
+    }
+    M.affine() /= sum;
+    M.makeAffine();
+    return M;
+}
+
+void DrivenMesh::positions(std::size_t first, std::span<Vec3> to) const {
+    each(first, to, [&](std::size_t v) -> Vec3 { return blended(v) * surface_.position[v].cast<double>(); });
+}
+
+void DrivenMesh::normals(std::size_t first, std::span<Vec3> to) const {
+    each(first, to, [&](std::size_t v) -> Vec3 {
+        const Mat3 A = blended(v).linear(), C = cofactors(A);
+        const Vec3 n = C * surface_.normal[v].cast<double>();
+        const double length = (C.col(0).dot(A.col(0)) < 0 ? -1 : 1) * n.norm();
+        return length != 0 && std::isfinite(length) ? Vec3(n / length) : Vec3(Vec3::UnitY());
+    });
+}
+
+Skin DrivenMesh::skin() const {
+    Skin skin;
+    skin.position.resize(vertices());
+    skin.normal.resize(vertices());
+    positions(0, skin.position);
+    normals(0, skin.normal);
+    skin.texture = surface_.uv;
+    skin.triangle = surface_.triangle;
+    skin.part = surface_.part;
+    return skin;
+}
+
+} // namespace bough

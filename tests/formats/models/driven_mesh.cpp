@@ -1,0 +1,355 @@
+#include "formats/models/driven_mesh.h"
+#include "formats/exports/own_maps.h"
+#include "formats/models/gltf_document.h"
+#include "lib/growth/segment.h"
+#include "lib/model/drawn_pose.h"
+#include "lib/model/wood.h"
+#include "tests/support/import_support.h"
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+using namespace bough;
+using namespace bough::test;
+
+namespace {
+
+using GltfJson = nlohmann::json;
+
+// A .gltf with its buffer in a file beside it, both of which go with this.
+class GltfFile {
+public:
+    GltfFile() {
+        static int made = 0;
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("bough_mesh_" + std::to_string(::getpid()) + "_" + std::to_string(++made));
+        std::filesystem::create_directories(folder_);
+        json = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", GltfJson::array()}}}}};
+    }
+    ~GltfFile() { std::filesystem::remove_all(folder_); }
+
+    // The accessor of an array; a row each.
+    template <class Number>
+    std::size_t add(const std::vector<Number>& numbers, const char* type, int component, bool normalized = false) {
+        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+        const std::size_t first = bytes_.size(), width = type == std::string("SCALAR") ? 1
+                                                         : type == std::string("VEC2") ? 2
+                                                         : type == std::string("VEC3") ? 3
+                                                         : type == std::string("VEC4") ? 4
+                                                                                       : 16;
+        bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+        json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", first}, {"byteLength", bytes_.size() - first}});
+        GltfJson accessor{{"bufferView", json["bufferViews"].size() - 1},
+                          {"componentType", component},
+                          {"count", numbers.size() / width},
+                          {"type", type}};
+        if (normalized) accessor["normalized"] = true;
+        json["accessors"].push_back(accessor);
+        return json["accessors"].size() - 1;
+    }
+    std::size_t floats(const std::vector<Vec3>& rows) {
+        std::vector<float> numbers;
+        for (const Vec3& row : rows)
+            for (int k = 0; k < 3; ++k) numbers.push_back(float(row[k]));
+        return add(numbers, "VEC3", 5126);
+    }
+    std::string saved() {
+        json["buffers"] = {{{"uri", "arrays.bin"}, {"byteLength", bytes_.size()}}};
+        std::ofstream(folder_ / "arrays.bin", std::ios::binary) << bytes_;
+        std::ofstream(folder_ / "model.gltf") << json.dump();
+        return folder_ / "model.gltf";
+    }
+
+    GltfJson json;
+
+private:
+    std::filesystem::path folder_;
+    std::string bytes_;
+};
+
+Mat3 around_z(double angle) {
+    return Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+}
+
+const Vec3 upper_joint(0, 1, 0), pot_place(1, 0, 0), twig_place(0.2, 0.5, 0);
+constexpr double mesh_size = 2;            // the tube's mesh is drawn at half its size, and the bind matrices double it
+const Vec3 mesh_offset(0.5, 0.25, -0.125); // and beside it
+const Vec3 twig_scale(2, 1, 1), mirror(-1, 1, 1);
+
+// A tube about two bones, 0 to 1 and 1 to 2 m high, bent by halves in the middle; a leaf on a node that hangs on the upper bone, scaled
+// unequally; a mirrored one; and a pot that no bone moves.
+struct TwoBones {
+    GltfFile file;
+    std::vector<Vec3> tube, tube_normal;
+    std::vector<double> upper; // share of the upper bone
+    const std::vector<Vec3> leaf = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
+    const Vec3 leaf_normal = Vec3(1, 1, 0).normalized();
+
+    TwoBones() {
+        GltfJson& json = file.json;
+        json["nodes"] = {{{"name", "trunk"}, {"children", {1}}},
+                         {{"name", "upper"}, {"translation", {0, 1, 0}}, {"children", {2, 5}}},
+                         {{"name", "upper_end"}, {"translation", {0, 1, 0}}},
+                         {{"name", "bark"}, {"mesh", 0}, {"skin", 0}, {"translation", {7, 8, 9}}}, // means nothing
+                         {{"name", "pot"}, {"mesh", 1}, {"translation", {1, 0, 0}}},
+                         {{"name", "twig"}, {"mesh", 1}, {"translation", {0.2, 0.5, 0}}, {"scale", {2, 1, 1}}},
+                         {{"name", "mirror"}, {"mesh", 1}, {"translation", {1, 0, 0}}, {"scale", {-1, 1, 1}}}};
+        json["scenes"][0]["nodes"] = {0, 3, 4, 6};
+        std::vector<Vec3> drawn;
+        std::vector<std::uint16_t> joints[2];
+        std::vector<std::uint8_t> first;
+        std::vector<float> second, uv;
+        const double y[] = {0, 0.5, 1, 1.5, 2}, of_upper[] = {0, 0, 0.5, 1, 1};
+        for (int r = 0; r < 5; ++r)
+            for (int k = 0; k < 4; ++k) {
+                const double a = k * double(EIGEN_PI) / 2;
+                tube_normal.push_back({std::round(std::cos(a)), 0, std::round(std::sin(a))});
+                tube.push_back(Vec3(0, y[r], 0) + 0.1 * tube_normal.back());
+                drawn.push_back((tube.back() - mesh_offset) / mesh_size);
+                upper.push_back(of_upper[r]);
+                // The skin's joints are upper, trunk. Weights of the middle ring add up to a half alone, and lie in two sets; joint 9 is none,
+                // and has no weight.
+                joints[0].insert(joints[0].end(), {1, 9, 9, 9});
+                joints[1].insert(joints[1].end(), {9, 9, 0, 9});
+                const bool half = r == 2;
+                first.insert(first.end(), {std::uint8_t(half ? 51 : of_upper[r] > 0 ? 0 : 255), 0, 0, 0});
+                second.insert(second.end(), {0, 0, half ? 0.2f : float(of_upper[r]), 0});
+                uv.insert(uv.end(), {float(k) / 4, float(r) / 4});
+            }
+        std::vector<std::uint16_t> index;
+        for (std::uint16_t r = 0; r < 4; ++r)
+            for (std::uint16_t k = 0; k < 4; ++k) {
+                const std::uint16_t a = std::uint16_t(4 * r + k), b = std::uint16_t(4 * r + (k + 1) % 4);
+                for (const int c : {int(a), a + 4, int(b), int(b), a + 4, b + 4}) index.push_back(std::uint16_t(c));
+            }
+        GltfJson bark{{"POSITION", file.floats(drawn)},
+                      {"NORMAL", file.floats(tube_normal)},
+                      {"TEXCOORD_1", file.add(uv, "VEC2", 5126)},
+                      {"JOINTS_0", file.add(joints[0], "VEC4", 5123)},
+                      {"WEIGHTS_0", file.add(first, "VEC4", 5121, true)},
+                      {"JOINTS_1", file.add(joints[1], "VEC4", 5123)},
+                      {"WEIGHTS_1", file.add(second, "VEC4", 5126)}};
+        json["meshes"].push_back(
+            {{"primitives", {{{"attributes", bark}, {"indices", file.add(index, "SCALAR", 5123)}, {"material", 1}}}}});
+        GltfJson of_leaf{{"POSITION", file.floats(leaf)},
+                         {"NORMAL", file.floats({leaf_normal, leaf_normal, leaf_normal})}};
+        json["meshes"].push_back({{"primitives", {{{"attributes", of_leaf}, {"material", 0}}}}});
+        // Column by column: from the mesh's axes into those of the joint, which is drawn at (0, 1, 0) or at the origin.
+        std::vector<float> bind;
+        for (const double down : {1.0, 0.0}) {
+            Eigen::Affine3d B =
+                Eigen::Translation3d(0, -down, 0) * Eigen::Translation3d(mesh_offset) * Eigen::Scaling(mesh_size);
+            for (int k = 0; k < 16; ++k) bind.push_back(float(B.matrix()(k % 4, k / 4)));
+        }
+        json["skins"] = {{{"joints", {1, 0}}, {"inverseBindMatrices", file.add(bind, "MAT4", 5126)}}};
+        json["materials"] = {{{"name", "leaf"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 1}}}}},
+                             {{"name", "old bark"}}};
+    }
+
+    Tree tree() {
+        ImportOptions options;
+        const std::string path = file.saved();
+        options.folder = std::filesystem::path(path).parent_path();
+        SegmentOptions cut;
+        cut.segment_length = 0;
+        return segment(imported(content_of(path), path, options).splines, wood_presets().front(), cut);
+    }
+};
+
+// All turned by Q about the tree's foot, and before that all above 1 m about the joint there by R; seen from a world in which the tree is
+// placed.
+MotionFrame bent_frame(const Tree& tree, const Mat3& R, const Mat3& Q, const Mat3& placed, const Vec3& foot) {
+    const DrawnPose drawn = drawn_pose(tree);
+    MotionFrame frame;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        const Vec3 local = placed.transpose() * (drawn.x_w[i] - foot);
+        const bool above = local.y() > 1 - 1e-6;
+        frame.rotation.emplace_back(placed * Q * (above ? R : Mat3(Mat3::Identity())) * placed.transpose() *
+                                    drawn.R_wb[i]);
+        const Vec3 bent = above ? Vec3(upper_joint + R * (local - upper_joint)) : local;
+        frame.position.push_back(foot + placed * (Q * bent));
+    }
+    return frame;
+}
+
+} // namespace
+
+TEST_CASE("a skinned mesh goes where the sum of its bones' matrices puts it, what hangs on a node with the node") {
+    TwoBones model;
+    const Tree alone = model.tree();
+    const Vec3 foot(5, 1, -2);
+    const double yaw = 0.9;
+    const Mat3 placed = Eigen::AngleAxisd(yaw, Vec3::UnitY()).toRotationMatrix();
+    Tree tree;
+    append(tree, alone, foot, yaw);
+    ImportNotes notes;
+    std::vector<std::string> lines;
+    DrivenMesh mesh(read_user_model(model.file.saved(), notes), tree, {foot, yaw}, lines);
+    REQUIRE(mesh.vertices() == 29);
+    for (const bool moved : {false, true}) {
+        const Mat3 R = moved ? around_z(0.7) : Mat3(Mat3::Identity());
+        const Mat3 Q = moved ? Eigen::AngleAxisd(-0.3, Vec3::UnitX()).toRotationMatrix() : Mat3(Mat3::Identity());
+        const auto with_upper = [&](const Vec3& p) -> Vec3 { return Q * (upper_joint + R * (p - upper_joint)); };
+        if (moved) mesh.go_to(bent_frame(tree, R, Q, placed, foot));
+        std::vector<Vec3> position(29), normal(29);
+        mesh.positions(0, position);
+        mesh.normals(0, normal);
+        double off = 0, turned_off = 0;
+        const auto expect = [&](std::size_t v, const Vec3& p, const Vec3& n) {
+            off = std::max(off, (position[v] - (foot + placed * p)).norm());
+            turned_off = std::max(turned_off, (normal[v] - placed * n.normalized()).norm());
+        };
+        // The scene comes to the leaf's material first: on the twig, then in the pot and mirrored. The bark's vertices follow.
+        const Vec3 n = model.leaf_normal;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& p = model.leaf[k];
+            expect(k, with_upper(upper_joint + twig_place + twig_scale.cwiseProduct(p)),
+                   Q * R * n.cwiseQuotient(twig_scale));
+            expect(3 + k, pot_place + p, n);
+            expect(6 + k, pot_place + mirror.cwiseProduct(p), mirror.cwiseProduct(n));
+        }
+        for (std::size_t v = 0; v < 20; ++v) {
+            const double w = model.upper[v];
+            const Vec3 &p = model.tube[v], &of = model.tube_normal[v];
+            const Mat3 blended = (1 - w) * Q + w * Q * R;
+            expect(9 + v, (1 - w) * Q * p + w * with_upper(p), blended.inverse().transpose() * of);
+        }
+        CHECK(off < 1e-6);
+        CHECK(turned_off < 1e-6);
+        // Any block of them is the same.
+        std::vector<Vec3> some(7);
+        mesh.positions(11, some);
+        CHECK(std::equal(some.begin(), some.end(), position.begin() + 11));
+    }
+    CHECK(mesh.bones() == 2);
+}
+
+TEST_CASE("a skinned mesh's triangles, coordinates and materials are the file's") {
+    TwoBones model;
+    GltfJson& json = model.file.json;
+    const std::string png = std::string("\x89PNG\r\n\x1a\n") + std::string(41, 'x');
+    json["images"] = {{{"mimeType", "image/png"},
+                       {"name", "bark colour"},
+                       {"bufferView",
+                        [&] {
+                            model.file.add(std::vector<char>(png.begin(), png.end()), "SCALAR", 5121);
+                            json["accessors"].erase(json["accessors"].size() - 1);
+                            return json["bufferViews"].size() - 1;
+                        }()}},
+                      {{"uri", "gone.png"}}};
+    json["textures"] = {{{"source", 1}}, {{"source", 0}}};
+    json["materials"][1] = {{"name", "old bark"},
+                            {"alphaMode", "MASK"},
+                            {"normalTexture", {{"index", 0}}},
+                            {"pbrMetallicRoughness",
+                             {{"baseColorTexture",
+                               {{"index", 1},
+                                {"texCoord", 0},
+                                {"extensions",
+                                 {{"KHR_texture_transform",
+                                   {{"texCoord", 1},
+                                    {"offset", {0.5, 0.25}},
+                                    {"scale", {2, 3}},
+                                    {"rotation", double(EIGEN_PI) / 2}}}}}}}}}};
+    json["materials"].push_back({{"name", "old bark"}}); // of none
+    json["materials"][0]["name"] = "old\tbark";
+    ImportNotes notes;
+    std::vector<std::string> lines;
+    const Tree tree = model.tree();
+    const DrivenMesh mesh(read_user_model(model.file.saved(), notes), tree, {}, lines);
+    const Skin skin = mesh.skin();
+    REQUIRE(skin.part.size() == 2);
+    CHECK(skin.part[0].name == "old_bark");
+    CHECK(skin.part[1].name == "old_bark_2");
+    CHECK((skin.part[0].color - Vec3(1, 0.7353569830524495, 0)).norm() < 1e-6); // 1.055 * 0.5^(1/2.4) - 0.055
+    REQUIRE(skin.triangle.size() == 3 + 32);
+    CHECK(skin.part[1].first_index == 3);
+    CHECK(skin.part[1].index_count == 32);
+    // Seen from outside, the mirrored one too.
+    for (const auto& [a, b, c] : skin.triangle) {
+        const Vec3 &p = skin.position[std::size_t(a)], &q = skin.position[std::size_t(b)],
+                   &r = skin.position[std::size_t(c)];
+        const Vec3 area = (q - p).cross(r - p);
+        if (std::max({a, b, c}) <
+            9) // the leaf's own normals lie aslant: its front is where +Z is, of the mirrored one too
+            CHECK(area.z() > 0);
+        else
+            CHECK(area.dot(skin.normal[std::size_t(a)] + skin.normal[std::size_t(b)] + skin.normal[std::size_t(c)]) >
+                  0);
+    }
+    // A quarter turn takes (u, v), scaled, to (3 v, -2 u); then it is moved, and v counted from the bottom.
+    for (std::size_t v = 0; v < 20; ++v) {
+        const double u = double(v % 4) / 4, w = double(v / 4) / 4;
+        CHECK(std::abs(skin.texture[9 + v][0] - (0.5 + 3 * w)) < 1e-6);
+        CHECK(std::abs(skin.texture[9 + v][1] - (1 - (0.25 - 2 * u))) < 1e-6);
+    }
+    const OwnMaps maps = maps_of(mesh.look(), "frames.mtl");
+    REQUIRE(maps.image.size() == 1);
+    CHECK(*maps.image[0].bytes == png);
+    CHECK(maps.part[1].color == "frames_textures/bark_colour.png");
+    CHECK(maps.part[1].cut);
+    CHECK(maps.part[1].normal.empty());
+    CHECK(maps.part[0].color.empty());
+    const bool told = std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+        return line.find("model.gltf: image 1 is not in the file: its material does without it") != std::string::npos;
+    });
+    CHECK(told);
+}
+
+TEST_CASE("normals that a skinned file has not are made, what it cannot show is told of, what is wrong is refused") {
+    const auto mesh_of = [](TwoBones& model, std::vector<std::string>& lines) {
+        ImportNotes notes;
+        const Tree tree = TwoBones().tree();
+        return DrivenMesh(read_user_model(model.file.saved(), notes), tree, {}, lines);
+    };
+    std::vector<std::string> lines;
+    {
+        TwoBones model;
+        GltfJson& bark = model.file.json["meshes"][0]["primitives"][0];
+        bark["attributes"].erase("NORMAL");
+        bark["targets"] = {{{"POSITION", bark["attributes"]["POSITION"]}}};
+        const DrivenMesh mesh = mesh_of(model, lines);
+        std::vector<Vec3> normal(20);
+        mesh.normals(9, normal);
+        // By the tube's own shape they point outward, those in the middle straight.
+        for (std::size_t v = 0; v < 20; ++v) CHECK(normal[v].dot(model.tube_normal[v]) > 0.7);
+        CHECK(std::abs(normal[9].y()) < 1e-6);
+        CHECK(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+            return line.find("morph targets are not shown") != std::string::npos;
+        }));
+    }
+    const auto refuses = [&](const std::string& what,
+                             const std::function<void(TwoBones&, GltfJson & attributes)>& spoil) {
+        INFO(what);
+        TwoBones model;
+        spoil(model, model.file.json["meshes"][0]["primitives"][0]["attributes"]);
+        CHECK_THROWS_WITH(mesh_of(model, lines), Catch::Matchers::Contains(what));
+    };
+    refuses("NORMAL has 3 elements, expected one for each of 20 vertices", [](TwoBones& model, GltfJson& bark) {
+        bark["NORMAL"] = model.file.add(std::vector<std::int8_t>(9, 1), "VEC3", 5120, true);
+    });
+    refuses("JOINTS_2 has joint 2 move vertex 0, but skin 0 has 2 joints", [](TwoBones& model, GltfJson& bark) {
+        bark["JOINTS_2"] = model.file.add(std::vector<std::uint8_t>(80, 2), "VEC4", 5121);
+        bark["WEIGHTS_2"] = model.file.add(std::vector<std::uint8_t>(80, 9), "VEC4", 5121, true);
+    });
+    refuses("JOINTS_2 comes without WEIGHTS_2", [](TwoBones&, GltfJson& bark) { bark["JOINTS_2"] = bark["JOINTS_0"]; });
+    refuses("WEIGHTS_1: vertex 2 is not finite", [](TwoBones& model, GltfJson& bark) {
+        std::vector<float> weight(80, 0.25f);
+        weight[9] = NAN;
+        bark["WEIGHTS_1"] = model.file.add(weight, "VEC4", 5126);
+    });
+    refuses("vertex 9 of its mesh is drawn beyond any float", [](TwoBones& model, GltfJson& bark) {
+        std::vector<Vec3> far(20, Vec3(3e38, 0, 0));
+        bark["POSITION"] = model.file.floats(far);
+    });
+    refuses("TEXCOORD_1 of vertex 4 is moved beyond any float", [](TwoBones& model, GltfJson&) {
+        model.file.json["textures"] = {GltfJson::object()};
+        model.file.json["materials"][1]["normalTexture"] = {
+            {"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", {{"scale", {1, 1e300}}}}}}};
+    });
+    refuses("Draco", [](TwoBones& model, GltfJson&) {
+        model.file.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+        model.file.json["meshes"][0]["primitives"][0]["extensions"] = {
+            {"KHR_draco_mesh_compression", {{"bufferView", 0}}}};
+    });
+}
