@@ -22,7 +22,7 @@ void append(const Run& run, std::string& list) {
 } // namespace
 
 std::vector<std::string> gltf_rods(const Tree& tree, const JointGroups& groups, const GroupFrames& drawn) {
-    const auto [R_wb, x_w] = drawn_pose(tree);
+    const DrawnPose pose = drawn_pose(tree);
     std::vector<std::string> wood(groups.size()), text(groups.size());
     std::vector<std::size_t> others(groups.size(), 0);
     std::vector<Run> run(groups.size()); // the last one of each group
@@ -33,7 +33,7 @@ std::vector<std::string> gltf_rods(const Tree& tree, const JointGroups& groups, 
             continue;
         }
         const auto add_point = [&](bool tip) {
-            const Vec3 place = x_w[i] + (tip ? tree.size[i].x() : 0) * R_wb[i].col(2);
+            const Vec3 place = pose.x_w[i] + (tip ? tree.size[i].x() : 0) * pose.R_wb[i].col(2);
             const Vec3 own = drawn.R_wg[g].transpose() * (place - drawn.x_w[g]);
             for (const double number : {own.x(), own.y(), own.z(), tree.size[i][tip ? 2 : 1]}) {
                 run[g].text += ',';
