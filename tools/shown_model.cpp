@@ -98,7 +98,14 @@ std::vector<FileModel> models_of_scene(TreesimOptions& o, const Setting& setting
         std::vector<std::size_t> trees;
         for (std::size_t k = 0; k < setting.ranges.size(); ++k)
             if (tree_file(o.run.input, setting.scene.trees[k]) == path) trees.push_back(k);
-        if (trees.empty() || !is_speedtree_file(path) || !has_speedtree_mesh(MappedInput(path).content())) continue;
+        if (trees.empty()) continue;
+        if (!is_speedtree_file(path)) {
+            if (model_kind(MappedInput(path).content()))
+                o.common.notes.push_back(path + ": a scene shows a mesh made from its tree; its own, where it has one "
+                                                "that bones move, is shown where it is INPUT (or --skin) alone");
+            continue;
+        }
+        if (!has_speedtree_mesh(MappedInput(path).content())) continue;
         models.push_back({speedtree_model(o, path, setting), std::move(trees)});
     }
     return models;

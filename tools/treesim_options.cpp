@@ -59,9 +59,8 @@ void declare_mesh(OptionList& list, TreesimOptions& o) {
             "--skin", o.skin,
             "Show this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: in a .glb its own meshes, "
             "skins and materials, with the motion as an animation of its bones; in .obj, .mdd and .pc2 its vertices as "
-            "the bones move them; or, in these, .usda and NAME_vat/, a SpeedTree XML with mesh. The tree must have "
-            "been "
-            "made from it, or stand where its bones do")
+            "the bones move them; or, in these, .usda and NAME_vat/, a SpeedTree XML with mesh. The tree must "
+            "have been made from it, or stand where its bones do")
         .takes("FILE")
         .check(file_name());
     list.add("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")

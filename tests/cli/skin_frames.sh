@@ -220,6 +220,16 @@ grep -q "its mesh is in Draco's form, which is not read: one made from the tree 
 refused 2 "its own mesh: is in Draco's form" treesim art/packed.gltf --mesh own --frames 1 -o x_%d.obj
 refused 2 "holds a mesh in Draco's form" treesim twig.json --skin art/packed.gltf --frames 1 -o x_%d.obj
 
+# A scene that names the model says that it shows ours, in any form.
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "art/leafy.gltf"}]}' >named.json
+for to in x_%d.obj x.glb; do
+    expect 0 treesim named.json --frames 1 -o $to
+    grep -q "art/leafy.gltf: a scene shows a mesh made from its tree" err || fail "$to: $(cat err)"
+done
+expect 0 treesim named.json --mesh made --frames 1 -o x.glb
+! grep -q "a scene shows" err || fail "said of a mesh that was asked for: $(cat err)"
+rm x.glb x_*
+
 # Ours where it is asked for; refused: what is out of range, with its place, and nothing is written.
 expect 0 treesim art/leafy.gltf --mesh made --frames 1 -o made_%d.obj
 ! grep -q "spring_leaf" made_0.obj || fail "--mesh made"
