@@ -228,7 +228,7 @@ for to in x_%d.obj x.glb; do
 done
 expect 0 treesim named.json --mesh made --frames 1 -o x.glb
 ! grep -q "a scene shows" err || fail "said of a mesh that was asked for: $(cat err)"
-rm x.glb x_*
+rm x.glb x.mtl x_*
 
 # Ours where it is asked for; refused: what is out of range, with its place, and nothing is written.
 expect 0 treesim art/leafy.gltf --mesh made --frames 1 -o made_%d.obj
