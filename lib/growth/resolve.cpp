@@ -147,13 +147,15 @@ void Lumper::hold(std::size_t on, std::size_t clump, double kept, double share) 
     s.inertia = inertia;
 }
 
-// From the tips inward: joints as soft as makes each body of several parts give what they gave together. What does not stand, and what
-// bears it, is left as soft as its parts one after another: there is no give to meet.
+// From the tips inward: joints as soft as makes each body give what its parts gave together. That is so of a single part too, where it bears
+// what is of several: those give what theirs gave, but are not borne alike. What does not stand, and what bears it, is left as soft as its parts
+// one after another: there is no give to meet.
 void Lumper::match() {
     const std::size_t n = chosen_.size();
     std::vector<Borne> on(n);
     std::vector<double> mass = tree_.mass;
-    std::vector<std::uint8_t> upright(n, 1); // all that it carries stands, as resolved
+    std::vector<std::uint8_t> upright(n, 1);  // all that it carries stands, as resolved
+    std::vector<std::uint8_t> together(n, 0); // it is of several parts, or carries what is
     std::vector<Vec3> first(n);
     for (std::size_t b = 0; b < n; ++b) {
         first[b] = pose_.R_wb[b] * (tree_.mass[b] * tree_.com[b]);
@@ -175,9 +177,10 @@ void Lumper::match() {
             const Yielding y = yielding(K_at(std::exp(log_factor)), first[b], on[b], arm);
             return !y.stands || y.give > s.give;
         };
+        together[b] |= std::uint8_t(s.parts > 1);
         double factor = 1;
         double low = -most_matched, high = most_matched;
-        if (s.parts > 1 && s.give > 0 && s.upright && upright[b] && gives_more(low) && !gives_more(high)) {
+        if (together[b] && s.give > 0 && s.upright && upright[b] && gives_more(low) && !gives_more(high)) {
             while (high - low > 1e-6) {
                 const double middle = (low + high) / 2;
                 (gives_more(middle) ? low : high) = middle;
@@ -189,6 +192,7 @@ void Lumper::match() {
         const double strain = y.turn.cwiseProduct(K * y.turn).sum();
         if (s.parts > 1 && strain > 0) tree_.damping[b] = std::min(s.loss / strain, s.damping);
         if (root) continue;
+        together[p] |= together[b];
         upright[p] &= std::uint8_t(upright[b] && y.stands);
         mass[p] += mass[b];
         first[p] += first[b] + mass[b] * arm;
