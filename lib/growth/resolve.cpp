@@ -115,7 +115,7 @@ void Lumper::clump(std::size_t b) {
     const auto host_body = std::size_t(tree_.parent[b]);
     const double gyration = std::sqrt(s.inertia.trace() / 2 / s.mass);
     const Vec3 foot = s.joints / s.joined - gyration * pose_.R_wb[host_body].col(2);
-    const Vec3 way = middle_in_air(s) - foot;
+    const Vec3 way = s.com - foot;
     const Vec3 z = way.norm() > 1e-9 * gyration ? Vec3(way.normalized()) : Vec3(pose_.R_wb[host_body].col(2));
     const Vec3 side = Vec3::UnitY().cross(z);
     const Vec3 x = side.norm() > 1e-6 ? Vec3(side.normalized()) : Vec3(Vec3::UnitX());
