@@ -2,6 +2,7 @@
 #include "../model/body_shape.h"
 #include "carry.h"
 #include "resolve_sums.h"
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +14,19 @@ constexpr double most_stiffness = 1e12; // [N m/rad]
 constexpr double most_lever = 2;        // of a clump's joint, over its radius of gyration
 constexpr double least_narrowed = 0.2;  // of a clump's spread: no body is without inertia about any axis
 constexpr double most_droop = 0.8;      // [rad]
+constexpr double most_apart = 0.8;      // of the second moments of a clump's held wood, taken by its way from the clump
 constexpr double most_matched = 7;      // by how much a joint is stiffened or softened, as a power of e
+
+// [m^2] of leaves that face all ways.
+double area_in_air(const Sums& s) {
+    return s.met + s.wood * wood_in_leaf;
+}
+
+// The middle of what the air takes hold of.
+Vec3 middle_in_air(const Sums& s) {
+    const double area = area_in_air(s);
+    return area > 0 ? Vec3(s.air / area) : s.com;
+}
 
 class Lumper {
 public:
@@ -29,7 +42,8 @@ private:
         double mass, over_lever2, droop; // [kg]; r^2 / L^2; [m] least L
     };
     Swinging swinging(const Sums&, const Vec3& z) const;
-    void hold(std::size_t on, std::size_t clump, double kept, double share);
+    static Vec3 place_of(const Sums&, double kept);
+    void hold(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at);
     void match();
 
     const Tree& whole_;
@@ -84,7 +98,7 @@ void Lumper::wood(std::size_t b, std::size_t i) {
 // that of a point: m = A T Q / 2 D.
 Lumper::Swinging Lumper::swinging(const Sums& s, const Vec3& z) const {
     Swinging w;
-    const double A = s.met + s.wood * wood_in_leaf, S = s.give, Q = s.swing;
+    const double A = area_in_air(s), S = s.give, Q = s.swing;
     if (!(S > 0 && Q > 0)) return {s.mass, 0, 0};
     const double T = damped_all_ways().trace() - z.dot(damped_all_ways() * z);
     const double square = Q * Q - (4 - T) * S * S / 4 * s.braked / A;
@@ -111,17 +125,18 @@ void Lumper::clump(std::size_t b) {
     const Mat3 spread = pose_.R_wb[b].transpose() * s.inertia * pose_.R_wb[b] / s.mass;
     const double across = 0.5 * (spread(0, 0) + spread(1, 1));
     const Swinging swinging = this->swinging(s, z);
+    const Vec3 at = place_of(s, swinging.mass);
     // Held out level it droops no more than branches do (carry.h).
     const double wanted = swinging.over_lever2 > 0 ? std::sqrt(across / swinging.over_lever2) : most_lever * gyration;
     const double lever = std::max(std::min(wanted, most_lever * gyration), swinging.droop);
     const double narrowed =
         across > 0 ? std::clamp(swinging.over_lever2 * lever * lever / across, least_narrowed, 1.0) : 1;
-    pose_.x_w[b] = s.com - lever * z;
+    pose_.x_w[b] = at - lever * z;
     // An ellipsoid (clump.h) of as wide a spread.
     const double along = std::max(across - 0.5 * spread(2, 2), 0.0);
     tree_.size[b] = {lever + std::sqrt(5 * along), 2 * std::sqrt(5 * spread(2, 2) / (1 + clump_depth * clump_depth)),
                      s.thickness / s.leaves};
-    hold(host_body, b, swinging.mass, narrowed);
+    hold(host_body, b, swinging.mass, narrowed, at);
     const double first = s.mass * lever;
     const double swing = first * lever + s.mass * narrowed * across; // about the joint
     const double bend = s.give > 0 ? 2 * first * first / s.give + give_.omega2 * swing : most_stiffness;
@@ -130,30 +145,50 @@ void Lumper::clump(std::size_t b) {
     const double one = s.leaves / double(tree_.leaf_count[b]), slim = s.proportion / s.leaves;
     tree_.leaf_length[b] = std::sqrt(2 * one / slim);
     tree_.leaf_width[b] = std::sqrt(2 * one * slim);
-    tree_.drag[b] = (s.met + s.wood * wood_in_leaf) / leaf_area(tree_.size[b][0], tree_.size[b][1]);
+    tree_.drag[b] = area_in_air(s) / leaf_area(tree_.size[b][0], tree_.size[b][1]);
 }
 
-// Gives the wood `on` all of a clump's mass but `kept`, and of that one's inertia all but a share, at the clump's centre of mass.
-void Lumper::hold(std::size_t on, std::size_t clump, double kept, double share) {
+// Where the mass that a clump keeps is: in the middle of what the air takes hold of, as leaves are further out than the wood under them. What is
+// held is as much nearer, so that all together has its centre of mass and inertia still. d being the way from the parts' centre of mass, M their
+// mass, C its second moments about it, m what is kept, that takes the part
+//   m M^2 / (M - m)^2 d^T C^-1 d
+// of the second moments of what is held. Where that is more than most_apart, d is as much shorter.
+Vec3 Lumper::place_of(const Sums& s, double kept) {
+    const double held = s.mass - kept;
+    if (!(held > 1e-9 * s.mass)) return s.com;
+    const Vec3 way = middle_in_air(s) - s.com;
+    const Mat3 C = (0.5 + 1e-9) * s.inertia.trace() * Mat3::Identity() - s.inertia;
+    const double part = s.mass * s.mass * kept / (held * held) * way.dot(C.inverse() * way);
+    return s.com + (part > most_apart ? std::sqrt(most_apart / part) : 1) * way;
+}
+
+// Gives the wood `on` all of a clump's mass but `kept`, which goes to `at`, and of that one's inertia all but a share.
+void Lumper::hold(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at) {
     Sums &s = sum_[clump], &host = sum_[on];
     const Mat3 inertia = kept / s.mass * share * s.inertia;
-    const double mass = s.mass - kept;
+    const double mass = host.mass + s.mass - kept;
     const Vec3 before = host.com;
-    host.com = (host.mass * host.com + mass * s.com) / (host.mass + mass);
-    const Mat3 d = cross_matrix<double>(before - host.com), e = cross_matrix<double>(s.com - host.com);
-    host.inertia += s.inertia - inertia - host.mass * d * d - mass * e * e;
-    host.mass += mass;
+    host.com = (host.mass * before + s.mass * s.com - kept * at) / mass;
+    const auto moved = [&](double m, const Vec3& from) {
+        const Mat3 d = cross_matrix<double>(from - host.com);
+        return Mat3(-m * d * d);
+    };
+    host.inertia += moved(host.mass, before) + s.inertia + moved(s.mass, s.com) - inertia - moved(kept, at);
+    host.mass = mass;
     s.mass = kept;
+    s.com = at;
     s.inertia = inertia;
 }
 
-// From the tips inward: joints as soft as makes each body of several parts give what they gave together. What does not stand, and what
-// bears it, is left as soft as its parts one after another: there is no give to meet.
+// From the tips inward: joints as soft as makes each body give what its parts gave together. That is so of a single part too, where it bears
+// what is of several: those give what theirs gave, but are not borne alike. What does not stand, and what bears it, is left as soft as its parts
+// one after another: there is no give to meet.
 void Lumper::match() {
     const std::size_t n = chosen_.size();
     std::vector<Borne> on(n);
     std::vector<double> mass = tree_.mass;
-    std::vector<std::uint8_t> upright(n, 1); // all that it carries stands, as resolved
+    std::vector<std::uint8_t> upright(n, 1);  // all that it carries stands, as resolved
+    std::vector<std::uint8_t> together(n, 0); // it is of several parts, or carries what is
     std::vector<Vec3> first(n);
     for (std::size_t b = 0; b < n; ++b) {
         first[b] = pose_.R_wb[b] * (tree_.mass[b] * tree_.com[b]);
@@ -175,9 +210,10 @@ void Lumper::match() {
             const Yielding y = yielding(K_at(std::exp(log_factor)), first[b], on[b], arm);
             return !y.stands || y.give > s.give;
         };
+        together[b] |= std::uint8_t(s.parts > 1);
         double factor = 1;
         double low = -most_matched, high = most_matched;
-        if (s.parts > 1 && s.give > 0 && s.upright && upright[b] && gives_more(low) && !gives_more(high)) {
+        if (together[b] && s.give > 0 && s.upright && upright[b] && gives_more(low) && !gives_more(high)) {
             while (high - low > 1e-6) {
                 const double middle = (low + high) / 2;
                 (gives_more(middle) ? low : high) = middle;
@@ -189,6 +225,7 @@ void Lumper::match() {
         const double strain = y.turn.cwiseProduct(K * y.turn).sum();
         if (s.parts > 1 && strain > 0) tree_.damping[b] = std::min(s.loss / strain, s.damping);
         if (root) continue;
+        together[p] |= together[b];
         upright[p] &= std::uint8_t(upright[b] && y.stands);
         mass[p] += mass[b];
         first[p] += first[b] + mass[b] * arm;

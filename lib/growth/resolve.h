@@ -23,13 +23,15 @@
 // species are nearest to the whole tree's.
 //
 // Joints. From the tips inward each body's joint is made as soft as gives what its parts' joints gave together, in the tree as resolved so
-// far, weight and all. What it is in proportion to: for wood, the sum of its branch's joints to a torque about the first; for a clump, a
-// ball. Damping: so that the same is lost, and no more than the parts' largest. A body whose parts, or
+// far, weight and all; that of a single part too, where it carries what stands for several. What it is in proportion to: for wood, the sum of its
+// branch's joints to a torque about the first; for a clump, a ball. So all that a joint carries gives at omega what it gave in the whole tree.
+// Damping: so that the same is lost, and no more than the parts' largest. A body whose parts, or
 // what they carry, do not stand under their weight keeps the stiffness of its parts one after another.
 // Clumps. A clump's joint stands toward the base of what bears it, at a lever L from its centre of mass, 2 radii of gyration at most, or
 // what keeps it from drooping by more than 0.8 rad held out level. Its thicker wood hardly moves with its leaves: of its mass a share is
 // part of the wood that carries it (in the slackest crowns some of the leaves' as well). Share and L are those at which a clump swings with as much kinetic energy and brakes as much in the
-// air, at 8 m/s, as its parts (swinging() in resolve.cpp).
+// air, at 8 m/s, as its parts (swinging() in resolve.cpp). Its centre of mass is the middle of what the air takes hold of in it: where that is further out than
+// that of all its parts, the share is as much further in.
 // Air. Tree::drag gives each body the drag of its parts as they stand in horizontal winds, mean over their directions: wood that of its
 // pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold), of its wood.
 // What comes out, in leaf: README.md beside this; held by tests/lib/growth/resolve.cpp.

@@ -44,22 +44,26 @@ void add_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen
     const std::size_t n = whole.size_bodies();
     for (std::size_t i = 0; i < n; ++i) {
         Sums& s = sums[std::size_t(chosen.body[i])];
-        const Vec3& size = whole.size[i];
+        const Vec3 &size = whole.size[i], center = bend.pose.at(i, whole.com[i]);
         s.mass += whole.mass[i];
-        s.first += whole.mass[i] * bend.pose.at(i, whole.com[i]);
+        s.first += whole.mass[i] * center;
         s.give += bend.give[i];
         s.damping = std::max(s.damping, whole.damping[i]);
         s.upright &= bend.upright[i] != 0;
         ++s.parts;
         if (is_flat(whole.kind[i])) {
             const double area = foliage_area(whole, i);
+            const double met = area * (is_clump(whole, i) ? 1 : met_by_wind(bend.pose.R_wb[i].col(1)));
             s.leaves += area;
-            s.met += area * (is_clump(whole, i) ? 1 : met_by_wind(bend.pose.R_wb[i].col(1)));
+            s.met += met;
+            s.air += met * center;
             s.thickness += area * size[2];
             s.proportion += area * size[1] / size[0];
             s.count += whole.leaf_count.empty() ? 1 : whole.leaf_count[i];
         } else {
-            s.wood += wood_across(whole, i, bend.pose.R_wb[i]);
+            const double wood = wood_across(whole, i, bend.pose.R_wb[i]);
+            s.wood += wood;
+            s.air += wood * wood_in_leaf * center;
         }
         const std::int32_t p = whole.parent[i];
         if (p < 0 || chosen.body[std::size_t(p)] != chosen.body[i]) {

@@ -16,10 +16,11 @@ struct Sums {
     Vec3 first = Vec3::Zero(); // [kg m] about the world's origin
     double leaves = 0;         // [m^2]
     double met = 0;            // [m^2] of leaves that face all ways, of the same drag in horizontal winds
-    double wood = 0;        // [m^2] of wood across the wind, of the same drag as its wood and fruit in horizontal winds
-    double thickness = 0;   // [m] times the leaves' area
-    double proportion = 0;  // [1] likewise
-    std::int64_t count = 0; // leaves
+    double wood = 0; // [m^2] of wood across the wind, of the same drag as its wood and fruit in horizontal winds
+    Vec3 air = Vec3::Zero();    // [m^3] places of leaves, wood and fruit, times their area as leaves that face all ways
+    double thickness = 0;       // [m] times the leaves' area
+    double proportion = 0;      // [1] likewise
+    std::int64_t count = 0;     // leaves
     Vec3 joints = Vec3::Zero(); // [kg m] of what hangs directly on the wood, by its mass
     double joined = 0;          // [kg]
     std::int32_t parts = 0;

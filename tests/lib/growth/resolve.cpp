@@ -2,6 +2,7 @@
 // against the whole tree's own, and a rod's closed forms.
 #include "lib/growth/resolve.h"
 #include "formats/documents/species.h"
+#include "lib/growth/flexibility.h"
 #include "lib/growth/grow.h"
 #include "lib/growth/segment.h"
 #include "lib/laws/air.h"
@@ -48,6 +49,26 @@ Measured measured(const Tree& tree, const Material& wood) {
     return m;
 }
 
+// [kg], [kg m] and [kg m^2] about the origin, the world's axes.
+struct Spread {
+    double mass = 0;
+    Vec3 first = Vec3::Zero();
+    Mat3 second = Mat3::Zero();
+};
+
+Spread spread_of(const Tree& tree) {
+    const DrawnPose pose = drawn_pose(tree);
+    Spread s;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        const Vec3 c = pose.at(i, tree.com[i]);
+        s.mass += tree.mass[i];
+        s.first += tree.mass[i] * c;
+        s.second += pose.R_wb[i] * tree.inertia[i] * pose.R_wb[i].transpose() +
+                    tree.mass[i] * (c.squaredNorm() * Mat3::Identity() - c * c.transpose());
+    }
+    return s;
+}
+
 // Three frequencies [Hz], and the mean of their damping ratios in still air, and in 8 m/s along each way.
 struct Sways {
     std::vector<double> frequency;
@@ -76,10 +97,9 @@ Sways sways(const Tree& tree, const Ways& ways) {
     return s;
 }
 
-// damped_within: for 300 bodies; from 1000 on damped_within_more.
+// sways_within: of frequencies. damped_within: of damping in wind.
 void check_one_tree(const GrowthParameters& growth, const Material& wood, std::initializer_list<std::int64_t> numbers,
-                    double damped_within, double damped_within_more = 0.1,
-                    const Ways& ways = {Vec3::UnitX(), Vec3::UnitZ()}) {
+                    double sways_within, double damped_within, const Ways& ways = {Vec3::UnitX(), Vec3::UnitZ()}) {
     const Items in_leaf{true, false, false};
     Splines splines = grow(growth, 1, in_leaf);
     const Sways whole = sways(segment(splines, wood, {}), ways);
@@ -88,9 +108,9 @@ void check_one_tree(const GrowthParameters& growth, const Material& wood, std::i
         const Sways now = sways(segment(splines, wood, {}), ways);
         INFO(growth.name << ", " << bodies << " bodies");
         for (std::size_t k = 0; k < whole.frequency.size(); ++k)
-            CHECK(now.frequency[k] == Approx(whole.frequency[k]).epsilon(0.1));
+            CHECK(now.frequency[k] == Approx(whole.frequency[k]).epsilon(sways_within));
         CHECK(now.still == Approx(whole.still).epsilon(0.25));
-        CHECK(now.damping == Approx(whole.damping).epsilon(bodies < 1000 ? damped_within : damped_within_more));
+        CHECK(now.damping == Approx(whole.damping).epsilon(damped_within));
     }
 }
 
@@ -130,16 +150,16 @@ TEST_CASE(
     for (const SpeciesFile& file : species_files()) {
         if (file.name != "cherry" && file.name != (sanitized ? "" : "apple")) continue;
         const Species species = read_species(file.content, std::string(file.name));
-        check_one_tree(species.growth, wood_for(species), {300, 1000, 10000}, 0.15);
+        check_one_tree(species.growth, wood_for(species), {300, 1000, 10000}, 0.01, 0.08);
     }
 }
 
-TEST_CASE("A full-grown oak keeps its frequencies, and of its damping in wind no less than three fifths") {
-    // The tenth of the others is missed: by 15 to 33 % (lib/growth/README.md). Of so many bodies one way of the wind is enough.
+TEST_CASE("A full-grown oak keeps its frequencies, and of its damping in wind no less than three quarters") {
+    // The tenth of the others is missed: by 15 to 25 % (lib/growth/README.md). Of so many bodies one way of the wind is enough.
     for (const SpeciesFile& file : species_files()) {
         if (file.name != "oak" || sanitized) continue;
         const Species species = read_species(file.content, std::string(file.name));
-        check_one_tree(species.growth, wood_for(species), {1000}, 0.4, 0.4, {Vec3::UnitX()});
+        check_one_tree(species.growth, wood_for(species), {1000}, 0.025, 0.25, {Vec3::UnitX()});
     }
 }
 
@@ -149,9 +169,75 @@ TEST_CASE("All eight species sway as the whole tree does: three frequencies, and
     for (const SpeciesFile& file : species_files()) {
         const Species species = read_species(file.content, std::string(file.name));
         check_one_tree(at_age(species, (file.name == "palm" ? 1 : 0.2) * species.mature_age), wood_for(species),
-                       {300, 1000, 3000}, 0.2);
+                       {300, 1000, 3000}, 0.05, 0.1);
         if (sanitized) break;
     }
+}
+
+TEST_CASE("Where the mass of what is left out is, none is lost: a tree's centre of mass and inertia stay") {
+    for (const SpeciesFile& file : species_files()) {
+        if (file.name != "cherry" && file.name != "oak") continue;
+        const Species species = read_species(file.content, std::string(file.name));
+        Splines splines = grow(at_age(species, 0.3 * species.mature_age), 1, Items{true, false, false});
+        const Spread whole = spread_of(segment(splines, wood_for(species), {}));
+        for (const std::int64_t bodies : {100, 300, 3000}) {
+            ask_for_bodies(splines, bodies);
+            const Spread now = spread_of(segment(splines, wood_for(species), {}));
+            INFO(species.name << ", " << bodies << " bodies");
+            CHECK(now.mass == Approx(whole.mass).epsilon(1e-9));
+            CHECK((now.first - whole.first).norm() < 1e-9 * whole.first.norm());
+            CHECK((now.second - whole.second).norm() < 1e-9 * whole.second.norm());
+        }
+    }
+}
+
+TEST_CASE("A tree gives as much, shaken just below its own frequency, on however many bodies") {
+    for (const SpeciesFile& file : species_files()) {
+        if (file.name != "cherry") continue;
+        const Species species = read_species(file.content, std::string(file.name));
+        Splines splines = grow(at_age(species, 0.3 * species.mature_age), 1, Items{true, false, false});
+        const Flexibility whole = flexibility_at_sway(segment(splines, wood_for(species), {}));
+        REQUIRE(whole.stands);
+        for (const std::int64_t bodies : {100, 300, 1000}) {
+            ask_for_bodies(splines, bodies);
+            const Flexibility now = flexibility(segment(splines, wood_for(species), {}), whole.omega2);
+            INFO(bodies << " bodies");
+            CHECK(now.stands);
+            CHECK(now.whole[0] == Approx(whole.whole[0]).epsilon(1e-4));
+        }
+    }
+}
+
+TEST_CASE("A clump is where the air takes hold of its leaves, not where most of its wood is") {
+    // Boughs that taper to threads: a cone's centre of mass is a quarter of the way out. They weigh more than their large leaves, which are at their
+    // ends.
+    Splines s;
+    add_branch(s, -1, 0, {{0, 0, 0}, {0, 4, 0}}, {0.1, 0.05});
+    Vec3 leaves = Vec3::Zero(), mass = Vec3::Zero();
+    for (int k = 0; k < 40; ++k) {
+        const double y = 2 + 0.02 * k;
+        const Vec3 out(std::cos(0.08 * k), 0, std::sin(0.08 * k)), base(0, y, 0), end = base + out;
+        add_branch(s, 0, y / 4, {base, end}, {0.008, 0.0001});
+        add_leaf(s, k + 1, 1, end);
+        s.leaf_length.back() = 0.5;
+        s.leaf_width.back() = 0.4;
+        leaves += end / 40;
+    }
+    const Tree whole = segment(s, wood(), length_of(0.1)), tree = resolve(whole, 2);
+    const DrawnPose pose = drawn_pose(tree);
+    REQUIRE(tree.size_bodies() == 2);
+    REQUIRE(is_clump(tree, 1));
+    const DrawnPose drawn = drawn_pose(whole);
+    double all = 0;
+    for (std::size_t i = 0; i < whole.size_bodies(); ++i) {
+        if (whole.kind[i] == Kind::branch && whole.level[i] == 0) continue;
+        all += whole.mass[i];
+        mass += whole.mass[i] * drawn.at(i, whole.com[i]);
+    }
+    const Vec3 middle = pose.at(1, tree.com[1]);
+    INFO(middle.transpose() << " is not near " << leaves.transpose() << ", but " << (mass / all).transpose());
+    CHECK((middle - leaves).norm() < 0.5 * (mass / all - leaves).norm());
+    CHECK((spread_of(tree).first - spread_of(whole).first).norm() < 1e-9 * spread_of(whole).first.norm());
 }
 
 TEST_CASE("A level rod of one body sways as the beam does") {
