@@ -343,7 +343,8 @@ TEST_CASE("normals that a skinned file has not are made, what it cannot show is 
         bark["POSITION"] = model.file.floats(far);
     });
     refuses("TEXCOORD_1 of vertex 4 is moved beyond any float", [](TwoBones& model, GltfJson&) {
-        model.file.json["textures"] = {GltfJson::object()};
+        model.file.json["textures"] =
+            GltfJson::array({GltfJson::object()}); // clang takes a brace about one object for the object
         model.file.json["materials"][1]["normalTexture"] = {
             {"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", {{"scale", {1, 1e300}}}}}}};
     });
