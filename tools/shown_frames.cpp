@@ -27,10 +27,40 @@ DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, co
     return options;
 }
 
+// Of a user's own model. Null where there is none, or where INPUT's is none that the tree can move and nobody asked for it: a note says so.
+std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, const Tree& shown,
+                                  const std::string& format, const CacheFrames& cached,
+                                  std::optional<UserModel> model) {
+    if (!model) return nullptr;
+    const auto pass_over = [&](const InputError& error) {
+        if (!o.skin.empty() || o.mesh == "own") throw;
+        o.common.notes.push_back(std::string(error.what()) + ": a mesh made from the tree is shown");
+        return nullptr;
+    };
+    try {
+        const std::string source = with_command_line(setting.source, o.common);
+        if (format == "glb")
+            return driven_sink(o.common.output, std::move(*model), shown, driven_options(o, setting, source),
+                               o.common.notes);
+        DrivenMesh mesh(*model, shown, place_of(setting), o.common.notes);
+        model.reset(); // its arrays are in the mesh
+        o.common.notes.push_back(counted(mesh.bones(), "bone", "bones") + " of the model moved");
+        if (format == "obj") return driven_obj_sink(o.common.output, std::move(mesh), o.common.notes);
+        return driven_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
+    } catch (const OtherTree& error) {
+        return pass_over(error);
+    } catch (const NoSkinnedMesh& error) {
+        return pass_over(error);
+    }
+}
+
 // shown: the tree that meshes are made of, the balls with it.
 std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
                                      const std::string& format, std::int64_t first, std::int64_t last,
                                      ShownModel model) {
+    const CacheFrames cached{o.run.fps, first, last - first + 1};
+    if (std::unique_ptr<FrameSink> sink = driven(o, setting, shown, format, cached, std::move(model.driven)))
+        return sink;
     RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
     std::optional<OwnMesh> own;
@@ -43,20 +73,12 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
                 return made ? std::move(*made) : dress(tree, Species(), {LeafDetail::kite, 0, o.sides.value_or(8)});
             },
             o.common.notes);
-    else if (is_mesh(format) && !model.driven)
+    else if (is_mesh(format))
         own = dressed(shown, o.sides, o.dress, format, plain_leaves(o));
     if (own && !bound && setting.tree_files.size() > 1)
         o.common.notes.push_back("the trees of " + std::to_string(setting.tree_files.size()) + " files all look as " +
                                  (o.dress.look.empty() ? "the first one's species, " + shown.name : o.dress.look) +
                                  " does (--look)");
-    const CacheFrames cached{o.run.fps, first, last - first + 1};
-    if (model.driven && format != "glb") {
-        DrivenMesh mesh(*model.driven, shown, place_of(setting), o.common.notes);
-        model.driven.reset(); // its arrays are in the mesh
-        o.common.notes.push_back(counted(mesh.bones(), "bone", "bones") + " of the model moved");
-        if (format == "obj") return driven_obj_sink(o.common.output, std::move(mesh), o.common.notes);
-        return driven_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
-    }
     if (is_point_cache(format) && own)
         return own_cache_sink(o.common.output, format, shown, std::move(*own), cached, o.common.notes);
     if (is_mesh(format) && format != "glb") {
@@ -75,9 +97,6 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         return cache_sink(o.common.output, format, shown, std::move(skin), rustle, cached, o.common.notes);
     }
     const std::string source = with_command_line(setting.source, o.common);
-    if (model.driven)
-        return driven_sink(o.common.output, std::move(*model.driven), shown, driven_options(o, setting, source),
-                           o.common.notes);
     if (own) return own_sink(o.common.output, shown, std::move(*own), o.run.fps, o.gltf, source, o.common.notes);
     if (format == "glb")
         return gltf_sink(o.common.output, shown, o.sides.value_or(8), rustle, o.run.fps, o.gltf, source,
@@ -134,6 +153,8 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
         shown.own = std::make_unique<const Tree>(shown_tree(setting.tree, broken, balls));
     o.gltf.loose = broken.size() + balls.size();
     const bool of_file = bool(model);
+    if (model.driven && !balls.empty())
+        o.common.notes.push_back("balls and walkers are not shown beside a model's own mesh");
     shown.sink =
         open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, std::move(model));
     if (o.common.output != "-")

@@ -42,7 +42,7 @@ std::vector<std::string> gltf_rods(const Tree& tree, const JointGroups& groups, 
             ++run[g].points;
         };
         const std::int32_t p = tree.parent[i], carrier = p < 0 ? -1 : tree.branch[std::size_t(p)];
-        if (run[g].points == 0 || run[g].branch != tree.branch[i] || carrier != tree.branch[i]) {
+        if (run[g].points == 0 || run[g].branch != tree.branch[i] || !continues_parent(tree, i)) {
             append(run[g], wood[g]);
             run[g] = {tree.branch[i], carrier, 0, ""};
             add_point(false);

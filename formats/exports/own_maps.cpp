@@ -1,7 +1,8 @@
 #include "own_maps.h"
-#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace bough {
 namespace {
@@ -40,10 +41,8 @@ public:
         const std::string stem = folder_ + plain(std::filesystem::path(image.name).stem().string()),
                           kind = image.type == "image/jpeg" ? ".jpg" : ".png";
         name = stem + kind;
-        const auto taken = [&] {
-            return std::any_of(to_.begin(), to_.end(), [&](const ImageFile& f) { return f.name == name; });
-        };
-        for (int k = 2; taken(); ++k) name = stem + "_" + std::to_string(k) + kind;
+        for (int& k = next_.try_emplace(stem, 2).first->second; !taken_.insert(name).second; ++k)
+            name = stem + "_" + std::to_string(k) + kind;
         to_.push_back({name, &image.bytes});
         return name;
     }
@@ -53,6 +52,8 @@ private:
     std::vector<ImageFile>& to_;
     std::string folder_;
     std::vector<std::string> name_; // of each image, once it has one
+    std::set<std::string> taken_;
+    std::map<std::string, int> next_; // of each name without ending that was asked for: the number to try next
 };
 
 OwnLook look_of(const json& material) {

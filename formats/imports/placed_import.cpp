@@ -107,7 +107,7 @@ void find_outlier(const Splines& s, const std::string& name, ImportNotes& notes)
                               " m (x, y up, z), " + shown(most) +
                               " m from the middle of the tree, half of which is within " + shown(half) + " m";
     if (most > aloof * half) throw InputError(name, found + "; expected all of it in one place" + right);
-    notes.lines.push_back(found + ": is it a slip? Beside it all else is short");
+    notes.lines.push_back(found + ": is it a slip?");
 }
 
 } // namespace bough

@@ -24,11 +24,11 @@ DrivenBones::DrivenBones(const UserModel& model, const Tree& tree, const DrivenP
     constexpr const char* expected = "; expected the model that the tree was made from, in its own units and up axis";
     const double ratio = bodies.tree_size / bodies.bones_size;
     if (!(ratio > 0.5 && ratio < 2))
-        throw InputError(model.name, "its bones are " + shown(bodies.bones_size) + " m large, the tree is " +
-                                         shown(bodies.tree_size) + " m" + expected);
+        throw OtherTree(model.name, "its bones are " + shown(bodies.bones_size) + " m large, the tree is " +
+                                        shown(bodies.tree_size) + " m" + expected);
     if (2 * bodies.missed > bones.size())
-        throw InputError(model.name, std::to_string(bodies.missed) + " of its " + std::to_string(bones.size()) +
-                                         " bones lie beside the tree, up to " + shown(bodies.worst) + " m" + expected);
+        throw OtherTree(model.name, std::to_string(bodies.missed) + " of its " + std::to_string(bones.size()) +
+                                        " bones lie beside the tree, up to " + shown(bodies.worst) + " m" + expected);
     if (bodies.missed > 0)
         notes.push_back(model.name + ": " + std::to_string(bodies.missed) + " of " + std::to_string(bones.size()) +
                         " bones lie beside the tree, up to " + shown(bodies.worst) + " m: they go with the bone above");

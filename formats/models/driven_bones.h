@@ -7,7 +7,7 @@
 //     G_n(f) = G_a(f) L_1 ... L_n,
 // L the matrices of the nodes from a down to n; it stands still where there is none.
 // Cost     O((bones + bodies) log bodies) once, O(bones) a frame.
-// Errors   InputError where most bones lie beside the tree's bodies, or the bones are less than half or more than twice as large as the tree.
+// Errors   OtherTree where most bones lie beside the tree's bodies, or the bones are less than half or more than twice as large as the tree.
 #pragma once
 #include "gltf_nodes.h"
 #include "lib/model/motion.h"
@@ -28,6 +28,11 @@ struct DrivenBone {
     Quat turned = Quat::Identity();     // R of G_c
     Vec3 start = Vec3::Zero();          // of G_c
     Mat3 linear = Mat3::Identity();     // R S of G_c
+};
+
+// The bones are not those of the tree.
+struct OtherTree : InputError {
+    using InputError::InputError;
 };
 
 class DrivenBones {

@@ -50,8 +50,9 @@ public:
             Json look{{"name", part.name}, {"pbrMetallicRoughness", std::move(pbr)}};
             if (const int image = image_of(at_or_empty(material, "normalTexture"), part.name + "_normal"); image >= 0)
                 look["normalTexture"] = {{"index", image}};
-            for (const char* kept : {"alphaMode", "alphaCutoff", "doubleSided"})
-                if (material.contains(kept)) look[kept] = material[kept];
+            if (material.contains("alphaMode")) look["alphaMode"] = material["alphaMode"].get<std::string>();
+            if (material.contains("alphaCutoff")) look["alphaCutoff"] = material["alphaCutoff"].get<double>();
+            if (material.contains("doubleSided")) look["doubleSided"] = material["doubleSided"].get<bool>();
             mesh_.material.push_back(look.dump(-1, ' ', false, Json::error_handler_t::replace));
         } else {
             part.name = free_name(part.name);
@@ -65,7 +66,8 @@ private:
             if (static_cast<unsigned char>(c) <= ' ' || c == 127) c = '_';
         if (name.empty()) name = "material";
         const std::string stem = name;
-        for (int k = 2; !name_.insert(name).second; ++k) name = stem + "_" + std::to_string(k);
+        for (int& k = next_.try_emplace(stem, 2).first->second; !name_.insert(name).second; ++k)
+            name = stem + "_" + std::to_string(k);
         return name;
     }
 
@@ -113,6 +115,7 @@ private:
     std::vector<std::string>& notes_;
     std::map<std::size_t, int> image_; // of each of the document's that was asked for
     std::set<std::string> name_;
+    std::map<std::string, int> next_; // of each name that was asked for: the number to try next
 };
 
 } // namespace

@@ -54,7 +54,7 @@ void DrivenMesh::turn_mirrored() {
 void DrivenMesh::check_range(const std::string& name) const {
     for (std::size_t v = 0; v < vertices(); ++v) {
         const Vec3 at = blended(v) * surface_.position[v].cast<double>();
-        if (!(at.cwiseAbs().maxCoeff() < double(std::numeric_limits<float>::max()))) // false for NaN
+        if (!(at.array().abs() < double(std::numeric_limits<float>::max())).all()) // maxCoeff() may pass NaN over
             throw InputError(name, "vertex " + std::to_string(v) + " of its mesh is drawn beyond any float, at " +
                                        shown(at.x()) + ", " + shown(at.y()) + ", " + shown(at.z()));
     }

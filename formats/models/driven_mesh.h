@@ -5,7 +5,7 @@
 //     p(f) = sum_k w_k M_k(f) p / sum_k w_k,   n(f) = A^-T n / |A^-T n|,   A the linear part of sum_k w_k M_k(f).
 // So it shows what a viewer shows of the .glb that DrivenModel writes. (Where a bone hangs on a node scaled unequally, G_n is exact here and only near there.)
 // Cost     O(bones + joints) a frame, O(shares) a vertex, on all threads; 40 bytes a vertex, 8 a share, 12 a triangle.
-// Errors   InputError as DrivenBones and surface_of have it, and for vertices that are drawn beyond a float's range.
+// Errors   As DrivenBones and surface_of have them, and InputError for vertices whose drawn place is not finite or beyond a float's range.
 #pragma once
 #include "driven_bones.h"
 #include "driven_surface.h"

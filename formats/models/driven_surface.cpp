@@ -68,8 +68,11 @@ private:
         std::vector<Shown> shown;
         for (const std::size_t n : nodes_in_scene(json_)) {
             const Json& node = json_["nodes"][n];
-            if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing")) ++instanced_;
             if (!node.contains("mesh")) continue;
+            if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing")) {
+                ++instanced_; // where the node itself is, none of them need stand
+                continue;
+            }
             const std::size_t mesh = index_of(node, "mesh", "a node", entries_of(json_, "meshes"));
             const Json& primitives = json_["meshes"][mesh].at("primitives");
             for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -86,7 +89,7 @@ private:
         }
         if (instanced_ > 0)
             notes_.push_back(counted(instanced_, "node's instances are", "nodes' instances are") +
-                             " not shown (EXT_mesh_gpu_instancing): its mesh stands once");
+                             " not shown (EXT_mesh_gpu_instancing)");
         return shown;
     }
 
@@ -135,7 +138,7 @@ private:
             made.position.push_back(point[v].cast<float>());
             made.normal.push_back(normal[v].normalized().cast<float>());
             const Eigen::Vector2d at = map.at + map.turn * Eigen::Vector2d(uv[2 * v], uv[2 * v + 1]);
-            if (!(at.cwiseAbs().maxCoeff() < double(std::numeric_limits<float>::max()))) // by KHR_texture_transform
+            if (!(at.array().abs() < double(std::numeric_limits<float>::max())).all()) // by KHR_texture_transform
                 throw std::out_of_range(place + ": " + set + " of vertex " + std::to_string(v) +
                                         " is moved beyond any float by its texture");
             made.uv.push_back({float(at[0]), float(1 - at[1])});
@@ -244,7 +247,7 @@ DrivenSurface surface_of(GltfDocument& document, const std::string& name, std::v
     } catch (const std::exception& error) { // a type that is wrong, an index beyond
         throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
     }
-    if (surface.triangle.empty()) throw InputError(name, "has no triangles in its scene, expected a mesh");
+    if (surface.triangle.empty()) throw NoSkinnedMesh(name, "has no triangles in its scene, expected a mesh");
     for (const std::string& note : found) notes.push_back(name + ": " + note);
     return surface;
 }

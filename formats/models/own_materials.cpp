@@ -114,10 +114,15 @@ private:
         if (kind.empty()) return path;
         const std::string text =
             "texture " + bough::in_ascii_quotes(file) + " is a " + kind + " image, which is not read: ";
-        const std::string stem = file.substr(0, file.size() - std::filesystem::path(file).extension().string().size());
+        std::string stem = file;
+        std::replace(stem.begin(), stem.end(), '\\', '/'); // of Windows
+        stem.resize(stem.size() - std::filesystem::path(stem).extension().string().size());
         std::string found;
         for (const char* ending : {".png", ".tga", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp"})
-            if (TexturePlaces looked; found.empty()) found = find_texture(stem + ending, folder_, looked);
+            if (TexturePlaces looked; found.empty()) {
+                found = find_texture(stem + ending, folder_, looked);
+                if (!found.empty() && !unread_kind(found).empty()) found.clear(); // its ending says otherwise
+            }
         if (noted_.insert(file).second)
             unread_.push_back(
                 text +

@@ -9,6 +9,8 @@
 namespace bough {
 namespace {
 
+constexpr double least_share = 0.02; // of all triangles, that a line crosses where their corners are out of order
+
 std::tuple<double, double, double> coordinates(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
@@ -56,7 +58,7 @@ void MeshInterior::count_crossings() {
     }
     for (int axis = 0; axis < 3; ++axis)
         closure_.crossings += area[axis] / (size[(axis + 1) % 3] * size[(axis + 2) % 3]) / 3;
-    if (closure_.crossings > most_crossings)
+    if (closure_.crossings > most_crossings && closure_.crossings > least_share * static_cast<double>(triangle_.size()))
         throw std::invalid_argument("a straight line through it crosses " +
                                     std::to_string(std::llround(closure_.crossings)) + " of its " +
                                     std::to_string(triangle_.size()) + " triangles on average, expected at most " +

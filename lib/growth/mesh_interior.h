@@ -11,7 +11,7 @@
 // three cells, a handful. Corners at equal positions are one.
 // A line through a crown of leaves crosses some 10 of them (its leaf area index is of that size), a line through a shell 2. Where the corners of the
 // triangles are out of order, each spans the whole: a line crosses a tenth of all of them, a query takes as long, and what is inside means nothing.
-// So a mesh whose lines cross more than `most_crossings` on average is refused.
+// So a mesh whose lines cross more than `most_crossings`, and a fiftieth of all, on average is refused.
 #pragma once
 #include "../base/math.h"
 #include <array>
@@ -32,8 +32,8 @@ struct MeshClosure {
 class MeshInterior {
 public:
     static constexpr double most_crossings = 100;
-    // Throws std::invalid_argument for a corner that does not exist, positions that are not finite, no triangle with an area, or more crossings than
-    // most_crossings.
+    // Throws std::invalid_argument for a corner that does not exist, positions that are not finite, no triangle with an area, or corners that are
+    // out of order (more crossings than most_crossings and than a fiftieth of the triangles).
     MeshInterior(const std::vector<Vec3>& vertex, const std::vector<Triangle>&);
     bool contains(const Vec3&) const;
     const Vec3& lower() const { return lower_; } // [m] corners of the bounding box

@@ -199,6 +199,11 @@ for kind in 'DDS \x7c' '\xABKTX 11' 'RIFF\0\0\0\0WEBPVP8 ' '\x76\x2F\x31\x01\x02
     expect 0 treesim games/tree.xml --frames 1 -o converted.glb
     grep -q "texture \"leaf.dds\" is a .* image, which is not read: games/leaf.png is taken" err || fail "beside it: $(cat err)"
     [[ $(grep -c leaf.dds err) == 1 ]] || fail "said more than once: $(cat err)"
+    cp games/leaf.dds games/leaf.png # whose ending says otherwise
+    cp art/leaf_opacity.bmp games/leaf.bmp
+    expect 0 treesim games/tree.xml --frames 1 -o x.glb
+    grep -q "not read: games/leaf.bmp is taken" err || fail "behind a .png that is none: $(cat err)"
+    rm x.glb games/leaf.bmp
     rm games/leaf.png
     expect 0 treesim games/tree.xml --frames 1 -o bare.glb
     grep -q "is not read: its material does without it" err || fail "none beside it: $(cat err)"
@@ -206,6 +211,16 @@ for kind in 'DDS \x7c' '\xABKTX 11' 'RIFF\0\0\0\0WEBPVP8 ' '\x76\x2F\x31\x01\x02
         [[ $(json ${pair%:*}.glb '[i["name"] for i in g["images"]]') == "['bark', '${pair#*:}']" ]] || fail "$pair: $(json ${pair%:*}.glb 'g["images"]')"
     done
 done
+
+# A name of Windows whose folder has a point in it, and that has no ending.
+mkdir -p games/v1.2
+cp games/leaf.dds games/v1.2/leaf
+cp art/leaf.png games/v1.png
+cp art/leaf.png games/v1.2/leaf.png
+sed 's/leaf\.png/v1.2\\leaf/' art/tree.xml >games/tree.xml
+expect 0 treesim games/tree.xml --frames 1 -o x.glb
+grep -q "not read: games/v1.2/leaf.png is taken" err || fail "a name of Windows: $(cat err)"
+rm x.glb
 
 # OBJ frames: the .mtl names the file's images, which stand in a folder of their own, byte for byte what the .glb holds.
 expect 0 treesim art/tree.xml --frames 1 -o textured_%d.obj

@@ -220,6 +220,16 @@ grep -q "its mesh is in Draco's form, which is not read: one made from the tree 
 refused 2 "its own mesh: is in Draco's form" treesim art/packed.gltf --mesh own --frames 1 -o x_%d.obj
 refused 2 "holds a mesh in Draco's form" treesim twig.json --skin art/packed.gltf --frames 1 -o x_%d.obj
 
+# Our own .glb whose joints stand for whole crowns: its bones are not the tree's, which is read finer. Said where nobody asked, refused where one did.
+treegen -q --species cherry --age 4 --bodies 60 --leaves | treeconvert -q - -o cherry.json
+expect 0 treesim cherry.json --frames 2 --max-joints 1 -o cherry.glb
+for to in cherry_%d.obj again.glb; do
+    expect 0 treesim cherry.glb --frames 1 -o $to
+    grep -q "bones lie beside the tree.*: a mesh made from the tree is shown" err || fail "$to: $(cat err)"
+    refused 2 "bones lie beside the tree" treesim cherry.glb --mesh own --frames 1 -o $to
+done
+rm cherry.glb again.glb cherry.mtl cherry_*
+
 # A scene that names the model says that it shows ours, in any form.
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "art/leafy.gltf"}]}' >named.json
 for to in x_%d.obj x.glb; do
@@ -258,6 +268,7 @@ broken 'put(bark["attributes"]["JOINTS_1"], "B", 16, 5)' 'JOINTS_1 has joint 5 m
 broken 'put(bark["attributes"]["WEIGHTS_1"], "f", 17, float("nan"))' 'WEIGHTS_1: vertex 4 is not finite'
 broken 'put(bark["attributes"]["POSITION"], "f", 4, float("inf"))' 'POSITION: vertex 1 is not finite'
 broken 'put(model["skins"][0]["inverseBindMatrices"], "f", 3, float("nan"))' 'inverseBindMatrices: matrix 0 is not finite'
+broken 'model["materials"][1]["alphaMode"] = 5' 'type must be string, but is number'
 broken 'bark["material"] = 7' 'material is 7, expected less than 2'
 broken 'model["accessors"][bark["attributes"]["WEIGHTS_1"]]["count"] = 31' 'WEIGHTS_1 has 31 elements, expected one for each of 32 vertices'
 absent x_0.obj x.pc2 x.mdd x.mtl x_.mtl x_textures

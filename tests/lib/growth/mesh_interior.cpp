@@ -129,6 +129,11 @@ TEST_CASE("Corners out of order are refused, as many layers as a crown has are n
         MeshInterior(denser.vertex, denser.triangle),
         "a straight line through it crosses 102 of its 612 triangles on average, expected at most 100, as "
         "through the surface of a crown; are the corners of its faces in order?");
+    Solid shells = icosphere(2); // as dense, but each in order: united, as they overlap
+    for (int k = 1; k < 70; ++k) shells = together(shells, moved(icosphere(2), 1 - 0.001 * k, {0, 0, 0}));
+    const MeshInterior united(shells.vertex, shells.triangle);
+    CHECK(united.closure().crossings > MeshInterior::most_crossings);
+    CHECK(united.contains({0.1, 0.2, 0.3}));
     Solid shuffled = icosphere(4);
     for (std::size_t i = 0; i < shuffled.triangle.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
