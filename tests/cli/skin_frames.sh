@@ -267,6 +267,9 @@ broken 'put(bark["indices"], "H", 5, 32)' 'mesh 0, primitive 0: a triangle names
 broken 'put(bark["attributes"]["JOINTS_1"], "B", 16, 5)' 'JOINTS_1 has joint 5 move vertex 4, but skin 0 has 5 joints'
 broken 'put(bark["attributes"]["WEIGHTS_1"], "f", 17, float("nan"))' 'WEIGHTS_1: vertex 4 is not finite'
 broken 'put(bark["attributes"]["POSITION"], "f", 4, float("inf"))' 'POSITION: vertex 1 is not finite'
+broken 'pot, leaf = model["nodes"][-1], model["meshes"][1]["primitives"][0]["attributes"]["POSITION"]
+pot.pop("translation"); pot["matrix"] = [1, 1e308, 0, 0, 0, -1e308, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+put(leaf, "f", 3, 100); put(leaf, "f", 4, 100)' 'is drawn beyond any float, at 100, ' # in y alone
 broken 'put(model["skins"][0]["inverseBindMatrices"], "f", 3, float("nan"))' 'inverseBindMatrices: matrix 0 is not finite'
 broken 'model["materials"][1]["alphaMode"] = 5' 'type must be string, but is number'
 broken 'bark["material"] = 7' 'material is 7, expected less than 2'
