@@ -37,5 +37,9 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION "trees that move like wood: the Python mo
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "libbough0 (>= ${PROJECT_VERSION}), python3, python3-numpy")
+# What Python wrote when root imported the module is no file of a package's: it goes before the module does.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/prerm "#!/bin/sh\nset -e\nrm -f /usr/lib/python3/dist-packages/__pycache__/bough.cpython-*.pyc\n")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/prerm)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
 
 include(CPack)
