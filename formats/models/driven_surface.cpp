@@ -6,6 +6,7 @@
 #include "gltf_nodes.h"
 #include "lib/base/counted.h"
 #include "model_gltf.h"
+#include "user_model.h"
 #include <algorithm>
 #include <limits>
 #include <map>
