@@ -27,14 +27,16 @@ DrivenOptions driven_options(const TreesimOptions& o, const Setting& setting, co
     return options;
 }
 
-// Of a user's own model. Null where there is none, or where INPUT's is none that the tree can move and nobody asked for it: a note says so.
+// Of a user's own model, which is taken. Null where there is none, or where INPUT's is none that the tree can move and nobody asked for it: a note
+// says so, and there is none then.
 std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, const Tree& shown,
                                   const std::string& format, const CacheFrames& cached,
-                                  std::optional<UserModel> model) {
+                                  std::optional<UserModel>& model) {
     if (!model) return nullptr;
     const auto pass_over = [&](const InputError& error) {
         if (!o.skin.empty() || o.mesh == "own") throw;
         o.common.notes.push_back(std::string(error.what()) + ": a mesh made from the tree is shown");
+        model.reset();
         return nullptr;
     };
     try {
@@ -43,7 +45,7 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
             return driven_sink(o.common.output, std::move(*model), shown, driven_options(o, setting, source),
                                o.common.notes);
         DrivenMesh mesh(*model, shown, place_of(setting), o.common.notes);
-        model.reset(); // its arrays are in the mesh
+        model->document.reset(); // its arrays are in the mesh
         o.common.notes.push_back(counted(mesh.bones(), "bone", "bones") + " of the model moved");
         if (format == "obj") return driven_obj_sink(o.common.output, std::move(mesh), o.common.notes);
         return driven_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
@@ -57,10 +59,9 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
 // shown: the tree that meshes are made of, the balls with it.
 std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
                                      const std::string& format, std::int64_t first, std::int64_t last,
-                                     ShownModel model) {
+                                     ShownModel& model) {
     const CacheFrames cached{o.run.fps, first, last - first + 1};
-    if (std::unique_ptr<FrameSink> sink = driven(o, setting, shown, format, cached, std::move(model.driven)))
-        return sink;
+    if (std::unique_ptr<FrameSink> sink = driven(o, setting, shown, format, cached, model.driven)) return sink;
     RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
     std::optional<OwnMesh> own;
@@ -152,18 +153,17 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
     if (!broken.empty() || !balls.empty())
         shown.own = std::make_unique<const Tree>(shown_tree(setting.tree, broken, balls));
     o.gltf.loose = broken.size() + balls.size();
-    const bool of_file = bool(model);
+    const bool bound = !model.bound.empty();
+    shown.sink = open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, model);
     if (model.driven && !balls.empty())
         o.common.notes.push_back("balls and walkers are not shown beside a model's own mesh");
-    shown.sink =
-        open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, std::move(model));
     if (o.common.output != "-")
         shown.sink = sized_sink(std::move(shown.sink), format, last - first + 1, [&o](const std::string& text) {
             if (o.common.quiet) return;
             clear_progress();
             std::cerr << treesim_info.name << ": " << text << "\n";
         });
-    if (is_point_cache(format)) note_cache(o, setting, balls.size(), of_file);
+    if (is_point_cache(format)) note_cache(o, setting, balls.size(), bound || model.driven);
     return shown;
 }
 

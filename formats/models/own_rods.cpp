@@ -1,5 +1,6 @@
 #include "own_rods.h"
 #include "formats/imports/polyline_search.h"
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +21,7 @@ bool read(const Json& list, std::vector<OwnRod>& rods) {
     for (const Json& value : list) {
         if (!value.is_number()) return false;
         number.push_back(value.get<double>());
-        if (!std::isfinite(number.back())) return false;
+        if (!(std::abs(number.back()) <= double(std::numeric_limits<float>::max()))) return false;
     }
     for (std::size_t from = 0; from < number.size();) {
         if (number.size() - from < 3) return false;

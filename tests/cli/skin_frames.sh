@@ -228,7 +228,9 @@ for to in cherry_%d.obj again.glb; do
     grep -q "bones lie beside the tree.*: a mesh made from the tree is shown" err || fail "$to: $(cat err)"
     refused 2 "bones lie beside the tree" treesim cherry.glb --mesh own --frames 1 -o $to
 done
-rm cherry.glb again.glb cherry.mtl cherry_*
+expect 0 treesim cherry.glb --frames 1 -o cherry.pc2
+! grep -q "own mesh, material by material" err || fail "a cache of a made mesh is said to be of the file's: $(cat err)"
+rm cherry.glb again.glb cherry.pc2 cherry.mtl cherry_*
 
 # A scene that names the model says that it shows ours, in any form.
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "art/leafy.gltf"}]}' >named.json
