@@ -215,7 +215,7 @@ std::string GltfWriter::shown(GltfFile& file, const Vec3& origin, std::string& e
 }
 
 void GltfWriter::finish() {
-    keys_.thin(options_.key_tolerance);
+    keys_.thin(options_.key_tolerance, true);
     const Vec3 origin = origin_of(skin_, own_, drawn_);
     // Still air moves nothing: no targets.
     if (std::all_of(weights_.begin(), weights_.end(), [](float w) { return w == 0; })) weights_.clear();

@@ -51,16 +51,39 @@ KeyTimes add_times(GltfFile& file, const JointKeys& keys, double fps) {
     return times;
 }
 
-// Neighbouring keys less than a half turn apart as 4-vectors: programs that blend the four numbers need it.
+// A key's four numbers, or with all signs changed, so that neighbouring keys are less than a half turn apart as 4-vectors: programs that blend the
+// four numbers need it.
+class Neighbours {
+public:
+    // 1 or -1
+    int sign(const Eigen::Vector4f& q) {
+        if (q.dot(before_) < 0) sign_ = -sign_;
+        before_ = q;
+        return sign_;
+    }
+
+private:
+    Eigen::Vector4f before_ = Eigen::Vector4f::Zero();
+    int sign_ = 1;
+};
+
 void write_rotations(GltfBytes& to, const JointKeys& keys) {
     for (std::size_t j = 0; j < keys.joints(); ++j) {
-        Eigen::Vector4f before = Eigen::Vector4f::Zero();
+        Neighbours neighbours;
         for (std::size_t f = 0; f < keys.frames(); ++f) {
             if (!keys.has_key(j, f)) continue;
-            Eigen::Vector4f q = keys.key(j, f).coeffs();
-            if (q.dot(before) < 0) q = -q;
+            const Eigen::Vector4f key = keys.key(j, f).coeffs(), q = float(neighbours.sign(key)) * key;
             to.add_all(q[0], q[1], q[2], q[3]);
-            before = q;
+        }
+    }
+}
+
+void write_short_rotations(GltfBytes& to, const JointKeys& keys) {
+    for (std::size_t j = 0; j < keys.joints(); ++j) {
+        Neighbours neighbours;
+        for (const ShortRotation& q : keys.short_keys(j)) {
+            const int sign = neighbours.sign({float(q[0]), float(q[1]), float(q[2]), float(q[3])});
+            for (const std::int16_t number : q) to.add(std::int16_t(sign * number));
         }
     }
 }
@@ -103,15 +126,19 @@ std::string gltf_animation(GltfFile& file, const JointKeys& keys, const std::vec
                            int weights_node) {
     if (keys.frames() == 0) return "";
     const KeyTimes times = add_times(file, keys, fps);
-    const int view =
-        file.add_view(16 * keys.count(), GltfTarget::none, 0, [&keys](GltfBytes& to) { write_rotations(to, keys); });
+    const std::uint64_t size = keys.in_shorts() ? sizeof(ShortRotation) : 4 * sizeof(float);
+    const int view = file.add_view(size * keys.count(), GltfTarget::none, 0, [&keys](GltfBytes& to) {
+        (keys.in_shorts() ? write_short_rotations : write_rotations)(to, keys);
+    });
     Channels motion;
     std::uint64_t offset = 0;
     for (std::size_t j = 0; j < keys.joints(); ++j) {
         const std::size_t count = keys.count(j);
         if (count == 0) continue;
-        const int output = file.add_accessor(view, offset, GltfType::f32, count, "VEC4");
-        offset += 16 * count;
+        const int output = keys.in_shorts()
+                               ? file.add_accessor(view, offset, GltfType::s16, count, "VEC4", ",\"normalized\":true")
+                               : file.add_accessor(view, offset, GltfType::f32, count, "VEC4");
+        offset += size * count;
         motion.add(times.accessor[times.kind.at(keys.key_bits(j))], output, first_node + int(j), "rotation");
     }
     int all_times = -1;

@@ -7,7 +7,7 @@
 
 namespace bough {
 
-enum class GltfType : int { u8 = 5121, u16 = 5123, u32 = 5125, f32 = 5126 };
+enum class GltfType : int { u8 = 5121, s16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 enum class GltfTarget : int { none = 0, vertices = 34962, indices = 34963 };
 
 // Numbers gathered in a block and handed on when it is full.

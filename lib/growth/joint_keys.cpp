@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -45,20 +46,21 @@ private:
     double cos_, sin_, c_ = 1, s_ = 0;
 };
 
-bool reproduces(const Rotations& wanted, std::size_t a, std::size_t b, const Closeness& close) {
-    Slerp slerp(wanted[a], wanted[b], b - a);
+// keys: what a key at each frame would be.
+bool reproduces(const Rotations& wanted, const Rotations& keys, std::size_t a, std::size_t b, const Closeness& close) {
+    Slerp slerp(keys[a], keys[b], b - a);
     for (std::size_t f = a + 1; f < b; ++f)
         if (!close(slerp.next(), wanted[f])) return false;
     return true;
 }
 
 // The farthest frame that one slerp from frame `a` can reach: doubled while it can, then halved into the gap.
-std::size_t farthest(const Rotations& wanted, std::size_t a, const Closeness& close) {
+std::size_t farthest(const Rotations& wanted, const Rotations& keys, std::size_t a, const Closeness& close) {
     const std::size_t last = wanted.size() - 1;
     std::size_t reached = a + 1, step = 2, beyond = last + 1;
     while (reached < last) {
         const std::size_t next = std::min(a + step, last);
-        if (!reproduces(wanted, a, next, close)) {
+        if (!reproduces(wanted, keys, a, next, close)) {
             beyond = next;
             break;
         }
@@ -67,13 +69,45 @@ std::size_t farthest(const Rotations& wanted, std::size_t a, const Closeness& cl
     }
     while (beyond - reached > 1) {
         const std::size_t middle = (reached + beyond) / 2;
-        (reproduces(wanted, a, middle, close) ? reached : beyond) = middle;
+        (reproduces(wanted, keys, a, middle, close) ? reached : beyond) = middle;
     }
     return reached;
 }
 
 bool all_close(const Rotations& wanted, const Vec4& to, const Closeness& close) {
     return std::all_of(wanted.begin(), wanted.end(), [&](const Vec4& w) { return close(w, to); });
+}
+
+constexpr double short_one = 32767;
+
+ShortRotation rounded(const Vec4& q) {
+    const Vec4 below = (q * short_one).array().floor();
+    Vec4 best = below;
+    double least = std::numeric_limits<double>::infinity();
+    for (unsigned above = 0; above < 16; ++above) {
+        Vec4 corner = below;
+        for (unsigned k = 0; k < 4; ++k) corner[k] += above >> k & 1;
+        const double off = std::abs(corner.squaredNorm() - short_one * short_one);
+        if (off >= least || corner.cwiseAbs().maxCoeff() > short_one) continue;
+        best = corner;
+        least = off;
+    }
+    ShortRotation shorts;
+    for (unsigned k = 0; k < 4; ++k) shorts[k] = std::int16_t(best[k]);
+    return shorts;
+}
+
+Vec4 numbers_of(const ShortRotation& q) {
+    return Vec4(q[0], q[1], q[2], q[3]) / short_one;
+}
+
+// What is rounded to keys. A loop ends as it begins but for float, which must not become a step of shorts.
+Rotations key_sources(const Rotations& wanted) {
+    Rotations sources(wanted);
+    const Closeness same(1e-5);
+    if (same(wanted.front(), wanted.back()))
+        sources.back() = wanted.front().dot(wanted.back()) < 0 ? Vec4(-wanted.front()) : wanted.front();
+    return sources;
 }
 
 // Joints by depth: those of one depth depend on shallower ones only.
@@ -114,6 +148,11 @@ void JointKeys::set_key(std::size_t joint, std::size_t frame) {
 
 void JointKeys::thin_joint(std::size_t joint, double tolerance) {
     const Closeness close(tolerance);
+    const auto as_key = [&](const Vec4& q) { return in_shorts() ? Vec4(numbers_of(rounded(q)).normalized()) : q; };
+    const auto add_key = [&](const Vec4& q, std::size_t frame) {
+        set_key(joint, frame);
+        if (in_shorts()) shorts_[joint].push_back(rounded(q));
+    };
     Rotations wanted(frames_);
     Vec4 mean = Vec4::Zero();
     for (std::size_t f = 0; f < frames_; ++f) {
@@ -123,20 +162,28 @@ void JointKeys::thin_joint(std::size_t joint, double tolerance) {
     }
     mean.normalize();
     const Vec4 drawn = drawn_[joint].coeffs();
-    const bool still = all_close(wanted, drawn, close);
-    if (still || all_close(wanted, mean, close)) {
-        std::fill(wanted.begin(), wanted.end(), still ? drawn : mean);
-        if (joint == 0) set_key(joint, frames_ - 1);
-        if (joint == 0 || !still) set_key(joint, 0);
+    const bool has_ends = joint == 0; // they say how long the motion lasts
+    const Vec4 still = has_ends ? as_key(drawn) : drawn;
+    const bool is_still = all_close(wanted, still, close);
+    if (is_still || all_close(wanted, as_key(mean), close)) {
+        const Vec4& at = is_still ? drawn : mean;
+        if (has_ends || !is_still) add_key(at, 0);
+        if (has_ends && frames_ > 1) add_key(at, frames_ - 1);
+        std::fill(wanted.begin(), wanted.end(), is_still ? still : as_key(mean));
     } else {
-        set_key(joint, 0);
+        const Rotations sources = in_shorts() ? key_sources(wanted) : wanted;
+        Rotations keys(sources);
+        for (Vec4& key : keys) key = as_key(key);
+        add_key(sources[0], 0);
         for (std::size_t a = 0; a + 1 < frames_;) {
-            const std::size_t b = farthest(wanted, a, close);
-            Slerp slerp(wanted[a], wanted[b], b - a);
+            const std::size_t b = farthest(wanted, keys, a, close);
+            add_key(sources[b], b);
+            Slerp slerp(keys[a], keys[b], b - a);
             for (std::size_t f = a + 1; f < b; ++f) wanted[f] = slerp.next();
-            set_key(joint, b);
             a = b;
         }
+        for (std::size_t f = 0; f < frames_; ++f)
+            if (has_key(joint, f)) wanted[f] = keys[f];
     }
     for (std::size_t f = 0; f < frames_; ++f) {
         Eigen::Quaterniond made(wanted[f]);
@@ -145,7 +192,7 @@ void JointKeys::thin_joint(std::size_t joint, double tolerance) {
     }
 }
 
-void JointKeys::thin(double tolerance) {
+void JointKeys::thin(double tolerance, bool shorts) {
     assert(bits_.empty());
     bits_.assign(joints() * ((frames_ + 7) / 8), '\0');
     if (frames_ == 0) return;
@@ -156,6 +203,7 @@ void JointKeys::thin(double tolerance) {
             std::copy_n(bits_.begin(), row, bits_.begin() + std::ptrdiff_t(j * row));
         return;
     }
+    if (shorts && tolerance >= 8 * short_turning) shorts_.resize(joints());
     for (const std::vector<std::int32_t>& level : by_depth(parent_)) {
         const std::int64_t count = std::int64_t(level.size());
 #pragma omp parallel for schedule(dynamic, 8) if (count > 16)

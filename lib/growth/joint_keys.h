@@ -7,15 +7,21 @@
 // the keys already chosen make of its parent; so the angles' errors do not add up along a path, and what stands at the end of a path of
 // length l is misplaced by at most 2 sin(tolerance / 2) l. A joint that one constant rotation serves has one key, or none where the drawn
 // rotation does; only joint 0 always keeps its first and last, which say how long the motion lasts.
+// Keys may be rounded to shorts, 8 bytes a key: an integer over 32767 each of x, y, z, w, the nearest one below or above, such that the length
+// differs least from 1. That turns a joint by less than short_turning, which is within the tolerance as all else: it does not add up along a path.
 // Rotations are kept in float, 16 bytes a joint and frame. thin() is O(joints * frames), times the logarithm of the distance of keys;
 // joints of one depth are worked out at once, each alone, so that the thread count cannot change the result.
 #pragma once
 #include "../base/math.h"
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 namespace bough {
+
+using ShortRotation = std::array<std::int16_t, 4>; // x y z w, over 32767
+inline constexpr double short_turning = 1.3e-4;    // [rad] 2 sqrt(4) / 32767 and some float
 
 class JointKeys {
 public:
@@ -27,8 +33,9 @@ public:
     std::size_t joints() const { return parent_.size(); }
     std::size_t frames() const { return frames_; }
 
-    // After the last frame, once. tolerance [rad]; 0 keeps every key.
-    void thin(double tolerance);
+    // After the last frame, once. tolerance [rad]; 0 keeps every key. Keys are rounded to shorts where `shorts` and the tolerance is 8 times what
+    // that turns a joint by, or more.
+    void thin(double tolerance, bool shorts = false);
 
     // After thin(). Frames where the joint has a key, rising: a bit each in whole bytes, from the lowest bit up; joints with
     // keys at the same frames have the same bytes.
@@ -38,6 +45,9 @@ public:
     std::size_t count() const; // of all joints
     // Parent joint's frame (roots: world) from own, at a frame where it has a key.
     Quaternion<float> key(std::size_t joint, std::size_t frame) const;
+    // Whether keys were rounded; then those of a joint, in the order of its frames.
+    bool in_shorts() const { return !shorts_.empty(); }
+    const std::vector<ShortRotation>& short_keys(std::size_t joint) const { return shorts_[joint]; }
 
 private:
     using Rotation = Quaternion<float>;
@@ -56,6 +66,7 @@ private:
     std::vector<std::vector<Rotation>> tiles_; // after thin(): what the keys make of them
     std::size_t frames_ = 0;
     std::string bits_;
+    std::vector<std::vector<ShortRotation>> shorts_; // of each joint; empty: keys are floats
 };
 
 } // namespace bough

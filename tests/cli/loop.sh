@@ -73,8 +73,9 @@ def read(k):
     a = doc["accessors"][k]; v = doc["bufferViews"][a["bufferView"]]
     m = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[a["type"]]
     at = v.get("byteOffset", 0) + a.get("byteOffset", 0)
-    flat = struct.unpack_from(f"<{a['count'] * m}f", blob, at)
-    return [flat[i:i + m] for i in range(0, len(flat), m)]
+    kind, most = {5126: ("f", 1), 5122: ("h", 32767)}[a["componentType"]]
+    flat = [x / most for x in struct.unpack_from(f"<{a['count'] * m}{kind}", blob, at)]
+    return [tuple(flat[i:i + m]) for i in range(0, len(flat), m)]
 moving = 0
 for s in doc["animations"][0]["samplers"]:
     time, value = read(s["input"]), read(s["output"])

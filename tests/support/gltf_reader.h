@@ -50,7 +50,7 @@ inline std::size_t components(const Json& accessor) {
 
 inline std::size_t component_size(const Json& accessor) {
     const int type = accessor["componentType"];
-    return type == 5121 ? 1 : type == 5123 ? 2 : 4;
+    return type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4;
 }
 
 // All numbers of an accessor, one row after another. Alignment, stride and limits of its view are checked.
@@ -73,6 +73,10 @@ inline std::vector<double> numbers(const Glb& glb, std::size_t index) {
                 float value;
                 std::memcpy(&value, at, 4);
                 all.push_back(double(value));
+            } else if (accessor["componentType"] == 5122) {
+                std::int16_t value;
+                std::memcpy(&value, at, 2);
+                all.push_back(accessor.value("normalized", false) ? std::max(value / 32767.0, -1.0) : value);
             } else {
                 std::uint32_t value = 0;
                 std::memcpy(&value, at, size);

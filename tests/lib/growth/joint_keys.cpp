@@ -48,11 +48,17 @@ Motion swinging(std::size_t joints, std::size_t frames, unsigned seed, double am
     return motion;
 }
 
-JointKeys keys_of(const Motion& motion, double tolerance) {
+JointKeys keys_of(const Motion& motion, double tolerance, bool shorts = false) {
     JointKeys keys(motion.parent, motion.drawn);
     for (const auto& frame : motion.world) keys.add(frame);
-    keys.thin(tolerance);
+    keys.thin(tolerance, shorts);
     return keys;
+}
+
+// What a file holds of a joint's keys, in the order of their frames.
+Eigen::Quaterniond short_key(const JointKeys& keys, std::size_t joint, std::size_t number) {
+    const ShortRotation& q = keys.short_keys(joint)[number];
+    return Eigen::Quaterniond(q[3] / 32767.0, q[0] / 32767.0, q[1] / 32767.0, q[2] / 32767.0);
 }
 
 // A player of our own: slerp by axis and angle between the neighbouring keys, the drawn rotation where there are none.
@@ -67,9 +73,13 @@ std::vector<std::vector<Quat>> played(const JointKeys& keys, const Motion& motio
         for (std::size_t f = 0; f < keys.frames(); ++f) {
             Eigen::Quaterniond local(motion.drawn[j]);
             while (k + 1 < at.size() && at[k + 1] <= f) ++k;
-            if (!at.empty()) local = Eigen::Quaterniond(keys.key(j, at[k]).cast<double>());
+            const auto key = [&](std::size_t number) {
+                return keys.in_shorts() ? short_key(keys, j, number).normalized()
+                                        : Eigen::Quaterniond(keys.key(j, at[number]).cast<double>());
+            };
+            if (!at.empty()) local = key(k);
             if (k + 1 < at.size() && f > at[k]) {
-                const Eigen::Quaterniond to(keys.key(j, at[k + 1]).cast<double>());
+                const Eigen::Quaterniond to = key(k + 1);
                 Eigen::AngleAxisd between(local.conjugate() * to);
                 if (between.angle() > std::numbers::pi)
                     between = Eigen::AngleAxisd(between.angle() - 2 * std::numbers::pi, between.axis());
@@ -117,6 +127,45 @@ TEST_CASE("no joint's world rotation is off by more than the tolerance, however 
         before = keys.count();
     }
     CHECK(before < 150 * 90 / 5);
+}
+
+TEST_CASE("keys in shorts keep the tolerance along paths, and the length of a rotation") {
+    const Motion motion = swinging(150, 90, 2, 0.3);
+    for (const double tolerance : {8 * short_turning, 0.1 * degree, 1 * degree}) {
+        const JointKeys keys = keys_of(motion, tolerance, true);
+        REQUIRE(keys.in_shorts());
+        CHECK(largest_error(keys, motion) <= tolerance + 1e-5);
+        CHECK(double(keys.count()) < 1.1 * double(keys_of(motion, tolerance).count()));
+        double longest = 0, farthest = 0;
+        for (std::size_t j = 0; j < keys.joints(); ++j) {
+            REQUIRE(keys.short_keys(j).size() == keys.count(j));
+            std::size_t number = 0;
+            for (std::size_t f = 0; f < keys.frames(); ++f) {
+                if (!keys.has_key(j, f)) continue;
+                const Eigen::Quaterniond q = short_key(keys, j, number++);
+                longest = std::max(longest, std::abs(q.norm() - 1));
+                farthest = std::max(farthest, angle_between(Quat(q.normalized()), Quat(keys.key(j, f).cast<double>())));
+            }
+        }
+        CHECK(longest < 1.6e-5); // half a step, of rotations near an axis; a number rounded down alone is off by a step
+        CHECK(farthest < 1e-6);  // key() gives what was rounded, but for floats
+    }
+    CHECK_FALSE(keys_of(motion, 7.9 * short_turning, true).in_shorts());
+    CHECK_FALSE(keys_of(motion, 0, true).in_shorts());
+}
+
+TEST_CASE("rotations on an axis, and those with a number of one, fit in shorts") {
+    Motion motion;
+    motion.parent = {-1, 0, 1};
+    motion.drawn = {Quat::Identity(), Quat(0, 1, 0, 0), Quat(0, 0, 0, -1)};
+    for (int f = 0; f < 20; ++f) {
+        const Quat a(turn(0.1 * f, Vec3::UnitX())), b = a * Quat(0, 1, 0, 0), c = b * turn(-0.3 * f, Vec3::UnitZ());
+        motion.world.push_back({a, b, c});
+    }
+    const JointKeys keys = keys_of(motion, 0.1 * degree, true);
+    REQUIRE(keys.in_shorts());
+    CHECK(keys.count(1) == 0);
+    CHECK(largest_error(keys, motion) <= 0.1 * degree + 1e-6);
 }
 
 TEST_CASE("a turn at a constant rate needs its two ends, on to a turn more than half around") {
