@@ -24,8 +24,6 @@ file(GLOB study_sources CONFIGURE_DEPENDS study/*.cpp)
 list(REMOVE_ITEM study_sources ${CMAKE_CURRENT_SOURCE_DIR}/study/machine_kernels.cpp)
 add_library(bough_study STATIC ${study_sources})
 target_link_libraries(bough_study PUBLIC bough PRIVATE bough_flags)
-find_path(BOUGH_SPECTRA Spectra/SymEigsSolver.h REQUIRED) # study/modes.cpp; headers alone
-target_include_directories(bough_study SYSTEM PRIVATE ${BOUGH_SPECTRA})
 if(BOUGH_OPENMP)
   target_link_libraries(bough_study PRIVATE OpenMP::OpenMP_CXX) # study/machine_limits.cpp
 endif()

@@ -2,8 +2,8 @@
 #include "../laws/air_load.h"
 #include "../laws/wind.h"
 #include "../plan/reduce.h"
+#include "lanczos.h"
 #include <Eigen/Eigenvalues>
-#include <Spectra/SymEigsSolver.h>
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -14,85 +14,61 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-// 1 / omega^2 of what is not found yet: R^-T M R^-1 without the columns of `found`.
-class Swings {
-public:
-    using Scalar = double;
-    Swings(const SmallMotion& motion, const MatrixXd& found, const std::function<void(std::int64_t)>& progress)
-        : motion_(motion), found_(found), progress_(progress) {}
-    Index rows() const { return motion_.rows(); }
-    Index cols() const { return motion_.rows(); }
-    void perform_op(const double* y, double* out) const {
-        if (progress_) progress_(++operations_);
-        motion_.operate(y, out, work_);
-        if (found_.cols() == 0) return;
-        Eigen::Map<VectorXd> v(out, rows());
-        v -= found_ * (found_.transpose() * v).eval();
-    }
-
-private:
-    const SmallMotion& motion_;
-    const MatrixXd& found_;
-    const std::function<void(std::int64_t)>& progress_;
-    mutable std::vector<SmallMotion::Moving> work_;
-    mutable std::int64_t operations_ = 0;
-};
-
 constexpr Index sway_steps = 24;
 // Of vectors; of values its square. The looser one finds whether there is anything to look for.
 constexpr double precise = 1e-9, rough = 1e-4;
+constexpr int restarts = 2000;
 
-struct Pairs {
-    VectorXd value; // falling
-    MatrixXd vector;
+// The lowest modes, frequencies rising: 1 / omega^2 and y (small_motion.h) of the k-th.
+class LowestModes {
+public:
+    LowestModes(const SmallMotion&, Index count, const std::function<void(std::int64_t)>& progress);
+    Index count() const { return Index(order_.size()); }
+    double value(Index k) const { return value_[order_[std::size_t(k)]]; }
+    const double* y(Index k) const { return iteration_.numbers(order_[std::size_t(k)]); }
+
+private:
+    VectorXd largest(Index count, double tolerance);
+    std::vector<SmallMotion::Moving> work_;
+    std::int64_t operations_ = 0;
+    Lanczos iteration_;
+    std::vector<double> value_; // of the vectors kept
+    std::vector<Index> order_;
 };
 
-// The largest `count`.
-Pairs largest(Swings swings, Index count, double tolerance) {
-    const Index n = swings.rows();
-    count = std::min(count, n - 1);
-    const Index basis = std::min(n, std::max<Index>(2 * count + 10, 20));
-    Spectra::SymEigsSolver<Swings> solver(swings, count, basis);
-    solver.init();
-    if (solver.compute(Spectra::SortRule::LargestAlge, 2000, tolerance, Spectra::SortRule::LargestAlge) < count)
+VectorXd LowestModes::largest(Index count, double tolerance) {
+    VectorXd values = iteration_.largest(count, std::max<Index>(2 * count + 10, 20), tolerance, restarts);
+    if (values.size() == 0)
         throw std::domain_error(
             "the lowest modes do not converge: there are too many of nearly the same frequency; ask "
             "for fewer, or without leaves");
-    return {solver.eigenvalues(), solver.eigenvectors()};
+    return values;
 }
 
 // A Krylov space has one direction of each eigenspace: of modes of the same frequency, as a round trunk has them, others turn up once those are taken
 // out. So what is left is looked at until nothing above the last of the `count` is in it: roughly, as mostly there is not.
-Pairs lowest_modes(const SmallMotion& motion, Index count, const std::function<void(std::int64_t)>& progress) {
-    const Index n = motion.rows();
-    MatrixXd found(n, 0);
-    VectorXd value(0);
-    for (Index more = count;; more = std::min<Index>(4, count)) {
-        if (found.cols() >= n - 1) break;
-        const Swings swings(motion, found, progress);
-        const double last = value.size() < count ? 0 : value[count - 1];
-        if (last > 0 && largest(swings, 1, rough).value[0] * (1 + rough) < last) break;
-        const Pairs next = largest(swings, std::min(more, n - 1 - found.cols()), precise);
+LowestModes::LowestModes(const SmallMotion& motion, Index count, const std::function<void(std::int64_t)>& progress)
+    : iteration_(motion.rows(), [this, &motion, progress](const double* y, double* out) {
+          if (progress) progress(++operations_);
+          motion.operate(y, out, work_);
+      }) {
+    double last = 0; // of the `count` largest values found
+    for (Index more = count; iteration_.kept() < motion.rows() - 1; more = std::min<Index>(4, count)) {
+        if (last > 0 && largest(1, rough)[0] * (1 + rough) < last) break;
+        const VectorXd next = largest(std::min(more, motion.rows() - 1 - iteration_.kept()), precise);
         Index fresh = 0;
-        while (fresh < next.value.size() && next.value[fresh] > last * (1 + 1e-12)) ++fresh;
+        while (fresh < next.size() && next[fresh] > last * (1 + 1e-12)) ++fresh;
         if (fresh == 0) break;
-        MatrixXd all(n, found.cols() + fresh);
-        all << found, next.vector.leftCols(fresh);
-        VectorXd values(all.cols());
-        values << value, next.value.head(fresh);
-        std::vector<Index> order(std::size_t(all.cols()));
-        std::iota(order.begin(), order.end(), Index(0));
-        std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return values[a] > values[b]; });
-        found.resize(n, Index(order.size()));
-        value.resize(Index(order.size()));
-        for (Index k = 0; k < value.size(); ++k) {
-            found.col(k) = all.col(order[std::size_t(k)]);
-            value[k] = values[order[std::size_t(k)]];
-        }
-        if (fresh < next.value.size()) break;
+        iteration_.keep(fresh);
+        value_.insert(value_.end(), next.begin(), next.begin() + fresh);
+        order_.resize(value_.size());
+        std::iota(order_.begin(), order_.end(), Index(0));
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&](Index a, Index b) { return value_[std::size_t(a)] > value_[std::size_t(b)]; });
+        if (order_.size() > std::size_t(count)) order_.resize(std::size_t(count));
+        if (Index(order_.size()) == count) last = value(count - 1);
+        if (fresh < next.size()) break;
     }
-    const Index kept = std::min(count, value.size());
-    return {value.head(kept), found.leftCols(kept)};
 }
 
 // D of the air on body i, of its centre of mass's velocity and its turning.
@@ -163,11 +139,11 @@ NaturalMode mode_of(const Tree& tree, const SmallMotion& small, const std::vecto
 
 std::vector<NaturalMode> natural_modes(const SmallMotion& small, const Tree& tree, const Scene& scene,
                                        const ModeOptions& options, const std::function<void(std::int64_t)>& progress) {
-    const Pairs pairs = lowest_modes(small, std::min<Index>(options.count, small.rows() - 1), progress);
+    const LowestModes lowest(small, std::min<Index>(options.count, small.rows() - 1), progress);
     const std::vector<AirDamping> air = options.air ? air_on(tree, scene, small) : std::vector<AirDamping>();
     std::vector<NaturalMode> modes;
-    for (Index k = 0; k < pairs.value.size(); ++k)
-        modes.push_back(mode_of(tree, small, air, pairs.value[k], small.turns(pairs.vector.col(k).data())));
+    for (Index k = 0; k < lowest.count(); ++k)
+        modes.push_back(mode_of(tree, small, air, lowest.value(k), small.turns(lowest.y(k))));
     return modes;
 }
 
