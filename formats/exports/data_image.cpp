@@ -1,4 +1,5 @@
 #include "data_image.h"
+#include "png_file.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -6,9 +7,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <algorithm>
 #include <cmath>
-#include <csetjmp>
 #include <exception>
-#include <png.h>
 #include <vector>
 
 namespace bough {
@@ -71,65 +70,27 @@ void write_exr(Output& output, std::size_t width, std::size_t height, const Pixe
     to.check();
 }
 
-namespace {
-
-void to_text(png_structp png, png_bytep bytes, png_size_t count) {
-    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), count);
-}
-
-// What libpng is asked for between setjmp and the jump of an error: nothing here has a destructor.
-bool begin_png(png_structp png, png_infop info, std::string* text, png_uint_32 width, png_uint_32 height) {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_set_write_fn(png, text, to_text, nullptr);
-    png_set_user_limits(png, width, height);
-    png_set_IHDR(png, info, width, height, 16, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
-    png_write_info(png, info);
-    return true;
-}
-bool add_row(png_structp png, png_const_bytep row) {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_write_row(png, row);
-    return true;
-}
-bool end_png(png_structp png, png_infop info) {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_write_end(png, info);
-    return true;
-}
-
-struct PngWriter {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-    png_infop info = png ? png_create_info_struct(png) : nullptr;
-    PngWriter() = default;
-    PngWriter(const PngWriter&) = delete;
-    PngWriter& operator=(const PngWriter&) = delete;
-    ~PngWriter() { png_destroy_write_struct(&png, &info); }
-};
-
-} // namespace
-
 void write_png16(Output& output, std::size_t width, std::size_t height, const PixelRow& row) {
     std::vector<float> pixel(3 * width);
-    std::vector<png_byte> bytes(6 * width);
+    std::vector<std::uint8_t> bytes(6 * width);
     std::string text;
-    PngWriter writer;
+    PngFile png(text, {.width = std::uint32_t(width), .height = std::uint32_t(height), .depth = 16});
     const auto require = [&output](bool done) {
         if (!done) throw OutputError(output.name(), "libpng cannot write it");
     };
-    require(writer.info && begin_png(writer.png, writer.info, &text, png_uint_32(width), png_uint_32(height)));
+    require(png.begin());
     for (std::size_t y = 0; y < height; ++y) {
         row(y, pixel.data());
         for (std::size_t k = 0; k < pixel.size(); ++k) {
             const long value = std::lround(65535 * std::clamp(double(pixel[k]), 0.0, 1.0));
-            bytes[2 * k] = png_byte(value >> 8);
-            bytes[2 * k + 1] = png_byte(value & 255);
+            bytes[2 * k] = std::uint8_t(value >> 8);
+            bytes[2 * k + 1] = std::uint8_t(value & 255);
         }
-        require(add_row(writer.png, bytes.data()));
+        require(png.add_row(bytes.data()));
         output.write(text);
         text.clear();
     }
-    require(end_png(writer.png, writer.info));
+    require(png.end());
     output.write(text);
 }
 

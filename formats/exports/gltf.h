@@ -19,7 +19,7 @@
 // animated: joints of their own would be some thousands, of which programs bear about one. Size: 96 bytes a vertex of the leaves, whatever the
 // length of the animation, and 16 bytes a frame.
 // Each joint's extras say which bodies of wood it holds (own_rods.h), so that the tree can be read again from the file.
-// A vertex moved by two bodies of one group is moved by the group alone. Weights are floats, joints u8 or u16, indices u16
+// A vertex moved by two bodies of one group is moved by the group alone. Weights are normalized u16, joints u8 or u16, indices u16
 // where they fit; every array starts at a multiple of 4 bytes.
 // Cost: O(joints) and 16 bytes a joint for each frame; all else when it is finished.
 // Errors  std::length_error for more than 65 536 joints; OutputError for more than 4 GiB, both limits of the format.

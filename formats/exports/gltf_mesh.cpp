@@ -26,6 +26,19 @@ template <class Number> void write_joints(GltfBytes& to, const Skin& skin, const
         for (const std::int32_t joint : influence_of(skin, groups, v).joint) to.add(Number(joint));
 }
 
+// Over 65535, which they add up to: what rounding leaves goes to the largest.
+std::array<std::uint16_t, 4> short_weights(const std::array<float, 4>& weights) {
+    std::array<std::uint16_t, 4> shorts;
+    long rest = 65535;
+    for (std::size_t k = 0; k < 4; ++k) {
+        shorts[k] = std::uint16_t(std::lround(65535 * weights[k]));
+        rest -= shorts[k];
+    }
+    const auto largest = std::max_element(shorts.begin(), shorts.end());
+    *largest = std::uint16_t(*largest + rest);
+    return shorts;
+}
+
 struct VertexViews {
     int position, normal, texture, joint, weight;
     GltfType joint_type;
@@ -53,9 +66,9 @@ VertexViews add_vertex_views(GltfFile& file, const Skin& skin, const JointGroups
         file.add_view((small ? 4 : 8) * n, GltfTarget::vertices, small ? 4 : 8, [&skin, &groups, small](GltfBytes& to) {
             small ? write_joints<std::uint8_t>(to, skin, groups) : write_joints<std::uint16_t>(to, skin, groups);
         });
-    views.weight = file.add_view(16 * n, GltfTarget::vertices, 16, [&skin, &groups](GltfBytes& to) {
+    views.weight = file.add_view(8 * n, GltfTarget::vertices, 8, [&skin, &groups](GltfBytes& to) {
         for (std::size_t v = 0; v < skin.position.size(); ++v)
-            for (const float weight : influence_of(skin, groups, v).weight) to.add(weight);
+            for (const std::uint16_t weight : short_weights(influence_of(skin, groups, v).weight)) to.add(weight);
     });
     return views;
 }
@@ -119,7 +132,7 @@ std::vector<std::string> gltf_primitives(GltfFile& file, const Skin& skin, const
         text += ",\"NORMAL\":" + accessor(views.normal, 12, GltfType::f32, "VEC3");
         text += ",\"TEXCOORD_0\":" + accessor(views.texture, 8, GltfType::f32, "VEC2");
         text += ",\"JOINTS_0\":" + accessor(views.joint, joint_bytes, views.joint_type, "VEC4");
-        text += ",\"WEIGHTS_0\":" + accessor(views.weight, 16, GltfType::f32, "VEC4");
+        text += ",\"WEIGHTS_0\":" + accessor(views.weight, 8, GltfType::u16, "VEC4", ",\"normalized\":true");
         text += "},\"indices\":" + std::to_string(add_indices(file, skin, skin.part[m], used)) +
                 ",\"material\":" + std::to_string(m) + targets[m] + "}";
         all.push_back(std::move(text));

@@ -1,12 +1,12 @@
 #include "dress.h"
 #include "formats/documents/document_parts.h"
 #include "formats/exports/gltf_parts.h"
+#include "formats/exports/png_image.h"
 #include "lib/growth/blade.h"
 #include "lib/growth/clump.h"
 #include "lib/model/body_shape.h"
 #include "lib/model/drawn_pose.h"
 #include "picture.h"
-#include "texture_file.h"
 #include <algorithm>
 #include <cmath>
 

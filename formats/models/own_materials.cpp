@@ -1,4 +1,5 @@
 #include "own_materials.h"
+#include "formats/exports/png_image.h"
 #include "formats/inside.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"

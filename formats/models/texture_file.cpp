@@ -32,10 +32,6 @@
 #define STBI_NO_HDR
 #define STBI_NO_LINEAR
 #include <stb/stb_image.h>
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
-#include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
 namespace bough {
@@ -198,16 +194,6 @@ Texture read_texture(const std::string& path, const std::string& named_by) {
     else
         texture.bytes.clear();
     return texture;
-}
-
-std::string png_of(int width, int height, int channels, const std::vector<std::uint8_t>& pixels) {
-    std::string bytes;
-    const auto add = [](void* to, void* data, int size) {
-        static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(size));
-    };
-    if (!stbi_write_png_to_func(add, &bytes, width, height, channels, pixels.data(), channels * width))
-        throw std::bad_alloc();
-    return bytes;
 }
 
 std::uint8_t channel_at(const Pixels& pixels, int channel, int x, int y, int width, int height) {

@@ -36,8 +36,6 @@ struct Texture {
 // Throws InputError with the path and `named_by` for what is no image, or half of one.
 Texture read_texture(const std::string& path, const std::string& named_by);
 
-std::string png_of(int width, int height, int channels, const std::vector<std::uint8_t>& pixels);
-
 // One channel of an image at another's size, by the nearest pixel.
 std::uint8_t channel_at(const Pixels&, int channel, int x, int y, int width, int height);
 

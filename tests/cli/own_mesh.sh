@@ -34,9 +34,12 @@ at, idat = 8, b""
 while at < len(png):
     n, kind = struct.unpack(">I4s", png[at:at + 8])
     if kind == b"IHDR": width, height, depth, color = struct.unpack(">IIBB", png[at + 8:at + 18])
+    if kind == b"PLTE": colors = [list(png[k:k + 3]) for k in range(at + 8, at + 8 + n, 3)]
+    if kind == b"tRNS": colors = [c + [a] for c, a in zip(colors, png[at + 8:at + 8 + n])]
     if kind == b"IDAT": idat += png[at + 8:at + 8 + n]
     at += 12 + n
-channels = {0: 1, 2: 3, 6: 4}[color]
+channels = {0: 1, 2: 3, 3: 1, 6: 4}[color]
+assert depth == 8
 raw, before = zlib.decompress(idat), [0] * (width * channels)
 for y in range(height):
     line = raw[y * (width * channels + 1):(y + 1) * (width * channels + 1)]
@@ -48,7 +51,8 @@ for y in range(height):
         paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - d), 2, d))[2]
         row.append((c + [0, a, b, (a + b) // 2, paeth][line[0]]) & 255)
     before = row
-    print(" ".join(",".join(map(str, row[i:i + channels])) for i in range(0, len(row), channels)))
+    pixels = [colors[i] for i in row] if color == 3 else [row[i:i + channels] for i in range(0, len(row), channels)]
+    print(" ".join(",".join(map(str, p)) for p in pixels))
 P
 }
 json() { python3 -c 'import json,struct,sys;d=open(sys.argv[1],"rb").read();g=json.loads(d[20:20+struct.unpack("<I",d[12:16])[0]]);print(eval(sys.argv[2]))' "$1" "$2"; }

@@ -191,7 +191,13 @@ TEST_CASE("bodies of one group are one joint of a vertex, with their weights tog
     const std::vector<double> joint = gltf_reader::numbers(w.glb, attributes["JOINTS_0"]);
     const std::vector<double> weight = gltf_reader::numbers(w.glb, attributes["WEIGHTS_0"]);
     CHECK(std::vector<double>(joint.begin(), joint.begin() + 4) == std::vector<double>{0, 1, 0, 0});
-    CHECK(std::vector<double>(weight.begin(), weight.begin() + 4) == std::vector<double>{0.5, 0.5, 0, 0});
+    // A half is none of 65535: one of the two has what is left, so that they add up to 1.
+    CHECK(std::lround(65535 * (weight[0] + weight[1])) == 65535);
+    CHECK(std::abs(weight[0] - 0.5) < 0.6 / 65535);
+    CHECK(weight[2] == 0);
+    CHECK(weight[3] == 0);
+    for (std::size_t v = 0; v < weight.size(); v += 4)
+        CHECK(std::lround(65535 * (weight[v] + weight[v + 1] + weight[v + 2] + weight[v + 3])) == 65535);
 }
 
 TEST_CASE("triangles are the skin's, in u32 where u16 is too small") {

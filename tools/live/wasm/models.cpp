@@ -1,6 +1,7 @@
 // models.cpp: formats/models as a page has it: a file's textures are not looked for, since a page has no folder beside it. (Models that the tools
 // alone read: left_to_tools.cpp.)
 #include "formats/error.h"
+#include "formats/exports/png_image.h"
 #include "formats/models/texture_file.h"
 
 namespace bough {
