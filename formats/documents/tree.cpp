@@ -54,6 +54,7 @@ std::vector<Field> fields_of(Tree& t) {
             perhaps("leaf_count", t.leaf_count, body),
             perhaps("leaf_length", t.leaf_length, body),
             perhaps("leaf_width", t.leaf_width, body),
+            perhaps("leaf_facing", t.leaf_facing, body),
             perhaps("drag", t.drag, body)};
 }
 

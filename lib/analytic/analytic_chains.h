@@ -158,20 +158,28 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             const W scale = k.real(constant::drag_area);
             const W still2 = dot(still, still), still_speed = root(still2);
             W speed_0, speed_1;
-            const V3<W> f0 = air_in_body_axes<kind>(still, speed_0, fold),
-                        f1 = air_in_body_axes<kind>(moving, speed_1, fold);
+            const W facing = this->template facing<kind>(row, lane);
+            const V3<W> f0 = air_in_body_axes<kind>(still, speed_0, fold, facing),
+                        f1 = air_in_body_axes<kind>(moving, speed_1, fold, facing);
             prefetch<2 * most / 3, 5 * most / 6>(next_row);
             const V3<W> force = scale * f0;
             out.set(loaded::f, force);
             out.set(loaded::tau, cross(c, force));
             out.set(loaded::drag_f, scale * (f1 - f0));
             prefetch<5 * most / 6, most>(next_row);
-            const W sway = scale * k.real(constant::sway);
+            W largest = scale; // [kg/m] of any direction
+            if constexpr (kind == Kind::clump) largest = (1 + facing) * scale;
+            const W sway = largest * k.real(constant::sway);
             out.set(loaded::drag, W(sway * (speed_1 + speed_0)));
             const W pressing = kind == Kind::branch ? still_speed : speed_0;
             out.set(loaded::wind, W(sway * pressing));
-            constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);
-            out.set(loaded::turn, W(turns * scale * pressing * still_speed));
+            if constexpr (kind == Kind::clump) {
+                const auto [along, all_ways] = facing_of<kind>(facing);
+                out.set(loaded::turn, W((all_ways + 2 * along) * scale * pressing * still_speed));
+            } else {
+                constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);
+                out.set(loaded::turn, W(turns * scale * pressing * still_speed));
+            }
             if constexpr (kind != Kind::branch)
                 if (fold > 0) {
                     W rate = spin_rate<kind>(scale, k.real(constant::mass), speed_1);
@@ -354,7 +362,9 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             if (!wind || g.kind == Kind::branch)
                 group_out<Kind::branch>(g);
             else if constexpr (wind) {
-                if (!is_flat(g.kind))
+                if (g.kind == Kind::clump && rows.facing)
+                    group_out<Kind::clump>(g);
+                else if (!is_flat(g.kind))
                     group_out<Kind::fruit>(g);
                 else
                     group_out<Kind::leaf>(g);

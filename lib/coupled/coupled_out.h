@@ -243,8 +243,9 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         if constexpr (wind) {
             const V3<W> ahead = f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c);
             const V3<W> com = k.vector(constant::com);
-            const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
-            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, fold);
+            const W arm = has_face(kind) ? root(dot(com, com)) : W{};
+            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, fold,
+                                              this->template facing<kind>(row, lane));
             out.set(loaded::D, air.D);
             H = H + streaming_stiffness(rows.fold, V3<W>(R * k.vector(constant::carried_drag)), u,
                                         kind == Kind::branch ? root(dot(u, u)) : speed.speed);

@@ -207,7 +207,8 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             const V3<W> mean = (1 / rows.h) * (own + ground.carried), ahead = mean - rate_at_com;
             Symmetric<W> unused{};
             const V3<W> u = air_velocity - rate_at_com;
-            force = air_on<kind>(u, air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{}, fold).force;
+            const W facing = this->template facing<kind>(row, lane);
+            force = air_on<kind>(u, air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{}, fold, facing).force;
             const LeafBody<W> body{b.mass, scale};
             if constexpr (kind == Kind::leaf)
                 if (rows.leaf.on)
@@ -217,7 +218,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
                 const V3<W> U = air_velocity - (1 / rows.h) * (own + ground.carried - way);
                 const W speed2 = dot(U, U);
                 const V3<W> relative = air_velocity - mean;
-                W limit = air_work_bound<kind>(rows.h, scale, speed2, relative);
+                W limit = air_work_bound<kind>(rows.h, scale, speed2, relative, facing);
                 if constexpr (kind == Kind::leaf)
                     if (rows.leaf.on) limit = limit + leaf_work(rows.leaf, body, rows.h, speed2, relative);
                 return smaller(dot(force, way), limit);
@@ -286,6 +287,8 @@ void energy_block(const CoupledRows<T>& rows, const EnergyRows<T>& energies, con
         const Group& g = rows.groups[k];
         if (!wind || g.kind == Kind::branch)
             sweep.template group<wind, Kind::branch>(g);
+        else if (g.kind == Kind::clump && rows.facing)
+            sweep.template group<wind, Kind::clump>(g);
         else if (!is_flat(g.kind))
             sweep.template group<wind, Kind::fruit>(g);
         else

@@ -32,8 +32,10 @@
 // part of the wood that carries it (in the slackest crowns some of the leaves' as well). Share and L are those at which a clump swings with as much kinetic energy and brakes as much in the
 // air, at 8 m/s, as its parts (swinging() in resolve.cpp). Its centre of mass is the middle of what the air takes hold of in it: where that is further out than
 // that of all its parts, the share is as much further in.
+// Its y is as far up as its length allows, which most leaves face.
 // Air. Tree::drag gives each body the drag of its parts as they stand in horizontal winds, mean over their directions: wood that of its
-// pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold), of its wood.
+// pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold), of its wood. Tree::leaf_facing is that of its
+// leaves about its y, and wood counts as leaves that face all ways across it. Where fewer face y than other axes, it is 0.
 // What comes out, in leaf: README.md beside this; held by tests/lib/growth/resolve.cpp.
 // Reads a tree of segment(). Cost O(bodies), some eighty times.
 #pragma once

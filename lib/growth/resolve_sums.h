@@ -15,6 +15,7 @@ struct Sums {
     double swing = 0, braked = 0;
     Vec3 first = Vec3::Zero(); // [kg m] about the world's origin
     double leaves = 0;         // [m^2]
+    Mat3 faces = Mat3::Zero(); // [m^2] n n^T of leaves by their area, n their normals, wood as leaves across it
     double met = 0;            // [m^2] of leaves that face all ways, of the same drag in horizontal winds
     double wood = 0; // [m^2] of wood across the wind, of the same drag as its wood and fruit in horizontal winds
     Vec3 air = Vec3::Zero();    // [m^3] places of leaves, wood and fruit, times their area as leaves that face all ways
@@ -39,6 +40,13 @@ constexpr double wood_in_leaf = 2 * (1 + 8 / fold_speed);
 
 // A cylinder's drag over that of one across the wind, mean over horizontal winds.
 double met_by_wind_across(const Vec3& axis);
+
+// [1] The drag of leaves that face along n by `facing` (Tree::leaf_facing; a blade by 1), over that of as many that face all ways: mean over
+// horizontal winds.
+double met_by_wind(const Vec3& n, double facing);
+
+// How the air damps the motion of such leaves, in units of the next.
+Mat3 damped(const Vec3& n, double facing);
 
 // How the air damps the motion of leaves that face all ways, over their speed's part that folding leaves: mean over horizontal winds of 8 m/s.
 Mat3 damped_all_ways();

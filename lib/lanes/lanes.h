@@ -44,6 +44,7 @@ template <class T> struct PlannedLanes {
     T per_metre = 0;
     RowVector<T> shelter; // of bodies, a row each row; empty without
     RowVector<T> clock;   // likewise
+    RowVector<T> facing;  // likewise
     PlannedSleep sleep;
 };
 

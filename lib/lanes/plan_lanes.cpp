@@ -44,6 +44,7 @@ void lay_out_lanes(const Plan<T>& plan, const std::vector<TreeRange>& ranges, Pl
     if (!plan.wind) return;
     fill_of_bodies(lanes.layout, plan.shelter, lanes.shelter);
     fill_of_bodies(lanes.layout, plan.clock, lanes.clock);
+    fill_of_bodies(lanes.layout, plan.facing, lanes.facing);
     const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     lanes.profile = table.profile;
     lanes.per_metre = table.per_metre;

@@ -43,6 +43,14 @@ template <class T, class Given> struct SweepParts : WideWind<T, Given> {
         return rows.constants_row ? rows.constants_row[row] : row;
     }
 
+    // Returns how much clumps' leaves face along y (Plan::facing); of other kinds, which do not read it, 0.
+    template <Kind kind> BOUGH_FORCE W facing(std::uint32_t row, int lane) const {
+        if constexpr (kind == Kind::clump)
+            return read(rows.facing + row * std::size_t(L) + std::size_t(lane));
+        else
+            return W{};
+    }
+
     // Returns the rotation to the parent's body frame from the joint frame.
     BOUGH_FORCE static M3<W> joint_rotation(const Rows<const T>& k) {
         const W w = k.real(body_constant::R_pj), x = k.real(body_constant::R_pj + 1),

@@ -71,6 +71,7 @@ template <class T> struct SweepRows {
     T per_metre;
     FieldRows<T> field; // for sweeps that are compiled for it
     LeafTerms<T> leaf;
+    const T* facing; // [1] of clumps (Plan::facing), a row of lanes for each row; null: none has a face
 };
 
 // The parts of a scene that sweeps are compiled for.

@@ -21,7 +21,7 @@ template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE AirSpeed<W> air_s
     return {speed, 1 / larger(speed, all(T(1e-30)))};
 }
 
-// Returns 1 / fold_speed for what folds (air.h), else 0. Only in this does a clump differ from a fruit.
+// Returns 1 / fold_speed for what folds (air.h), else 0. Only in this does a clump without a face differ from a fruit.
 template <class T> constexpr T fold_of(Kind kind) {
     return is_foliage(kind) ? T(1 / fold_speed) : T(0);
 }
@@ -30,15 +30,29 @@ template <class W, class T = RealOf<W>> BOUGH_FORCE W unfolded(T fold, const W& 
     return 1 / (1 + fold * speed);
 }
 
+// The law's factors of (u.n) n and of u (Facing of air.h): of a leaf, and of a clump with a face. Kind::clump is the latter alone in what is compiled
+// for a kind, and all others go as fruit do. facing: of a clump.
+template <class N> struct WideFacing { N along, all_ways; };
+template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE auto facing_of(const W& facing) {
+    if constexpr (kind == Kind::leaf)
+        return WideFacing<T>{T(1 - streaming_drag), T(streaming_drag)};
+    else
+        return WideFacing<W>{T(facing_along) * facing, 1 - T(facing_less) * facing};
+}
+// True for a kind whose force depends on its normal.
+constexpr bool has_face(Kind kind) {
+    return kind == Kind::leaf || kind == Kind::clump;
+}
+
 template <class W> struct AirOn {
     V3<W> force; // [N] with the drag of the velocity ahead
     Symmetric<W> D;
 };
 
-// Returns force and damping, and adds to H how a plate's moment changes with its turning. arm: |com|.
+// Returns force and damping, and adds to H how the moment of what has a face changes with its turning. arm: |com|.
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
-                            Symmetric<W>& H, const W& arm, T fold) {
+                            Symmetric<W>& H, const W& arm, T fold, const W& facing) {
     AirOn<W> out;
     W one = scale * s.speed, more = scale * s.inverse;
     if constexpr (kind != Kind::branch) {
@@ -46,10 +60,10 @@ BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& a
         one = g * one;
         more = g * g * more;
     }
-    if constexpr (kind == Kind::leaf) {
+    if constexpr (has_face(kind)) {
         const V3<W>&n = R.y, &x = R.x;
         const W along = dot(u, n);
-        const T across = T(1 - streaming_drag), all_ways = T(streaming_drag);
+        const auto [across, all_ways] = facing_of<kind>(facing);
         const W s_one = all_ways * one;
         const V3<W> dn = W(across * (one + more * along * along)) * n, du = W(all_ways * more) * u;
         out.D = {s_one + du.x * u.x + dn.x * n.x, du.x * u.y + dn.x * n.y, du.x * u.z + dn.x * n.z,
@@ -89,18 +103,23 @@ BOUGH_FORCE W spin_rate(const W& scale, const W& mass, const W& folded) {
 
 // air_work_bound without leaves' own. U: the wind's velocity, speed2 its square. relative: u.
 template <Kind kind, class W, class T = RealOf<W>>
-BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& relative) {
-    W most;
-    if constexpr (kind == Kind::leaf)
-        most = T(0.25) * root(dot(relative, relative)) * speed2;
-    else
-        most = T(4.0 / 27) * root(speed2) * speed2;
+BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& relative, const W& facing) {
+    W most{};
+    if constexpr (has_face(kind)) most = T(0.25) * root(dot(relative, relative)) * speed2;
+    if constexpr (kind == Kind::clump) most = facing_of<kind>(facing).along * most;
+    if constexpr (kind != Kind::leaf) {
+        const W others = T(4.0 / 27) * root(speed2) * speed2;
+        if constexpr (kind == Kind::clump)
+            most = most + facing_of<kind>(facing).all_ways * others;
+        else
+            most = others;
+    }
     return h * scale * most;
 }
 
 // Returns the force over kappa rho A in the body's own axes, and the speed that scales it (AirForce).
 template <Kind kind, class W, class T = RealOf<W>>
-BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, T fold) {
+BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, T fold, const W& facing) {
     if constexpr (kind == Kind::branch) {
         speed = root(W(u.x * u.x + u.y * u.y));
         return {speed * u.x, speed * u.y, W{}};
@@ -108,8 +127,9 @@ BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, T fold) {
         speed = root(dot(u, u));
         speed = unfolded(fold, speed) * speed;
         if constexpr (kind == Kind::fruit) return speed * u;
-        const W streams = T(streaming_drag) * speed;
-        return {streams * u.x, speed * u.y, streams * u.z};
+        const auto [along, all_ways] = facing_of<kind>(facing);
+        const W streams = all_ways * speed;
+        return {streams * u.x, (along + all_ways) * speed * u.y, streams * u.z};
     }
 }
 

@@ -5,8 +5,11 @@
 //   branch       |u_n| u_n,   u_n = u - (u.t) t        (21)
 //   fruit        |u| u                                 (22)
 //   leaf, petal  |u| ((1 - s) (u.n) n + s u)           (23), first term, and the part s that needs no angle of attack
-// s is streaming_drag: a blade that streams with the wind still has the drag of its curled and rough surface. The leaves of a clump (tree.h) face all
-// ways, so a clump meets the air as fruit does, with the mean of its leaves' law over all directions.
+//   clump        |u| (c_n (u.n) n + c_u u)
+// s is streaming_drag: a blade that streams with the wind still has the drag of its curled and rough surface. A clump (tree.h) has the mean of its
+// leaves' law. Of their normals m the mean of m m^T is taken for (1 - f)/3 1 + f n n^T, f its Tree::leaf_facing. Its A is blade_mean of theirs, so that
+//   c_n = f (1 - s) / blade_mean,   c_u = 1 - f (1 - s / blade_mean)
+// Where f is 0 they face all ways, and it meets the air as fruit does. The mean of its drag over all directions does not depend on f.
 // Folding. Leaves roll up and clumps close as the wind rises (Vogel, J. Exp. Bot. 40:941, 1989). Their drag goes with |u|^(2 + E), with Vogel's E
 // between -0.5 and -1 at 5 to 20 m/s. All of their force is multiplied by g = 1 / (1 + |u| / fold_speed); g is 1 for wood and fruit. g alone gives E
 // = -(1 - g); the rest comes from blades that turn with the wind. The mean drag [N] in a steady wind is then
@@ -61,6 +64,7 @@ template <class T> struct AirBody {
     T drag_area;    // [kg/m] kappa rho A
     T mass;         // [kg]
     Vector3<T> com; // [m] centre of mass from the joint, body frame
+    T facing = 0;   // [1] Tree::leaf_facing of a clump
 };
 
 template <class T> struct AirForce {
@@ -73,7 +77,18 @@ template <class T> T unfolded(Kind kind, T speed) {
     return is_foliage(kind) ? 1 / (1 + speed / T(fold_speed)) : T(1);
 }
 
-template <class T> AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u) {
+// The law's factors of (u.n) n and of u. facing: f.
+template <class T> struct Facing { T along, all_ways; };
+template <class T> Facing<T> facing_of(Kind kind, T facing) {
+    if (is_flat(kind)) return {T(1 - streaming_drag), T(streaming_drag)};
+    return {T(facing_along) * facing, 1 - T(facing_less) * facing};
+}
+// True for a body whose force depends on its normal.
+template <class T> bool has_face(Kind kind, T facing) {
+    return is_flat(kind) || (kind == Kind::clump && facing > 0);
+}
+
+template <class T> AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, T facing = 0) {
     if (kind == Kind::branch) {
         const Vector3<T> t = R_wb.col(2);
         const Vector3<T> across = u - u.dot(t) * t;
@@ -81,25 +96,25 @@ template <class T> AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, cons
         return {speed * across, speed};
     }
     const T speed = u.norm() * unfolded(kind, u.norm());
-    if (!is_flat(kind)) return {speed * u, speed};
-    constexpr T s = T(streaming_drag);
+    if (!has_face(kind, facing)) return {speed * u, speed};
+    const Facing<T> c = facing_of(kind, facing);
     const Vector3<T> normal = R_wb.col(1);
-    return {speed * ((1 - s) * u.dot(normal) * normal + s * u), speed};
+    return {speed * (c.along * u.dot(normal) * normal + c.all_ways * u), speed};
 }
 
 // Returns minus the force's derivative with the body's velocity, over kappa rho A [m/s]: symmetric, positive semidefinite. It is exact for branches
-// and fruit. For a plate it keeps the symmetric part of the derivative: that of (u.n) n along the normal alone. With folding, d (g |u|)/d |u| = g^2.
-template <class T> Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u) {
+// and fruit. For what has a face it keeps a symmetric part of the derivative: that of (u.n) n along the normal alone. With folding, d (g |u|)/d |u| = g^2.
+template <class T> Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, T facing = 0) {
     if (kind != Kind::branch) {
         const T U = u.norm();
         if (!(U > 0)) return Matrix3<T>::Zero();
         const T g = unfolded(kind, U), speed = g * U, more = g * g / U;
         const Matrix3<T> all_ways = speed * Matrix3<T>::Identity() + more * (u * u.transpose());
-        if (!is_flat(kind)) return all_ways;
-        constexpr T s = T(streaming_drag);
+        if (!has_face(kind, facing)) return all_ways;
+        const Facing<T> c = facing_of(kind, facing);
         const Vector3<T> n = R_wb.col(1);
         const T along = u.dot(n);
-        return s * all_ways + (1 - s) * (speed + more * along * along) * (n * n.transpose());
+        return c.all_ways * all_ways + c.along * (speed + more * along * along) * (n * n.transpose());
     }
     Vector3<T> across = u;
     Matrix3<T> plane = Matrix3<T>::Identity();
@@ -114,10 +129,10 @@ template <class T> Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, con
 // Returns how fast a plate's moment about its joint may change with its rotation, over kappa rho A and the distance of its centre of mass: [m^2/s^2],
 // symmetric, positive semidefinite. The moment is -(1 - s) g |u| (u.n) x, x the width's axis, and changes by at most (1 - s) g |u|^2 a radian. The
 // result is twice that: a plate held broadside to the wind, which turns at up to |u| over that distance and would spin round in a step, then turns by
-// half a radian at most. The result is zero for all else, whose wood is stiffer than this.
-template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u) {
-    if (!is_flat(kind)) return Matrix3<T>::Zero();
-    const T most = T(1 - streaming_drag) * unfolded(kind, u.norm()) * u.squaredNorm();
+// half a radian at most. Of a clump c_n stands for 1 - s. The result is zero for all else, whose wood is stiffer than this.
+template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, T facing = 0) {
+    if (!has_face(kind, facing)) return Matrix3<T>::Zero();
+    const T most = facing_of(kind, facing).along * unfolded(kind, u.norm()) * u.squaredNorm();
     return 2 * most * (R_wb.col(0) * R_wb.col(0).transpose());
 }
 

@@ -8,6 +8,8 @@ constexpr double streaming_drag = 0.25;                                     // [
 constexpr double fold_speed = 7.5;                                          // [m/s]
 constexpr double blade_mean =
     (1 + 2 * streaming_drag) / 3; // [1] a blade's drag over that broadside, mean over all directions
+// [1] In the law of a clump whose leaves all face along n, over that of one whose leaves face all ways: of (u.n) n, and what is taken from that of u.
+constexpr double facing_along = (1 - streaming_drag) / blade_mean, facing_less = 1 - streaming_drag / blade_mean;
 constexpr double blade_turning = 6, clump_turning = 2; // [1] k
 
 } // namespace bough

@@ -245,6 +245,7 @@ std::optional<Defect> check(const Tree& tree) {
         .length("leaf_count", tree.leaf_count, tree.leaf_count.empty() ? 0 : n, "none, or one for each body")
         .length("leaf_length", tree.leaf_length, tree.leaf_length.empty() ? 0 : n, "none, or one for each body")
         .length("leaf_width", tree.leaf_width, tree.leaf_length.size(), "as many as /leaf_length")
+        .length("leaf_facing", tree.leaf_facing, tree.leaf_facing.empty() ? 0 : n, "none, or one for each body")
         .length("drag", tree.drag, tree.drag.empty() ? 0 : n, "none, or one for each body");
     if (rules.defect) return rules.defect;
 
@@ -278,6 +279,7 @@ std::optional<Defect> check(const Tree& tree) {
     check_counts(rules, tree.leaf_count, [&](std::size_t i) { return is_flat(tree.kind[i]); });
     rules.between("leaf_length", tree.leaf_length, 0, unbounded)
         .between("leaf_width", tree.leaf_width, 0, unbounded)
+        .between("leaf_facing", tree.leaf_facing, 0, 1)
         .between("drag", tree.drag, 0, unbounded);
     check_colors(rules, tree.color);
     return rules.defect;

@@ -43,6 +43,9 @@ struct Tree {
     std::vector<double> leaf_length,
         leaf_width; // [m] of each leaf of a clump whose size says how far they spread (resolve.h); 0: the size is that of a
                     // blade of all their area
+    std::vector<double>
+        leaf_facing; // [1] 0..1, of a clump: (3 <(n.y)^2> - 1) / 2, the mean over its leaves, n their normals, y
+                     // its own: 0 facing all ways, 1 all along y (air.h); not read of other bodies
     std::vector<double> drag; // [1] the air takes hold of so many times the area of its size; empty: 1 each
 
     std::string name;        // what the tree is called

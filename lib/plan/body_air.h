@@ -7,9 +7,15 @@
 
 namespace bough {
 
+// Returns Tree::leaf_facing of a clump, and 0 for other bodies.
+template <class T> T facing_of(const Plan<T>& plan, std::size_t body) {
+    return plan.facing.empty() ? T(0) : plan.facing[body];
+}
+
 // Returns the body as the air's laws take it, in a run's precision or another.
 template <class Real, class T> AirBody<Real> air_body(const Plan<T>& plan, std::size_t body) {
-    return {plan.kind[body], Real(plan.drag_area[body]), Real(plan.mass[body]), plan.com[body].template cast<Real>()};
+    return {plan.kind[body], Real(plan.drag_area[body]), Real(plan.mass[body]), plan.com[body].template cast<Real>(),
+            Real(facing_of(plan, body))};
 }
 
 // Returns the wind's clock that a body's tree goes by.

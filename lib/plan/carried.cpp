@@ -10,6 +10,11 @@ template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree) {
     const Scene& scene = plan.scene;
     for (std::size_t i = 0; i < plan.bodies; ++i)
         plan.drag_area.push_back(T(drag_area(tree, i, kind_in_air(tree, i), scene.air_density, plate_kappa(scene))));
+    for (std::size_t i = 0; i < tree.leaf_facing.size(); ++i) {
+        if (!(facing_in_air(tree, i) > 0)) continue;
+        if (plan.facing.empty()) plan.facing.assign(plan.bodies, T(0));
+        plan.facing[i] = T(facing_in_air(tree, i));
+    }
 }
 
 template <class T> std::vector<Vec3> carried_moments(const Plan<T>& plan, const Tree& tree) {
@@ -24,9 +29,9 @@ template <class T> std::vector<Vec3> carried_drag(const Plan<T>& plan, const Tre
     std::vector<double> drag(plan.bodies); // [kg/m] of all outboard, its own included
     std::vector<Vec3> P(plan.bodies);
     for (std::size_t i = plan.bodies; i-- > 0;) {
-        const bool flat = is_flat(kind_in_air(tree, i));
-        drag[i] += double(plan.drag_area[i]) * (flat ? blade_mean : 1);
-        P[i] = double(plan.drag_area[i]) * (flat ? streaming_drag : 1) * tree.com[i];
+        const Kind kind = kind_in_air(tree, i);
+        drag[i] += double(plan.drag_area[i]) * (is_flat(kind) ? blade_mean : 1);
+        P[i] = double(plan.drag_area[i]) * facing_of(kind, facing_in_air(tree, i)).all_ways * tree.com[i];
         if (tree.parent[i] >= 0) drag[std::size_t(tree.parent[i])] += drag[i];
     }
     for (std::size_t i = 0; i < plan.bodies; ++i)

@@ -74,14 +74,14 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, Tree* own) 
     for (std::size_t i = 0; i < plan.kind.size(); ++i) plan.kind[i] = kind_in_air(tree, i);
     plan.foliage = std::any_of(plan.kind.begin(), plan.kind.end(), is_foliage);
     plan.parent = tree.parent;
-    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid, &Tree::leaf_count);
+    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid, &Tree::leaf_count, &Tree::leaf_facing);
 }
 
 // With lanes that hold them all, and nobody who reads poses.
 template <class T> void give_back_bodies(Plan<T>& plan) {
     const auto all = [](auto&... arrays) { (give_back(arrays), ...); };
     all(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint, plan.K,
-        plan.beta, plan.drag_area, plan.kind, plan.shelter, plan.clock);
+        plan.beta, plan.drag_area, plan.facing, plan.kind, plan.shelter, plan.clock);
 }
 
 template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {

@@ -51,6 +51,7 @@ void copy_leaders(const Tree& whole, Reduced& r) {
     t.resize(r.leader.size());
     if (!whole.load.empty()) t.load.assign(r.leader.size(), 0);
     if (!whole.leaf_count.empty()) t.leaf_count.assign(r.leader.size(), 1);
+    if (!whole.leaf_facing.empty()) t.leaf_facing.assign(r.leader.size(), 0);
     if (!whole.drag.empty()) t.drag.assign(r.leader.size(), 1);
     for (std::size_t g = 0; g < r.leader.size(); ++g) {
         const auto i = std::size_t(r.leader[g]);
@@ -75,6 +76,7 @@ void copy_leaders(const Tree& whole, Reduced& r) {
         t.level[g] = whole.level[i];
         t.s[g] = whole.s[i];
         if (!whole.leaf_count.empty()) t.leaf_count[g] = whole.leaf_count[i];
+        if (!whole.leaf_facing.empty()) t.leaf_facing[g] = whole.leaf_facing[i];
         if (!whole.drag.empty()) t.drag[g] = whole.drag[i];
     }
 }

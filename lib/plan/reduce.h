@@ -40,6 +40,11 @@ inline Kind kind_in_air(const Tree& tree, std::size_t i) {
     return is_clump(tree, i) ? Kind::clump : tree.kind[i];
 }
 
+// Returns how much a clump's leaves face one way, and 0 for other bodies.
+inline double facing_in_air(const Tree& tree, std::size_t i) {
+    return tree.leaf_facing.empty() || kind_in_air(tree, i) != Kind::clump ? 0 : tree.leaf_facing[i];
+}
+
 struct Reduced {
     Tree tree;                     // no body at all where nothing moves
     std::vector<TreeRange> ranges; // of the scene's trees in it

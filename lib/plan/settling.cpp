@@ -81,7 +81,9 @@ FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scen
         if (!scene.wind) continue;
         const Kind kind = kind_in_air(tree, whole);
         const double scale = drag_area(tree, whole, kind, scene.air_density, plate_kappa(scene));
-        lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(*scene.wind, before.com[i])) * u);
+        lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(*scene.wind, before.com[i]),
+                                          facing_in_air(tree, whole)) *
+                              u);
     }
     if (!(pushed > 0) || !(moved > 0) || !std::isfinite(moved)) return {}; // it buckles
     const double omega = std::sqrt(a * pushed / moved);

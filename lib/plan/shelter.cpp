@@ -1,5 +1,5 @@
 #include "shelter.h"
-#include "../laws/air.h"
+#include "body_air.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -62,7 +62,8 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan, const std
     // [1] Of a column's flux, at the speed that the body has, u over the undisturbed. (Foliage folds, so that it is no constant.)
     const auto share = [&](std::size_t i, double u) {
         const Vec3 past = u * speed * e;
-        return double(plan.drag_area[i]) / density * air_force(plan.kind[i], pose.R[i], past).force.dot(e) /
+        return double(plan.drag_area[i]) / density *
+               air_force(plan.kind[i], pose.R[i], past, double(facing_of(plan, i))).force.dot(e) /
                (past.squaredNorm() * cell * cell);
     };
     const auto bodies_in = [&](std::size_t i) { return tree_drag.empty() ? 1.0 : std::max(tree_drag[i], 1.0); };

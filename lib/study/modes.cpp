@@ -86,7 +86,7 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
         Vec3 u = Vec3::Zero();
         if (scene.wind) u = mean_wind(*scene.wind, motion.joints()[i] + R * tree.com[i]);
         const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
-        const AirBody<double> body{kind, area, tree.mass[i], tree.com[i]};
+        const AirBody<double> body{kind, area, tree.mass[i], tree.com[i], facing_in_air(tree, i)};
         damping[i].drag = air_load_damping(body, terms, R, u);
         damping[i].spin = air_load(body, terms, R, u).spin * I;
     }

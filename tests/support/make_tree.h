@@ -208,6 +208,7 @@ inline Tree forest(const std::vector<Tree>& trees) {
         add_some(t.leaf_count, more.leaf_count, 1);
         add_some(t.leaf_length, more.leaf_length, 0.0);
         add_some(t.leaf_width, more.leaf_width, 0.0);
+        add_some(t.leaf_facing, more.leaf_facing, 0.0);
         add_some(t.drag, more.drag, 1.0);
     }
     return t;

@@ -31,11 +31,13 @@ Vec3 air_force(const Tree& tree, std::size_t i, double density, const Mat3& R, c
     case bough::Kind::fruit:
         return 0.235 * density * std::numbers::pi * size[1] * size[1] * u.norm() * u;
     default: {
-        if (!tree.leaf_count.empty() && tree.leaf_count[i] > 1) // a clump: half a leaf's drag broadside, whichever way
-            return 0.3 * density * (size[0] * size[1] / 2) * u.norm() / (1 + u.norm() / 7.5) * u;
         const Vec3 normal = R.col(1);
         const double folded = u.norm() / (1 + u.norm() / 7.5); // at 7.5 m/s; a quarter of the drag from all sides
-        return 0.6 * density * (size[0] * size[1] / 2) * folded * (0.75 * u.dot(normal) * normal + 0.25 * u);
+        const bool clump = !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
+        // Of a clump's leaves so many face along its normal, the others all ways: half of a leaf's drag broadside, whichever way.
+        const double face = !clump ? 1 : tree.leaf_facing.empty() ? 0 : tree.leaf_facing[i];
+        const Vec3 plate = 0.75 * u.dot(normal) * normal + 0.25 * u;
+        return 0.6 * density * (size[0] * size[1] / 2) * folded * (face * plate + (1 - face) * 0.5 * u);
     }
     }
 }

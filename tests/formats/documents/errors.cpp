@@ -206,6 +206,16 @@ TEST_CASE("leaf_count names body and what is expected") {
     CHECK(changed(s, s + ", \"leaf_count\": [1, 1.5]") == "t.json: /leaf_count/1: is 1.5, expected an integer");
 }
 
+TEST_CASE("leaf_facing names body and what is expected") {
+    const std::string s = "\"s\": [0, 0.5]";
+    CHECK(changed(s, s + ", \"leaf_facing\": [0, 1]") == "");
+    CHECK(changed(s, s + ", \"leaf_facing\": [0, 1.5]") == "t.json: /leaf_facing/1: is 1.5, expected 0 to 1");
+    CHECK(changed(s, s + ", \"leaf_facing\": [-0.25, 0]") == "t.json: /leaf_facing/0: is -0.25, expected 0 to 1");
+    CHECK(changed(s, s + ", \"leaf_facing\": [0]") ==
+          "t.json: /leaf_facing: has 1 number, expected 2 (one for each body in /parent)");
+    CHECK(changed(s, s + ", \"leaf_facing\": [0, 1e999]") != "");
+}
+
 TEST_CASE("motions name the line of the frame") {
     const std::string head =
         "{\"format\": \"bough-motion\", \"version\": 1, \"fps\": 30, \"bodies\": 1, \"fields\": [\"pose\"]}\n";

@@ -18,6 +18,7 @@ std::vector<Case> cases() {
     all.push_back({"rest pose let go", leafy, drop});
     all.push_back({"rest pose let go, many leaves", large, drop});
     all.push_back({"gusts, leaves and fruit", large, in_wind(gusts())});
+    all.push_back({"gusts, clumps that face one way more than others", facing(large), in_wind(gusts())});
     Scene pulled;
     pulled.pulls = pulls(20);
     all.push_back({"pulls", large, pulled});

@@ -134,6 +134,42 @@ TEST_CASE("counts below 1, and of what is no leaf, are refused") {
     CHECK(check(s)->message == "is 2, expected 1 (only a leaf stands for more)");
 }
 
+TEST_CASE(
+    "how leaves face keeps through joining, splitting, reducing and both forms, and is left out where none is said") {
+    Tree a = clumps();
+    const Tree plain = segment(trunk_with_leaves({0.1, 0.1}), wood(), {});
+    a.leaf_facing.assign(a.size_bodies(), 0);
+    a.leaf_facing.back() = 0.4;
+    Tree joined;
+    append(joined, plain, Vec3::Zero(), 0);
+    CHECK(joined.leaf_facing.empty());
+    append(joined, a, Vec3(3, 0, 0), 1);
+    append(joined, plain, Vec3(6, 0, 0), 0);
+    REQUIRE(joined.leaf_facing.size() == joined.size_bodies());
+    CHECK(joined.leaf_facing[plain.size_bodies() + a.size_bodies() - 1] == 0.4);
+    CHECK(std::count(joined.leaf_facing.begin(), joined.leaf_facing.end(), 0) ==
+          std::ptrdiff_t(joined.size_bodies()) - 1);
+    CHECK_FALSE(check(joined));
+    CHECK(split_roots(joined)[1].leaf_facing == a.leaf_facing);
+
+    Tree held = a;
+    held.rigid.assign(a.size_bodies(), 0);
+    held.rigid[1] = 1; // a piece of the trunk
+    const Reduced r = reduce(held, {{0, held.size_bodies(), 0}}, 0.6);
+    for (std::size_t g = 0; g < r.leader.size(); ++g)
+        CHECK(r.tree.leaf_facing[g] == a.leaf_facing[std::size_t(r.leader[g])]);
+    CHECK(shown_tree(a, {2}, {Ball{}}).leaf_facing.size() == a.size_bodies() + 1);
+
+    Tree bare = a;
+    bare.leaf_facing.clear();
+    for (const Form form : {Form::json, Form::safetensors}) {
+        CHECK(read_tree(written([&](Output& o) { write_tree(o, a, form); }), "t").leaf_facing == a.leaf_facing);
+        const std::string without = written([&](Output& o) { write_tree(o, bare, form); });
+        CHECK(without.find("leaf_facing") == std::string::npos);
+        CHECK(read_tree(without, "t").leaf_facing.empty());
+    }
+}
+
 TEST_CASE("counts come back from both forms, and are left out where there are none") {
     const Tree tree = clumps();
     Tree bare = tree;

@@ -42,7 +42,8 @@ Measured measured(const Tree& tree, const Material& wood) {
         }
         for (int k = 0; k < 8; ++k) {
             const Vec3 u = 8 * Vec3(std::cos(k * pi / 4), 0, std::sin(k * pi / 4));
-            m.drag += drag_area(tree, i, kind, 1.2) * air_force(kind, pose.R_wb[i], u).force.dot(u) / 64;
+            m.drag += drag_area(tree, i, kind, 1.2) *
+                      air_force(kind, pose.R_wb[i], u, facing_in_air(tree, i)).force.dot(u) / 64;
         }
     }
     m.wood = mass - m.leaves;
@@ -154,12 +155,13 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A full-grown oak keeps its frequencies, and of its damping in wind no less than three quarters") {
-    // The tenth of the others is missed: by 15 to 25 % (lib/growth/README.md). Of so many bodies one way of the wind is enough.
+TEST_CASE("A full-grown oak keeps its frequencies, and of its damping in wind all but an eighth with 1 000 bodies") {
+    // Its leaves face up, and so do its clumps (Tree::leaf_facing): with none that do, a fifth of its damping is missing. Of so many bodies one way of the
+    // wind is enough.
     for (const SpeciesFile& file : species_files()) {
         if (file.name != "oak" || sanitized) continue;
         const Species species = read_species(file.content, std::string(file.name));
-        check_one_tree(species.growth, wood_for(species), {1000}, 0.025, 0.25, {Vec3::UnitX()});
+        check_one_tree(species.growth, wood_for(species), {1000, 10000}, 0.025, 0.125, {Vec3::UnitX()});
     }
 }
 

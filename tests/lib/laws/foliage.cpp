@@ -5,6 +5,7 @@
 #include "lib/growth/segment.h"
 #include "lib/laws/air.h"
 #include "lib/model/stiffness.h"
+#include "lib/plan/body_air.h"
 #include "lib/study/energy.h"
 #include "lib/study/ring_down.h"
 #include "tests/support/lanes_support.h"
@@ -58,7 +59,7 @@ double mean_drag(const Tree& tree, double speed, double dt, double seconds) {
             if (!is_foliage(plan.kind[i])) continue;
             const Vec3 c = state.R_wb[i] * plan.com[i];
             const Vec3 u = scene.wind->velocity - state.v_w[i] - state.omega_w[i].cross(c);
-            sum += plan.drag_area[i] * air_force(plan.kind[i], state.R_wb[i], u).force.x();
+            sum += plan.drag_area[i] * air_force(plan.kind[i], state.R_wb[i], u, facing_of(plan, i)).force.x();
         }
     }
     return sum / (steps - (steps + 1) / 2);

@@ -61,6 +61,17 @@ TEST_CASE("each rule of a tree") {
     CHECK(broken(good, [](Tree& t) { t.level[1] = -1; }) == "level/1");
     CHECK(broken(good, [](Tree& t) { t.s[1] = 1.01; }) == "s/1");
     CHECK(broken(good, [](Tree& t) { t.s.pop_back(); }) == "s");
+    const auto facing = [](std::vector<double> values) {
+        return [values](Tree& t) {
+            t.leaf_facing.assign(t.size_bodies(), 0.5);
+            std::copy(values.begin(), values.end(), t.leaf_facing.begin());
+        };
+    };
+    CHECK(broken(good, facing({0, 1, 0.3})) == "");
+    CHECK(broken(good, facing({0, 1.001})) == "leaf_facing/1");
+    CHECK(broken(good, facing({-1e-9})) == "leaf_facing/0");
+    CHECK(broken(good, facing({0, 0, not_a_number})) == "leaf_facing/2");
+    CHECK(broken(good, [](Tree& t) { t.leaf_facing = {0.5}; }) == "leaf_facing");
 }
 
 TEST_CASE("an inertia is one that a body can have") {

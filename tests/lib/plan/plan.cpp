@@ -224,6 +224,34 @@ TEST_CASE("the constants of wind and gravity exist only with them") {
           0);
 }
 
+TEST_CASE("how clumps' leaves face is held where some face one way more than others, in a wind, and nowhere else") {
+    Tree tree = make_tree::branched();
+    make_tree::add_leaf(tree, 1, {0, 0, 0.1}, Quat::Identity(), 0.2, 0.1, 3e-4, 0, 0, 0.5);
+    make_tree::add_leaf(tree, 1, {0, 0, 0.1}, Quat::Identity(), 0.2, 0.1, 3e-4, 0, 0, 0.5);
+    const std::size_t n = tree.size_bodies();
+    tree.leaf_count.assign(n, 1);
+    tree.leaf_count[n - 2] = 20;
+    Scene windy;
+    windy.wind = Wind{};
+    for (const Method& method : {Method{Solver::coupled}, Method{Solver::analytic}}) {
+        const auto held = [&](const Scene& scene) {
+            const Plan<double> plan = make_plan<double>(tree, {{0, n, 0}}, scene, {}, 1.0 / 30, method.solver,
+                                                        method.scheme, fast::best_target());
+            return std::pair(plan.facing.capacity(), parts::lanes(plan).facing.capacity());
+        };
+        tree.leaf_facing.clear();
+        CHECK(held(windy) == std::pair(std::size_t(0), std::size_t(0)));
+        tree.leaf_facing.assign(n, 0);
+        CHECK(held(windy) == std::pair(std::size_t(0), std::size_t(0)));
+        tree.leaf_facing[n - 1] = 0.5; // of one leaf, which is not read
+        CHECK(held(windy) == std::pair(std::size_t(0), std::size_t(0)));
+        tree.leaf_facing[n - 2] = 0.5;
+        CHECK(held(windy).first == n);
+        CHECK(held(windy).second > 0);
+        CHECK(held(empty_scene()) == std::pair(std::size_t(0), std::size_t(0)));
+    }
+}
+
 TEST_CASE("the plan says what of the wind varies over the ground") {
     for (const Case& c : cases()) {
         if (c.name != "wind over the ground") continue;

@@ -1,6 +1,7 @@
 // Shelter: what the bodies take is what the columns lose, counted by a separate sum; who stands behind whom.
 #include "lib/plan/shelter.h"
 #include "lib/laws/air.h"
+#include "lib/plan/body_air.h"
 #include "tests/support/lanes_support.h"
 #include <map>
 
@@ -48,7 +49,8 @@ TEST_CASE("the momentum taken from the columns is the sum of the drags on the st
             double drags = 0;
             for (std::size_t i = 0; i < plan.bodies; ++i)
                 drags += plan.drag_area[i] *
-                         air_force<double>(plan.kind[i], state.R_wb[i], plan.shelter[i] * velocity).force.dot(e);
+                         air_force<double>(plan.kind[i], state.R_wb[i], plan.shelter[i] * velocity, facing_of(plan, i))
+                             .force.dot(e);
             // Columns: the air that leaves each, from the last body in it and what that body itself holds back.
             struct Last {
                 double along = -1e9, flux = 0;
@@ -62,7 +64,8 @@ TEST_CASE("the momentum taken from the columns is the sum of the drags on the st
                 if (place.dot(e) < last.along) continue;
                 const double u = plan.shelter[i] * velocity.norm();
                 const double held =
-                    plan.drag_area[i] * air_force<double>(plan.kind[i], state.R_wb[i], u * e).force.dot(e);
+                    plan.drag_area[i] *
+                    air_force<double>(plan.kind[i], state.R_wb[i], u * e, facing_of(plan, i)).force.dot(e);
                 // A clump's speed is one that the column has within it, and u^2 falls by exp(-s) from its one side to the other; so is
                 // that of wood which stands for other wood.
                 const auto many = [&](std::size_t k) {

@@ -1,0 +1,160 @@
+// lib/laws/air.h: a clump whose leaves face one way more than others meets the air as its leaves do together, one by one.
+#include "lib/laws/air.h"
+#include "lib/laws/air_load.h"
+#include "tests/support/make_tree.h"
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace bough;
+
+namespace {
+
+// Normals of leaves that are tilted at random from the y axis, and as many all round it: the mean of n n^T is uniaxial about y.
+std::vector<Vec3> normals(make_tree::Dice& dice, double most_tilt) {
+    std::vector<Vec3> all;
+    for (int k = 0; k < 50; ++k) {
+        const double tilt = dice(0, most_tilt), first = dice(0, 2 * std::numbers::pi);
+        for (int way = 0; way < 6; ++way) {
+            const double around = first + way * std::numbers::pi / 3;
+            all.push_back({std::sin(tilt) * std::cos(around), std::cos(tilt), std::sin(tilt) * std::sin(around)});
+        }
+    }
+    return all;
+}
+
+double facing_of(const std::vector<Vec3>& normals) {
+    double square = 0;
+    for (const Vec3& n : normals) square += n.y() * n.y() / double(normals.size());
+    return (3 * square - 1) / 2;
+}
+
+Mat3 leaf_with(const Vec3& normal) {
+    return shortest_turn(Vec3::UnitY(), normal).toRotationMatrix();
+}
+
+Vec3 any(make_tree::Dice& dice, double most) {
+    return {dice(-most, most), dice(-most, most), dice(-most, most)};
+}
+
+const Vec3 blade(0.09, 0.06, 2e-4); // its size
+
+} // namespace
+
+TEST_CASE("A clump's force is the sum of its leaves'") {
+    make_tree::Dice dice{std::mt19937(3)};
+    for (const double most_tilt : {0.01, 0.6, 1.0, 1.4}) {
+        const std::vector<Vec3> leaves = normals(dice, most_tilt);
+        const double facing = facing_of(leaves);
+        CAPTURE(most_tilt, facing);
+        REQUIRE(facing > 0.05);
+        const Mat3 R = make_tree::turn(dice(-3, 3), any(dice, 1)).toRotationMatrix();
+        // The clump has their area.
+        const Vec3 size(blade.x() * double(leaves.size()), blade.y(), blade.z());
+        const double one = drag_area(Kind::leaf, blade, 1.2), all = drag_area(Kind::clump, size, 1.2);
+        for (int k = 0; k < 20; ++k) {
+            const Vec3 u = any(dice, 15);
+            Vec3 force = Vec3::Zero();
+            for (const Vec3& n : leaves) {
+                const Mat3 leaf = R * leaf_with(n);
+                force += one * air_force(Kind::leaf, leaf, u).force;
+            }
+            const Vec3 together = all * air_force(Kind::clump, R, u, facing).force;
+            CHECK((together - force).norm() < 1e-11 * force.norm());
+        }
+    }
+}
+
+TEST_CASE("A clump whose leaves all face one way is a plate, and one whose leaves face all ways has no face") {
+    make_tree::Dice dice{std::mt19937(4)};
+    for (int k = 0; k < 20; ++k) {
+        const Mat3 R = make_tree::turn(dice(-3, 3), any(dice, 1)).toRotationMatrix();
+        const Vec3 u = any(dice, 15);
+        const Vec3 plate = air_force(Kind::leaf, R, u).force, clump = air_force(Kind::clump, R, u, 1.0).force;
+        CHECK((blade_mean * clump - plate).norm() < 1e-12 * plate.norm());
+        const Mat3 D = air_damping(Kind::leaf, R, u);
+        CHECK((blade_mean * air_damping(Kind::clump, R, u, 1.0) - D).norm() < 1e-12 * D.norm());
+        const Mat3 H = air_turning(Kind::leaf, R, u);
+        CHECK((blade_mean * air_turning(Kind::clump, R, u, 1.0) - H).norm() < 1e-12 * H.norm());
+        CHECK(air_force(Kind::clump, R, u, 0.0).force == air_force(Kind::clump, R, u).force);
+        const Vec3 all_ways = u.norm() / (1 + u.norm() / fold_speed) * u;
+        CHECK((air_force(Kind::clump, R, u).force - all_ways).norm() < 1e-14 * all_ways.norm());
+        CHECK(air_turning(Kind::clump, R, u, 0.0).isZero());
+    }
+}
+
+TEST_CASE("The mean over all directions of a clump's drag does not depend on how its leaves face") {
+    const Mat3 R = Mat3::Identity();
+    double with = 0, without = 0;
+    for (int k = 0; k < 2000; ++k) { // even over the sphere
+        const double z = 1 - (2 * k + 1) / 2000.0, r = std::sqrt(1 - z * z),
+                     a = k * std::numbers::pi * (3 - std::sqrt(5.0));
+        const Vec3 u(7 * r * std::cos(a), 7 * r * std::sin(a), 7 * z);
+        with += air_force(Kind::clump, R, u, 0.7).force.dot(u);
+        without += air_force(Kind::clump, R, u).force.dot(u);
+    }
+    CHECK(with == Approx(without).epsilon(1e-5));
+}
+
+TEST_CASE("A clump's damping is its force's derivative, along its normal and along all that is across it") {
+    make_tree::Dice dice{std::mt19937(5)};
+    for (const double facing : {0.0, 0.2, 0.43, 0.8, 1.0}) {
+        for (int k = 0; k < 20; ++k) {
+            const Mat3 R = make_tree::turn(dice(-3, 3), any(dice, 1)).toRotationMatrix();
+            const Vec3 u = any(dice, 15);
+            const Mat3 D = air_damping(Kind::clump, R, u, facing);
+            const auto numeric = [&](const Vec3& way) { // the body goes so: u less
+                const double h = 1e-5;
+                const Vec3 more = air_force(Kind::clump, R, Vec3(u + h * way), facing).force,
+                           less = air_force(Kind::clump, R, Vec3(u - h * way), facing).force;
+                return way.dot(more - less) / (2 * h);
+            };
+            const Vec3 n = R.col(1), across = n.cross(any(dice, 1)).normalized();
+            CAPTURE(facing, u.transpose());
+            CHECK(n.dot(D * n) == Approx(numeric(n)).epsilon(1e-7));
+            CHECK(across.dot(D * across) == Approx(numeric(across)).epsilon(1e-7));
+            CHECK((D - D.transpose()).norm() < 1e-14 * D.norm());
+            CHECK(Eigen::SelfAdjointEigenSolver<Mat3>(D).eigenvalues()[0] > 0);
+        }
+    }
+}
+
+TEST_CASE("What a clump's moment about its joint changes by as it turns is at most half of what is allowed for") {
+    make_tree::Dice dice{std::mt19937(6)};
+    const double facing = 0.6, arm = 0.2;
+    double most = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const Vec3 u = any(dice, 15);
+        // About the width's axis, of the part that is along the normal, in the body's axes.
+        const auto moment = [&](double angle) {
+            const Mat3 R = make_tree::turn(angle, Vec3::UnitX()).toRotationMatrix();
+            const AirForce<double> all = air_force(Kind::clump, R, u, facing);
+            const Vec3 along = all.force - (1 - 0.5 * facing) * all.speed * u;
+            return (R * Vec3(0, 0, arm)).cross(along).x();
+        };
+        const double change = std::abs(moment(1e-5) - moment(-1e-5)) / 2e-5;
+        const double allowed = arm * air_turning(Kind::clump, Mat3(Mat3::Identity()), u, facing)(0, 0);
+        CHECK(change <= allowed / 2 * (1 + 1e-6));
+        most = std::max(most, change / allowed);
+    }
+    CHECK(most > 0.45);
+}
+
+TEST_CASE("The air does no more work on a clump with a face than its bound says") {
+    make_tree::Dice dice{std::mt19937(7)};
+    const Vec3 U(9, 1, -3);
+    for (const double facing : {0.1, 0.5, 1.0}) {
+        const AirBody<double> body{Kind::clump, 0.03, 0.01, Vec3(0, 0, 0.2), facing};
+        double nearest = 0;
+        for (int k = 0; k < 20000; ++k) {
+            const Mat3 R = make_tree::turn(dice(-3, 3), any(dice, 1)).toRotationMatrix();
+            const Vec3 v = any(dice, 10), u = U - v;
+            const double power = air_load(body, LeafTerms<double>{}, R, u).force.dot(v);
+            const double bound = air_work_bound(body, LeafTerms<double>{}, 1.0, U, u.norm());
+            REQUIRE(power <= bound);
+            nearest = std::max(nearest, power / bound);
+        }
+        CAPTURE(facing);
+        CHECK(nearest > 0.2);
+    }
+}
