@@ -72,13 +72,8 @@ template <class T> Run<T> start_run(Plan<T> plan, const Assembly& assembly) {
 }
 
 template <class T> std::string non_finite(Run<T>& run, const Tree& tree) {
-    if (!run.plan.stepper->known_finite(run.state)) {
-        present(run.plan, run.state);
-        if (first_non_finite(run.state)) {
-            const NonFinite found = run.plan.stepper->non_finite(run.state);
-            return "stage " + found.what + ", " + body_text(tree, found.body);
-        }
-    }
+    if (const std::optional<NonFinite> found = run.plan.stepper->non_finite(run.plan, run.state))
+        return "stage " + found->what + ", " + body_text(tree, found->body);
     if (const std::optional<std::size_t> free = first_non_finite(run.world))
         return "stage contacts, " + free_text(run.world, *free);
     return {};
