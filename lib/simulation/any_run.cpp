@@ -1,4 +1,5 @@
 #include "any_run.h"
+#include "../base/hash_text.h"
 #include "../base/parallel.h"
 #include "../base/rotation_maps.h"
 #include "../coupled/attachment.h"
@@ -248,15 +249,15 @@ public:
         a.simd = lanes ? fast::target_name(lanes->target) : "none";
         if (!sleeps()) a.awake = lanes ? lanes->sleep.reason : "plain path: " + run_.plan.stepper->kind().plainly;
         if (lanes) a.sleep = lanes->sleep.rate;
-        a.steps = run_.state.step;
-        a.calls = run_.state.calls;
+        for (std::size_t k = 0; k < stage_count; ++k) a.stages.push_back({stage_name(Stage(k)), run_.state.calls[k]});
         a.flags = run_.state.flags;
-        a.free = run_.world.on();
-        a.fell = a.free && (!run_.world.remaining.gone.empty() || !run_.world.free.empty());
-        a.counts = run_.world.counts;
-        a.contact = run_.world.contact.model;
+        const WorldCounts& counts = run_.world.counts;
+        a.broke = counts.broke;
+        a.hits = counts.hits;
+        a.landed = counts.landed;
+        a.imbalance = counts.imbalance;
         a.state_bytes = run_.state.bytes();
-        a.free_bytes = a.free ? run_.world.bytes() : 0;
+        a.free_bytes = run_.world.on() ? run_.world.bytes() : 0;
         return a;
     }
 
@@ -329,11 +330,10 @@ private:
         return stepper_of<T>(*assembly_, choice_of(options()));
     }
 
-    // A step before time 0: of the trees alone.
+    // A step before time 0: of the trees alone, and forgotten by all counts.
     void settle_on(StageClock* clock) {
         bough::advance(run_.plan, run_.state, clock);
         run_.state.loads.clear();
-        if (run_.state.step < 0) return;
         run_.state.calls = {};
         run_.state.flags = {};
     }

@@ -114,12 +114,6 @@ template <class T> void show_all(const Assembly& assembly, const Run<T>& run, Mo
     place_free_bodies(run.world, frame);
 }
 
-std::string hash_text(std::uint64_t hash) {
-    std::string text(16, '0');
-    for (std::size_t k = 16; k-- > 0; hash >>= 4) text[k] = "0123456789abcdef"[hash & 15];
-    return text;
-}
-
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template std::unique_ptr<Stepper<T>> stepper_of(const Assembly&, StepChoice);                                      \
     template Plan<T> plan_run(const Assembly&, const Wishes&, double, std::unique_ptr<Stepper<T>>);                    \
