@@ -6,12 +6,14 @@
 //   Simulation  simulation/simulation.h  one run of it, step by step
 //   pick        simulation/pick.h        which body a ray meets
 //   RunError    simulation/run_error.h   how wrong it is
+//   close_loop  simulation/loop.h        one period of a motion that repeats
 // bough/files.h adds species by name and documents by file name. It belongs to a library beside this one (bough::files).
 #pragma once
 #include "growth/grow.h"
 #include "growth/segment.h"
 #include "model/scene.h"
 #include "model/wood.h"
+#include "simulation/loop.h"
 #include "simulation/pick.h"
 #include "simulation/run_error.h"
 #include "simulation/simulation.h"

@@ -95,4 +95,9 @@ void make_carry(Splines& splines, const Material& material, std::vector<std::str
                         " must be to carry them");
 }
 
+bool is_speedtree_file(const std::string& path) {
+    return path != "-" && !path.empty() &&
+           MappedInput(path).content().substr(0, 65536).find("<SpeedTreeRaw") != std::string_view::npos;
+}
+
 } // namespace bough

@@ -26,6 +26,9 @@ Splines read_import(const std::string& file, const ImportChoice&, ImportNotes&,
 // The same of content that has been read already; `file`: where it came from.
 Splines read_import(std::string_view content, const std::string& file, ImportNotes&);
 
+// Whether a file is SpeedTree XML, by its head; false for stdin.
+bool is_speedtree_file(const std::string& path);
+
 // --radii carry: branches as thick as wood of this material must be to carry them (growth/carry.h), with a note of how many were not.
 void make_carry(Splines&, const Material&, std::vector<std::string>& notes);
 

@@ -3,8 +3,8 @@
 #include "formats/mapped.h"
 #include "frame_sink.h"
 #include "lib/base/counted.h"
+#include "lib/base/hash_text.h"
 #include "lib/simulation/parts.h"
-#include "lib/simulation/run.h"
 #include "signals.h"
 #include <deque>
 

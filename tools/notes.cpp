@@ -40,9 +40,8 @@ void note_flags(const RunAccount& run, std::int64_t steps, std::vector<std::stri
                         "--tolerance, or more --substeps, can be kept");
 }
 
-void note_world(const RunAccount& run, std::vector<std::string>& notes) {
-    if (!run.fell) return;
-    const WorldCounts& counts = run.counts;
+void note_world(const RunAccount& run, const Scene& scene, std::vector<std::string>& notes) {
+    if (!scene.fracture && scene.balls.empty()) return;
     std::string broke;
     constexpr std::array<std::array<const char*, 2>, 4> kinds{
         {{"branch", "branches"}, {"leaf", "leaves"}, {"fruit", "fruit"}, {"petal", "petals"}}};
@@ -50,37 +49,36 @@ void note_world(const RunAccount& run, std::vector<std::string>& notes) {
                   std::size_t(Kind::petal) == 3);
     std::uint64_t all = 0;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
-        all += counts.broke[k];
-        if (counts.broke[k] > 0)
-            broke += (broke.empty() ? "" : ", ") + counted(counts.broke[k], kinds[k][0], kinds[k][1]);
+        all += run.broke[k];
+        if (run.broke[k] > 0) broke += (broke.empty() ? "" : ", ") + counted(run.broke[k], kinds[k][0], kinds[k][1]);
     }
     std::ostringstream text;
     text.precision(3);
     text << counted(all, "joint", "joints") << " broke" << (broke.empty() ? "" : " (" + broke + ")") << ", "
-         << counted(counts.landed, "leaf or petal", "leaves and petals") << " landed, "
-         << counted(counts.hits, "hit", "hits");
+         << counted(run.landed, "leaf or petal", "leaves and petals") << " landed, "
+         << counted(run.hits, "hit", "hits");
     notes.push_back(text.str());
-    if (run.contact != ContactModel::penalty) return;
+    if (!scene.contact || scene.contact->model != ContactModel::penalty) return;
     text.str("");
-    text << "the paper's pair of penalty and impulse left " << counts.imbalance
+    text << "the paper's pair of penalty and impulse left " << run.imbalance
          << " N s of momentum out of balance (/contact/model)";
     notes.push_back(text.str());
 }
 
 } // namespace
 
-void note_run(const RunAccount& run, std::int64_t started, std::vector<std::string>& notes) {
-    note_flags(run, run.steps - started, notes);
-    note_world(run, notes);
+void note_run(const RunAccount& run, const Scene& scene, std::int64_t steps, std::vector<std::string>& notes) {
+    note_flags(run, steps, notes);
+    note_world(run, scene, notes);
 }
 
-std::string guards_lines(const RunAccount& run, std::int64_t started) {
+std::string guards_lines(const RunAccount& run, std::int64_t steps) {
     const StepFlags& flags = run.flags;
     std::ostringstream text;
     const auto line = [&](const char* name, std::uint64_t count, const char* meaning) {
         text << "guards " << name << " " << count << " " << meaning << "\n";
     };
-    text << "guards of " << std::uint64_t(run.steps - started) * run.bodies << " steps of a body\n";
+    text << "guards of " << std::uint64_t(steps) * run.bodies << " steps of a body\n";
     line("fast_turns", flags.fast_turns, "turns by more than a radian");
     line("half_turns", flags.half_turns, "joints turned past half a turn");
     line("energy", flags.energy_guard, "kept from gaining energy");

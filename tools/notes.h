@@ -4,11 +4,11 @@
 
 namespace bough {
 
-// What the picture may suffer from in the steps since `started`, and what to change; what broke, landed and hit.
-void note_run(const RunAccount&, std::int64_t started, std::vector<std::string>& notes);
+// What the picture may suffer from in so many steps, and what to change; what broke, landed and hit.
+void note_run(const RunAccount&, const Scene&, std::int64_t steps, std::vector<std::string>& notes);
 
-// --report guards: how often each acted since `started`.
-std::string guards_lines(const RunAccount&, std::int64_t started);
+// --report guards: how often each acted in so many steps.
+std::string guards_lines(const RunAccount&, std::int64_t steps);
 
 // --report cost. ms: of all frames.
 std::string cost_line(const RunAccount&, const RunOptions&, double ms, std::int64_t frames);

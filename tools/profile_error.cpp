@@ -1,5 +1,4 @@
 #include "file_names.h"
-#include "lib/analytic/analytic_stepper.h"
 #include "lib/study/work_precision.h"
 #include "profile.h"
 #include "progress.h"
@@ -106,7 +105,7 @@ void let_move(ErrorCommand& o, Scene& scene) {
 void leave_out_analytic(ErrorCommand& o, const Scene& scene, std::vector<Variant>& variants) {
     if (o.list->given("--solver")) return;
     try {
-        refuse_with_analytic(scene);
+        refuse(Solver::analytic, scene);
     } catch (const std::domain_error& error) {
         std::erase_if(variants, [](const Variant& v) { return v.solver == Solver::analytic; });
         o.common.notes.push_back("solver analytic is left out: " + std::string(error.what()));

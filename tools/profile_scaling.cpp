@@ -1,7 +1,6 @@
 #include "converted.h"
 #include "file_names.h"
 #include "lib/base/caches.h"
-#include "lib/lanes/operations.h"
 #include "lib/study/machine_limits.h"
 #include "profile.h"
 #include "progress.h"
@@ -148,7 +147,7 @@ void work(ScalingCommand& o) {
     for (const std::string& tree : o.trees) read.push_back({"--tree", tree});
     refuse_overwriting(read, {{"--report", o.report}, {"-o", o.common.output}});
     require_report(o.report);
-    if (!fast::available(fast::counted_target))
+    if (!counts_steps())
         throw UsageError("scaling: this build cannot count what a step computes; make it with -DBOUGH_COUNTING=ON");
     ScalingChoice choice;
     choice.ways = chosen_ways(o);

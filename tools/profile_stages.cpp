@@ -1,12 +1,13 @@
 #include "file_names.h"
 #include "formats/reports/report.h"
 #include "formatted.h"
+#include "lib/base/hash_text.h"
+#include "lib/study/timed_steps.h"
 #include "made_with.h"
 #include "profile.h"
 #include "progress.h"
 #include "simulation.h"
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
@@ -34,20 +35,14 @@ void declare_stages(OptionList& list, StagesOptions& o) {
 }
 
 // One timed run. Times are of the steps alone, from the second frame on.
-Report measure(const StagesOptions& o, Simulation& simulation, std::int64_t frames) {
-    using Time = std::chrono::steady_clock;
-    AnyRun& run = run_of(simulation);
+Report measure(const StagesOptions& o, Simulation& run, std::int64_t frames) {
     StageClock clock;
-    run.begin_again();
-    advance_frame(simulation, 1, o.run.substeps);
-    const auto calls_before = run.account().calls;
+    begin_again(run);
+    advance_frame(run, 1, o.run.substeps);
+    const std::vector<StageCalls> before = run.account().stages;
     double total = 0;
     for (std::int64_t f = 2; f < frames; ++f) {
-        for (int k = 0; k < o.run.substeps; ++k) {
-            const Time::time_point start = Time::now();
-            run.advance(&clock);
-            total += std::chrono::duration<double>(Time::now() - start).count();
-        }
+        for (int k = 0; k < o.run.substeps; ++k) total += timed_step(run, &clock);
         require_finite(run, f);
     }
     const RunAccount account = run.account();
@@ -63,7 +58,8 @@ Report measure(const StagesOptions& o, Simulation& simulation, std::int64_t fram
         inside += seconds;
     };
     for (std::size_t k = 0; k < stage_count; ++k)
-        if (account.calls[k] > 0) add(stage_name(Stage(k)), account.calls[k] - calls_before[k], clock.seconds[k]);
+        if (const auto& [stage, calls] = account.stages[k]; calls > 0)
+            add(stage, calls - before[k].calls, clock.seconds[k]);
     add("other", std::uint64_t(report.frames * o.run.substeps), std::max(0.0, total - inside));
     report.total_ns_per_body_frame = total * ns;
     return report;

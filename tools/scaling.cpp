@@ -1,12 +1,13 @@
 #include "scaling.h"
 #include "formats/files.h"
 #include "lib/base/caches.h"
+#include "lib/base/hash_text.h"
 #include "lib/growth/segment.h"
 #include "lib/study/machine_limits.h"
 #include "lib/study/resident.h"
+#include "lib/study/timed_steps.h"
 #include "threads.h"
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 
@@ -75,8 +76,8 @@ private:
         use_threads(choice.threads.front());
         RunOptions named = way; // for what is said of the tree
         named.input = tree.shape;
-        Simulation simulation = started(std::make_shared<Setting>(tree.setting), named, choice.threads.front(), {});
-        AnyRun& run = run_of(simulation); // as treesim --no-output
+        Simulation run = started(std::make_shared<Setting>(tree.setting), named, choice.threads.front(),
+                                 {}); // as treesim --no-output
         const std::size_t first = at;
         for (const int threads : choice.threads) {
             time_once(tree, way, run, threads);
@@ -99,22 +100,19 @@ private:
         report.costs.push_back(c);
     }
 
-    void time_once(const ScalingTree& tree, const RunOptions& way, AnyRun& run, int threads) {
-        using Time = std::chrono::steady_clock;
+    void time_once(const ScalingTree& tree, const RunOptions& way, Simulation& run, int threads) {
         tick_(std::int64_t(std::size_t(round) * all_runs() + at),
               std::int64_t(std::size_t(choice.repeat) * all_runs()));
         const RunAccount account = run.account();
         const auto bodies = std::int64_t(account.bodies);
         const std::int64_t frames = choice.frames > 0 ? choice.frames : scaling_frames(bodies);
         use_threads(threads);
-        run.begin_again();
-        run.advance(nullptr);
+        begin_again(run);
+        timed_step(run);
         require_finite(run, 1);
         double seconds = 0;
         for (std::int64_t f = 0; f < frames; ++f) {
-            const Time::time_point start = Time::now();
-            run.advance(nullptr);
-            seconds += std::chrono::duration<double>(Time::now() - start).count();
+            seconds += timed_step(run);
             require_finite(run, f + 2);
         }
         const std::string hash = hash_text(run.hash());

@@ -21,7 +21,7 @@ std::int64_t frames_before(const TreesimOptions& o, const Setting& setting) {
 
 void settle(Simulation& run, std::int64_t frames, const TreesimOptions& o) {
     if (frames == 0) return;
-    run_of(run).set_back(frames * o.run.substeps);
+    run.begin_before(frames * o.run.substeps);
     Progress progress(o.common, "frame (before the first)", frames);
     for (std::int64_t f = -frames; f < 0; ++f) {
         if (interrupted()) throw Interrupted("interrupted before the first frame, while settling into the wind");

@@ -2,7 +2,7 @@
 #include "baked_sinks.h"
 #include "formats/documents/motion.h"
 #include "lib/base/counted.h"
-#include "lib/free/shown_tree.h"
+#include "lib/base/hash_text.h"
 #include "progress.h"
 #include "rustling.h"
 #include "sized_sink.h"
@@ -149,13 +149,12 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
     ShownFrames shown;
     if (o.no_output) return shown;
     if (is_point_cache(format)) refuse_broken_cache(o, broken.size());
-    const std::vector<Ball> balls = is_mesh(format) ? run_of(run).balls() : std::vector<Ball>();
-    if (!broken.empty() || !balls.empty())
-        shown.own = std::make_unique<const Tree>(shown_tree(setting.tree, broken, balls));
-    o.gltf.loose = broken.size() + balls.size();
+    const std::size_t balls = is_mesh(format) ? run.balls().size() : 0;
+    if (!broken.empty() || balls > 0) shown.own = std::make_unique<const Tree>(run.shown_tree(broken));
+    o.gltf.loose = broken.size() + balls;
     const bool bound = !model.bound.empty();
     shown.sink = open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, model);
-    if (model.driven && !balls.empty())
+    if (model.driven && balls > 0)
         o.common.notes.push_back("balls and walkers are not shown beside a model's own mesh");
     if (o.common.output != "-")
         shown.sink = sized_sink(std::move(shown.sink), format, last - first + 1, [&o](const std::string& text) {
@@ -163,7 +162,7 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
             clear_progress();
             std::cerr << treesim_info.name << ": " << text << "\n";
         });
-    if (is_point_cache(format)) note_cache(o, setting, balls.size(), bound || model.driven);
+    if (is_point_cache(format)) note_cache(o, setting, balls, bound || model.driven);
     return shown;
 }
 

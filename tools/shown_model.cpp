@@ -113,11 +113,6 @@ std::vector<FileModel> models_of_scene(TreesimOptions& o, const Setting& setting
 
 } // namespace
 
-bool is_speedtree_file(const std::string& path) {
-    return path != "-" && !path.empty() &&
-           MappedInput(path).content().substr(0, 65536).find("<SpeedTreeRaw") != std::string_view::npos;
-}
-
 ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
     ShownModel model;
     ImportNotes notes;

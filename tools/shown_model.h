@@ -13,9 +13,6 @@ struct ShownModel {                  // at most one of them
     explicit operator bool() const { return driven || !bound.empty(); }
 };
 
-// Whether a file is SpeedTree XML, by its head; false for stdin.
-bool is_speedtree_file(const std::string& path);
-
 // What is read by a child process, and so before threads are started: --skin, or a skinned model that INPUT is, where an output shows it.
 // Notes go to o.common. Throws InputError for --skin.
 ShownModel model_before_threads(TreesimOptions& o, const std::string& format);

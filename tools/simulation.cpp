@@ -1,6 +1,8 @@
 #include "simulation.h"
 #include "exits.h"
 #include "formats/open.h"
+#include "lib/simulation/run_choice.h"
+#include "lib/study/timed_steps.h"
 
 namespace bough {
 namespace {
@@ -13,7 +15,7 @@ namespace {
     throw InputError(input_name(o.input), what);
 }
 
-[[noreturn]] void fail_non_finite(const AnyRun& run, std::int64_t frame, const std::string& place) {
+[[noreturn]] void fail_non_finite(const Simulation& run, std::int64_t frame, const std::string& place) {
     std::string advice;
     if (run.account().solver == solver_name(Solver::articulated_explicit))
         advice = "; explicit Euler needs far smaller steps (--substeps), or take --solver articulated-implicit";
@@ -48,19 +50,18 @@ Simulation started(const std::shared_ptr<Setting>& setting, const RunOptions& o,
 
 void advance_frame(Simulation& simulation, std::int64_t frame, int substeps) {
     const StepReport report = simulation.step(substeps);
-    if (!report.finite()) fail_non_finite(run_of(simulation), frame, report.non_finite);
+    if (!report.finite()) fail_non_finite(simulation, frame, report.non_finite);
 }
 
-void require_finite(AnyRun& run, std::int64_t frame) {
-    if (const std::string place = run.non_finite(); !place.empty()) fail_non_finite(run, frame, place);
+void require_finite(Simulation& run, std::int64_t frame) {
+    if (const std::string place = non_finite(run); !place.empty()) fail_non_finite(run, frame, place);
 }
 
 void fill_frame(Simulation& simulation, std::int64_t frame, double fps, const MotionFields& fields, MotionFrame& out) {
     out.frame = frame;
     out.time = double(frame) / fps;
-    AnyRun& run = run_of(simulation);
-    if (const std::optional<std::size_t> body = run.fill(fields, out))
-        fail_non_finite(run, frame, "stage state_update, body " + std::to_string(*body));
+    if (const std::string place = simulation.fill(fields, out); !place.empty())
+        fail_non_finite(simulation, frame, place);
 }
 
 } // namespace bough

@@ -1,7 +1,7 @@
 // simulation.h: what treesim and treeprofile share: one run as frames, its errors as the tool's.
 #pragma once
 #include "formats/documents/motion.h"
-#include "lib/simulation/any_run.h"
+#include "lib/bough.h"
 #include "setting.h"
 
 namespace bough {
@@ -20,7 +20,7 @@ Simulation started(const std::shared_ptr<Setting>&, const RunOptions&, int threa
 // Takes the steps of one frame. A run that became non-finite throws PromiseError with frame, stage and body.
 void advance_frame(Simulation&, std::int64_t frame, int substeps);
 // Throws that PromiseError where it has.
-void require_finite(AnyRun&, std::int64_t frame);
+void require_finite(Simulation&, std::int64_t frame);
 
 // The frame's number, time and arrays, as far as `fields` asks for them. Throws PromiseError where a pose is non-finite.
 void fill_frame(Simulation&, std::int64_t frame, double fps, const MotionFields& fields, MotionFrame&);

@@ -3,6 +3,7 @@
 #include "file_names.h"
 #include "formats/documents/motion.h"
 #include "frame_queue.h"
+#include "lib/base/hash_text.h"
 #include "notes.h"
 #include "progress.h"
 #include "rigid_parts.h"
@@ -89,7 +90,7 @@ std::vector<std::uint32_t> what_breaks(const TreesimOptions& o, Simulation ahead
         advance_frame(ahead, f, o.run.substeps);
         progress.at(f - range.first + 1);
     }
-    std::vector<std::uint32_t> broken = run_of(ahead).broken();
+    std::vector<std::uint32_t> broken(ahead.broken().begin(), ahead.broken().end());
     std::sort(broken.begin(), broken.end());
     return broken;
 }
@@ -113,13 +114,12 @@ RunWishes wishes_of(const TreesimOptions& o, const std::string& format) {
 
 // What a run that has ended took.
 void report(const TreesimOptions& o, const Simulation& run, const FrameRange& range) {
-    const RunAccount account = run_of(run).account();
+    const RunAccount account = run.account();
     if (o.report.cost) std::cerr << cost_line(account, o.run, range.cost.count(), range.steps());
     if (!o.report.plan) return;
-    for (std::size_t k = 0; k < stage_count; ++k)
-        std::cerr << "calls " << stage_name(Stage(k)) << " " << account.calls[k] << "\n";
+    for (const StageCalls& of : account.stages) std::cerr << "calls " << of.stage << " " << of.calls << "\n";
     std::cerr << "allocated " << account.state_bytes << " bytes\n";
-    if (account.free) std::cerr << "free bodies " << account.free_bytes << " bytes\n";
+    if (run.has_events()) std::cerr << "free bodies " << account.free_bytes << " bytes\n";
 }
 
 // Returns the number of frames made.
@@ -133,7 +133,7 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
     Simulation run = started(setting, o.run, o.common.threads, wishes_of(o, format));
     interrupt_at_boundary();
     if (o.report.plan) std::cerr << run.explain();
-    if (const std::string awake = run_of(run).account().awake; o.run.asks_for_sleep() && !awake.empty())
+    if (const std::string awake = run.account().awake; o.run.asks_for_sleep() && !awake.empty())
         o.common.notes.push_back("--sleep: nothing sleeps in this run: " + awake);
     if (frames > 1 && o.resume.empty() && stands_still(setting->scene))
         o.common.notes.push_back(
@@ -160,11 +160,11 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
     if (loops) measure_seam(run, loop, o.loop, o.run, o.common.notes);
     report(o, run, range); // before the state is saved, which takes arrays of its own
     save(o, run, range.done);
-    if (o.report.guards) std::cerr << guards_lines(run_of(run).account(), started);
+    if (o.report.guards) std::cerr << guards_lines(run.account(), run.steps() - started);
     if (o.report.hash) std::cerr << "hash " << hash_text(run.hash()) << "\n";
     if (beside.rigid) std::cerr << beside.rigid->line(range.cost.count(), range.steps()) << "\n";
     if (beside.error) std::cerr << error_line(beside.error->result()) << "\n";
-    note_run(run_of(run).account(), started, o.common.notes);
+    note_run(run.account(), setting->scene, run.steps() - started, o.common.notes);
     if (const std::string note = settled_note(before, o); !note.empty()) o.common.notes.push_back(note);
     return range.done - range.first + 1;
 }

@@ -3,7 +3,7 @@
 #include "formats/documents/motion.h"
 #include "formats/exports/obj.h"
 #include "formats/output_folder.h"
-#include "shown_model.h"
+#include "import_file.h"
 #include <algorithm>
 #include <filesystem>
 

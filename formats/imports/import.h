@@ -2,6 +2,7 @@
 // folder or of models/ with a struct SplineFormat; which one a file has is decided by its content, never by its name alone.
 #pragma once
 #include "formats/open.h"
+#include "import_notes.h"
 #include "lib/model/splines.h"
 #include <functional>
 #include <optional>
@@ -24,19 +25,6 @@ struct ImportOptions {
     void let_go() const {
         if (taken_in) taken_in();
     }
-};
-
-// What a reader wants the user to know: guesses made (units, up) with the reason, things left out, with counts.
-struct ImportNotes {
-    std::vector<std::string> lines;
-    // What was understood, for --stats.
-    std::string format;               // name of the format
-    double unit = 1;                  // [m] one unit of the file
-    char up = 'y';                    // its up axis, 'y' or 'z'
-    Vec3 moved = Vec3::Zero();        // [m] by which it was moved to the origin (placed_import.h), Y up
-    std::string unit_from = "stated"; // "stated" by the file or its format, "given" as option, or "guessed"
-    std::string up_from = "stated";
-    bool radii_guessed = false; // all of them, by the tree's size: the file has none
 };
 
 struct SplineFormat {

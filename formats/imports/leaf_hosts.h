@@ -1,6 +1,6 @@
 // leaf_hosts.h: leaves that do not say on which branch they grow.
 #pragma once
-#include "imported_tree.h"
+#include "imported_parts.h"
 
 namespace bough {
 

@@ -3,16 +3,12 @@
 // a node so that one look at it tells of all four. Making it O(segments log segments); a search O(log segments) in the usual case.
 #pragma once
 #include "lib/base/math.h"
+#include "line_segment.h"
 #include <limits>
 #include <span>
 #include <vector>
 
 namespace bough {
-
-struct LineSegment {
-    std::int32_t a = -1, b = -1; // points
-    std::int32_t piece = -1;     // what it is part of
-};
 
 // A place on a segment and what it costs to join there: the distance d, and inside the wood (d < radius r) d^3 / r^2,
 // so that of several stems around a joint the one counts that holds it deepest. Ten times what the place is thinner than

@@ -1,6 +1,7 @@
 // placed_import.h: an imported tree put where a simulation expects it, and its size looked at.
 #pragma once
-#include "import.h"
+#include "import_notes.h"
+#include "lib/model/splines.h"
 
 namespace bough {
 

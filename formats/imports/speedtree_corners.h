@@ -2,7 +2,7 @@
 // speedtree_mesh.cpp).
 #pragma once
 #include "speedtree_fields.h"
-#include "speedtree_mesh.h"
+#include "speedtree_surface.h"
 #include <unordered_map>
 
 namespace bough::speedtree {

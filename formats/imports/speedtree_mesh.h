@@ -9,6 +9,7 @@
 // tells its branches apart by that alone.
 // Left out: AO, Blend, wind.
 #pragma once
+#include "speedtree_surface.h"
 #include "speedtree_xml.h"
 #include <Eigen/Geometry>
 #include <array>
@@ -28,19 +29,6 @@ struct MeshMaterial {
     std::string name;
     bool two_sided = false;
     std::vector<Map> maps;
-};
-
-// Vertices and triangles of one material.
-struct Surface {
-    std::int32_t material = -1;                    // index, -1: the file names none
-    std::int32_t object = -1;                      // of objects: index
-    std::vector<Eigen::Vector3f> position, normal; // normal: unit, or empty: the file has none
-    std::vector<std::array<float, 4>>
-        tangent; // unit, along u; then the sign that makes normal x tangent the binormal; or empty
-    std::vector<std::vector<std::array<float, 2>>> uv; // sets
-    std::vector<std::array<float, 4>> color;           // or empty
-    std::vector<std::int32_t> bone;                    // index, -1: none
-    std::vector<std::array<std::int32_t, 3>> triangle;
 };
 
 struct Shape { // a level of detail of a mesh

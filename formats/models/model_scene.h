@@ -4,15 +4,10 @@
 #include "formats/imports/import.h"
 #include "lib/base/math.h"
 #include "model_kind.h"
+#include "node_role.h"
 #include "own_rods.h"
 
 namespace bough {
-
-enum class NodeRole : std::uint8_t {
-    open,   // a node without anything on it: a joint if the file does not say which are
-    joint,  // the file says so (a skin's, COLLADA's JOINT)
-    holder, // of a mesh, a camera, a light, an FBX Null: stands where it stands, is no joint
-};
 
 struct ModelScene {
     bool open_are_joints = false; // nodes that the file says nothing of may be joints

@@ -1,9 +1,11 @@
 // skin_joint.h: which node a skin's bone is. assimp names it, and two armatures in one FBX or COLLADA file often have
 // bones of the same names (two trees of one generator): of these it is the one that leaves the mesh nearest to where it stands.
 #pragma once
-#include "model_scene.h"
+#include "lib/base/math.h"
+#include "node_role.h"
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 namespace bough {
 

@@ -23,7 +23,8 @@ template <class T> const AnalyticLanesState<T>& analytic_work(const State<T>& st
 
 template <class T>
 AnalyticLanesStepper<T>::AnalyticLanesStepper(Target target, double sleep)
-    : Cloned<AnalyticLanesStepper<T>, Stepper<T>>(std::string()) {
+    : Cloned<AnalyticLanesStepper<T>, Stepper<T>>(
+          StepperKind{.name = "analytic", .plainly = {}, .stage = Stage::spring}) {
     own.lanes.target = target;
     if (sleep > 0) own.lanes.sleep.reason = "solver analytic";
 }
@@ -73,33 +74,24 @@ template <class T> void AnalyticLanesStepper<T>::present(const Plan<T>& plan, St
     if (plan.pose) update_kinematics(plan, state);
 }
 
-template <class T> std::uint64_t AnalyticLanesStepper<T>::hash(const Plan<T>& plan, const State<T>& state) const {
-    MotionView<T> view;
-    view_motion(plan, state, view);
-    return hash_of(view, plan.bodies);
-}
-
-template <class T> bool AnalyticLanesStepper<T>::known_finite(const State<T>& state) const {
-    return analytic_work(state).lanes.finite;
-}
-
-template <class T> NonFinite AnalyticLanesStepper<T>::non_finite(const State<T>& state) const {
-    return non_finite_in_analytic(*first_non_finite(state));
+template <class T>
+std::optional<NonFinite> AnalyticLanesStepper<T>::non_finite(const Plan<T>& plan, State<T>& state) const {
+    return analytic_work(state).lanes.finite ? std::nullopt : Stepper<T>::non_finite(plan, state);
 }
 
 template <class T> std::vector<CarriedArray<T>> AnalyticLanesStepper<T>::carried(State<T>& state) const {
     return {{"scaled_rate", &analytic_work(state).scaled_rate}};
 }
 
-template <class T>
-void AnalyticLanesStepper<T>::view_motion(const Plan<T>&, const State<T>& state, MotionView<T>& view) const {
+template <class T> void AnalyticLanesStepper<T>::view_motion(const State<T>& state, MotionView<T>& view) const {
     static_assert(analytic::motion::theta == 0);
     view_rows(own.lanes, analytic_work(state).lanes.now, analytic::motion::theta_dot, view);
     view.first = even_rows(own.lanes.layout, analytic::motion::count);
 }
 
 template <class T>
-void AnalyticLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+void AnalyticLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies,
+                                   const std::vector<CarriedMoment>&) {
     for (const std::size_t i : bodies) drop_from_analytic(plan, state, i);
     clear_lanes<T>(own.lanes, analytic_work(state).lanes.now, even_rows(own.lanes.layout, analytic::motion::count),
                    analytic::constants(plan.wind), analytic::motion::count, put_analytic_pad<T>, bodies);
@@ -114,7 +106,7 @@ std::unique_ptr<Stepper<T>> analytic_stepper(const Scene& scene, std::optional<T
                                 : scene.fictitious && lags(*scene.fictitious) ? "/fictitious"
                                                                               : "";
     if (*plainly == 0) return std::make_unique<AnalyticLanesStepper<T>>(*simd, sleep);
-    return std::make_unique<AnalyticStepper<T>>(plainly);
+    return std::make_unique<AnalyticStepper<T>>(scene, plainly);
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

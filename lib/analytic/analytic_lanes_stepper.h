@@ -8,7 +8,6 @@ namespace bough::fast {
 template <class T> class AnalyticLanesStepper final : public Cloned<AnalyticLanesStepper<T>, Stepper<T>> {
 public:
     AnalyticLanesStepper(Target, double sleep); // sleep: is not for it, which the plan says where it was asked for
-    const char* name() const override { return "analytic"; }
     void refuse(const Scene&) const override;
     void take_constants(const Plan<T>&, const Tree&) override;
     void lay_out(const Plan<T>&, const std::vector<TreeRange>&) override;
@@ -16,20 +15,18 @@ public:
     void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
     void present(const Plan<T>&, State<T>&) const override;
-    std::uint64_t hash(const Plan<T>&, const State<T>&) const override;
-    bool known_finite(const State<T>&) const override;
-    NonFinite non_finite(const State<T>&) const override;
+    std::optional<NonFinite> non_finite(const Plan<T>&, State<T>&) const override;
     std::vector<CarriedArray<T>> carried(State<T>&) const override;
-    void view_motion(const Plan<T>&, const State<T>&, MotionView<T>&) const override;
+    void view_motion(const State<T>&, MotionView<T>&) const override;
     const std::vector<Vector3<T>>& inertia_factor() const override { return own.inertia_factor; }
-    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
+    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies, const std::vector<CarriedMoment>&) override;
     const PlannedLanes<T>* lanes() const override { return &own.lanes; }
 
     AnalyticLanesPlan<T> own;
 };
 
 // Makes the solver for a scene. Its steps are in lanes of that target if one is asked for and the lanes hold all that the scene has; else they are
-// plain (Stepper::plainly says why). sleep: [rad/s] as above.
+// plain (StepperKind::plainly says why). sleep: [rad/s] as above.
 template <class T> std::unique_ptr<Stepper<T>> analytic_stepper(const Scene&, std::optional<Target>, double sleep = 0);
 
 } // namespace bough::fast

@@ -52,10 +52,6 @@ void refuse_with_analytic(const Scene& scene) {
                                     "/axes: is body, for solver coupled only, expected world with solver analytic");
 }
 
-NonFinite non_finite_in_analytic(std::size_t body) {
-    return {std::string(stage_name(Stage::spring)) + " (theta)", body};
-}
-
 template <class T> void drop_from_analytic(Plan<T>& plan, State<T>& state, std::size_t i) {
     plan.mass[i] = plan.c_mass[i] = 0;
     plan.inertia_joint[i] = pad_inertia<T> * Matrix3<T>::Identity();
@@ -67,9 +63,13 @@ template <class T> void drop_from_analytic(Plan<T>& plan, State<T>& state, std::
 }
 
 // Its drag is on the velocities of the step before.
-template <class T> bool AnalyticStepper<T>::reads_velocities(const Plan<T>& plan) const {
-    return plan.wind || (plan.scene.fictitious && lags(*plan.scene.fictitious));
-}
+template <class T>
+AnalyticStepper<T>::AnalyticStepper(const Scene& scene, std::string plainly)
+    : Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>>(
+          StepperKind{.name = "analytic",
+                      .plainly = std::move(plainly),
+                      .stage = Stage::spring,
+                      .reads_velocities = scene.wind || (scene.fictitious && lags(*scene.fictitious))}) {}
 
 template <class T> void AnalyticStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
     auto work = std::make_unique<AnalyticWork<T>>();
@@ -98,14 +98,16 @@ template <class T> void AnalyticStepper<T>::advance(const Plan<T>& plan, State<T
     analytic_step(plan, own, state, work_of(state), clock);
 }
 
-template <class T> NonFinite AnalyticStepper<T>::non_finite(const State<T>& state) const {
-    NonFinite found = non_finite_in_analytic(*first_non_finite(state));
+template <class T> std::optional<NonFinite> AnalyticStepper<T>::non_finite(const Plan<T>& plan, State<T>& state) const {
+    std::optional<NonFinite> found = Stepper<T>::non_finite(plan, state);
+    if (!found) return found;
     bool early = false;
     visit_arrays(static_cast<const AnalyticWork<T>&>(*state.own),
                  [&](const std::string& name, const auto& array, AnalyticNeed) {
                      const char* stage = early ? nullptr : early_stage(name);
                      for (std::size_t i = 0; stage && !early && i < array.size(); ++i)
-                         if ((early = !is_finite(array[i]))) found = {std::string(stage) + " (" + name + ")", i};
+                         if ((early = !is_finite(array[i])))
+                             found = NonFinite{std::string(stage) + " (" + name + ")", i};
                  });
     return found;
 }
@@ -117,16 +119,17 @@ template <class T> std::vector<CarriedArray<T>> AnalyticStepper<T>::carried(Stat
     return arrays;
 }
 
-template <class T> void AnalyticStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
+template <class T> void AnalyticStepper<T>::save(const State<T>& state, SavedState& saved) const {
     saved.attachments = saved_attachments(static_cast<const AnalyticWork<T>&>(*state.own).held.all);
 }
 
-template <class T> void AnalyticStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
+template <class T> void AnalyticStepper<T>::restore(State<T>& state, const SavedState& saved) const {
     restore_attachments(work_of(state).held.all, saved.attachments);
 }
 
 template <class T>
-void AnalyticStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+void AnalyticStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies,
+                              const std::vector<CarriedMoment>&) {
     AnalyticWork<T>& work = work_of(state);
     for (const std::size_t i : bodies) {
         drop_from_analytic(plan, state, i);

@@ -11,25 +11,21 @@ void refuse_with_analytic(const Scene&);
 template <class T> class AnalyticStepper final : public Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>> {
 public:
     // plainly: why the steps are not made in lanes.
-    using Cloned<AnalyticStepper<T>, PlainStepper<T>, Stepper<T>>::Cloned;
-    const char* name() const override { return "analytic"; }
+    AnalyticStepper(const Scene&, std::string plainly);
     void refuse(const Scene& scene) const override { refuse_with_analytic(scene); }
-    bool reads_velocities(const Plan<T>&) const override;
     void take_constants(const Plan<T>& plan, const Tree& tree) override { take_analytic_constants(plan, tree, own); }
     void allocate(const Plan<T>&, State<T>&) const override;
     void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
-    NonFinite non_finite(const State<T>&) const override;
+    std::optional<NonFinite> non_finite(const Plan<T>&, State<T>&) const override;
     std::vector<CarriedArray<T>> carried(State<T>&) const override;
     const std::vector<Vector3<T>>& inertia_factor() const override { return own.inertia_factor; }
-    void save(const Plan<T>&, const State<T>&, SavedState&) const override;
-    void restore(const Plan<T>&, State<T>&, const SavedState&) const override;
-    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
+    void save(const State<T>&, SavedState&) const override;
+    void restore(State<T>&, const SavedState&) const override;
+    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies, const std::vector<CarriedMoment>&) override;
 
     AnalyticPlan<T> own;
 };
-
-NonFinite non_finite_in_analytic(std::size_t body);
 
 // In the analytic solver a body that is none has an inertia [kg m^2] whose eigenvalues can be found, and a spring neither soft nor stiff over any
 // step. So nothing takes a case for it that the bodies beside it do not need. Nothing bends it, and its motion stays 0.

@@ -54,8 +54,4 @@ template <class T> void spring_update(const Plan<T>&, const AnalyticPlan<T>&, St
 template <class T>
 StepFlags spring_update(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&, std::size_t body);
 
-// Finds eigenvectors (columns) and values of a symmetric 3x3 matrix by cyclic Jacobi rotations. Small eigenvalues keep their relative accuracy, and
-// equal ones need no case.
-template <class T> void symmetric_eigen(Matrix3<T> A, Matrix3<T>& vectors, Vector3<T>& values);
-
 } // namespace bough

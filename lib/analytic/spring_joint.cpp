@@ -1,9 +1,9 @@
 #include "spring_joint.h"
 #include "../base/cholesky.h"
+#include "../base/symmetric_eigen.h"
 #include "../laws/turn_guard.h"
 #include "joint.h"
 #include "root_term.h"
-#include "spring.h"
 
 namespace bough {
 

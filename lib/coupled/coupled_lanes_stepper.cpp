@@ -25,13 +25,17 @@ template <class T> const CoupledLanesState<T>& coupled_work(const State<T>& stat
 
 template <class T>
 CoupledLanesStepper<T>::CoupledLanesStepper(Scheme scheme, Target target, double sleep)
-    : Cloned<CoupledLanesStepper<T>, Stepper<T>>(std::string()), sleep_(sleep) {
+    : Cloned<CoupledLanesStepper<T>, Stepper<T>>(coupled_kind(scheme, {})), sleep_(sleep) {
     own.scheme = scheme;
     own.lanes.target = target;
 }
 
+template <class T> void CoupledLanesStepper<T>::take_constants(const Plan<T>& plan, const Tree& tree) {
+    take_coupled_constants(plan, tree, own);
+    this->carries_moments_ = plan.gravity;
+}
+
 template <class T> void CoupledLanesStepper<T>::lay_out(const Plan<T>& plan, const std::vector<TreeRange>& ranges) {
-    gravity_ = plan.gravity;
     lay_out_lanes(plan, ranges, own.lanes);
     // Between the sweeps inward and outward ties are solved for, for which all trees wait.
     if (plan.pairs || !plan.followers.empty())
@@ -71,37 +75,26 @@ template <class T> void CoupledLanesStepper<T>::present(const Plan<T>& plan, Sta
     if (plan.pose) update_kinematics(plan, state);
 }
 
-template <class T> std::uint64_t CoupledLanesStepper<T>::hash(const Plan<T>& plan, const State<T>& state) const {
-    MotionView<T> view;
-    view_motion(plan, state, view);
-    return hash_of(view, plan.bodies);
-}
-
-template <class T> bool CoupledLanesStepper<T>::known_finite(const State<T>& state) const {
-    return coupled_work(state).lanes.finite;
-}
-
-template <class T> NonFinite CoupledLanesStepper<T>::non_finite(const State<T>& state) const {
-    return non_finite_in_coupled(*first_non_finite(state));
+template <class T>
+std::optional<NonFinite> CoupledLanesStepper<T>::non_finite(const Plan<T>& plan, State<T>& state) const {
+    return coupled_work(state).lanes.finite ? std::nullopt : Stepper<T>::non_finite(plan, state);
 }
 
 template <class T> std::vector<CarriedArray<T>> CoupledLanesStepper<T>::carried(State<T>& state) const {
     return carried_by_coupled(state);
 }
 
-template <class T> void CoupledLanesStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
+template <class T> void CoupledLanesStepper<T>::save(const State<T>& state, SavedState& saved) const {
     saved.sleep = saved_sleep(own, coupled_work(state));
     saved.attachments = saved_attachments(coupled_work(state).attachments.all);
 }
 
-template <class T>
-void CoupledLanesStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
+template <class T> void CoupledLanesStepper<T>::restore(State<T>& state, const SavedState& saved) const {
     restore_attachments(coupled_work(state).attachments.all, saved.attachments);
     if (own.lanes.sleep.on) restore_sleep(own, coupled_work(state), saved.sleep); // else what slept goes on awake
 }
 
-template <class T>
-void CoupledLanesStepper<T>::view_motion(const Plan<T>&, const State<T>& state, MotionView<T>& view) const {
+template <class T> void CoupledLanesStepper<T>::view_motion(const State<T>& state, MotionView<T>& view) const {
     static_assert(motion::theta == 0);
     const CoupledLanesState<T>& work = coupled_work(state);
     view_rows(own.lanes, work.lanes.table, motion::theta_dot, view);
@@ -109,15 +102,14 @@ void CoupledLanesStepper<T>::view_motion(const Plan<T>&, const State<T>& state, 
 }
 
 template <class T>
-void CoupledLanesStepper<T>::set_carried_moment(const Plan<T>&, std::size_t body, const Vec3& moment) {
-    const Slot<T> row(own.lanes.constants, constant::count,
-                      own.lanes.layout.slot[body]); // with /fracture none is shared
-    row.put(constant::carried_moment, Vector3<T>(moment.template cast<T>()));
-}
-
-template <class T>
-void CoupledLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+void CoupledLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies,
+                                  const std::vector<CarriedMoment>& carried) {
     CoupledLanesState<T>& work = coupled_work(state);
+    for (const CarriedMoment& left : carried) {
+        const Slot<T> row(own.lanes.constants, constant::count,
+                          own.lanes.layout.slot[left.body]); // with /fracture none is shared
+        row.put(constant::carried_moment, Vector3<T>(left.moment.template cast<T>()));
+    }
     for (const std::size_t i : bodies) drop_from_coupled(plan, state, i);
     release_from(plan, work, bodies);
     if (work.attachments.any() || !work.attached.of_row.empty()) place_attached_rows(own, work);
@@ -126,25 +118,15 @@ void CoupledLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vec
     clear_lanes<T>(own.lanes, work.lanes.table, motion_at, constant::count, motion::count, put_pad<T>, bodies);
 }
 
-template <class T> void CoupledLanesStepper<T>::scale_wood(const Plan<T>&, T stiffness, T damping) {
-    fast::scale_wood(own.lanes, stiffness, damping);
-}
-
-template <class T> void CoupledLanesStepper<T>::step_changed(const Plan<T>& plan, State<T>& state, T ratio) {
+template <class T>
+void CoupledLanesStepper<T>::change(const Plan<T>& plan, State<T>& state, const StepperChange<T>& change) {
     CoupledLanesState<T>& work = coupled_work(state);
-    fast::scale_changes(own, work, ratio);
-    if (work.lanes.presented) bough::scale_changes(state, ratio);
-    if (!own.lanes.sleep.on) return;
+    if (change.stiffness != 1 || change.damping != 1) scale_wood(own.lanes, change.stiffness, change.damping);
+    if (change.step != 1) fast::scale_changes(own, work, change.step);
+    if (work.lanes.presented) bough::scale_changes(state, change.step);
+    if (change.attachments) place_attached_rows(own, work);
     own.lanes.sleep.steps = steps_to_settle(plan.dt);
-    wake_all(own, work);
-}
-
-template <class T> void CoupledLanesStepper<T>::wake(const Plan<T>&, State<T>& state) const {
-    wake_all(own, coupled_work(state));
-}
-
-template <class T> void CoupledLanesStepper<T>::attachments_changed(State<T>& state) const {
-    place_attached_rows(own, coupled_work(state));
+    if (change.wake) wake_all(own, work);
 }
 
 template <class T>

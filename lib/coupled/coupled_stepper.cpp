@@ -13,13 +13,18 @@ template <class T> std::vector<CarriedArray<T>> carried_by_coupled(State<T>& sta
 }
 
 template <class T> void scale_changes(State<T>& state, T ratio) {
+    if (ratio == 1) return;
     CoupledState<T>& own = coupled_state(state);
     for (auto* array : {&own.theta_change, &own.theta_dot_change})
         for (Vector3<T>& change : *array) change *= ratio;
 }
 
-NonFinite non_finite_in_coupled(std::size_t body) {
-    return {std::string(stage_name(Stage::resolvent)) + " (theta)", body};
+StepperKind coupled_kind(Scheme scheme, std::string plainly) {
+    return {.name = "coupled",
+            .plainly = std::move(plainly),
+            .stage = Stage::resolvent,
+            .scheme = scheme_of(scheme).name,
+            .places_points = true}; // pulled_points.h, attachment.h
 }
 
 template <class T> void drop_from_coupled(Plan<T>& plan, State<T>& state, std::size_t i) {
@@ -35,7 +40,14 @@ template <class T> void drop_from_coupled(Plan<T>& plan, State<T>& state, std::s
 
 template <class T>
 CoupledStepper<T>::CoupledStepper(Scheme scheme, std::string plainly)
-    : Cloned<CoupledStepper<T>, PlainStepper<T>, Stepper<T>>(std::move(plainly)), own{scheme, {}, {}} {}
+    : Cloned<CoupledStepper<T>, PlainStepper<T>, Stepper<T>>(coupled_kind(scheme, std::move(plainly))), own{scheme,
+                                                                                                            {},
+                                                                                                            {}} {}
+
+template <class T> void CoupledStepper<T>::take_constants(const Plan<T>& plan, const Tree& tree) {
+    take_coupled_constants(plan, tree, own);
+    this->carries_moments_ = plan.gravity;
+}
 
 template <class T> void CoupledStepper<T>::allocate(const Plan<T>& plan, State<T>& state) const {
     auto work = std::make_unique<CoupledWork<T>>();
@@ -54,16 +66,14 @@ template <class T> void CoupledStepper<T>::advance(const Plan<T>& plan, State<T>
     coupled_step(plan, own, state, static_cast<CoupledWork<T>&>(*state.own), clock);
 }
 
-template <class T> NonFinite CoupledStepper<T>::non_finite(const State<T>& state) const {
-    return non_finite_in_coupled(*first_non_finite(state));
-}
-
 template <class T> std::vector<CarriedArray<T>> CoupledStepper<T>::carried(State<T>& state) const {
     return carried_by_coupled(state);
 }
 
 template <class T>
-void CoupledStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies) {
+void CoupledStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<std::size_t>& bodies,
+                             const std::vector<CarriedMoment>& carried) {
+    for (const CarriedMoment& left : carried) own.carried_moment[left.body] = left.moment.template cast<T>();
     for (const std::size_t i : bodies) {
         drop_from_coupled(plan, state, i);
         if (!own.carried_moment.empty()) own.carried_moment[i].setZero();
@@ -73,11 +83,11 @@ void CoupledStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<s
     state_update(plan, state);
 }
 
-template <class T> void CoupledStepper<T>::save(const Plan<T>&, const State<T>& state, SavedState& saved) const {
+template <class T> void CoupledStepper<T>::save(const State<T>& state, SavedState& saved) const {
     saved.attachments = saved_attachments(coupled_state(state).attachments.all);
 }
 
-template <class T> void CoupledStepper<T>::restore(const Plan<T>&, State<T>& state, const SavedState& saved) const {
+template <class T> void CoupledStepper<T>::restore(State<T>& state, const SavedState& saved) const {
     restore_attachments(coupled_state(state).attachments.all, saved.attachments);
 }
 

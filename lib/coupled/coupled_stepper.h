@@ -12,29 +12,27 @@ template <class T> class CoupledStepper final : public Cloned<CoupledStepper<T>,
 public:
     // plainly: why the steps are not made in lanes.
     CoupledStepper(Scheme, std::string plainly);
-    const char* name() const override { return "coupled"; }
-    const char* scheme() const override { return scheme_of(own.scheme).name; }
     void refuse(const Scene& scene) const override { refuse_with_coupled(scene); }
-    void take_constants(const Plan<T>& plan, const Tree& tree) override { take_coupled_constants(plan, tree, own); }
+    void take_constants(const Plan<T>&, const Tree&) override;
     void allocate(const Plan<T>&, State<T>&) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
-    NonFinite non_finite(const State<T>&) const override;
     std::vector<CarriedArray<T>> carried(State<T>&) const override;
-    void save(const Plan<T>&, const State<T>&, SavedState&) const override;
-    void restore(const Plan<T>&, State<T>&, const SavedState&) const override;
-    bool has_carried_moments() const override { return !own.carried_moment.empty(); }
-    void set_carried_moment(const Plan<T>&, std::size_t body, const Vec3& moment) override {
-        own.carried_moment[body] = moment.template cast<T>();
+    void save(const State<T>&, SavedState&) const override;
+    void restore(State<T>&, const SavedState&) const override;
+    void change(const Plan<T>&, State<T>& state, const StepperChange<T>& change) override {
+        scale_changes(state, change.step);
     }
-    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) override;
-    void step_changed(const Plan<T>&, State<T>& state, T ratio) override { scale_changes(state, ratio); }
+    void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies,
+              const std::vector<CarriedMoment>& carried) override;
 
     CoupledPlan<T> own;
 };
 
 // Returns the changes that the coupled solver carries, whichever way its steps are made.
 template <class T> std::vector<CarriedArray<T>> carried_by_coupled(State<T>&);
-NonFinite non_finite_in_coupled(std::size_t body);
+
+// Returns what a stepper of the coupled solver is.
+StepperKind coupled_kind(Scheme, std::string plainly);
 
 // Leaves a body that broke off without mass, inertia and motion, on a spring that is never bent; for either way of the coupled solver.
 template <class T> void drop_from_coupled(Plan<T>&, State<T>&, std::size_t body);

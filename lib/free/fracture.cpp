@@ -140,7 +140,7 @@ template <class T> Remaining whole_tree(const Plan<T>& plan, const Tree& tree) {
     all.gone.assign(n, 0);
     for (std::size_t i = n; i-- > 0;)
         if (tree.parent[i] >= 0) all.c_mass[std::size_t(tree.parent[i])] += all.c_mass[i];
-    if (!plan.stepper->has_carried_moments()) return all;
+    if (!plan.stepper->carries_moments()) return all;
     for (std::size_t i = 0; i < n; ++i) all.moment.push_back(tree.mass[i] * tree.com[i]);
     for (std::size_t i = 0; i < n; ++i)
         if (tree.parent[i] >= 0) all.moment[std::size_t(tree.parent[i])] += all.c_mass[i] * tree.joint_position[i];
@@ -150,7 +150,8 @@ template <class T> Remaining whole_tree(const Plan<T>& plan, const Tree& tree) {
 namespace {
 
 // What carried it carries less.
-template <class T> void unload_path(Plan<T>& plan, std::size_t first, Remaining& rest) {
+template <class T>
+void unload_path(Plan<T>& plan, std::size_t first, Remaining& rest, std::vector<CarriedMoment>& carried) {
     const double mass = rest.c_mass[first];
     for (std::size_t i = first; plan.parent[i] >= 0;) {
         const auto p = std::size_t(plan.parent[i]);
@@ -158,7 +159,7 @@ template <class T> void unload_path(Plan<T>& plan, std::size_t first, Remaining&
         plan.c_mass[p] = T(rest.c_mass[p]);
         if (!rest.moment.empty()) {
             rest.moment[p] -= mass * plan.joint_position[i].template cast<double>();
-            plan.stepper->set_carried_moment(plan, p, rest.moment[p]);
+            carried.push_back({p, rest.moment[p]});
         }
         i = p;
     }
@@ -171,9 +172,10 @@ void detach(Plan<T>& plan, State<T>& state, const Subtrees& trees, const std::ve
             Remaining& rest) {
     std::vector<std::uint32_t> stack;
     std::vector<std::size_t> left;
+    std::vector<CarriedMoment> carried;
     for (const std::uint32_t joint : joints) {
         if (rest.gone[joint]) continue; // with what carried it
-        unload_path(plan, joint, rest);
+        unload_path(plan, joint, rest, carried);
         visit_subtree(trees, joint, stack, [&](std::size_t i) {
             if (rest.gone[i]) return false;
             rest.gone[i] = 1;
@@ -182,7 +184,7 @@ void detach(Plan<T>& plan, State<T>& state, const Subtrees& trees, const std::ve
             return true;
         });
     }
-    plan.stepper->drop(plan, state, left);
+    plan.stepper->drop(plan, state, left, carried);
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

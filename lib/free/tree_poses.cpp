@@ -12,7 +12,7 @@ template <class T> void TreePoses<T>::begin(const Plan<T>& plan, const State<T>&
     body_.clear();
     pose_.clear();
     pose_.emplace_back(); // place 0 is nobody's
-    plan.stepper->view_motion(plan, state, motion_);
+    plan.stepper->view_motion(state, motion_);
 }
 
 template <class T> void TreePoses<T>::begin_copy(const Plan<T>& plan, const State<T>& state) {

@@ -1,6 +1,5 @@
-// lane_motion.h: the angles and rates of bodies where rows hold them, as a stepper shows and hashes them.
+// lane_motion.h: the angles and rates of bodies where rows hold them, as a stepper shows them.
 #pragma once
-#include "../base/fnv.h"
 #include "../plan/stepper.h"
 #include "lanes.h"
 
@@ -15,15 +14,6 @@ inline std::vector<std::size_t> even_rows(const Layout& layout, std::size_t coun
     std::vector<std::size_t> at(layout.rows);
     for (std::size_t row = 0; row < at.size(); ++row) at[row] = row * count;
     return at;
-}
-
-// Returns the hash of theta and theta_dot of all bodies, in document order, as state_hash has it.
-template <class T> std::uint64_t hash_of(const MotionView<T>& view, std::size_t bodies) {
-    Fnv hash;
-    for (const T* quantity : {view.theta, view.theta_dot})
-        for (std::size_t i = 0; i < bodies; ++i)
-            for (std::size_t k = 0; k < 3; ++k) hash.add(quantity[view.at(i) + k * view.stride]);
-    return hash.value();
 }
 
 // Fills in the view, except where each row's quantities stand. theta is a row's quantity 0.

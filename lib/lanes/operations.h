@@ -11,10 +11,6 @@
 
 namespace bough::fast {
 
-// A target that takes the place of a machine's target in Plan::target. It is not among all_targets: no machine is it, and --simd does not name it. It
-// steps as baseline does, bit for bit, far more slowly. It is available where bough was built with BOUGH_COUNTING.
-constexpr Target counted_target = Target(all_targets.size());
-
 struct Operations {
     std::uint64_t additions = 0, multiplications = 0, divisions = 0, roots = 0; // subtractions are additions
     std::uint64_t total() const { return additions + multiplications + divisions + roots; }

@@ -1,5 +1,4 @@
 #include "target.h"
-#include "operations.h"
 #include <stdexcept>
 
 namespace bough::fast {

@@ -1,4 +1,4 @@
-// wide_eigen.h: eigenvectors of symmetric 3x3 matrices by Jacobi rotations (analytic/spring.h), for registers of lanes.
+// wide_eigen.h: eigenvectors of symmetric 3x3 matrices by Jacobi rotations (base/symmetric_eigen.h), for registers of lanes.
 //
 // It is written a second time because one number stops where its matrix is diagonal, while lanes turn until the last of them is, and a choice keeps
 // those that are. A sweep of three rotations is about 150 operations a register. Two sweeps mostly suffice in float, three in double. Each operation
@@ -39,7 +39,7 @@ template <class X> BOUGH_FORCE void rotate_columns(const Rotation<X>& turn, V3<X
     q = turn.s * old + turn.c * q;
 }
 
-// Returns the eigenvectors of A as columns; A becomes diagonal. It is as symmetric_eigen (spring.h), except that a lane is left alone once its
+// Returns the eigenvectors of A as columns; A becomes diagonal. It is as bough::symmetric_eigen, except that a lane is left alone once its
 // elements off the diagonal are below half a rounding error. Elements whose squares are no normal numbers are not looked at.
 template <class X> BOUGH_FORCE M3<X> symmetric_eigen(Symmetric<X>& A) {
     // The first sweep, whose axes are still the original ones.

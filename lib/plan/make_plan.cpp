@@ -236,12 +236,12 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.loads = plan.contact || !scene.walkers.empty() || wishes.loads;
     plan.forces = plan.wind || plan.pushes();
     plan.velocity_wished = wishes.velocity;
-    plan.velocity = wishes.velocity || stepper.reads_velocities(plan);
+    plan.velocity = wishes.velocity || stepper.kind().reads_velocities;
     plan.torque = wishes.torque || wishes.stress;
     if (wishes.stress) plan_stresses(plan, tree);
     const bool held = !scene.attachments.empty() || !scene.pulls.empty() || wishes.loads;
     plan.pose = !stepper.in_lanes() || wishes.pose || wishes.velocity || plan.torque || scene.fracture ||
-                !scene.balls.empty() || (held && stepper.places_points());
+                !scene.balls.empty() || (held && stepper.kind().places_points);
     plan_root_motion(plan, ranges);
     if (plan.wind) {
         const WindReach reach = reach_of(plan, tree);

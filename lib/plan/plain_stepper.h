@@ -10,8 +10,7 @@ public:
     void begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>&) const override {
         update_kinematics(plan, state);
     }
-    std::uint64_t hash(const Plan<T>&, const State<T>& state) const override { return state_hash(state); }
-    void view_motion(const Plan<T>&, const State<T>& state, MotionView<T>& view) const override {
+    void view_motion(const State<T>& state, MotionView<T>& view) const override {
         view = {state.theta.front().data(), state.theta_dot.front().data(), 1, nullptr, 1, std::move(view.first)};
     }
 };

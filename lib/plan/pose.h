@@ -14,18 +14,12 @@
 // Each root's tree finds its sag by itself. Reads a checked tree (K as scaled by the scene). Cost O(n) (settled: O(n) an iteration, about 5 to 50).
 // Throws std::domain_error that names body and branch: for drawn with K = 0 under load or no solution within half a turn, and for settled without
 // convergence.
-// convergence.
 #pragma once
 #include "../model/scene.h"
 #include "../model/tree.h"
-#include <vector>
+#include "start_pose.h"
 
 namespace bough {
-
-struct StartPose {
-    std::vector<Quat> joint_rotation; // parent's body frame from joint frame, rest pose
-    std::vector<Vec3> theta;          // [rad]
-};
 
 StartPose start_pose(const Tree&, const Vec3& gravity, Pose);
 

@@ -1,6 +1,6 @@
 // reduce_air.h: the part of reduce.h that the air asks for: where groups have their centre of mass, and as which shape they meet the wind.
 #pragma once
-#include "reduce.h"
+#include "reduced.h"
 
 namespace bough {
 

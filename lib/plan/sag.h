@@ -3,7 +3,8 @@
 // blocks, O(n). Of a tree it reads only parent, mass, com, joint_position, stiffness (K as scaled by the scene) and branch: a plan may have freed the
 // rest. World frame, SI.
 #pragma once
-#include "pose.h"
+#include "../model/tree.h"
+#include "start_pose.h"
 #include <optional>
 
 namespace bough {

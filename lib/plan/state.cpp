@@ -51,13 +51,26 @@ template <class T> std::uint64_t state_hash(const State<T>& state) {
 }
 
 template <class T> std::uint64_t state_hash(const Plan<T>& plan, const State<T>& state) {
-    return plan.stepper->hash(plan, state);
+    MotionView<T> view;
+    plan.stepper->view_motion(state, view);
+    Fnv hash;
+    for (const T* quantity : {view.theta, view.theta_dot})
+        for (std::size_t i = 0; i < plan.bodies; ++i)
+            for (std::size_t k = 0; k < 3; ++k) hash.add(quantity[view.at(i) + k * view.stride]);
+    return hash.value();
 }
 
 template <class T> std::optional<std::size_t> first_non_finite(const State<T>& state) {
     for (std::size_t i = 0; i < state.theta.size(); ++i)
         if (!state.theta[i].allFinite() || !state.theta_dot[i].allFinite()) return i;
     return std::nullopt;
+}
+
+template <class T> std::optional<NonFinite> Stepper<T>::non_finite(const Plan<T>& plan, State<T>& state) const {
+    present(plan, state);
+    const std::optional<std::size_t> body = first_non_finite(state);
+    if (!body) return std::nullopt;
+    return NonFinite{std::string(stage_name(kind_.stage)) + " (theta)", *body};
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
@@ -68,7 +81,8 @@ template <class T> std::optional<std::size_t> first_non_finite(const State<T>& s
     template void present(const Plan<T>&, State<T>&);                                                                  \
     template std::uint64_t state_hash(const State<T>&);                                                                \
     template std::uint64_t state_hash(const Plan<T>&, const State<T>&);                                                \
-    template std::optional<std::size_t> first_non_finite(const State<T>&);
+    template std::optional<std::size_t> first_non_finite(const State<T>&);                                             \
+    template std::optional<NonFinite> Stepper<T>::non_finite(const Plan<T>&, State<T>&) const;
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)
 #undef BOUGH_INSTANTIATE

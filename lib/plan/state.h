@@ -2,26 +2,13 @@
 #pragma once
 #include "../laws/wind.h"
 #include "plan.h"
+#include "step_flags.h"
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace bough {
-
-// What happened in the steps so far. Only bounded_lambda, energy_guard and limited act on the result.
-struct StepFlags {
-    std::uint64_t buckling = 0;       // joint-steps in which a joint's stiffness with gravity was negative
-    std::uint64_t bounded_lambda = 0; // joint-steps in which lambda was bounded
-    std::uint64_t half_turns = 0;     // joint-steps in which a joint turned past half a turn (spring.h)
-    std::uint64_t energy_guard = 0;   // joint-steps in which a large turn had gained energy, taken back (spring.h)
-    std::uint64_t limited = 0; // joint-steps that ended on a joint limit, which the scene asks for (joint_limit.h)
-    std::uint64_t fast_turns =
-        0; // bodies' turns of more than a radian a step, bounded in the implicit step (articulated.h)
-    std::uint64_t inner_steps = 0; // steps that articulated_reference cut the plan's into, which is no guard
-    std::uint64_t asleep = 0;      // body-steps left out, in blocks at rest (coupled/sleep.h)
-    std::uint64_t unresolved = 0;  // inner_steps that missed the tolerance at the smallest length (extrapolation.h)
-};
 
 // A contact's force on a body for one step.
 template <class T> struct Load {

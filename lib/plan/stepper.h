@@ -11,6 +11,7 @@
 #include "../model/tree.h"
 #include "stage.h"
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,25 +61,45 @@ struct NonFinite {
     std::size_t body;
 };
 
+// What a stepper is from the start.
+struct StepperKind {
+    const char* name;               // as in --solver
+    std::string plainly;            // why the run is not in lanes; empty where it is
+    Stage stage = Stage::resolvent; // which writes the angles
+    const char* scheme = "";        // as in --scheme
+    bool reads_velocities = false;  // of all bodies, in each step
+    // Each step in lanes places the points that are pulled or held. It does so by constants of bodies in document order, which are kept where poses
+    // are.
+    bool places_points = false;
+    std::size_t pass_bytes = 0; // [B] a body that articulated passes keep beside the carried arrays
+};
+
+// What the caller has changed between two steps.
+template <class T> struct StepperChange {
+    T stiffness = 1, damping = 1; // factors on all joints', which the plan's own have by now
+    T step = 1;               // the plan's dt over the one before; the changes carried from the last step go with it
+    bool attachments = false; // one came or went
+    bool wake = false;        // what sleeps has to move
+};
+
+// What a body that stays carries, once something has broken off.
+struct CarriedMoment {
+    std::size_t body;
+    Vec3 moment; // [kg m] body axes
+};
+
 template <class T> class Stepper {
 public:
-    // plainly: why the run is not in lanes; empty where it is.
-    explicit Stepper(std::string plainly) : plainly_(std::move(plainly)) {}
+    explicit Stepper(StepperKind kind) : kind_(std::move(kind)) {}
     virtual ~Stepper() = default;
     virtual std::unique_ptr<Stepper> clone() const = 0;
-    virtual const char* name() const = 0;             // as in --solver
-    virtual const char* scheme() const { return ""; } // as in --scheme
-    const std::string& plainly() const { return plainly_; }
-    bool in_lanes() const { return plainly_.empty(); }
-    virtual std::size_t pass_bytes() const { return 0; } // [B] a body that articulated passes keep beside those arrays
+    const StepperKind& kind() const { return kind_; }
+    bool in_lanes() const { return kind_.plainly.empty(); }
+    bool carries_moments() const { return carries_moments_; }              // drop() is told of them
     virtual const fast::PlannedLanes<T>* lanes() const { return nullptr; } // how bodies stand in them; null: plainly
 
     // These are called while a plan is made, in this order.
     virtual void refuse(const Scene&) const {} // throws std::domain_error for what it cannot hold
-    virtual bool reads_velocities(const Plan<T>&) const { return false; } // of all bodies, in each step
-    // True if each step in lanes places the points that are pulled or held. It does so by constants of bodies in document order, which are kept where
-    // poses are.
-    virtual bool places_points() const { return false; }
     virtual void take_constants(const Plan<T>&,
                                 const Tree&) = 0; // the tree is whole yet; the plan has the scene and c_mass
     virtual void lay_out(const Plan<T>&, const std::vector<TreeRange>&) {} // the plan has all of its bodies
@@ -90,44 +111,35 @@ public:
     virtual void advance(const Plan<T>&, State<T>&, StageClock*) const = 0;
     // Brings the arrays in document order up to date.
     virtual void present(const Plan<T>&, State<T>&) const {}
-    virtual std::uint64_t hash(const Plan<T>&, const State<T>&) const = 0; // state_hash; nothing need be presented
-    virtual bool known_finite(const State<T>&) const { return false; }     // true if the last step found all finite
-    // Needs a state that is presented and has become non-finite.
-    virtual NonFinite non_finite(const State<T>&) const = 0;
+    // Returns where the last step became non-finite. Presents the state unless the step itself has found all finite.
+    virtual std::optional<NonFinite> non_finite(const Plan<T>&, State<T>&) const;
     virtual std::vector<CarriedArray<T>> carried(State<T>&) const = 0;
     // Save and restore what is saved beside the carried arrays. restore() comes after begin(). It throws std::invalid_argument for what sleeps and
     // std::length_error for attachments.
-    virtual void save(const Plan<T>&, const State<T>&, SavedState&) const {}
-    virtual void restore(const Plan<T>&, State<T>&, const SavedState&) const {}
+    virtual void save(const State<T>&, SavedState&) const {}
+    virtual void restore(State<T>&, const SavedState&) const {}
+    virtual void change(const Plan<T>&, State<T>&, const StepperChange<T>&) {}
 
     // These are for what is free and meets the trees.
-    virtual void view_motion(const Plan<T>&, const State<T>&, MotionView<T>&) const = 0;
+    virtual void view_motion(const State<T>&, MotionView<T>&) const = 0;
     // [1] Returns the square roots of each joint's factor of inertia where joints move one by one; empty where a tree answers as a whole.
     virtual const std::vector<Vector3<T>>& inertia_factor() const {
         static const std::vector<Vector3<T>> none;
         return none;
     }
-    virtual bool has_carried_moments() const { return false; }
-    virtual void set_carried_moment(const Plan<T>&, std::size_t, const Vec3&) {
-    } // of a body [kg m], once it carries less
-    // Called when bodies have broken off: in plan and state they become bodies without mass that nothing moves. O(bodies that left), plain O(n).
-    virtual void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies) = 0;
-
-    // These change something between two steps.
-    virtual void scale_wood(const Plan<T>&, T, T) {
-    } // multiplies all stiffness and damping by these; the caller does so to the plan's own
-    // Called when the plan's dt has changed: multiplies changes carried from the last step by ratio, and finds anew what counts in steps.
-    virtual void step_changed(const Plan<T>&, State<T>&, T ratio) { (void)ratio; }
-    virtual bool sleeps() const { return false; } // trees may
-    virtual void wake(const Plan<T>&, State<T>&) const {}
-    virtual void attachments_changed(State<T>&) const {} // one came or went
+    // Called when bodies have broken off: in plan and state they become bodies without mass that nothing moves. `carried`: what is left of the
+    // moments of bodies that carried them; of several of one body the last counts. O(bodies that left), plain O(n).
+    virtual void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies,
+                      const std::vector<CarriedMoment>& carried) = 0;
 
 protected:
     Stepper(const Stepper&) = default;
     Stepper& operator=(const Stepper&) = default;
 
+    bool carries_moments_ = false; // since take_constants()
+
 private:
-    std::string plainly_;
+    StepperKind kind_;
 };
 
 } // namespace bough

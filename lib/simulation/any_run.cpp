@@ -1,4 +1,5 @@
 #include "any_run.h"
+#include "../base/hash_text.h"
 #include "../base/parallel.h"
 #include "../base/rotation_maps.h"
 #include "../coupled/attachment.h"
@@ -158,15 +159,18 @@ public:
     }
 
     void scale_wood(double stiffness_factor, double damping_factor) override {
-        bough::scale_wood(run_.plan, stiffness_factor, damping_factor);
+        bough::scale_wood(run_.plan, run_.state, stiffness_factor, damping_factor);
     }
     void set_step(double seconds) override {
         change_step(run_.plan, run_.state, seconds);
         choice_.options.step = seconds;
     }
     bool pushed() const override { return run_.plan.contact; }
-    bool sleeps() const override { return run_.plan.stepper->sleeps(); }
-    void wake() override { run_.plan.stepper->wake(run_.plan, run_.state); }
+    bool sleeps() const override {
+        const fast::PlannedLanes<T>* const lanes = fast::planned_lanes(run_.plan);
+        return lanes && lanes->sleep.on;
+    }
+    void wake() override { run_.plan.stepper->change(run_.plan, run_.state, {.wake = true}); }
     bool gone(std::size_t body) const override { return has_broken_off(run_, body); }
     void pull(std::size_t body, const Vec3& point, const Vec3& force) override {
         run_.state.loads.push_back({body, point.template cast<T>(), force.template cast<T>()});
@@ -224,7 +228,7 @@ public:
         } else {
             Run<T> run = started(); // what broke stands again before the saved state says what did
             run.plan.scene = run_.plan.scene;
-            bough::scale_wood(run.plan, stiffness, damping);
+            bough::scale_wood(run.plan, run.state, stiffness, damping);
             stay(run);
             restore_run(saved, step, run);
             for (const Attached& hand : hands())
@@ -241,19 +245,19 @@ public:
         RunAccount a;
         const fast::PlannedLanes<T>* const lanes = fast::planned_lanes(run_.plan);
         a.bodies = run_.plan.bodies;
-        a.solver = run_.plan.stepper->name();
+        a.solver = run_.plan.stepper->kind().name;
         a.simd = lanes ? fast::target_name(lanes->target) : "none";
-        if (!sleeps()) a.awake = lanes ? lanes->sleep.reason : "plain path: " + run_.plan.stepper->plainly();
+        if (!sleeps()) a.awake = lanes ? lanes->sleep.reason : "plain path: " + run_.plan.stepper->kind().plainly;
         if (lanes) a.sleep = lanes->sleep.rate;
-        a.steps = run_.state.step;
-        a.calls = run_.state.calls;
+        for (std::size_t k = 0; k < stage_count; ++k) a.stages.push_back({stage_name(Stage(k)), run_.state.calls[k]});
         a.flags = run_.state.flags;
-        a.free = run_.world.on();
-        a.fell = a.free && (!run_.world.remaining.gone.empty() || !run_.world.free.empty());
-        a.counts = run_.world.counts;
-        a.contact = run_.world.contact.model;
+        const WorldCounts& counts = run_.world.counts;
+        a.broke = counts.broke;
+        a.hits = counts.hits;
+        a.landed = counts.landed;
+        a.imbalance = counts.imbalance;
         a.state_bytes = run_.state.bytes();
-        a.free_bytes = a.free ? run_.world.bytes() : 0;
+        a.free_bytes = run_.world.on() ? run_.world.bytes() : 0;
         return a;
     }
 
@@ -326,11 +330,10 @@ private:
         return stepper_of<T>(*assembly_, choice_of(options()));
     }
 
-    // A step before time 0: of the trees alone.
+    // A step before time 0: of the trees alone, and forgotten by all counts.
     void settle_on(StageClock* clock) {
         bough::advance(run_.plan, run_.state, clock);
         run_.state.loads.clear();
-        if (run_.state.step < 0) return;
         run_.state.calls = {};
         run_.state.flags = {};
     }
@@ -364,8 +367,8 @@ private:
     void name(SavedState& saved) const {
         saved.fps = 1 / options().step;
         saved.precision = std::is_same_v<T, float> ? "float" : "double";
-        saved.solver = run_.plan.stepper->name();
-        saved.scheme = run_.plan.stepper->scheme();
+        saved.solver = run_.plan.stepper->kind().name;
+        saved.scheme = run_.plan.stepper->kind().scheme;
         saved.fingerprint = name_;
         saved.part = assembly_->part.part;
         saved.parts = assembly_->part.parts;

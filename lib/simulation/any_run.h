@@ -1,45 +1,10 @@
-// any_run.h: what stands behind the door (simulation.h): a run in either precision, by any solver. Tools and studies use it too, where what they
-// report is not the engine's business. It is not installed.
+// any_run.h: what stands behind the door (simulation.h): a run in either precision, by any solver. Studies use it too.
 #pragma once
 #include "../coupled/attachment_state.h"
 #include "run.h"
-#include "simulation.h"
-#include <functional>
+#include "run_choice.h"
 
 namespace bough {
-
-// Makes the steppers of a run, in place of those that the options' method names. A maker that lacks a precision is never asked for it.
-struct StepperMaker {
-    std::function<std::unique_ptr<Stepper<float>>(const Assembly&)> single;
-    std::function<std::unique_ptr<Stepper<double>>(const Assembly&)> double_;
-};
-
-// How a run is made, beyond the options that every user has.
-struct RunChoice {
-    SimulationOptions options;
-    StepperMaker steppers{}; // empty: by options.method, portable and sleep
-    bool poses = true;       // Wishes::pose
-    bool saves = true;       // save() and restore() are called
-    bool keeps_trees =
-        true; // else, where nothing is free, the assembly's tree keeps only what make_plan says, which saves memory
-};
-
-// What a run says of itself.
-struct RunAccount {
-    std::size_t bodies = 0; // whose joints move
-    std::string solver;     // as in --solver
-    std::string simd;       // the target's name; none
-    std::string awake;      // why nothing sleeps; empty where trees may
-    double sleep = 0;       // [rad/s] below which they do
-    std::int64_t steps = 0;
-    std::array<std::uint64_t, stage_count> calls{};
-    StepFlags flags;
-    bool free = false; // something is free, or may become so
-    bool fell = false; // something is free by now, or has broken off
-    WorldCounts counts;
-    ContactModel contact{};
-    std::size_t state_bytes = 0, free_bytes = 0;
-};
 
 // How a joint stands and turns, independent of its spring's rest pose, in the axes of the body that carries it.
 struct JointMotion {
@@ -59,8 +24,7 @@ public:
     virtual std::string non_finite() = 0;
     virtual void begin_again() = 0; // as at the start, with nothing changed. Where nothing is free: the plan stays
     virtual bool fresh() const = 0; // at its start: no step taken, nothing restored
-    // Sets a run at its start to so many steps before time 0. In these steps only trees, wind and ground move (Simulation::settle). At time 0 the run
-    // forgets what they have counted.
+    // Sets a run at its start to so many steps before time 0. In these steps only trees, wind and ground move, and nothing is counted.
     virtual void set_back(std::int64_t steps) = 0;
 
     virtual std::size_t bodies() const = 0;
@@ -125,7 +89,6 @@ protected:
 
 // Throws SceneError.
 std::unique_ptr<AnyRun> make_run(std::shared_ptr<Assembly>, const RunChoice&);
-Simulation make_simulation(std::shared_ptr<Assembly>, const RunChoice&);
 AnyRun& run_of(Simulation&);
 const AnyRun& run_of(const Simulation&);
 

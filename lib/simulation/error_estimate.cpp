@@ -62,7 +62,7 @@ ErrorEstimate<T>::ErrorEstimate(const Tree& tree, const Plan<T>& plan, const Sta
     state_.time_since = start.time_since;
     own.attachments = from.attachments;
     for (Attached& held : own.attachments.all) held.steps *= finer;
-    plan_.stepper->attachments_changed(state_);
+    plan_.stepper->change(plan_, state_, {.attachments = true});
     restart(plan_, state_);
     past_.resize(4 * tips_.size());
     note_roughness();
@@ -92,7 +92,7 @@ template <class T> void ErrorEstimate<T>::lead_hands(const State<T>& run) {
         held.goal = led.goal;
         held.steps = finer * led.steps;
     }
-    if (came_or_went) plan_.stepper->attachments_changed(state_);
+    if (came_or_went) plan_.stepper->change(plan_, state_, {.attachments = true});
 }
 
 template <class T> void ErrorEstimate<T>::lead(const Plan<T>& plan, const State<T>& run, const WoodScale& wood) {
@@ -100,7 +100,8 @@ template <class T> void ErrorEstimate<T>::lead(const Plan<T>& plan, const State<
     plan_.scene.gravity = plan.scene.gravity;
     if (plan.root_motion) plan_.splines = plan.splines;
     if (wood.stiffness != wood_.stiffness || wood.damping != wood_.damping)
-        scale_wood(plan_, wood.stiffness / wood_.stiffness, wood_.damping > 0 ? wood.damping / wood_.damping : 1);
+        scale_wood(plan_, state_, wood.stiffness / wood_.stiffness,
+                   wood_.damping > 0 ? wood.damping / wood_.damping : 1);
     wood_ = wood;
     if (plan.dt / finer != plan_.dt) change_step(plan_, state_, plan.dt / finer);
     state_.loads = run.loads;

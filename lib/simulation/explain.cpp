@@ -26,12 +26,12 @@ template <class T> struct Way {
     int poles = 1;
 
     explicit Way(const Plan<T>& plan)
-        : solver(std::string("solver ") + plan.stepper->name()), analytic(solver == "solver analytic"),
+        : solver(std::string("solver ") + plan.stepper->kind().name), analytic(solver == "solver analytic"),
           coupled(solver == "solver coupled"), lanes(fast::planned_lanes(plan)) {
         const auto* joints = dynamic_cast<const AnalyticStepper<T>*>(&*plan.stepper);
         fictitious = joints && joints->own.fictitious;
         for (const Scheme scheme : all_schemes)
-            if (coupled && std::string_view(plan.stepper->scheme()) == scheme_of(scheme).name) {
+            if (coupled && std::string_view(plan.stepper->kind().scheme) == scheme_of(scheme).name) {
                 real = scheme_of(scheme).real;
                 poles = scheme_of(scheme).poles;
             }
@@ -137,7 +137,7 @@ template <class T> void explain_stages(const Plan<T>& plan, const Way<T>& way, s
             ? std::string("SIMD ") + fast::target_name(way.lanes->target) + (plan.forces ? "; " + forces : "") + moved +
                   (way.lanes->sleep.on ? "; asleep below " + four_digits(way.lanes->sleep.rate) + " rad/s"
                                        : "; no sleep: " + way.lanes->sleep.reason)
-            : "plain path: " + plan.stepper->plainly());
+            : "plain path: " + plan.stepper->kind().plainly);
     add(Stage::state_update, !lanes,
         !plan.pose ? "nobody reads poses"
         : lanes
@@ -278,7 +278,7 @@ template <class T> PlanAccount explain(const Plan<T>& plan) {
     explain_stages(plan, way, account.stages);
     explain_arrays(plan, way, account.arrays);
     if (way.lanes) explain_rows(plan, way, account.arrays);
-    if (const std::size_t bytes = plan.stepper->pass_bytes(); bytes > 0)
+    if (const std::size_t bytes = plan.stepper->kind().pass_bytes; bytes > 0)
         account.arrays.push_back({"articulated", true, plan.bodies * bytes, way.solver});
     return account;
 }

@@ -35,8 +35,8 @@ template <class T> std::string explanation(const Plan<T>& plan, const std::vecto
     const PlanAccount account = explain(plan);
     std::ostringstream text;
     text << "plan: " << plan.bodies << " bodies, " << (std::is_same_v<T, float> ? "float" : "double") << ", step "
-         << plan.dt << " s, solver " << plan.stepper->name();
-    if (const std::string scheme = plan.stepper->scheme(); !scheme.empty()) text << ", scheme " << scheme;
+         << plan.dt << " s, solver " << plan.stepper->kind().name;
+    if (const std::string scheme = plan.stepper->kind().scheme; !scheme.empty()) text << ", scheme " << scheme;
     text << "\n";
     for (const std::string& change : changes) text << "tree changed by " << change << "\n";
     for (const PlannedStage& stage : account.stages)

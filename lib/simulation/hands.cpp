@@ -29,7 +29,7 @@ std::uint64_t attach_hand(Run<T>& run, const Assembly& assembly, std::size_t bod
     if (!run.plan.pose) throw SceneError("attach: this run keeps no poses");
     const Vec3 target = run.state.x_w[on].template cast<double>() + run.state.R_wb[on].template cast<double>() * there;
     const std::uint64_t number = attach(run.plan, coupled_state(run.state), on, there, stiffness, damping, target);
-    run.plan.stepper->attachments_changed(run.state);
+    run.plan.stepper->change(run.plan, run.state, {.attachments = true});
     return number;
 }
 
@@ -43,12 +43,12 @@ template <class T> std::vector<Attached> hands_of(const Run<T>& run) {
 
 template <class T> void adopt_hand(Run<T>& run, const Attached& hand, std::size_t body) {
     adopt(run.plan, coupled_state(run.state), hand, body);
-    run.plan.stepper->attachments_changed(run.state);
+    run.plan.stepper->change(run.plan, run.state, {.attachments = true});
 }
 
 template <class T> void release_hand(Run<T>& run, std::uint64_t number) {
     release(run.plan, coupled_state(run.state), number);
-    run.plan.stepper->attachments_changed(run.state);
+    run.plan.stepper->change(run.plan, run.state, {.attachments = true});
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

@@ -72,13 +72,8 @@ template <class T> Run<T> start_run(Plan<T> plan, const Assembly& assembly) {
 }
 
 template <class T> std::string non_finite(Run<T>& run, const Tree& tree) {
-    if (!run.plan.stepper->known_finite(run.state)) {
-        present(run.plan, run.state);
-        if (first_non_finite(run.state)) {
-            const NonFinite found = run.plan.stepper->non_finite(run.state);
-            return "stage " + found.what + ", " + body_text(tree, found.body);
-        }
-    }
+    if (const std::optional<NonFinite> found = run.plan.stepper->non_finite(run.plan, run.state))
+        return "stage " + found->what + ", " + body_text(tree, found->body);
     if (const std::optional<std::size_t> free = first_non_finite(run.world))
         return "stage contacts, " + free_text(run.world, *free);
     return {};
@@ -117,12 +112,6 @@ std::optional<std::size_t> fill_frame(const Plan<T>& plan, const State<T>& state
 template <class T> void show_all(const Assembly& assembly, const Run<T>& run, MotionFrame& frame) {
     if (assembly.whole) expand_frame(assembly.whole->places, assembly.whole->tree, run.plan, run.state, frame);
     place_free_bodies(run.world, frame);
-}
-
-std::string hash_text(std::uint64_t hash) {
-    std::string text(16, '0');
-    for (std::size_t k = 16; k-- > 0; hash >>= 4) text[k] = "0123456789abcdef"[hash & 15];
-    return text;
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

@@ -48,6 +48,4 @@ std::optional<std::size_t> fill_frame(const Plan<T>&, const State<T>&, const Mot
 // Extends a frame of the run to all bodies: those that are held, what fell, balls and walkers.
 template <class T> void show_all(const Assembly&, const Run<T>&, MotionFrame&);
 
-std::string hash_text(std::uint64_t hash); // 16 hex digits
-
 } // namespace bough

@@ -35,7 +35,7 @@ template <class T> void save_run(Run<T>& run, std::int64_t frame, SavedState& sa
     saved.frame = frame;
     if (run.state.step_since != 0 || run.state.time_since != 0)
         saved.step_change = {double(run.state.step_since), run.state.time_since};
-    run.plan.stepper->save(run.plan, run.state, saved);
+    run.plan.stepper->save(run.state, saved);
     saved.free_bodies = saved_world(run.state, run.world);
     visit_carried(run.plan, run.state, saved,
                   [](const std::vector<Vector3<T>>& from, std::vector<Vec3>& to, const char*) {
@@ -66,7 +66,7 @@ template <class T> void restore_run(const SavedState& saved, std::int64_t step, 
     state.time_since = saved.step_change.empty() ? 0 : saved.step_change[1];
     restart(plan, state);
     try {
-        plan.stepper->restore(plan, state, saved);
+        plan.stepper->restore(state, saved);
     } catch (const std::invalid_argument& error) {
         throw SceneError(std::string("/sleep: ") + error.what());
     } catch (const std::length_error& error) {

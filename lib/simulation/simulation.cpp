@@ -1,4 +1,6 @@
+#include "simulation.h"
 #include "../base/parallel.h"
+#include "../free/shown_tree.h"
 #include "../laws/wind.h"
 #include "../model/check_parts.h"
 #include "any_run.h"
@@ -94,9 +96,13 @@ StepReport Simulation::settle(double seconds) {
     const double steps = std::round(seconds / run_->options().step);
     if (!(steps < 1e9))
         throw SceneError("settle: is " + std::to_string(seconds) + " s, more steps than can be counted");
-    if (steps == 0) return {};
-    run_->set_back(std::int64_t(steps));
+    begin_before(std::int64_t(steps));
     return run_->step(int(steps));
+}
+void Simulation::begin_before(std::int64_t steps) {
+    if (steps < 0) throw SceneError("begin_before: is " + std::to_string(steps) + " steps, expected 0 or more");
+    if (!run_->fresh()) throw SceneError("begin_before: the run has begun, expected one at its start");
+    if (steps > 0) run_->set_back(steps);
 }
 double Simulation::settling_time() const {
     return bough::settling_time(run_->assembly());
@@ -147,8 +153,21 @@ std::span<const Vec3> Simulation::torques() const {
 std::span<const double> Simulation::stresses() const {
     return run_->frame().stress;
 }
+std::string Simulation::fill(const MotionFields& fields, MotionFrame& frame) const {
+    const std::optional<std::size_t> body = run_->fill(fields, frame);
+    return body ? "stage state_update, body " + std::to_string(*body) : "";
+}
 const MotionEvents& Simulation::events() const {
     return run_->events();
+}
+std::span<const std::uint32_t> Simulation::broken() const {
+    return run_->broken();
+}
+std::vector<Ball> Simulation::balls() const {
+    return run_->balls();
+}
+Tree Simulation::shown_tree(std::span<const std::uint32_t> broken) const {
+    return bough::shown_tree(run_->whole_tree(), {broken.begin(), broken.end()}, run_->balls());
 }
 
 Tree Simulation::posed_tree() const {
@@ -306,9 +325,12 @@ std::string Simulation::explain() const {
     const ThreadLimit threads(run_->options().threads);
     return run_->explain();
 }
+RunAccount Simulation::account() const {
+    return run_->account();
+}
 std::size_t Simulation::bytes() const {
-    const RunAccount account = run_->account();
-    return account.state_bytes + account.free_bytes;
+    const RunAccount made = account();
+    return made.state_bytes + made.free_bytes;
 }
 
 } // namespace bough

@@ -22,9 +22,8 @@
 #pragma once
 #include "../model/motion.h"
 #include "../model/scene.h"
-#include "method.h"
+#include "run_types.h"
 #include "scene_error.h"
-#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -33,43 +32,6 @@ namespace bough {
 class AnyRun; // behind the door; no user needs it
 struct Assembly;
 struct RunChoice;
-
-struct SimulationOptions {
-    double step = 1.0 / 30; // [s] length of a step, above 0; set_step() changes it
-    Precision precision = Precision::double_;
-    Method method = Method::coupled;
-    double sleep =
-        0; // [rad/s] trees that have been slower than this for a while are left out of steps until something moves them; 0: never
-    int threads =
-        0; // the most threads a step takes, the caller's included; 0: one a core of the process. Small work takes fewer ("Threads")
-    bool velocities = false; // velocities() and angular_velocities() will be read; else they are empty
-    bool torques = false;    // the same for torques()
-    bool stresses = false;   // the same for stresses()
-    bool pulls = false;      // pull() will be called; without this, the step has no place for it
-    bool grounds =
-        false; // set_ground() will be called. Nothing sleeps then, and the analytic method takes the plain path
-    bool portable =
-        false; // take the plain path, one number at a time: rounding does not depend on the machine's SIMD; several times slower
-};
-
-// How a tree's ground has moved from where the tree was drawn: a point drawn at X is now at pivot + position + rotation (X - pivot). The pivot is the
-// tree's own place (Placement::position).
-struct GroundMotion {
-    Vec3 position = Vec3::Zero(); // [m]
-    Quat rotation = Quat::Identity();
-    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero(); // [m/s] of the pivot, [rad/s], world
-};
-
-struct StepReport {
-    std::string non_finite; // "": finite. Else stage and body: "stage resolvent (theta), body 17 (branch 3)"
-    // Bodies whose motion the steps could not follow, in this call (lib/study/README.md, "What is not promised"). None of this is an error.
-    std::uint64_t fast_turns = 0;                // turned by more than a radian
-    std::uint64_t guarded = 0;                   // were kept from gaining energy
-    std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for
-    std::size_t broke = 0, hits = 0, landed = 0; // events() has them
-
-    bool finite() const { return non_finite.empty(); }
-};
 
 class Simulation {
 public:
@@ -91,6 +53,9 @@ public:
     // settling_time() gives. Throws SceneError for others, and after a step, a restored state or a motion that goes on.
     static constexpr double most_settled = 600;
     StepReport settle(double seconds);
+    // Sets the clock of a run at its start so many steps before time 0. The steps up to time 0 are then those of settle(), but the caller's: one that
+    // shows how far they are, or may end them. Throws SceneError as settle() does, and for less than 0 steps.
+    void begin_before(std::int64_t steps);
     // [s] How long settle() must run until the start is forgotten (plan/settling.h); 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;
     // Takes `times` steps, and stops early at one that becomes non-finite. The report and events() cover all of them. A step is O(bodies). After the
@@ -117,7 +82,17 @@ public:
     std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (option torques)
     std::span<const double>
     stresses() const; // [Pa] that bend the wood at each joint (model/bending_stress.h; option stresses)
-    const MotionEvents& events() const; // of the last call of step(): what broke, hit, landed
+    // Fills in what `fields` asks for, and the events. O(bodies). Arrays need their options, as above. The caller sets the frame's number and its time,
+    // which is time(): walkers are placed by it. Returns "", or the first body that is non-finite, as StepReport::non_finite does.
+    std::string fill(const MotionFields& fields, MotionFrame&) const;
+    const MotionEvents& events() const;            // of the last call of step(): what broke, hit, landed
+    std::span<const std::uint32_t> broken() const; // bodies whose joints broke since the start, in that order
+    // The scene's balls, then its walkers as the balls that they are shown as, all as they were at the start. positions() has where they are, behind
+    // the trees' bodies.
+    std::vector<Ball> balls() const;
+    // Returns the tree that a mesh of the run is made of, with what breaks in it known beforehand (broken() of a copy that ran ahead): what breaks off
+    // is a root from the start, and balls() follow as fruit that are roots. Poses fit it, for bodies keep their numbers. O(bodies).
+    Tree shown_tree(std::span<const std::uint32_t> broken) const;
     // Returns the trees drawn as they stand now, to be run again from there or to be written. With pose drawn they stay so by themselves. Stiffness
     // and damping are the trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.
     Tree posed_tree() const;
@@ -170,6 +145,7 @@ public:
     void restore(const SavedState&);
 
     std::string explain() const; // which stages and arrays the scene needs, and why
+    RunAccount account() const;  // how it was run, how often each stage ran, what acted in it. O(free bodies)
     std::size_t bytes() const;   // [B] of the state
 
 private:

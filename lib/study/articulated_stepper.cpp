@@ -67,24 +67,25 @@ std::vector<Vec3> attached_at(const Plan<double>& plan) {
 } // namespace
 
 ArticulatedStepper::ArticulatedStepper(ArticulatedMethod method, const char* name, std::string plainly)
-    : Cloned<ArticulatedStepper, PlainStepper<double>, Stepper<double>>(std::move(plainly)), name_(name) {
+    : Cloned<ArticulatedStepper, PlainStepper<double>, Stepper<double>>(StepperKind{
+          .name = name,
+          .plainly = std::move(plainly),
+          .stage = Stage::articulated,
+          .pass_bytes = sizeof(ArticulatedBody) *
+                        (method == ArticulatedMethod::extrapolation ? std::size_t(extrapolation_rows) : 1)}) {
     own.method = method;
-}
-
-std::size_t ArticulatedStepper::pass_bytes() const {
-    return sizeof(ArticulatedBody) * (own.method == ArticulatedMethod::extrapolation ? extrapolation_rows : 1);
 }
 
 void ArticulatedStepper::refuse(const Scene& scene) const {
     if (has_free_bodies(scene))
         throw std::domain_error(std::string(free_part(scene) + 1) +
                                 ": only the coupled and the analytic solver meet free bodies and walkers, not " +
-                                name_);
+                                kind().name);
     if (scene.joint_limit)
         throw std::domain_error("joint_limit: only the coupled and the analytic solver keep limits, not " +
-                                std::string(name_));
+                                std::string(kind().name));
     if (scene.fictitious)
-        throw std::domain_error("fictitious: only for solver analytic; solver " + std::string(name_) +
+        throw std::domain_error("fictitious: only for solver analytic; solver " + std::string(kind().name) +
                                 " has these terms by nature, whole and in time");
 }
 
@@ -118,24 +119,21 @@ void ArticulatedStepper::advance(const Plan<double>& plan, State<double>& state,
     ++state.step;
 }
 
-NonFinite ArticulatedStepper::non_finite(const State<double>& state) const {
-    return {std::string(stage_name(Stage::articulated)) + " (theta)", *first_non_finite(state)};
-}
-
 std::vector<CarriedArray<double>> ArticulatedStepper::carried(State<double>& state) const {
     return {{"scaled_rate", &articulated_state(state).rate}};
 }
 
-void ArticulatedStepper::save(const Plan<double>&, const State<double>& state, SavedState& saved) const {
+void ArticulatedStepper::save(const State<double>& state, SavedState& saved) const {
     saved.articulated_step = articulated_state(state).inner_step;
 }
 
-void ArticulatedStepper::restore(const Plan<double>&, State<double>& state, const SavedState& saved) const {
+void ArticulatedStepper::restore(State<double>& state, const SavedState& saved) const {
     articulated_state(state).inner_step = saved.articulated_step;
 }
 
-void ArticulatedStepper::drop(Plan<double>&, State<double>&, const std::vector<std::size_t>&) {
-    throw std::logic_error(std::string("drop: nothing breaks with solver ") + name_);
+void ArticulatedStepper::drop(Plan<double>&, State<double>&, const std::vector<std::size_t>&,
+                              const std::vector<CarriedMoment>&) {
+    throw std::logic_error(std::string("drop: nothing breaks with solver ") + kind().name);
 }
 
 } // namespace bough

@@ -13,22 +13,17 @@ class ArticulatedStepper final : public Cloned<ArticulatedStepper, PlainStepper<
 public:
     // name: as in --solver. plainly: why it is not in lanes.
     ArticulatedStepper(ArticulatedMethod, const char* name, std::string plainly);
-    const char* name() const override { return name_; }
     void refuse(const Scene&) const override; // joint limits, what is free, lagged terms
     void take_constants(const Plan<double>&, const Tree&) override;
     void allocate(const Plan<double>&, State<double>&) const override;
     void advance(const Plan<double>&, State<double>&, StageClock*) const override;
-    NonFinite non_finite(const State<double>&) const override;
     std::vector<CarriedArray<double>> carried(State<double>&) const override;
-    void save(const Plan<double>&, const State<double>&, SavedState&) const override;
-    void restore(const Plan<double>&, State<double>&, const SavedState&) const override;
-    std::size_t pass_bytes() const override;
-    void drop(Plan<double>&, State<double>&, const std::vector<std::size_t>& bodies) override; // never: nothing is free
+    void save(const State<double>&, SavedState&) const override;
+    void restore(State<double>&, const SavedState&) const override;
+    void drop(Plan<double>&, State<double>&, const std::vector<std::size_t>&,
+              const std::vector<CarriedMoment>&) override; // never: nothing is free
 
     ArticulatedPlan own;
-
-private:
-    const char* name_;
 };
 
 // Of a state of an articulated solver.

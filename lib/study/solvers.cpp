@@ -1,7 +1,8 @@
 #include "solvers.h"
 #include "../analytic/analytic_lanes_stepper.h"
 #include "../coupled/coupled_lanes_stepper.h"
-#include "../simulation/any_run.h"
+#include "../simulation/run.h"
+#include "../simulation/run_choice.h"
 #include "articulated_stepper.h"
 #include <stdexcept>
 
@@ -30,6 +31,10 @@ template <class T> std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice& 
     } else {
         throw std::logic_error(std::string("make_stepper: ") + name + " exists in double alone");
     }
+}
+
+void refuse(Solver solver, const Scene& scene) {
+    make_stepper<double>({.solver = solver}, scene)->refuse(scene);
 }
 
 StepperMaker stepper_maker(const SolverChoice& choice) {

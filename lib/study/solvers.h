@@ -47,8 +47,11 @@ struct SolverChoice {
 template <class T> std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice&, const Scene&);
 
 // The same for a simulation, of a part of a scene as of the whole.
-struct StepperMaker; // simulation/any_run.h
+struct StepperMaker; // simulation/run_choice.h
 StepperMaker stepper_maker(const SolverChoice&);
+
+// Throws std::domain_error for what of a scene a solver cannot hold.
+void refuse(Solver, const Scene&);
 
 // make_plan with any solver.
 template <class T>

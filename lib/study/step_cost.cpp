@@ -4,6 +4,7 @@
 #include "../lanes/operations.h"
 #include "../lanes/plan_lanes.h"
 #include "../lanes/shared_constants.h"
+#include "../simulation/any_run.h"
 #include "step_bytes.h"
 #include <algorithm>
 
@@ -54,8 +55,13 @@ template <class T> void count_bytes(const Plan<T>& plan, StepCost& cost) {
 
 } // namespace
 
-StepCost step_cost(AnyRun& any, std::int64_t steps) {
+bool counts_steps() {
+    return fast::available(fast::counted_target);
+}
+
+StepCost step_cost(Simulation& simulation, std::int64_t steps) {
     StepCost cost;
+    AnyRun& any = run_of(simulation);
     any.begin_again();
     visit_run(any, [&](auto& run) {
         if (!fast::planned_lanes(run.plan)) return;

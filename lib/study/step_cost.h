@@ -1,9 +1,11 @@
 // step_cost.h: what a step over lanes computes and moves, counted (lanes/operations.h, step_bytes.h).
 #pragma once
-#include "../simulation/any_run.h"
 #include <cmath>
+#include <cstdint>
 
 namespace bough {
+
+class Simulation;
 
 // A body. NAN: not known, of a run on the plain path.
 struct StepCost {
@@ -15,7 +17,8 @@ struct StepCost {
     double tables = NAN; // [B] that these take
 };
 
-// Of a run of which nothing is free: it begins again, takes a step, and then up to `steps` that are counted, on this thread alone. Needs fast::counted_target.
-StepCost step_cost(AnyRun&, std::int64_t steps);
+// Of a run of which nothing is free: it begins again, takes a step, and then up to `steps` that are counted, on this thread alone. Needs counts_steps().
+StepCost step_cost(Simulation&, std::int64_t steps);
+bool counts_steps(); // this build does (BOUGH_COUNTING)
 
 } // namespace bough

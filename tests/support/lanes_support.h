@@ -41,7 +41,7 @@ template <class T = double> struct LanesRun {
         for (std::size_t i = 0; i < plan.bodies; ++i) {
             state.theta[i] += solver::random_vector(dice, c.angle).template cast<T>();
             state.theta_dot[i] = solver::random_vector(dice, c.rate).template cast<T>();
-            if (plan.stepper->name() == std::string(solver_name(Solver::coupled)))
+            if (plan.stepper->kind().name == std::string(solver_name(Solver::coupled)))
                 parts::theta_change(state)[i] = T(plan.dt) * state.theta_dot[i];
             else // about what the composites of tips carry of it
                 parts::scaled_rate(state)[i] = std::sqrt(plan.inertia_joint[i].trace()) * state.theta_dot[i];

@@ -1,5 +1,6 @@
 // leaf_hosts.h: the branch that a search over every segment of every branch finds, for many leaves around many branches.
 #include "formats/imports/leaf_hosts.h"
+#include "formats/imports/on_polyline.h"
 #include <catch2/catch.hpp>
 #include <random>
 

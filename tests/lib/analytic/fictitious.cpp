@@ -238,7 +238,7 @@ TEST_CASE("the terms are for the analytic solver, on the plain path; all 0 is no
     const Plan<float> plan = plan_of(scene);
     CHECK(parts::joints(plan).fictitious);
     CHECK_FALSE(plan.stepper->in_lanes());
-    CHECK(plan.stepper->plainly() == "/fictitious");
+    CHECK(plan.stepper->kind().plainly == "/fictitious");
     const Plan<float> none = plan_of(lagged(0, 0, 0));
     CHECK_FALSE(parts::joints(none).fictitious);
     CHECK(none.stepper->in_lanes());

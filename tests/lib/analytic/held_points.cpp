@@ -153,7 +153,7 @@ TEST_CASE("The analytic step has what it needs for attachments where a scene has
     CHECK(parts::joints(plain.state).held.joints.capacity() == 0);
     scene.attachments = {hold(11, 10, 0)};
     Held<float> with(tree, scene, true, 1.0 / 30, Scheme::p12, Solver::analytic);
-    CHECK(with.plan.stepper->plainly() == "/attachments");
+    CHECK(with.plan.stepper->kind().plainly == "/attachments");
     with.step();
     CHECK(with.state.calls[std::size_t(Stage::attachments)] == 1);
 }

@@ -157,7 +157,7 @@ TEST_CASE("what analytic lanes do not hold is refused with its reason and steps 
         AnalyticRun<> asked(c, fast::best_target()), plain(c, std::nullopt);
         CAPTURE(reason);
         CHECK_FALSE(asked.plan.stepper->in_lanes());
-        CHECK(asked.plan.stepper->plainly() == reason);
+        CHECK(asked.plan.stepper->kind().plainly == reason);
         CHECK(explain(asked.plan).stages[std::size_t(Stage::lanes)].reason == "plain path: " + reason);
         CHECK(parts::lanes(asked.state).now.empty());
         asked.steps(5), plain.steps(5);

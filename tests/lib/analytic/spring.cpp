@@ -2,6 +2,7 @@
 #include "lib/analytic/spring.h"
 #include "lib/analytic/composite.h"
 #include "lib/analytic/joint.h"
+#include "lib/base/symmetric_eigen.h"
 #include "lib/plan/spring_torque.h"
 #include "lib/study/solvers.h"
 #include "tests/support/solver_parts.h"

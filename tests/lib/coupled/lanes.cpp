@@ -151,7 +151,7 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
         LanesRun<> asked(c, fast::best_target(), scheme, {}, solver), plain(c, std::nullopt, scheme, {}, solver);
         CAPTURE(reason);
         CHECK_FALSE(asked.plan.stepper->in_lanes());
-        CHECK(asked.plan.stepper->plainly() == reason);
+        CHECK(asked.plan.stepper->kind().plainly == reason);
         const PlannedStage stage = explain(asked.plan).stages[std::size_t(Stage::lanes)];
         CHECK_FALSE(stage.on);
         CHECK(stage.reason.find(reason) != std::string::npos);
@@ -170,8 +170,8 @@ TEST_CASE("what lanes do not hold is refused with its reason and steps on the pl
     refused(Solver::coupled, Scheme::p12, "/joint_limit");
 
     c.scene.joint_limit.reset();
-    CHECK(LanesRun<>(c, fast::best_target()).plan.stepper->plainly().empty());
-    CHECK(LanesRun<>(c, std::nullopt).plan.stepper->plainly() == "not asked for");
+    CHECK(LanesRun<>(c, fast::best_target()).plan.stepper->kind().plainly.empty());
+    CHECK(LanesRun<>(c, std::nullopt).plan.stepper->kind().plainly == "not asked for");
 }
 
 // Bodies on joints of no stiffness, each spinning about an axis of its own: theta = w t, taken the shorter way round.

@@ -44,7 +44,7 @@ struct Park {
 };
 
 template <class T> std::size_t quantities(const Plan<T>& plan) {
-    return std::size_t(plan.stepper->name() == std::string(solver_name(Solver::analytic))
+    return std::size_t(plan.stepper->kind().name == std::string(solver_name(Solver::analytic))
                            ? fast::analytic::constants(plan.wind)
                            : int(fast::constant::count));
 }

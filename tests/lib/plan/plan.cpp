@@ -325,7 +325,7 @@ TEMPLATE_TEST_CASE("a plan of any solver steps by advance, in the precisions tha
             const auto plan = made();
             State<T> state = make_state(plan);
             REQUIRE(plan.stepper->in_lanes() == lanes);
-            CHECK(plan.stepper->name() == std::string(solver_name(solver)));
+            CHECK(plan.stepper->kind().name == std::string(solver_name(solver)));
             CHECK_NOTHROW(advance(plan, state));
             CHECK(state.step == 1);
         }

@@ -73,14 +73,14 @@ TEST_CASE("a run begins again as it began, whether or not it keeps its trees, wi
             run_of(simulation).begin_again();
             CHECK(simulation.steps() == 0);
             CHECK(run(simulation, 6) == hash);
-            CHECK(run_of(simulation).account().solver == solver_name(solver));
+            CHECK(simulation.account().solver == solver_name(solver));
             CHECK(run_of(simulation).assembly().tree.mass.empty() == !keeps);
         }
     Simulation simulation(breaking());
     const std::uint64_t hash = run(simulation, 15);
-    REQUIRE(!run_of(simulation).broken().empty());
+    REQUIRE(!simulation.broken().empty());
     run_of(simulation).begin_again();
-    CHECK(run_of(simulation).broken().empty());
+    CHECK(simulation.broken().empty());
     CHECK(run(simulation, 15) == hash);
 }
 

@@ -1,5 +1,5 @@
 // Simulation::settle: the wind has blown already. Held against runs that began earlier by themselves.
-#include "lib/simulation/any_run.h"
+#include "lib/simulation/simulation.h"
 #include "tests/support/simulations.h"
 
 using namespace bough;
@@ -62,9 +62,9 @@ TEST_CASE("nothing falls, breaks or is met before time 0") {
     const StepReport before = simulation.settle(2);
     CHECK(before.finite());
     CHECK(before.broke + before.hits + before.landed == 0);
-    CHECK(run_of(simulation).broken().empty());
+    CHECK(simulation.broken().empty());
     CHECK((simulation.positions().back() - ball.position).norm() == 0);
-    CHECK(run_of(simulation).account().calls[std::size_t(Stage::fracture)] == 0);
+    for (const StageCalls& of : simulation.account().stages) CHECK(of.calls == 0);
     const StepReport first = simulation.step();
     CHECK(first.broke > 0); // what the storm would have taken by then
     CHECK(simulation.positions().back().y() < ball.position.y());
@@ -83,8 +83,8 @@ TEST_CASE("counts of what was run before are forgotten, a ground stays, a pull o
     pulled.settle(1);
     CHECK(apart(plain.positions(), pulled.positions()) > 1e-3);
     CHECK(pulled.positions()[0] == Vec3(pulled.tree().joint_position[0]));
-    for (const std::uint64_t calls : run_of(plain).account().calls) CHECK(calls == 0);
-    CHECK(run_of(plain).account().steps == 0);
+    for (const StageCalls& of : plain.account().stages) CHECK(of.calls == 0);
+    CHECK(plain.steps() == 0);
 }
 
 TEST_CASE("only a run at its start settles") {
