@@ -11,6 +11,7 @@ struct PngFile::Writer {
     std::vector<png_byte> alpha;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
+    ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
 namespace {
@@ -22,17 +23,14 @@ void to_text(png_structp png, png_bytep bytes, png_size_t count) {
 } // namespace
 
 PngFile::PngFile(std::string& text, const PngForm& form) : writer_(new Writer{text, form, {}, {}}) {
-    const std::vector<std::uint8_t>& colors = form.colors;
+    const std::vector<std::uint8_t> colors = std::move(writer_->form.colors); // as libpng has them, below
     for (std::size_t at = 0; at < colors.size(); at += std::size_t(form.channels)) {
         writer_->color.push_back({colors[at], colors[at + 1], colors[at + 2]});
         if (form.channels == 4) writer_->alpha.push_back(colors[at + 3]);
     }
 }
 
-PngFile::~PngFile() {
-    png_destroy_write_struct(&writer_->png, &writer_->info);
-    delete writer_;
-}
+PngFile::~PngFile() = default;
 
 // Between setjmp and the jump of an error nothing has a destructor.
 bool PngFile::begin() {

@@ -1,6 +1,7 @@
 // png_file.h: a PNG as it is written row by row, by libpng.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,14 +25,14 @@ public:
     PngFile(const PngFile&) = delete;
     PngFile& operator=(const PngFile&) = delete;
 
-    // False where libpng fails, of which nothing but want of memory is known.
+    // These return false where libpng fails. As far as we know it fails only for want of memory.
     bool begin();
     bool add_row(const std::uint8_t* row); // channels of 16 bits: the high byte first
     bool end();
 
 private:
     struct Writer;
-    Writer* writer_;
+    std::unique_ptr<Writer> writer_;
 };
 
 } // namespace bough

@@ -279,7 +279,7 @@ Tree Lumper::run() {
     if (std::all_of(chosen_.clump.begin(), chosen_.clump.end(), [](std::uint8_t c) { return c == 0; })) {
         tree_.leaf_length.clear();
         tree_.leaf_width.clear();
-        tree_.leaf_facing.clear();
+        if (whole_.leaf_facing.empty()) tree_.leaf_facing.clear();
         if (whole_.leaf_count.empty()) tree_.leaf_count.clear();
     }
     return std::move(tree_);

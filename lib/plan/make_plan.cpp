@@ -251,6 +251,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     }
     plan.field = plan.wind && (varies_over_ground(*scene.wind) || !plan.clock.empty());
     if (plan.wind) plan_surfaces(plan, tree);
+    if (plan.wind && wishes.faces && plan.facing.empty()) plan.facing.assign(plan.bodies, T(0));
     plan_composite_masses(plan, tree);
     stepper.take_constants(plan, tree);
     give_back(own, &Tree::size);
@@ -258,6 +259,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     plan.joint_limit = scene.joint_limit.has_value();
     if (plan.joint_limit) plan_joint_limit(plan, tree);
     plan_bodies(plan, tree, own);
+    plan.foliage |= plan.wind && wishes.foliage;
     if (plan.wind && scene.wind->shelter) plan.shelter = shelter_factors(plan, tree.drag);
     stepper.lay_out(plan, ranges);
     if (!plan.pose) give_back_bodies(plan);

@@ -25,6 +25,8 @@ struct Wishes {
     // [m] What the wind's tables reach at least, whatever the tree at hand needs: a part of a larger scene then uses the same tables.
     double top = 0, reach = 0;
     std::vector<double> clocks{}; // [s] the wind's of the whole, in its order (wind_clocks)
+    // Some tree of the whole has foliage, and some clump of it a face (air.h): by these the run chooses its laws for all.
+    bool foliage = false, faces = false;
 };
 
 // A pull with its target looked up.

@@ -4,7 +4,7 @@
 
 namespace bough {
 
-// Each counts bodies times steps, since the run's start. Only bounded_lambda, energy_guard and limited act on the result.
+// Each counts bodies times steps, from time 0, or from where the run was restored. Only bounded_lambda, energy_guard and limited act on the result.
 struct StepFlags {
     std::uint64_t buckling = 0;       // a joint's stiffness with gravity was negative
     std::uint64_t bounded_lambda = 0; // lambda, the rate at which such a joint falls, was bounded

@@ -14,11 +14,12 @@ namespace bough {
 // Which part of a scene's trees a run holds, and what it must know of the whole scene.
 struct Part {
     std::int32_t part = 1, parts = 1;
-    std::int64_t first_body = 0;  // in the whole scene's order
-    double top = 0, reach = 0;    // Wishes
-    std::vector<double> clocks{}; // likewise
-    double settling = 0;          // [s] of the whole (settling_time)
-    std::uint64_t whole = 0;      // of all trees and the whole scene, as fingerprint()
+    std::int64_t first_body = 0;         // in the whole scene's order
+    double top = 0, reach = 0;           // Wishes
+    std::vector<double> clocks{};        // likewise
+    bool foliage = false, faces = false; // likewise
+    double settling = 0;                 // [s] of the whole (settling_time)
+    std::uint64_t whole = 0;             // of all trees and the whole scene, as fingerprint()
     bool moved =
         false; // the ground of some tree moves, of this part or another: what a still ground allows is left out
 };

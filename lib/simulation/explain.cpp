@@ -67,7 +67,7 @@ template <class T> std::string forces_text(const Plan<T>& plan) {
     const auto add = [&](bool on, const char* part) {
         if (on) text += (text.empty() ? "" : ", ") + std::string(part);
     };
-    add(plan.wind, "/wind");
+    add(plan.wind, plan.facing.empty() ? "/wind" : "/wind (clumps' leaves face one way: leaf_facing)");
     add(plan.wind && plan.leaf.on, "/leaves");
     add(pulls(plan), "/pulls");
     add(plan.contact && !plan.scene.balls.empty(), "/balls");

@@ -37,6 +37,10 @@ std::vector<TreeSize> measure(const Scene& scene, const TreeSource& tree_of, Par
             throw SceneError("not where joints are held (/rigid of " + scene.trees[k].file + ")");
         part.whole = part.whole * prime ^ fingerprint(alone.tree, alone.scene);
         if (!scene.wind) continue;
+        for (std::size_t i = 0; i < alone.tree.size_bodies(); ++i) {
+            part.foliage |= is_foliage(kind_in_air(alone.tree, i));
+            part.faces |= facing_in_air(alone.tree, i) > 0;
+        }
         const WindReach reach = wind_reach(alone.tree, alone.ranges, scene_of_tree(scene, k));
         part.top = std::max(part.top, reach.top);
         part.reach = std::max(part.reach, reach.reach);

@@ -2,7 +2,8 @@
 //
 // A park is cut between its trees. Part i of n holds a run of trees that follow each other in the scene, chosen so that all parts have about as many
 // bodies. A part computes what the whole scene does, bit by bit. For trees do not act on each other unless something goes from one to another (balls,
-// what breaks off, walkers, shelter), which is refused; and the wind is looked up in tables that are made for all trees (Part).
+// what breaks off, walkers, shelter), which is refused; the wind is looked up in tables that are made for all trees,
+// and the laws are those that some tree of the whole asks for (Part).
 #pragma once
 #include "../model/motion.h"
 #include "assembly.h"

@@ -23,6 +23,8 @@ Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, double
     wishes.top = assembly.part.top;
     wishes.reach = assembly.part.reach;
     wishes.clocks = assembly.part.clocks;
+    wishes.foliage = assembly.part.foliage;
+    wishes.faces = assembly.part.faces;
     try {
         return make_plan<T>(std::forward<TreeType>(tree), assembly.ranges, assembly.scene, wishes, dt,
                             std::move(stepper));

@@ -100,7 +100,9 @@ StepReport Simulation::settle(double seconds) {
     return run_->step(int(steps));
 }
 void Simulation::begin_before(std::int64_t steps) {
-    if (steps < 0) throw SceneError("begin_before: is " + std::to_string(steps) + " steps, expected 0 or more");
+    constexpr std::int64_t most = 1'000'000'000;
+    if (steps < 0 || steps > most)
+        throw SceneError("begin_before: is " + std::to_string(steps) + " steps, expected 0 to " + std::to_string(most));
     if (!run_->fresh()) throw SceneError("begin_before: the run has begun, expected one at its start");
     if (steps > 0) run_->set_back(steps);
 }
@@ -154,6 +156,10 @@ std::span<const double> Simulation::stresses() const {
     return run_->frame().stress;
 }
 std::string Simulation::fill(const MotionFields& fields, MotionFrame& frame) const {
+    const SimulationOptions& options = run_->options();
+    if ((fields.velocity && !options.velocities) || (fields.torque && !options.torques && !options.stresses) ||
+        (fields.stress && !options.stresses))
+        throw SceneError("fill: asks for velocities, torques or stresses, which the run's options leave out");
     const std::optional<std::size_t> body = run_->fill(fields, frame);
     return body ? "stage state_update, body " + std::to_string(*body) : "";
 }
@@ -167,6 +173,10 @@ std::vector<Ball> Simulation::balls() const {
     return run_->balls();
 }
 Tree Simulation::shown_tree(std::span<const std::uint32_t> broken) const {
+    for (const std::uint32_t body : broken)
+        if (body >= bodies())
+            throw SceneError("shown_tree: body " + std::to_string(body) + " is not there, expected 0 to " +
+                             std::to_string(bodies() - 1));
     return bough::shown_tree(run_->whole_tree(), {broken.begin(), broken.end()}, run_->balls());
 }
 
@@ -212,6 +222,8 @@ void Simulation::set_gravity(const Vec3& gravity) {
 void Simulation::set_step(double seconds) {
     if (!(seconds > 0) || !std::isfinite(seconds))
         throw SceneError("set_step: is " + std::to_string(seconds) + " s, expected more than 0");
+    if (run_->steps() < 0)
+        throw SceneError("set_step: the run is before time 0, which it reaches by steps of one length");
     if (!run_->coupled()) throw SceneError("set_step: the step changes in a run of the coupled method alone");
     run_->set_step(seconds);
 }
@@ -228,7 +240,6 @@ void Simulation::set_wood(double stiffness, double damping) {
     run_->scale_wood(stiffness / run_->stiffness, run_->damping > 0 ? damping / run_->damping : 1);
     run_->stiffness = stiffness;
     run_->damping = damping;
-    run_->wake();
 }
 
 void Simulation::pull(std::size_t body, const Vec3& point, const Vec3& force) {

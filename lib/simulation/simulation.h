@@ -54,7 +54,8 @@ public:
     static constexpr double most_settled = 600;
     StepReport settle(double seconds);
     // Sets the clock of a run at its start so many steps before time 0. The steps up to time 0 are then those of settle(), but the caller's: one that
-    // shows how far they are, or may end them. Throws SceneError as settle() does, and for less than 0 steps.
+    // shows how far they are, or may end them. The step's length stays until
+    // then (set_step() is refused). Throws SceneError as settle() does, and for less than 0 steps or more than 1e9.
     void begin_before(std::int64_t steps);
     // [s] How long settle() must run until the start is forgotten (plan/settling.h); 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;
@@ -83,7 +84,8 @@ public:
     std::span<const double>
     stresses() const; // [Pa] that bend the wood at each joint (model/bending_stress.h; option stresses)
     // Fills in what `fields` asks for, and the events. O(bodies). Arrays need their options, as above. The caller sets the frame's number and its time,
-    // which is time(): walkers are placed by it. Returns "", or the first body that is non-finite, as StepReport::non_finite does.
+    // which is time(): walkers are placed by it. Returns "", or
+    // "stage state_update, body N" for the first body that is non-finite. Throws SceneError for a field whose option is off.
     std::string fill(const MotionFields& fields, MotionFrame&) const;
     const MotionEvents& events() const;            // of the last call of step(): what broke, hit, landed
     std::span<const std::uint32_t> broken() const; // bodies whose joints broke since the start, in that order
@@ -92,6 +94,7 @@ public:
     std::vector<Ball> balls() const;
     // Returns the tree that a mesh of the run is made of, with what breaks in it known beforehand (broken() of a copy that ran ahead): what breaks off
     // is a root from the start, and balls() follow as fruit that are roots. Poses fit it, for bodies keep their numbers. O(bodies).
+    // Throws SceneError for a body that is not there.
     Tree shown_tree(std::span<const std::uint32_t> broken) const;
     // Returns the trees drawn as they stand now, to be run again from there or to be written. With pose drawn they stay so by themselves. Stiffness
     // and damping are the trees' own, without set_wood() and the scene's scales. Throws SceneError where joints are held, or broke.

@@ -50,16 +50,14 @@ VectorXd Lanczos::take_out(Index columns) {
     }
 }
 
-double Lanczos::start(Index column) {
+void Lanczos::start(Index column) {
     for (double& number : next_) {
         chance_ = chance_ * 6364136223846793005u + 1442695040888963407u;
         number = double(std::int64_t(chance_) >> 11) * 0x1p-52;
     }
     next_.normalize();
     take_out(column);
-    const double left = next_.norm();
-    next_ /= left;
-    return left;
+    next_.normalize();
 }
 
 void Lanczos::turn(const MatrixXd& to) {

@@ -34,7 +34,7 @@ public:
 
 private:
     Eigen::VectorXd take_out(Eigen::Index columns); // what of the first columns is in next_, which loses it
-    double start(Eigen::Index column);              // a vector of chance, orthogonal to those before it
+    void start(Eigen::Index column);                // a vector of chance, orthogonal to those before it
     void turn(const Eigen::MatrixXd& to);           // columns after those kept become their sums
 
     Eigen::Index rows_, kept_ = 0;

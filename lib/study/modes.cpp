@@ -53,9 +53,9 @@ LowestModes::LowestModes(const SmallMotion& motion, Index count, const std::func
           motion.operate(y, out, work_);
       }) {
     double last = 0; // of the `count` largest values found
-    for (Index more = count; iteration_.kept() < motion.rows() - 1; more = std::min<Index>(4, count)) {
+    for (Index more = count; iteration_.kept() < motion.rows(); more = std::min<Index>(4, count)) {
         if (last > 0 && largest(1, rough)[0] * (1 + rough) < last) break;
-        const VectorXd next = largest(std::min(more, motion.rows() - 1 - iteration_.kept()), precise);
+        const VectorXd next = largest(std::min(more, motion.rows() - iteration_.kept()), precise);
         Index fresh = 0;
         while (fresh < next.size() && next[fresh] > last * (1 + 1e-12)) ++fresh;
         if (fresh == 0) break;
@@ -139,7 +139,7 @@ NaturalMode mode_of(const Tree& tree, const SmallMotion& small, const std::vecto
 
 std::vector<NaturalMode> natural_modes(const SmallMotion& small, const Tree& tree, const Scene& scene,
                                        const ModeOptions& options, const std::function<void(std::int64_t)>& progress) {
-    const LowestModes lowest(small, std::min<Index>(options.count, small.rows() - 1), progress);
+    const LowestModes lowest(small, std::min<Index>(options.count, small.rows()), progress);
     const std::vector<AirDamping> air = options.air ? air_on(tree, scene, small) : std::vector<AirDamping>();
     std::vector<NaturalMode> modes;
     for (Index k = 0; k < lowest.count(); ++k)

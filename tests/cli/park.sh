@@ -57,9 +57,21 @@ scene = json.load(open("park.json"))
 del scene["root_motion"]
 json.dump(scene, open("still.json", "w"))
 END
-for way in "2 double coupled park" "3 float coupled park" "4 double analytic park" "2 float analytic still" "3 double coupled still"; do
-    read -r parts precision solver scene <<<"$way"
-    options=(--seconds 1 --precision "$precision" --solver "$solver" -q)
+# Some trees have foliage, and of those some have clumps that face one way: laws that a part would not choose by its own trees.
+treegen --species oak --bodies 400 --leaves -q | treeconvert - -q -o faced.json
+treegen --species apple --age 8 --bodies 400 --seed 5 -q | treeconvert - -q -o bare.json
+python3 - <<'END'
+import json
+tree = json.load(open("faced.json"))
+assert any(f > 0 for f in tree.pop("leaf_facing")), "no clump of the oak has a face"
+json.dump(tree, open("faceless.json", "w"))
+json.dump({"format": "bough-scene", "version": 1, "wind": {"velocity": [16, 0, 0], "turbulence": 0.2, "gust_factor": 1.6}, "trees": [
+    {"file": name, "position": [40 * k, 0, 0]} for k, name in enumerate(["faceless.json", "bare.json", "faced.json"])]},
+    open("mixed.json", "w"))
+END
+for way in "3 double coupled mixed" "3 float coupled mixed" "2 double analytic mixed" "3 double coupled mixed off" "2 double coupled park" "3 float coupled park" "4 double analytic park" "2 float analytic still" "3 double coupled still"; do
+    read -r parts precision solver scene simd <<<"$way"
+    options=(--seconds 1 --precision "$precision" --solver "$solver" --simd "${simd:-auto}" -q)
     expect 0 treesim "$scene.json" "${options[@]}" --report hash -o whole.safetensors
     cp err hash
     for ((i = 1; i <= parts; ++i)); do

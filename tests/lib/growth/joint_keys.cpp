@@ -210,11 +210,12 @@ TEST_CASE("keys do not depend on the number of threads") {
     const Motion motion = swinging(400, 40, 4, 0.4);
     const int before = omp_get_max_threads();
     omp_set_num_threads(1);
-    const JointKeys one = keys_of(motion, 0.2 * degree);
+    const JointKeys one = keys_of(motion, 0.2 * degree), shorts = keys_of(motion, 0.2 * degree, true);
     CHECK(one.count() < 400 * 40);
     for (const int threads : {2, 3, 8}) {
         omp_set_num_threads(threads);
-        const JointKeys many = keys_of(motion, 0.2 * degree);
+        const JointKeys many = keys_of(motion, 0.2 * degree), also = keys_of(motion, 0.2 * degree, true);
+        for (std::size_t j = 0; j < one.joints(); ++j) CHECK(shorts.short_keys(j) == also.short_keys(j));
         std::size_t differing = 0;
         for (std::size_t j = 0; j < one.joints(); ++j) {
             if (one.key_bits(j) != many.key_bits(j)) {

@@ -89,7 +89,13 @@ TEST_CASE("steps before time 0 that the caller takes are those that settle() tak
     CHECK(by_step.hash() == at_once.hash());
     CHECK(run(by_step, 10) == run(at_once, 10));
     CHECK_THROWS_WITH(by_step.begin_before(1), Catch::Contains("has begun"));
-    CHECK_THROWS_WITH(Simulation(one(leafy())).begin_before(-1), Catch::Contains("0 or more"));
+    for (const std::int64_t steps : {std::int64_t(-1), std::int64_t(1) << 62})
+        CHECK_THROWS_WITH(Simulation(one(leafy())).begin_before(steps), Catch::Contains("expected 0 to 1000000000"));
+    Simulation before(one(leafy()));
+    before.begin_before(2);
+    CHECK_THROWS_WITH(before.set_step(1 / 60.0), Catch::Contains("before time 0"));
+    before.step(2);
+    before.set_step(1 / 60.0);
 }
 
 TEST_CASE("what broke is what the events say broke, in their order, and the account counts it") {
@@ -153,6 +159,12 @@ TEST_CASE("a frame that is filled in is what the spans say") {
     for (std::size_t i = 0; i < simulation.bodies(); ++i)
         CHECK(frame.rotation[i].coeffs() == simulation.rotations()[i].coeffs());
     CHECK(frame.events.what == simulation.events().what);
+    CHECK_THROWS_WITH(simulation.shown_tree(std::vector{std::uint32_t(simulation.bodies())}),
+                      Catch::Contains("is not there"));
+    const Simulation plain(shedding());
+    for (const MotionFields& asked :
+         {MotionFields{.velocity = true}, MotionFields{.torque = true}, MotionFields{.stress = true}})
+        CHECK_THROWS_WITH(plain.fill(asked, frame), Catch::Contains("fill: asks for"));
     MotionFrame poses;
     CHECK(simulation.fill({}, poses) == "");
     CHECK(poses.velocity.empty());
