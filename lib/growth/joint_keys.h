@@ -21,7 +21,7 @@
 namespace bough {
 
 using ShortRotation = std::array<std::int16_t, 4>; // x y z w, over 32767
-inline constexpr double short_turning = 1.3e-4;    // [rad] is more than 2 sqrt(4) / 32767, by a share for floats' rounding
+inline constexpr double short_turning = 1.3e-4; // [rad] is more than 2 sqrt(4) / 32767, by a share for floats' rounding
 
 class JointKeys {
 public:
