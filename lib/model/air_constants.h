@@ -10,6 +10,8 @@ constexpr double blade_mean =
     (1 + 2 * streaming_drag) / 3; // [1] a blade's drag over that broadside, mean over all directions
 // [1] In the law of a clump whose leaves all face along n, over that of one whose leaves face all ways: of (u.n) n, and what is taken from that of u.
 constexpr double facing_along = (1 - streaming_drag) / blade_mean, facing_less = 1 - streaming_drag / blade_mean;
+// So c_n + c_u, which bounds a clump's drag in any direction, is 1 + f (analytic_chains.h).
+static_assert(facing_along - facing_less > 1 - 1e-12 && facing_along - facing_less < 1 + 1e-12);
 constexpr double blade_turning = 6, clump_turning = 2; // [1] k
 
 } // namespace bough
