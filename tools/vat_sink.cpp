@@ -52,7 +52,7 @@ private:
                          " vertices, and a texture holds " + std::to_string(vat_side) + "; --vat-vertices " +
                          std::to_string(vat_side) + " simplifies it" + fewer);
     throw UsageError("--vat-vertices is " + std::to_string(*choice.vertices) + ", but the simplifier leaves " +
-                     std::to_string(vertices) + fewer);
+                     std::to_string(vertices) + " of the largest piece of wood alone" + fewer);
 }
 
 } // namespace
@@ -101,14 +101,17 @@ std::unique_ptr<FrameSink> vat_sink(const std::string& folder, const Tree& tree,
     ReducedSkin mesh = reduced_skin(skin, tree, most);
     if (mesh.vertex.size() > most) refuse_vertices(folder, mesh.vertex.size(), choice, frames.of_file);
     if (mesh.vertex.size() < all)
-        notes.push_back("--vat-vertices: " + std::to_string(mesh.vertex.size()) + " of " + std::to_string(all) +
-                        " vertices are left: wood is off by " +
-                        formatted("%.2g m (%.2g %% of the height)", mesh.error, 100 * mesh.error / height_of(skin)) +
-                        " as the simplifier counts" +
-                        (mesh.kept < mesh.pieces
-                             ? ", " + std::to_string(mesh.kept) + " of " + std::to_string(mesh.pieces) +
-                                   formatted(" leaves are kept, %.2g times as long", mesh.growth)
-                             : ""));
+        notes.push_back(
+            "--vat-vertices: " + std::to_string(mesh.vertex.size()) + " of " + std::to_string(all) +
+            " vertices are left: wood is off by " +
+            formatted("%.2g m (%.2g %% of the height)", mesh.error, 100 * mesh.error / height_of(skin)) +
+            " as the simplifier counts" +
+            (mesh.wood_kept < mesh.wood_pieces ? ", the largest " + std::to_string(mesh.wood_kept) + " of " +
+                                                     std::to_string(mesh.wood_pieces) + " pieces of wood are kept"
+                                               : "") +
+            (mesh.kept < mesh.pieces ? ", " + std::to_string(mesh.kept) + " of " + std::to_string(mesh.pieces) +
+                                           formatted(" leaves are kept, %.2g times as long", mesh.growth)
+                                     : ""));
     const std::filesystem::path other =
         std::filesystem::path(without_slash(folder)) / (vat_name(folder) + (options.png ? "_vat.exr" : "_vat.png"));
     if (std::error_code none; std::filesystem::exists(other, none))

@@ -18,7 +18,7 @@ struct Instance {
 // In the order of groups, leaves before petals: what stands under one node is one stretch.
 std::vector<Instance> instances_of(const Tree& tree, const JointGroups& groups, const GroupFrames& drawn) {
     const auto [R_wb, x_w] = drawn_pose(tree);
-    const std::int32_t most = clump_leaves_drawn(tree);
+    const std::vector<std::int32_t> drawn_as = clump_leaves_drawn(tree);
     std::vector<Instance> all;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (!is_flat(tree.kind[i])) continue;
@@ -35,7 +35,7 @@ std::vector<Instance> instances_of(const Tree& tree, const JointGroups& groups, 
             add(R_wb[i], x_w[i], tree.size[i]);
             continue;
         }
-        const std::int32_t count = std::min(tree.leaf_count[i], most);
+        const std::int32_t count = drawn_as[i];
         for (const ClumpLeaf& leaf : clump_leaves(tree, i, R_wb[i], count))
             add(R_wb[i] * leaf.axes, x_w[i] + R_wb[i] * leaf.foot, clump_leaf_size(tree, i, count));
     }

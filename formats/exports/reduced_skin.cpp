@@ -70,6 +70,57 @@ std::vector<Piece> pieces_of(const Skin& skin, const SkinPart& part, const Tree&
     return pieces;
 }
 
+struct Wood {
+    Simplified mesh;
+    std::size_t pieces = 0, kept = 0; // as of ReducedSkin
+};
+
+// The triangles, by the pieces that they hang together in, the largest area first.
+std::vector<std::vector<Triangle>> by_size(const Skin& skin, const std::vector<Triangle>& triangle) {
+    DisjointSets sets(skin.position.size());
+    std::map<std::array<double, 3>, std::int32_t> at;
+    for (const Triangle& t : triangle)
+        for (const std::int32_t v : t) {
+            const Vec3& p = skin.position[std::size_t(v)];
+            sets.join(t[0], v);
+            sets.join(at.try_emplace({p.x(), p.y(), p.z()}, v).first->second, v);
+        }
+    std::map<std::int32_t, std::pair<double, std::vector<Triangle>>> found;
+    for (const Triangle& t : triangle) {
+        auto& [area, of] = found[sets.find(t[0])];
+        area += area_of(skin, t);
+        of.push_back(t);
+    }
+    std::vector<std::pair<double, std::vector<Triangle>>> sorted;
+    for (auto& [key, piece] : found) sorted.push_back(std::move(piece));
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::vector<Triangle>> pieces;
+    for (auto& [area, of] : sorted) pieces.push_back(std::move(of));
+    return pieces;
+}
+
+// At most so many vertices, where the largest piece can.
+Wood fewer_wood(const Skin& skin, const std::vector<Triangle>& triangle, std::size_t most) {
+    Wood wood{simplified(skin.position, triangle, most)};
+    if (wood.mesh.vertex.size() <= most) return wood;
+    const std::vector<std::vector<Triangle>> pieces = by_size(skin, triangle);
+    const auto largest = [&](std::size_t count) {
+        std::vector<Triangle> kept;
+        for (std::size_t k = 0; k < count; ++k) kept.insert(kept.end(), pieces[k].begin(), pieces[k].end());
+        return Wood{simplified(skin.position, kept, most, true), pieces.size(), count};
+    };
+    std::size_t low = 1, high = pieces.size();
+    wood = largest(1);
+    while (high - low > 1) {
+        const std::size_t middle = low + (high - low) / 2;
+        Wood tried = largest(middle);
+        const bool fits = tried.mesh.vertex.size() <= most;
+        if (fits) wood = std::move(tried);
+        (fits ? low : high) = middle;
+    }
+    return wood;
+}
+
 // Of each part's pieces those that are kept: with each vertex `share` of one is earned.
 std::vector<const Piece*> thinned(const std::vector<Piece>& pieces, double share) {
     std::vector<const Piece*> kept;
@@ -151,8 +202,11 @@ ReducedSkin reduced_skin(const Skin& skin, const Tree& tree, std::size_t most) {
     std::sort(rest.begin(), rest.end());
     // Leaves can be fewer at little loss: half of the vertices, or their share, is the wood's.
     const std::size_t wished = std::max((all - loose) * most / all, most / 2);
-    const Simplified wood = simplified(skin.position, picked(skin.triangle, rest), wished);
+    const Wood fewer = fewer_wood(skin, picked(skin.triangle, rest), wished);
+    const Simplified& wood = fewer.mesh;
     made.error = wood.error;
+    made.wood_pieces = fewer.pieces;
+    made.wood_kept = fewer.kept;
     std::vector<std::vector<Triangle>> triangle(skin.part.size());
     for (const Triangle& t : wood.triangle) triangle[std::size_t(part_of[std::size_t(t[0])])].push_back(t);
 

@@ -5,7 +5,7 @@
 namespace bough {
 namespace {
 
-constexpr double most_sloppy = 0.02; // of the mesh's size: beyond, a tree is none any more
+constexpr double most_sloppy = 0.01; // of the mesh's size: beyond, a tree is none any more
 
 std::vector<std::int32_t> used_by(const std::vector<unsigned>& index, std::size_t vertices) {
     std::vector<bool> used(vertices, false);
@@ -19,7 +19,7 @@ std::vector<std::int32_t> used_by(const std::vector<unsigned>& index, std::size_
 } // namespace
 
 Simplified simplified(const std::vector<Vec3>& position, const std::vector<std::array<std::int32_t, 3>>& triangle,
-                      std::size_t most) {
+                      std::size_t most, bool whole) {
     std::vector<unsigned> all;
     all.reserve(3 * triangle.size());
     for (const auto& corners : triangle)
@@ -58,10 +58,10 @@ Simplified simplified(const std::vector<Vec3>& position, const std::vector<std::
         };
         // The most triangles that fit, to 1 %.
         std::size_t low = 0, high = triangle.size();
-        sloppy = !reach(0);
+        sloppy = !reach(0) && !whole;
         const Simplified kept = best;
         const std::vector<unsigned> of_kept = index;
-        if (!sloppy || reach(0))
+        if (best.vertex.size() <= most || (sloppy && reach(0)))
             while (high - low > 1 + triangle.size() / 100) {
                 const std::size_t middle_count = low + (high - low) / 2;
                 (reach(middle_count) ? low : high) = middle_count;

@@ -63,6 +63,40 @@ bool is_strand(const Vec3& size) {
     return size.x() > strand * size.y();
 }
 
+// 0..1, how plumb the twigs of a species hang: a birch's 0.4, a willow's wholly.
+double hang_of(const GrowthParameters& growth) {
+    return std::clamp((-growth.level[std::size_t(growth.levels - 1)].attraction_up - 1) / 3, 0.0, 1.0);
+}
+
+// How long a clump's strands are, in sprays one after another, where twigs hang wholly.
+constexpr double strung = 4;
+
+// Places of a clump's cards, in its frame, each of a length: one by one, or as strands, of which each is a row of cards. No strand reaches below
+// the tree's foot.
+struct Row {
+    std::int32_t most; // cards
+    double hang, base; // [m] the foot's height
+};
+std::vector<ClumpLeaf> places_of(const Tree& tree, std::size_t i, const DrawnPose& pose, std::int32_t count,
+                                 double length, const Row& row) {
+    const std::int32_t strands = (count + row.most - 1) / row.most;
+    const double drawn = clump_leaf_size(tree, i, strands).x();
+    const Vec3 up = pose.R_wb[i].transpose() * Vec3::UnitY();
+    std::vector<ClumpLeaf> cards;
+    std::int64_t of = 0; // strands before
+    for (const ClumpLeaf& strand : clump_leaves(tree, i, pose.R_wb[i], strands, row.hang)) {
+        const auto first = count * of / strands, end = count * (of + 1) / strands;
+        ++of;
+        const Vec3& along = strand.axes.col(2);
+        const double half = 0.5 * length * double(end - first);
+        Vec3 middle = strand.foot + 0.5 * drawn * along;
+        if (end - first > 1) middle += std::max(row.base - pose.at(i, middle + half * along).y(), 0.0) * up;
+        for (auto k = first; k < end; ++k)
+            cards.push_back({middle + (length * double(k - first) - half) * along, strand.axes});
+    }
+    return cards;
+}
+
 // Leaves at their places, as blades or sprays.
 OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const DressOptions& o, const Vec3& color) {
     OwnPart part;
@@ -77,8 +111,9 @@ OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const
     mesh.shape.push_back(shape_of(spray));
     mesh.shape.push_back(shape_of(spray_card(species.leaf, width, true)));
     const DrawnPose pose = drawn_pose(tree);
-    const std::int32_t most = clump_leaves_drawn(tree, o.clump_leaves);
-    const double sprays = sprays_of_a_leaf(tree, o.sprays);
+    const std::vector<std::int32_t> drawn_as = clump_leaves_drawn(tree, o.clump_leaves);
+    const double sprays = sprays_of_a_leaf(tree, o.sprays), hang = hang_of(species.growth);
+    const auto in_a_row = std::int32_t(std::lround(1 + (strung - 1) * hang));
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (tree.kind[i] != Kind::leaf) continue;
         const double area = foliage_area(tree, i);
@@ -89,16 +124,13 @@ OwnPart leaves_of(OwnMesh& mesh, const Tree& tree, const Species& species, const
         const std::int32_t leaves = tree.leaf_count[i];
         const bool sprayed = card && !is_strand(tree.size[i]);
         const double cards = (sprayed || o.sprays > 0 ? 1 : strand_leaves) * leaves * sprays;
-        const std::int32_t count =
-            card ? std::clamp(std::int32_t(std::lround(cards)), 1, leaves) : std::min(leaves, most);
+        const std::int32_t count = card ? std::clamp(std::int32_t(std::lround(cards)), 1, leaves) : drawn_as[i];
         const double length = std::sqrt(area / count / (sprayed ? spray.area : blade.area));
-        const double drawn = clump_leaf_size(tree, i, count).x();
+        const Row row{sprayed ? in_a_row : 1, hang, pose.x_w[0].y()};
         std::int32_t other = 0; // of the two sprays
-        for (const ClumpLeaf& leaf : clump_leaves(tree, i, pose.R_wb[i], count)) {
-            const Vec3 foot = leaf.foot + 0.5 * (drawn - length) * leaf.axes.col(2); // the middle stays
+        for (const ClumpLeaf& leaf : places_of(tree, i, pose, count, length, row))
             part.placed.push_back(placed(single + (sprayed ? 1 + (other++ + std::int32_t(i)) % 2 : 0), i,
-                                         pose.R_wb[i] * leaf.axes, pose.at(i, foot), length));
-        }
+                                         pose.R_wb[i] * leaf.axes, pose.at(i, leaf.foot), length));
     }
     return part;
 }

@@ -41,14 +41,27 @@ Vec3 direction_of(const Vec3& v, const Vec3& otherwise) {
 
 } // namespace
 
-std::int32_t clump_leaves_drawn(const Tree& tree, std::int64_t all) {
-    if (all == 0) all = std::clamp<std::int64_t>(2 * std::int64_t(tree.leaf_count.size()), 10'000, 200'000);
-    std::int64_t leaves = 0;
-    for (const std::int32_t n : tree.leaf_count) leaves += n > 1 ? std::min(n, clump_leaves_most) : 0;
-    if (leaves <= all) return clump_leaves_most;
-    const auto clumps =
-        std::count_if(tree.leaf_count.begin(), tree.leaf_count.end(), [](std::int32_t n) { return n > 1; });
-    return std::int32_t(std::clamp<std::int64_t>(all / clumps, 1, clump_leaves_most));
+std::vector<std::int32_t> clump_leaves_drawn(const Tree& tree, std::int64_t all) {
+    std::int64_t clumps = 0, leaves = 0;
+    for (const std::int32_t n : tree.leaf_count)
+        if (n > 1) ++clumps, leaves += n;
+    if (all == 0)
+        all = std::min(std::clamp<std::int64_t>(2 * std::int64_t(tree.leaf_count.size()), 10'000, 200'000),
+                       clump_leaves_most * clumps);
+    if (leaves <= all) return tree.leaf_count;
+    const auto drawn = [](std::int32_t n, double part) {
+        return std::max(std::int32_t(std::lround(part * double(n))), std::int32_t(1));
+    };
+    double part = 0, most = 1; // of a clump's leaves: the largest of which all come to no more
+    while (most - part > 1e-9) {
+        const double middle = (part + most) / 2;
+        std::int64_t sum = 0;
+        for (const std::int32_t n : tree.leaf_count) sum += n > 1 ? drawn(n, middle) : 0;
+        (sum <= all ? part : most) = middle;
+    }
+    std::vector<std::int32_t> counts = tree.leaf_count;
+    for (std::int32_t& n : counts) n = n > 1 ? drawn(n, part) : n;
+    return counts;
 }
 
 Vec3 clump_leaf_size(const Tree& tree, std::size_t body, std::int32_t count) {
@@ -61,14 +74,15 @@ Vec3 clump_leaf_size(const Tree& tree, std::size_t body, std::int32_t count) {
     return {smaller * size.x(), smaller * size.y(), size.z()};
 }
 
-std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Mat3& R_wb, std::int32_t count) {
+std::vector<ClumpLeaf> clump_leaves(const Tree& tree, std::size_t body, const Mat3& R_wb, std::int32_t count,
+                                    double hang) {
     const RandomKey clump = random_key(RandomKey{0}, ClumpDraw::clump, std::uint64_t(body));
     const Vec3 up = R_wb.transpose() * Vec3::UnitY();
     const double length = tree.size[body].x(), width = tree.size[body].y();
     const bool said = !tree.leaf_length.empty() && tree.leaf_length[body] > 0;
     const Vec3 half(width / 2, 0.3 * width, said ? length - tree.com[body].z() : length / 2);
     const double blade = clump_leaf_size(tree, body, count).x();
-    const double hangs = std::max(-2 * R_wb(1, 2) - 1, 0.0), spreads = 1 - 0.7 * hangs;
+    const double hangs = std::max(-2 * R_wb(1, 2) - 1, hang), spreads = 1 - 0.7 * hangs;
     std::vector<ClumpLeaf> leaves;
     for (std::int32_t k = 0; k < count; ++k) {
         const RandomKey key = random_key(clump, ClumpDraw::leaf, std::uint64_t(k));

@@ -89,14 +89,6 @@ void reserve(Skin& skin, const Tree& tree, const Tubes& tubes, const std::vector
     skin.triangle.reserve(triangles);
 }
 
-// How many leaves each body is drawn as; empty: one each.
-std::vector<std::int32_t> find_blades(const Tree& tree, std::int64_t all) {
-    std::vector<std::int32_t> blades = tree.leaf_count;
-    const std::int32_t most = clump_leaves_drawn(tree, all);
-    for (std::int32_t& n : blades) n = std::min(n, most);
-    return blades;
-}
-
 void add_bark(Skin& skin, const Tree& tree, const DrawnPose& pose, const Tubes& tubes, const std::vector<int>& sides) {
     BranchTube tube;
     for (const std::int32_t start : tubes.starts) {
@@ -124,7 +116,7 @@ Skin build_skin(const Tree& tree, const SkinOptions& options) {
     const DrawnPose pose = drawn_pose(tree);
     const Tubes tubes = find_tubes(tree);
     const std::vector<int> sides = find_sides(tree, tubes, options.sides);
-    const std::vector<std::int32_t> blades = find_blades(tree, options.clump_leaves);
+    const std::vector<std::int32_t> blades = clump_leaves_drawn(tree, options.clump_leaves);
     Skin skin;
     reserve(skin, tree, tubes, sides, blades);
     add_bark(skin, tree, pose, tubes, sides);

@@ -35,7 +35,10 @@ absent large_vat
 expect 0 treesim large.tree.json --wind gusty --frames 2 --settle 0 -o large_vat/ --look none --vat-vertices 8000
 grep -q "vertices are left: wood is off by .* leaves are kept" err || fail "nothing is said of what was left out: $(cat err)"
 refused 1 "; --mesh made --sides 3 shows one" treesim "$top/data/fixtures/meshed_tree.xml" --frames 2 -o few_vat/ --vat-vertices 4
-refused 1 "but the simplifier leaves" treesim large.tree.json --wind gusty --frames 2 --settle 0 -o few_vat/ --look none --vat-vertices 20
+expect 0 treesim large.tree.json --wind gusty --frames 2 --settle 0 -o few_vat/ --look none --vat-vertices 100
+grep -q "the largest .* pieces of wood are kept" err || fail "nothing is said of the wood that was left out: $(cat err)"
+rm -r few_vat
+refused 1 "of the largest piece of wood alone" treesim large.tree.json --wind gusty --frames 2 --settle 0 -o few_vat/ --look none --vat-vertices 4
 refused 1 "a texture holds 4096" "${gusty[@]}" --frames 5000 -o long_vat/
 refused 1 "--frames" "${gusty[@]}" --frames 0 -o x_vat/
 refused 1 "is only written as NAME_vat/" "${run[@]}" -o folder/

@@ -1,6 +1,7 @@
 #include "formats/exports/reduced_skin.h"
 #include "formats/exports/simplified.h"
 #include "tests/support/skin_checks.h"
+#include <map>
 
 using namespace bough;
 using namespace skin_checks;
@@ -82,6 +83,38 @@ TEST_CASE(
         farthest = std::max(farthest, nearest);
     }
     CHECK(farthest <= 0.15 * size);
+}
+
+TEST_CASE("of a hundred vertices the largest branches' are left, whole") {
+    const Tree tree = make_tree::random_tree(800, 5);
+    const Skin skin = build_skin(tree, {});
+    const ReducedSkin made = reduced_skin(skin, tree, 100);
+    CHECK(made.skin.position.size() <= 100);
+    CHECK(made.wood_kept >= 1);
+    CHECK(made.wood_kept < made.wood_pieces);
+    std::map<std::int32_t, double> whole, left; // [m^2] bark of a branch
+    const auto sum = [&](const Skin& of, std::map<std::int32_t, double>& area) {
+        for (const auto& [a, b, c] : triangles(of, "bark")) {
+            const std::int32_t branch = tree.branch[std::size_t(of.joint[std::size_t(a)][0])];
+            area[branch] += 0.5 * (of.position[std::size_t(b)] - of.position[std::size_t(a)])
+                                      .cross(of.position[std::size_t(c)] - of.position[std::size_t(a)])
+                                      .norm();
+        }
+    };
+    sum(skin, whole);
+    sum(made.skin, left);
+    CHECK(left.size() == made.wood_kept);
+    const auto fruit = std::count(tree.kind.begin(), tree.kind.end(), Kind::fruit);
+    CHECK(whole.size() + std::size_t(fruit) == made.wood_pieces);
+    double least_kept = INFINITY, most_lost = 0;
+    for (const auto& [branch, area] : whole) {
+        if (left.count(branch))
+            least_kept = std::min(least_kept, area);
+        else
+            most_lost = std::max(most_lost, area);
+    }
+    CHECK(least_kept >= most_lost);
+    for (const auto& [branch, area] : left) CHECK(area > 0.2 * whole[branch]); // simplified, not in shreds
 }
 
 TEST_CASE("a leaf that grows stays where it is attached") {

@@ -71,6 +71,38 @@ TEST_CASE("leaves as meshes have their bodies' area, at their bodies' places, mo
     }
 }
 
+TEST_CASE("a willow's sprays hang one below another, and none of them reaches below the tree's foot") {
+    const auto strung =
+        [](const char* name) { // the share of sprays that another goes on at its end; the mean way of all, downward
+            const Tree tree = convert(grow(name, {.bodies = 600, .seed = 4, .leaves = true}));
+            const OwnMesh mesh = dress(tree, *find_species(name), {.textures = 0});
+            const OwnPart& leaves = part_named(mesh, "leaf");
+            const double base = tree.joint_position[0].y();
+            std::size_t all = 0, followed = 0;
+            double down = 0;
+            for (std::size_t k = 0; k < leaves.placed.size(); ++k) {
+                const OwnPlace& place = leaves.placed[k];
+                if (!is_clump(tree, std::size_t(place.body)) ||
+                    tree.size[std::size_t(place.body)].x() > 3 * tree.size[std::size_t(place.body)].y())
+                    continue;
+                ++all;
+                const Eigen::Vector3f way = place.turn.col(2), end = place.place + way;
+                down -= double(way.normalized().y());
+                if (k + 1 == leaves.placed.size() || (leaves.placed[k + 1].place - end).norm() > 1e-3f) continue;
+                ++followed;
+                CHECK(double(end.y() + way.y()) > base - 1e-3); // where the next one ends
+            }
+            REQUIRE(all > 100);
+            return std::pair(double(followed) / double(all), down / double(all));
+        };
+    const auto [willow, willow_down] = strung("willow");
+    CHECK(willow > 0.65); // three of four, where a clump has four
+    CHECK(willow_down > 0.9);
+    const auto [oak, oak_down] = strung("oak");
+    CHECK(oak == 0);
+    CHECK(oak_down < 0.3);
+}
+
 TEST_CASE("a picture's leaf covers what its outline does, its colours go on beyond it") {
     for (const char* name : cases(2, all_species)) {
         const Species species = *find_species(name);

@@ -120,16 +120,57 @@ TEST_CASE("one leaf is drawn as ever, whether it is said or not") {
     CHECK(silent.clump_leaf.empty());
 }
 
-TEST_CASE("very many clumps are drawn as fewer leaves each") {
+TEST_CASE("clumps of very many leaves are drawn as fewer each") {
     Tree tree;
+    const auto each = [&](std::int64_t all = 0) { // all alike
+        const std::vector<std::int32_t> drawn = clump_leaves_drawn(tree, all);
+        REQUIRE(drawn.size() == tree.leaf_count.size());
+        for (const std::int32_t n : drawn) REQUIRE(n == drawn.front());
+        return drawn.front();
+    };
     tree.leaf_count.assign(100, 500);
-    CHECK(clump_leaves_drawn(tree) == 64);
+    CHECK(each() == 64);
     tree.leaf_count.assign(3000, 500);
-    CHECK(clump_leaves_drawn(tree) == 3);
-    CHECK(clump_leaves_drawn(tree, 24'000) == 8);
-    CHECK(clump_leaves_drawn(tree, 500) == 1);
+    CHECK(each() == 3);
+    CHECK(each(24'000) == 8);
+    CHECK(each(500) == 1);
     tree.leaf_count.assign(20'000, 2);
-    CHECK(clump_leaves_drawn(tree) == 64);
+    CHECK(each() == 2);
     tree.leaf_count.assign(1'000'000, 500);
-    CHECK(clump_leaves_drawn(tree) == 1);
+    CHECK(each() == 1);
+}
+
+TEST_CASE("leaves are enlarged alike in small clumps and large ones") {
+    Tree tree;
+    std::int64_t leaves = 0;
+    for (std::int32_t k = 0; k < 3000; ++k) tree.leaf_count.push_back(k % 4 == 0 ? 1 : 1 + k * k / 3000);
+    for (const std::int32_t n : tree.leaf_count) leaves += n > 1 ? n : 0;
+    const std::vector<std::int32_t> drawn = clump_leaves_drawn(tree, 40'000);
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        const std::int32_t n = tree.leaf_count[i];
+        REQUIRE(drawn[i] >= 1);
+        REQUIRE(drawn[i] <= n);
+        if (n == 1) continue;
+        sum += drawn[i];
+        // To half a leaf, and the one that each has at least.
+        if (drawn[i] > 1) CHECK(std::abs(drawn[i] - 40'000.0 * n / double(leaves)) < 0.5 + 0.02 * drawn[i]);
+    }
+    CHECK(sum <= 40'000);
+    CHECK(sum > 39'000);
+}
+
+TEST_CASE("leaves of a species whose twigs hang do so wherever their clump points") {
+    Tree tree = clump(64);
+    tree.joint_rotation[0] = Quat::Identity() * Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
+    const Mat3 upright = tree.joint_rotation[0].toRotationMatrix();
+    const auto falls = [&](double hang) {
+        double sum = 0;
+        for (const ClumpLeaf& leaf : clump_leaves(tree, 0, upright, 64, hang))
+            sum -= (upright * leaf.axes.col(2)).y() / 64;
+        return sum;
+    };
+    CHECK(falls(0) < 0);
+    CHECK(falls(1) > 0.9);
+    CHECK(falls(0.5) > falls(0.25));
 }
