@@ -21,7 +21,16 @@
 namespace bough {
 namespace {
 
+// value: an enum's, which a caller's cast may have made of any number.
+[[noreturn]] void refuse_option(const char* name, int value, const char* expected) {
+    throw SceneError(std::string(name) + " is " + std::to_string(value) + ", expected " + expected);
+}
+
 SimulationOptions checked(const SimulationOptions& o) {
+    if (o.precision != Precision::single && o.precision != Precision::double_)
+        refuse_option("precision", int(o.precision), "Precision::single or Precision::double_");
+    if (o.method != Method::coupled && o.method != Method::analytic)
+        refuse_option("method", int(o.method), "Method::coupled or Method::analytic");
     if (!(o.step > 0) || !std::isfinite(o.step))
         throw SceneError("step is " + std::to_string(o.step) + " s, expected more than 0");
     if (!(o.sleep >= 0)) throw SceneError("sleep is " + std::to_string(o.sleep) + " rad/s, expected 0 or more");
