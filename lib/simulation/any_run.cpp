@@ -224,7 +224,8 @@ public:
                 put_ground(spline_of(run, driven), saved_time(saved, step, options().step),
                            ground_at(spline_of(run_, driven), time()));
         };
-        if (fresh_ && !run_.world.on()) {
+        const bool held = coupled() && coupled_state(run_.state).attachments.numbers > 0;
+        if (fresh_ && !run_.world.on() && !held) { // a state that is refused would take hands with it
             stay(run_);
             run_.state.loads.clear(); // pulls of a step that is not taken
             try {
@@ -233,7 +234,6 @@ public:
                 begin_again();
                 throw;
             }
-            fresh_ = false;
         } else {
             Run<T> run = started(); // what broke stands again before the saved state says what did
             run.plan.scene = run_.plan.scene;
@@ -242,10 +242,12 @@ public:
             restore_run(saved, step, run);
             for (const Attached& hand : hands())
                 if (!has_broken_off(run, hand.body)) adopt_hand(run, hand, hand.body);
+            if (held) // what was released keeps its number
+                coupled_state(run.state).attachments.numbers = coupled_state(run_.state).attachments.numbers;
             run_ = std::move(run);
         }
         broken_ = {};
-        shown_ = false;
+        shown_ = fresh_ = false;
     }
 
     std::string explain() const override { return explanation(run_.plan, assembly_->changes); }

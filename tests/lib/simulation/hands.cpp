@@ -119,6 +119,37 @@ TEST_CASE("a hand that takes hold at any time is the scene's attachment, and let
     CHECK_THAT(refusal(held), Catch::Contains("/attachments/0/on"));
 }
 
+TEST_CASE(
+    "a hand's number is its simulation's: not given again after a state was restored, kept where one is refused") {
+    const Tree tree = make_tree::branched();
+    Simulation simulation(one(tree, "breeze"));
+    run(simulation, 3);
+    const SavedState saved = simulation.save();
+    const std::uint64_t first = simulation.attach(3, Vec3::Zero(), 10, 1);
+    const std::uint64_t second = simulation.attach(4, Vec3::Zero(), 10, 1);
+    simulation.release(second);
+    simulation.restore(saved);
+    const std::uint64_t third = simulation.attach(4, Vec3::Zero(), 10, 1);
+    CHECK(third != first);
+    CHECK(third != second);
+    CHECK_THROWS_AS(simulation.attachment_force(second), SceneError);
+
+    Simulation other(one(tree, "breeze"));
+    CHECK_THROWS_WITH(other.move_attachment(third, Vec3::Zero()), Catch::Contains("is not there"));
+    const std::uint64_t own = other.attach(3, Vec3::Zero(), 10, 1);
+    SavedState broken = saved;
+    broken.theta_change.pop_back();
+    CHECK_THROWS_AS(other.restore(broken), SceneError);
+    CHECK(other.attachment_force(own).isZero(0)); // still there
+    other.restore(saved);
+    run(other, 5);
+    CHECK(other.attachment_force(own).norm() > 0);
+    Simulation begun(one(tree, "breeze"));
+    begun.attach(3, Vec3::Zero(), 10, 1);
+    begun.restore(saved);
+    CHECK_THROWS_WITH(begun.settle(1), Catch::Contains("the run has begun"));
+}
+
 TEST_CASE("what has broken off is not pulled") {
     Scene scene = one(leafy(), "storm");
     scene.fracture = Fracture();
