@@ -215,14 +215,18 @@ def _check(result):
         raise kinds[result](message)
 
 
-def _vector(value, name):
+def _numbers(value, name, count):
     try:
         numbers = np.asarray(value, float)
     except (TypeError, ValueError):
-        raise UsageError(f"{name}: is {value!r}, expected three numbers") from None
-    if numbers.shape != (3,):
-        raise UsageError(f"{name}: has shape {numbers.shape}, expected (3,)")
-    return _double3(*numbers)
+        raise UsageError(f"{name}: is {value!r}, expected {'three' if count == 3 else 'four'} numbers") from None
+    if numbers.shape != (count,):
+        raise UsageError(f"{name}: has shape {numbers.shape}, expected ({count},)")
+    return (ctypes.c_double * count)(*numbers)
+
+
+def _vector(value, name):
+    return _numbers(value, name, 3)
 
 
 def _whole(value, name, least, most):
@@ -705,7 +709,7 @@ class Simulation(_Handle, _HasBodies):
 
     def attach(self, body, point, stiffness, damping=0):
         """A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point (3) [m] of a body, body frame, and a target in the world, which is
-        where the point is now. Any stiffness holds. Returns the attachment's number; until release(), or till the body breaks off."""
+        where the point is now. Any stiffness holds. Returns the attachment's number, this simulation's own; until release(), or till the body breaks off."""
         number = ctypes.c_uint64()
         _check(_c.bough_attach(self._handle, _whole(body, "body", 0, 2**63), _vector(point, "point"), _number(stiffness, "stiffness"),
                                _number(damping, "damping"), ctypes.byref(number)))
@@ -735,7 +739,8 @@ class Simulation(_Handle, _HasBodies):
         _check(_c.bough_set_gravity(self._handle, _vector(gravity, "gravity")))
 
     def set_wood(self, stiffness=1, damping=1):
-        """All joints' stiffness and damping over what they had when the run began."""
+        """All joints' stiffness and damping over what they had when the run began. Springs keep their rest, so softer wood sags further and stiffer wood
+        rises. Another Simulation(before=run) keeps the pose as drawn, of a scene whose document has the stiffness_scale that is wanted."""
         _check(_c.bough_set_wood(self._handle, _number(stiffness, "stiffness"), _number(damping, "damping")))
 
     def set_step(self, step):
@@ -746,10 +751,7 @@ class Simulation(_Handle, _HasBodies):
         """The ground under a tree (its number from 0 on; Simulation(grounds=True)), its roots with it: `steps` steps from now its place has moved by position
         (3) [m] and turned by rotation (4) x, y, z, w from where it was drawn, at velocity (3) [m/s] and angular_velocity (3) [rad/s]; 0: at once."""
         ground = _c.bough_default_ground()
-        turned = np.asarray(rotation, float)
-        if turned.shape != (4,):
-            raise UsageError(f"rotation: has shape {turned.shape}, expected (4,)")
-        ground.rotation = type(ground.rotation)(*turned)
+        ground.rotation = _numbers(rotation, "rotation", 4)
         for name, value in (("position", position), ("velocity", velocity), ("angular_velocity", angular_velocity)):
             setattr(ground, name, _vector(value, name))
         _check(_c.bough_set_ground(self._handle, _whole(tree, "tree", 0, 2**63), ctypes.byref(ground), _whole(steps, "steps", -2**31, 2**31 - 1)))
@@ -766,7 +768,7 @@ class Simulation(_Handle, _HasBodies):
         return StepError(found.rms, found.worst, found.deflection, found.steps, bool(found.known))
 
     def save(self):
-        """The state as bytes, as `treesim --save-state` writes it."""
+        """The state as bytes, as `treesim --save-state` writes it. NonFiniteError where it is not finite any more."""
         return _written(_c.bough_save, self._handle)
 
     def restore(self, state):

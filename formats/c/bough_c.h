@@ -239,7 +239,8 @@ bough_result bough_pick(bough_simulation* simulation, const double from[3], cons
 bough_result bough_pull(bough_simulation* simulation, size_t body, const double point[3], const double force[3]);
 /* A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in the world, which is
  * where the point is now; from the next step on, until it is released or the body breaks off. Any stiffness holds, nothing has to be asked for beforehand.
- * *attachment: its number, above 0 and never given twice. O(bodies), which allocates; steps do not. Part of no saved state. Coupled method. */
+ * *attachment: its number, above 0, which this simulation never gives twice; others count for themselves. O(bodies), which allocates; steps do not. Part of
+ * no saved state. Coupled method. */
 bough_result bough_attach(bough_simulation* simulation, size_t body, const double point[3], double stiffness,
                           double damping, uint64_t* attachment);
 /* Its target goes evenly from where it is to `target` [m, world] in the next `steps` steps (1: the next one ends with it there), and stays; 0: is there
@@ -253,7 +254,9 @@ bough_result bough_release(bough_simulation* simulation, uint64_t attachment);
 bough_result bough_set_wind(bough_simulation* simulation, const bough_wind* wind);
 /* [m/s^2] Of a scene that began with some; coupled method. */
 bough_result bough_set_gravity(bough_simulation* simulation, const double gravity[3]);
-/* All joints' stiffness (above 0) and damping (0 or more) over what they had when the run began; coupled method, nothing thrown at the trees. */
+/* All joints' stiffness (above 0) and damping (0 or more) over what they had when the run began; coupled method, nothing thrown at the trees. Springs keep
+ * their rest, so softer wood sags further and stiffer wood rises. To keep the pose as drawn, begin a run of a scene whose document has the stiffness_scale
+ * that is wanted, with this one as `before` (bough_simulate). */
 bough_result bough_set_wood(bough_simulation* simulation, double stiffness, double damping);
 
 /* [s] Above 0: of the steps from here on; the time goes on from what it is. Before the first step as if it had begun so. Coupled method. */
@@ -287,7 +290,8 @@ bough_result bough_watch_error(bough_simulation* simulation, int32_t on);
 /* BOUGH_USAGE where it is not watched. */
 bough_result bough_read_error(const bough_simulation* simulation, bough_step_error* error);
 
-/* The state as `treesim --save-state` writes it (safetensors); buffer, capacity, size as with bough_write_tree. */
+/* The state as `treesim --save-state` writes it (safetensors); buffer, capacity, size as with bough_write_tree. BOUGH_NON_FINITE where it is not finite any
+ * more. */
 bough_result bough_save(const bough_simulation* simulation, void* buffer, size_t capacity, size_t* size);
 /* Goes on from there, bit by bit as the run that was saved would; wind, gravity and wood are those that this run has by now. */
 bough_result bough_restore(bough_simulation* simulation, const void* bytes, size_t size, const char* name);

@@ -42,6 +42,7 @@ struct SimulationObject final : Object {
     std::vector<std::size_t> first_body;
     std::vector<std::int32_t> events; // what they were, as numbers
     std::optional<RunError> error;    // refers to the simulation
+    std::string non_finite;           // the message of the step that made it so; "": none did
 };
 
 std::shared_ptr<SplinesObject> object_of(Splines);

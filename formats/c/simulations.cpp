@@ -3,6 +3,7 @@
 #include "lib/simulation/pick.h"
 #include "wind.h"
 #include "write.h"
+#include <algorithm>
 
 using namespace bough;
 using namespace bough::c;
@@ -79,6 +80,14 @@ bough_array read(const Simulation& s, std::int32_t field) {
     throw WrongCall("field: is " + std::to_string(field) + ", expected BOUGH_POSITION to BOUGH_STRESS");
 }
 
+// Also of a run that was not stepped, but goes on with the motion of one (`before`) that is not finite.
+bool has_finite_joints(const SavedState& state) {
+    for (const std::vector<Vec3>* const joints :
+         {&state.theta, &state.theta_dot, &state.theta_change, &state.theta_dot_change, &state.scaled_rate})
+        if (!std::all_of(joints->begin(), joints->end(), [](const Vec3& v) { return v.allFinite(); })) return false;
+    return true;
+}
+
 std::int32_t number_of(const std::string& event) {
     return event == "broke" ? BOUGH_BROKE : event == "hit" ? BOUGH_HIT : event == "landed" ? BOUGH_LANDED : BOUGH_LEAPT;
 }
@@ -127,7 +136,8 @@ bough_result bough_settle(bough_simulation* simulation, double seconds) {
                             std::to_string(int(Simulation::most_settled)));
         if (use->simulation.steps() != 0) throw WrongCall("simulation: has been stepped, expected one at its start");
         const StepReport made = use->simulation.settle(seconds);
-        if (!made.finite()) throw NonFinite("the simulation became non-finite before its start: " + made.non_finite);
+        if (!made.finite())
+            throw NonFinite(use->non_finite = "the simulation became non-finite before its start: " + made.non_finite);
     });
 }
 
@@ -157,8 +167,8 @@ bough_result bough_step(bough_simulation* simulation, bough_report* report) {
             *report = {own.steps(),  own.time(), made.fast_turns, made.guarded,
                        made.limited, made.broke, made.hits,       made.landed};
         if (!made.finite())
-            throw NonFinite("the simulation became non-finite in step " + std::to_string(own.steps()) + ": " +
-                            made.non_finite);
+            throw NonFinite(use->non_finite = "the simulation became non-finite in step " +
+                                              std::to_string(own.steps()) + ": " + made.non_finite);
     });
 }
 
@@ -318,8 +328,11 @@ bough_result bough_read_error(const bough_simulation* simulation, bough_step_err
 bough_result bough_save(const bough_simulation* simulation, void* buffer, size_t capacity, size_t* size) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
-        write_to(buffer, capacity, size,
-                 [&](Output& to) { write_state(to, use->simulation.save(), Form::safetensors); });
+        if (!use->non_finite.empty()) throw NonFinite(use->non_finite + "; its state is not saved");
+        const SavedState state = use->simulation.save();
+        if (!has_finite_joints(state))
+            throw NonFinite("the simulation is not finite, and states hold finite numbers only");
+        write_to(buffer, capacity, size, [&](Output& to) { write_state(to, state, Form::safetensors); });
     });
 }
 
@@ -330,6 +343,7 @@ bough_result bough_restore(bough_simulation* simulation, const void* bytes, size
         const SavedState state = read_state(content(bytes, size), place);
         try {
             use->simulation.restore(state);
+            use->non_finite.clear();
             if (use->error) use->error = RunError(use->simulation);
         } catch (const SceneError& error) {
             throw InputError(place, error.what());

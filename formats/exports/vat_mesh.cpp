@@ -21,11 +21,13 @@ struct Writer {
         std::size_t first, count;
     };
 
-    Eigen::Vector3f place(std::size_t column) const { return (mesh.skin.position[column] - origin).cast<float>(); }
+    Eigen::Vector3f position_in_file(std::size_t column) const {
+        return (mesh.skin.position[column] - origin).cast<float>();
+    }
 
     // take(vertex of the skin, column, GltfBytes) adds `width` floats.
     template <class Take>
-    std::string add(const Stretch& of, int width, Take take, const std::string& bounds = "") const {
+    std::string add_attribute(const Stretch& of, int width, Take take, const std::string& bounds = "") const {
         const int view = file.add_view(std::uint64_t(4 * width) * of.count, GltfTarget::vertices, 4 * width,
                                        [this, of, take](GltfBytes& to) {
                                            for (std::size_t c = of.first; c < of.first + of.count; ++c)
@@ -36,10 +38,10 @@ struct Writer {
     }
 
     std::string bounds_of(const Stretch& of) const {
-        Eigen::Vector3f low = place(of.first), high = low;
+        Eigen::Vector3f low = position_in_file(of.first), high = low;
         for (std::size_t c = of.first; c < of.first + of.count; ++c) {
-            low = low.cwiseMin(place(c));
-            high = high.cwiseMax(place(c));
+            low = low.cwiseMin(position_in_file(c));
+            high = high.cwiseMax(position_in_file(c));
         }
         return gltf_bounds(low, high);
     }
@@ -48,27 +50,27 @@ struct Writer {
         const SkinPart& part = mesh.skin.part[m];
         const VertexStretch used = vertices_of(mesh.skin, part);
         const Stretch of{std::size_t(used.first), used.count()};
-        std::string text = "{\"attributes\":{\"POSITION\":" + add(
+        std::string text = "{\"attributes\":{\"POSITION\":" + add_attribute(
                                                                   of, 3,
                                                                   [this](std::size_t, std::size_t c, GltfBytes& to) {
-                                                                      const Eigen::Vector3f p = place(c);
+                                                                      const Eigen::Vector3f p = position_in_file(c);
                                                                       to.add_all(p.x(), p.y(), p.z());
                                                                   },
                                                                   bounds_of(of));
-        text += ",\"NORMAL\":" + add(of, 3, [this](std::size_t, std::size_t c, GltfBytes& to) {
+        text += ",\"NORMAL\":" + add_attribute(of, 3, [this](std::size_t, std::size_t c, GltfBytes& to) {
                     const Vec3& n = mesh.skin.normal[c];
                     to.add_all(float(n.x()), float(n.y()), float(n.z()));
                 });
         for (std::size_t s = 0; s < attributes.uv.size(); ++s)
             text += ",\"TEXCOORD_" + std::to_string(s == 0 ? 0 : s + 1) +
-                    "\":" + add(of, 2, [this, s](std::size_t v, std::size_t, GltfBytes& to) {
+                    "\":" + add_attribute(of, 2, [this, s](std::size_t v, std::size_t, GltfBytes& to) {
                         to.add_all(attributes.uv[s][v][0], attributes.uv[s][v][1]);
                     });
-        text += ",\"TEXCOORD_1\":" + add(of, 2, [this](std::size_t, std::size_t c, GltfBytes& to) {
+        text += ",\"TEXCOORD_1\":" + add_attribute(of, 2, [this](std::size_t, std::size_t c, GltfBytes& to) {
                     to.add_all(float((double(c) + 0.5) / double(mesh.vertex.size())), float(0.5 / double(height)));
                 });
         if (!attributes.color.empty())
-            text += ",\"COLOR_0\":" + add(of, 4, [this](std::size_t v, std::size_t, GltfBytes& to) {
+            text += ",\"COLOR_0\":" + add_attribute(of, 4, [this](std::size_t v, std::size_t, GltfBytes& to) {
                         for (const float c : attributes.color[v]) to.add(c);
                     });
         const int view = file.add_view(6 * part.index_count, GltfTarget::indices, 0, [this, &part, of](GltfBytes& to) {

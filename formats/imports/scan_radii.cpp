@@ -55,13 +55,13 @@ std::vector<double> wood_beyond(const Splines& s, const Bearers& of) {
     return beyond;
 }
 
-// The last place that is seen, on the way from the ground.
-struct Seen {
+// On the way from the ground.
+struct LastSeenPlace {
     double radius = 0, beyond = 0;
     bool ends = false; // what comes after is not
 };
 
-double bound_at(const Seen& last, double beyond) {
+double bound_beyond(const LastSeenPlace& last, double beyond) {
     const double share = last.beyond > 0 ? std::min(1.0, beyond / last.beyond) : 0;
     return std::max(last.radius * std::pow(share, 1 / pipe_exponent), shoot_radius);
 }
@@ -72,12 +72,12 @@ void bound_scan_radii(Splines& s, ImportNotes& notes) {
     const Bearers of = bearers_of(s);
     const std::vector<double> beyond = wood_beyond(s, of);
     const double before = volume(s);
-    std::vector<Seen> at_foot(s.branches()), along;
+    std::vector<LastSeenPlace> at_foot(s.branches()), along;
     std::size_t thinner = 0;
     for (std::size_t b = 0; b < s.branches(); ++b) { // parents first
         const auto from = std::size_t(s.first_point[b]);
         const std::vector<double> arc = arc_lengths(points_of(s, b));
-        Seen last = s.parent[b] < 0 ? Seen{s.radius[from], beyond[from], false} : at_foot[b];
+        LastSeenPlace last = s.parent[b] < 0 ? LastSeenPlace{s.radius[from], beyond[from], false} : at_foot[b];
         along.clear();
         for (std::size_t k = from; k < from + arc.size(); ++k) {
             double& r = s.radius[k];
@@ -85,7 +85,7 @@ void bound_scan_radii(Splines& s, ImportNotes& notes) {
                 last = {r, beyond[k], false};
             } else {
                 last.ends = true;
-                if (const double most = bound_at(last, beyond[k]); r > most) r = most, ++thinner;
+                if (const double most = bound_beyond(last, beyond[k]); r > most) r = most, ++thinner;
             }
             along.push_back(last);
         }

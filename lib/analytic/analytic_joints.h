@@ -1,5 +1,6 @@
 // analytic_joints.h: what the joints' own steps (wide_spring.h) read and write in the rows, and the cases that are treated one by one: half turns,
-// and turns so large that their energy is checked (analytic/spring.h).
+// and turns so large that their energy is checked (analytic/spring.h). That check is written a second time, beside energy_gained of spring_joint.cpp,
+// because it takes what the joint's step left in registers, for all lanes at once; only those that turned so far heed it.
 #pragma once
 #include "../base/oscillator.h"
 #include "../lanes/wide_spring.h"

@@ -40,7 +40,7 @@ template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
     for (const PulledPoint& point : a.pulled) touch(point.body);
     std::sort(touched.begin(), touched.end());
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    const auto place = [&](std::size_t body) {
+    const auto index_of = [&](std::size_t body) {
         return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
     };
     a.bodies.assign(touched.size(), {});
@@ -48,15 +48,15 @@ template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
         AttachedBody& b = a.bodies[k];
         b.body = touched[k];
         const std::int32_t parent = plan.parent[b.body];
-        b.parent = parent < 0 ? -1 : place(std::size_t(parent));
+        b.parent = parent < 0 ? -1 : index_of(std::size_t(parent));
         b.joint_position = plan.joint_position[b.body].template cast<double>();
         b.R_pj = plan.R_pj[b.body].template cast<double>();
     }
     for (Attached& held : a.all) {
-        held.at = std::size_t(place(held.body));
-        if (held.far) held.far->at = std::size_t(place(held.far->body));
+        held.at = std::size_t(index_of(held.body));
+        if (held.far) held.far->at = std::size_t(index_of(held.far->body));
     }
-    for (PulledPoint& point : a.pulled) point.at = std::size_t(place(point.body));
+    for (PulledPoint& point : a.pulled) point.at = std::size_t(index_of(point.body));
     find_ties(a);
 }
 

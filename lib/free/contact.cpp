@@ -186,7 +186,7 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, const TreeResponse
     }
     PathResponse response(plan, poses, sprung, rigid, bodies);
     // What the springs will have made of the trees' velocities at the end of the step in which they answer.
-    response.add_springs();
+    response.apply_springs();
     parallel_for(points.size(), 5000, [&](std::size_t k) {
         ContactPoint& c = points[k];
         Solving& s = solving[k];
@@ -210,7 +210,7 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, const TreeResponse
     });
     double fastest = 0;
     for (const ContactPoint& c : points) fastest = std::max(fastest, c.approach);
-    response.begin();
+    response.forget_impulses();
     // Rounds over all contacts, and between them over those alone that still change: few do after the first.
     constexpr int rounds = 100;
     const double settled = 1e-6 * fastest;
@@ -239,7 +239,7 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, const TreeResponse
             changes[k] = own > settled;
             change = std::max(change, own);
             push(free[c.free], c.arm, impulse);
-            if (c.body >= 0) response.add(k, c.point, -impulse);
+            if (c.body >= 0) response.apply_impulse(k, c.point, -impulse);
         }
         if (change > settled)
             all = false;

@@ -13,7 +13,7 @@ PathResponse::PathResponse(const Plan<T>& plan, TreePoses<T>& poses, const TreeR
         for (std::int64_t i = body; i >= 0; i = plan.parent[std::size_t(i)]) joints.push_back(std::size_t(i));
     std::sort(joints.begin(), joints.end());
     joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
-    const auto place = [&](std::int64_t i) {
+    const auto link_of = [&](std::int64_t i) {
         return std::uint32_t(std::lower_bound(joints.begin(), joints.end(), std::size_t(i)) - joints.begin());
     };
     link_.resize(joints.size());
@@ -23,7 +23,7 @@ PathResponse::PathResponse(const Plan<T>& plan, TreePoses<T>& poses, const TreeR
     for (std::size_t l = 0; l < joints.size(); ++l) {
         pose.push_back(&poses.of(joints[l]));
         const std::int64_t parent = plan.parent[joints[l]];
-        parent_.push_back(parent < 0 ? -1 : std::int32_t(place(parent)));
+        parent_.push_back(parent < 0 ? -1 : std::int32_t(link_of(parent)));
     }
     const double h = plan.dt;
     parallel_for(joints.size(), 500, [&](std::size_t l) {
@@ -49,17 +49,17 @@ PathResponse::PathResponse(const Plan<T>& plan, TreePoses<T>& poses, const TreeR
     first_.assign(1, 0);
     for (const std::int64_t body : bodies) {
         if (body >= 0)
-            for (std::int64_t l = place(body); l >= 0; l = parent_[std::size_t(l)]) path_.push_back(std::uint32_t(l));
+            for (std::int64_t l = link_of(body); l >= 0; l = parent_[std::size_t(l)]) path_.push_back(std::uint32_t(l));
         std::reverse(path_.begin() + std::ptrdiff_t(first_.back()), path_.end());
         first_.push_back(path_.size());
     }
 }
 
-void PathResponse::begin() {
+void PathResponse::forget_impulses() {
     for (Link& link : link_) link.e.setZero();
 }
 
-void PathResponse::add(std::size_t k, const Vec3& point, const Vec3& impulse) {
+void PathResponse::apply_impulse(std::size_t k, const Vec3& point, const Vec3& impulse) {
     const std::span<const std::uint32_t> path = this->path(k);
     Vec3 at = point, moment = Vec3::Zero(), force = impulse;
     for (std::size_t p = path.size(); p-- > 0;) {
@@ -74,7 +74,7 @@ void PathResponse::add(std::size_t k, const Vec3& point, const Vec3& impulse) {
     }
 }
 
-void PathResponse::add_springs() {
+void PathResponse::apply_springs() {
     struct Wrench {
         Vec3 moment = Vec3::Zero(), force = Vec3::Zero();
     };
@@ -108,7 +108,7 @@ Vec3 PathResponse::velocity(std::size_t k, const Vec3& point) const {
     return v + omega.cross(Vec3(point - x));
 }
 
-// add() and velocity() for three impulses at once, along the axes.
+// apply_impulse() and velocity() for three impulses at once, along the axes.
 Mat3 PathResponse::mobility(std::size_t k, const Vec3& point, bool sprung) const {
     const std::span<const std::uint32_t> path = this->path(k);
     std::vector<Mat3> turned(path.size());

@@ -22,11 +22,11 @@ public:
                  std::span<const std::int64_t> bodies);
 
     // Forgets all impulses.
-    void begin();
+    void forget_impulses();
     // Applies an impulse [N s] at a point [m] of contact k's body, world.
-    void add(std::size_t k, const Vec3& point, const Vec3& impulse);
+    void apply_impulse(std::size_t k, const Vec3& point, const Vec3& impulse);
     // Applies what each joint's own spring and damper do in the step: -h K (theta + (h + beta) theta_dot) on the body, the opposite on its parent.
-    void add_springs();
+    void apply_springs();
     // Returns how the impulses so far change the point's velocity [m/s].
     Vec3 velocity(std::size_t k, const Vec3& point) const;
     // Returns the velocity of the point by a unit impulse there [1/kg], without the impulses so far. It is with springs, or as in a step of no

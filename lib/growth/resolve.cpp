@@ -41,16 +41,16 @@ public:
     Tree run();
 
 private:
-    void place(std::size_t b);
-    void wood(std::size_t b, std::size_t i);
-    void clump(std::size_t b);
+    void set_joint_and_mass(std::size_t b);
+    void shape_wood(std::size_t b, std::size_t i);
+    void shape_clump(std::size_t b);
     struct Swinging {
         double mass, over_lever2, droop; // [kg]; r^2 / L^2; [m] least L
     };
     Swinging swinging(const Sums&, const Vec3& y, const Vec3& z, double facing) const;
-    static Vec3 place_of(const Sums&, double kept);
-    void hold(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at);
-    void match();
+    static Vec3 place_of_kept_mass(const Sums&, double kept);
+    void give_rest_to_wood(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at);
+    void match_give();
 
     const Tree& whole_;
     const Flexibility& give_;
@@ -61,7 +61,7 @@ private:
 };
 
 // What the first of its bodies brings along.
-void Lumper::place(std::size_t b) {
+void Lumper::set_joint_and_mass(std::size_t b) {
     const Sums& s = sum_[b];
     const Mat3& R = pose_.R_wb[b];
     const bool root = chosen_.on[b] < 0;
@@ -76,7 +76,7 @@ void Lumper::place(std::size_t b) {
 }
 
 // Pieces of a branch, and what is one with them.
-void Lumper::wood(std::size_t b, std::size_t i) {
+void Lumper::shape_wood(std::size_t b, std::size_t i) {
     const Sums& s = sum_[b];
     const auto last = std::size_t(s.last);
     const Vec3 from = give_.pose.x_w[i], to = give_.pose.at(last, Vec3(0, 0, whole_.size[last][0]));
@@ -118,7 +118,7 @@ Lumper::Swinging Lumper::swinging(const Sums& s, const Vec3& y, const Vec3& z, d
     return w;
 }
 
-void Lumper::clump(std::size_t b) {
+void Lumper::shape_clump(std::size_t b) {
     Sums& s = sum_[b];
     const auto host_body = std::size_t(tree_.parent[b]);
     const double gyration = std::sqrt(s.inertia.trace() / 2 / s.mass);
@@ -134,7 +134,7 @@ void Lumper::clump(std::size_t b) {
     const Mat3 spread = pose_.R_wb[b].transpose() * s.inertia * pose_.R_wb[b] / s.mass;
     const double across = 0.5 * (spread(0, 0) + spread(1, 1));
     const Swinging swinging = this->swinging(s, y, z, facing);
-    const Vec3 at = place_of(s, swinging.mass);
+    const Vec3 at = place_of_kept_mass(s, swinging.mass);
     // Held out level it droops no more than branches do (carry.h).
     const double wanted = swinging.over_lever2 > 0 ? std::sqrt(across / swinging.over_lever2) : most_lever * gyration;
     const double lever = std::max(std::min(wanted, most_lever * gyration), swinging.droop);
@@ -145,7 +145,7 @@ void Lumper::clump(std::size_t b) {
     const double along = std::max(across - 0.5 * spread(2, 2), 0.0);
     tree_.size[b] = {lever + std::sqrt(5 * along), 2 * std::sqrt(5 * spread(2, 2) / (1 + clump_depth * clump_depth)),
                      s.thickness / s.leaves};
-    hold(host_body, b, swinging.mass, narrowed, at);
+    give_rest_to_wood(host_body, b, swinging.mass, narrowed, at);
     const double first = s.mass * lever;
     const double swing = first * lever + s.mass * narrowed * across; // about the joint
     const double bend = s.give > 0 ? 2 * first * first / s.give + give_.omega2 * swing : most_stiffness;
@@ -163,7 +163,7 @@ void Lumper::clump(std::size_t b) {
 // mass, C its second moments about it, m what is kept, that takes the part
 //   m M^2 / (M - m)^2 d^T C^-1 d
 // of the second moments of what is held. Where that is more than most_apart, d is as much shorter.
-Vec3 Lumper::place_of(const Sums& s, double kept) {
+Vec3 Lumper::place_of_kept_mass(const Sums& s, double kept) {
     const double held = s.mass - kept;
     if (!(held > 1e-9 * s.mass)) return s.com;
     const Vec3 way = middle_in_air(s) - s.com;
@@ -173,7 +173,7 @@ Vec3 Lumper::place_of(const Sums& s, double kept) {
 }
 
 // Gives the wood `on` all of a clump's mass but `kept`, which goes to `at`, and of that one's inertia all but a share.
-void Lumper::hold(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at) {
+void Lumper::give_rest_to_wood(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at) {
     Sums &s = sum_[clump], &host = sum_[on];
     const Mat3 inertia = kept / s.mass * share * s.inertia;
     const double mass = host.mass + s.mass - kept;
@@ -193,7 +193,7 @@ void Lumper::hold(std::size_t on, std::size_t clump, double kept, double share, 
 // From the tips inward: joints as soft as makes each body give what its parts gave together. That is so of a single part too, where it bears
 // what is of several: those give what theirs gave, but are not borne alike. What does not stand, and what bears it, is left as soft as its parts
 // one after another: there is no give to meet.
-void Lumper::match() {
+void Lumper::match_give() {
     const std::size_t n = chosen_.size();
     std::vector<Borne> on(n);
     std::vector<double> mass = tree_.mass;
@@ -271,11 +271,11 @@ Tree Lumper::run() {
         tree_.parent[b] = chosen_.on[b];
         pose_.R_wb[b] = give_.pose.R_wb[i];
         pose_.x_w[b] = give_.pose.x_w[i];
-        if (kind == Kind::branch) wood(b, i);
-        if (chosen_.clump[b]) clump(b);
+        if (kind == Kind::branch) shape_wood(b, i);
+        if (chosen_.clump[b]) shape_clump(b);
     }
-    for (std::size_t b = 0; b < chosen_.size(); ++b) place(b);
-    match();
+    for (std::size_t b = 0; b < chosen_.size(); ++b) set_joint_and_mass(b);
+    match_give();
     if (std::all_of(chosen_.clump.begin(), chosen_.clump.end(), [](std::uint8_t c) { return c == 0; })) {
         tree_.leaf_length.clear();
         tree_.leaf_width.clear();

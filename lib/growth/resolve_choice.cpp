@@ -48,7 +48,7 @@ private:
     void keep_slowest(const Flexibility&);
     void keep_top(const DrawnPose&, std::int64_t bodies);
     std::int32_t bodies_of(const Limb&, double t) const;
-    void place(double t);
+    void assign_bodies(double t);
 
     const Tree& tree_;
     std::vector<Limb> chain_;
@@ -140,7 +140,7 @@ std::int32_t Chooser::bodies_of(const Limb& chain, double t) const {
 }
 
 // Where each body goes at this threshold.
-void Chooser::place(double t) {
+void Chooser::assign_bodies(double t) {
     const std::size_t n = tree_.size_bodies();
     single_.assign(n, 0);
     wood_.resize(n);
@@ -173,16 +173,16 @@ void Chooser::place(double t) {
 }
 
 std::int64_t Chooser::count(double t) {
-    place(t);
+    assign_bodies(t);
     return bodies_;
 }
 
 Resolution Chooser::take(double t) {
-    place(t);
+    assign_bodies(t);
     const std::size_t n = tree_.size_bodies();
     Resolution r;
     r.body.assign(n, -1);
-    const auto add = [&](std::size_t i, bool clump) {
+    const auto add_resolved = [&](std::size_t i, bool clump) {
         r.body[i] = std::int32_t(r.size());
         r.first.push_back(std::int32_t(i));
         r.clump.push_back(clump);
@@ -195,26 +195,26 @@ Resolution Chooser::take(double t) {
         return tree_.kind[i] != Kind::petal && bunches_[b].items == 0 ? bunches_[b + 1] : bunches_[b];
     };
     for (std::size_t i = 0; i < n; ++i)
-        if (tree_.kind[i] == Kind::branch && single_[i]) add(i, false);
+        if (tree_.kind[i] == Kind::branch && single_[i]) add_resolved(i, false);
     for (std::size_t i = 0; i < n; ++i) {
         if (!is_flat(tree_.kind[i])) continue;
         if (single_[i]) {
-            add(i, false);
+            add_resolved(i, false);
             continue;
         }
         Bunch& bunch = bunch_at(i);
         if (bunch.items == 1) {
             bunch.items = 0; // one leaf alone is itself
-            add(i, false);
+            add_resolved(i, false);
         } else if (bunch.body < 0) {
             bunch.body = std::int32_t(r.size());
-            add(i, true);
+            add_resolved(i, true);
         } else {
             r.body[i] = bunch.body;
         }
     }
     for (std::size_t i = 0; i < n; ++i)
-        if (tree_.kind[i] == Kind::fruit && single_[i]) add(i, false);
+        if (tree_.kind[i] == Kind::fruit && single_[i]) add_resolved(i, false);
     for (std::size_t i = 0; i < n; ++i) {
         if (r.body[i] >= 0) continue;
         const std::int32_t clump = bunch_[i] >= 0 ? bunch_at(i).body : -1;

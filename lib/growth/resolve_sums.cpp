@@ -6,7 +6,7 @@
 namespace bough {
 namespace {
 
-constexpr double unfolded_at_8 = 1 / (1 + 8 / fold_speed); // of leaves' speed at 8 m/s
+constexpr double unfolded_at_8 = 1 / folding(8.0); // of leaves' speed at 8 m/s
 
 // How the air meets a body, as leaves that face along `axis` by `facing` (Tree::leaf_facing). A blade faces along its normal wholly. Wood has -1, where
 // c_n + c_u of air.h is 0: as (21), the law then has no force along the axis. (No leaves have -1; those of which none faces along an axis have -1/2.)

@@ -36,7 +36,7 @@ std::vector<Sums> sum_up(const Tree& whole, const Flexibility&, const Resolution
 
 // A twig's drag in that of leaves that face all ways, of the same area (air.h): twice as much broadside, and leaves fold, which is made up
 // for at 8 m/s.
-constexpr double wood_in_leaf = 2 * (1 + 8 / fold_speed);
+constexpr double wood_in_leaf = 2 * folding(8.0);
 
 // A cylinder's drag over that of one across the wind, mean over horizontal winds.
 double met_by_wind_across(const Vec3& axis);

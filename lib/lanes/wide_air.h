@@ -21,9 +21,9 @@ template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE AirSpeed<W> air_s
     return {speed, 1 / larger(speed, all(T(1e-30)))};
 }
 
-// Returns 1 / fold_speed for what folds (air.h), else 0. Only in this does a clump without a face differ from a fruit.
+// Returns the fold (air_constants.h) of a kind. Only in this does a clump without a face differ from a fruit.
 template <class T> constexpr T fold_of(Kind kind) {
-    return is_foliage(kind) ? T(1 / fold_speed) : T(0);
+    return fold_where<T>(is_foliage(kind));
 }
 // g
 template <class W, class T = RealOf<W>> BOUGH_FORCE W unfolded(T fold, const W& speed) {

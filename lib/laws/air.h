@@ -74,7 +74,7 @@ template <class T> struct AirForce {
 
 // g
 template <class T> T unfolded(Kind kind, T speed) {
-    return is_foliage(kind) ? 1 / (1 + speed / T(fold_speed)) : T(1);
+    return is_foliage(kind) ? 1 / folding(speed) : T(1);
 }
 
 // The law's factors of (u.n) n and of u. facing: f.

@@ -31,6 +31,7 @@ std::optional<Defect> check(const Ball& ball, const std::string& at) {
 }
 
 std::optional<Defect> check(const Contact& contact) {
+    if (auto defect = one_of("contact/model", std::size_t(contact.model), {"impulse", "penalty"})) return defect;
     if (!(contact.restitution >= 0 && contact.restitution <= 1))
         return Defect{"contact/restitution", -1, "is " + shortest_text(contact.restitution) + ", expected 0 to 1"};
     if (auto defect = at_least("contact/friction", contact.friction, 0)) return defect;

@@ -2,6 +2,7 @@
 #pragma once
 #include "../base/shortest_text.h"
 #include "scene.h"
+#include <initializer_list>
 
 namespace bough {
 
@@ -9,6 +10,8 @@ std::optional<Defect> finite(std::string_view field, const Vec3&);
 std::optional<Defect> finite(std::string_view field, double);
 std::optional<Defect> at_least(std::string_view field, double value, double low);
 std::optional<Defect> above_zero(std::string_view field, double value);
+// Of an enum that has `names`, counted from 0: a cast may have made it of any number.
+std::optional<Defect> one_of(std::string_view field, std::size_t value, std::initializer_list<const char*> names);
 // `trees`: how many trees the scene has; 0: the caller holds the one tree that the scene is for.
 std::optional<Defect> check(const Selector&, const std::string& at, std::size_t trees);
 std::optional<Defect> check(const Wind&);

@@ -24,6 +24,13 @@ std::optional<Defect> finite(std::string_view field, double value) {
     return Defect{std::string(field), -1, "is not finite, expected a number"};
 }
 
+std::optional<Defect> one_of(std::string_view field, std::size_t value, std::initializer_list<const char*> names) {
+    if (value < names.size()) return std::nullopt;
+    std::string expected;
+    for (const char* const name : names) expected += (expected.empty() ? "" : ", ") + std::string(name);
+    return Defect{std::string(field), -1, "is " + std::to_string(value) + ", expected one of " + expected};
+}
+
 namespace {
 
 std::optional<Defect> check(const Placement& tree, const std::string& at) {
@@ -168,6 +175,7 @@ std::optional<Defect> check(const Selector& on, const std::string& at, std::size
         return Defect{at + "/tree", -1,
                       "is " + std::to_string(on.tree) + ", expected a tree of the scene, 0 to less than " +
                           std::to_string(count)};
+    if (auto defect = one_of(at + "/by", std::size_t(on.by), {"body", "branch", "nearest", "level"})) return defect;
     switch (on.by) {
     case Selector::By::body:
         if (on.point)
@@ -199,6 +207,8 @@ std::optional<Defect> check(const Scene& scene) {
             return defect;
     for (std::size_t i = 0; i < scene.root_motion.size(); ++i)
         if (auto defect = check(scene.root_motion, i, scene.trees.size())) return defect;
+    if (auto defect = one_of("pose", std::size_t(scene.pose), {"drawn", "settled", "rest"})) return defect;
+    if (auto defect = one_of("joint_inertia", std::size_t(scene.joint_inertia), {"branch", "paper"})) return defect;
     if (scene.joint_limit)
         if (auto defect = check(*scene.joint_limit)) return defect;
     if (scene.fracture)

@@ -21,7 +21,16 @@
 namespace bough {
 namespace {
 
+// value: an enum's, which a caller's cast may have made of any number.
+[[noreturn]] void refuse_option(const char* name, int value, const char* expected) {
+    throw SceneError(std::string(name) + " is " + std::to_string(value) + ", expected " + expected);
+}
+
 SimulationOptions checked(const SimulationOptions& o) {
+    if (o.precision != Precision::single && o.precision != Precision::double_)
+        refuse_option("precision", int(o.precision), "Precision::single or Precision::double_");
+    if (o.method != Method::coupled && o.method != Method::analytic)
+        refuse_option("method", int(o.method), "Method::coupled or Method::analytic");
     if (!(o.step > 0) || !std::isfinite(o.step))
         throw SceneError("step is " + std::to_string(o.step) + " s, expected more than 0");
     if (!(o.sleep >= 0)) throw SceneError("sleep is " + std::to_string(o.sleep) + " rad/s, expected 0 or more");
@@ -215,7 +224,8 @@ public:
                 put_ground(spline_of(run, driven), saved_time(saved, step, options().step),
                            ground_at(spline_of(run_, driven), time()));
         };
-        if (fresh_ && !run_.world.on()) {
+        const bool held = coupled() && coupled_state(run_.state).attachments.numbers > 0;
+        if (fresh_ && !run_.world.on() && !held) { // a state that is refused would take hands with it
             stay(run_);
             run_.state.loads.clear(); // pulls of a step that is not taken
             try {
@@ -224,7 +234,6 @@ public:
                 begin_again();
                 throw;
             }
-            fresh_ = false;
         } else {
             Run<T> run = started(); // what broke stands again before the saved state says what did
             run.plan.scene = run_.plan.scene;
@@ -233,10 +242,12 @@ public:
             restore_run(saved, step, run);
             for (const Attached& hand : hands())
                 if (!has_broken_off(run, hand.body)) adopt_hand(run, hand, hand.body);
+            if (held) // what was released keeps its number
+                coupled_state(run.state).attachments.numbers = coupled_state(run_.state).attachments.numbers;
             run_ = std::move(run);
         }
         broken_ = {};
-        shown_ = false;
+        shown_ = fresh_ = false;
     }
 
     std::string explain() const override { return explanation(run_.plan, assembly_->changes); }

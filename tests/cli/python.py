@@ -218,6 +218,8 @@ assert np.allclose(run.positions[0] - rest[0], [1, 0, 0], atol=1e-9)
 assert np.abs(run.positions - rest - [1, 0, 0]).max() > 1e-4  # and it sways
 raises(bough.UsageError, "set_ground: Simulation(grounds=True) is not set", lambda: of(tree).set_ground(0))
 raises(bough.UsageError, "rotation: has shape (3,)", lambda: run.set_ground(0, rotation=[0, 0, 1]))
+for none in ("abc", {}, [0, 0, 0, "w"], None):
+    raises(bough.UsageError, f"rotation: {'has shape ()' if none is None else f'is {none!r}'}, expected ", lambda: run.set_ground(0, rotation=none))
 raises(bough.UsageError, "tree 1 is not there", lambda: run.set_ground(1))
 
 # The step's error: at half the step, less than half of it.
@@ -328,7 +330,7 @@ def until_broken():
     for _ in range(5):
         run.step()
 raises(bough.NonFiniteError, "became non-finite in step", until_broken)
-raises(bough.OutputError, "not finite", run.save)
+raises(bough.NonFiniteError, "became non-finite in step", run.save)
 assert isinstance(bough.UsageError("x"), ValueError)
 
 # Each name that is public says what it is.

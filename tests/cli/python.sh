@@ -22,6 +22,7 @@ for file in imports/*; do
 done
 "$python" -W error "$top/tests/cli/python.py" >out 2>err || fail "python.py: $(tail -n 5 err)"
 [[ ! -s out && ! -s err ]] || fail "python.py says: $(cat out err)"
+[[ $(treesim --version | sed -n 1p) == "treesim $("$python" -c 'import bough; print(bough.__version__)') (bough)" ]] || fail "bough.py is of another version than treesim"
 [[ $(hash saved.safetensors --wind gusty --frames 15) == "$(hash birch.json --wind gusty --frames 15)" ]] || fail "the tree that bough.py saved moves otherwise"
 
 # Where the library for other programs' trees is not beside, its own documents are read all the same.

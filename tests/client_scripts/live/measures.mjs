@@ -5,7 +5,7 @@ import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { closePage, expect, openPage, steps, still } from './browser.mjs';
 
-const most = 1.43e6; // bytes, gzipped: what it has, rounded up; 1.5 MB is the promise
+const most = 1.43e6; // bytes, gzipped: what it loads to open, rounded up; 1.5 MB is the promise
 
 const scriptMost = 5 * 2; // ms of a frame: five times what it may have, as others work on the machine that tests
 
@@ -13,7 +13,8 @@ export async function the_page_is_small({ folder }) {
     const names = ['index.html', 'style.css', 'page.js', 'worker.js', 'bough.wasm'];
     const sizes = names.map((name) => gzipSync(fs.readFileSync(path.join(folder, name)), { level: 9 }).length);
     const all = sizes.reduce((a, b) => a + b, 0);
-    console.log(`    gzipped: ${names.map((name, k) => `${name} ${sizes[k]}`).join(', ')}; all ${all} bytes`);
+    const asked = ['young_maple.xml', 'bough_live.html'].map((name) => `${name} ${gzipSync(fs.readFileSync(path.join(folder, name)), { level: 9 }).length}`);
+    console.log(`    gzipped: ${names.map((name, k) => `${name} ${sizes[k]}`).join(', ')}; all ${all} bytes. Not counted, as it comes when asked for: ${asked.join(', ')}`);
     expect(all <= most, `${all} bytes gzipped, expected at most ${most}: what was added is worth that, or is left out`);
 }
 

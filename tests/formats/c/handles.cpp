@@ -65,5 +65,31 @@ TEST_CASE("each thread has its own message, and one simulation one caller") {
     CHECK(bough_free(reinterpret_cast<void*>(std::uintptr_t(2))) == BOUGH_USAGE);
     CHECK(here == bough_error());
     CHECK(bough_abi() == BOUGH_ABI);
+    CHECK_THAT(bough_version(), Catch::Matches("[0-9]+\\.[0-9]+\\.[0-9]+"));
     OK(bough_free(simulation));
+}
+
+TEST_CASE("an attachment's number is its simulation's, which never gives it twice") {
+    bough_simulation* const one = in_wind("breeze", bough_default_settings());
+    bough_simulation* const other = in_wind("breeze", bough_default_settings());
+    const double point[3] = {0, 0, 0}, target[3] = {0, 1, 0};
+    double force[3];
+    std::uint64_t first = 0, second = 0, third = 0;
+    steps(one, 2);
+    const std::string state = saved(one);
+    OK(bough_attach(one, 5, point, 10, 1, &first));
+    OK(bough_attach(one, 6, point, 10, 1, &second));
+    CHECK(bough_move_attachment(other, first, target, 1) == BOUGH_USAGE);
+    CHECK(std::string(bough_error()).find("is not there") != std::string::npos);
+    CHECK(bough_attachment_force(other, second, force) == BOUGH_USAGE);
+    CHECK(bough_release(other, second) == BOUGH_USAGE);
+    OK(bough_attachment_force(one, first, force)); // as it was
+    OK(bough_release(one, second));
+    OK(bough_restore(one, state.data(), state.size(), nullptr));
+    OK(bough_attach(one, 6, point, 10, 1, &third));
+    CHECK(third != first);
+    CHECK(third != second);
+    CHECK(bough_release(one, second) == BOUGH_USAGE);
+    OK(bough_free(one));
+    OK(bough_free(other));
 }

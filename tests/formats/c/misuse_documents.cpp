@@ -45,6 +45,10 @@ TEST_CASE("documents that are none, or another's, are BOUGH_INPUT with name and 
 
 TEST_CASE("a run that becomes non-finite says so at each step, and everything can still be called") {
     const Handles h;
+    std::size_t size = 0;
+    REQUIRE(bough_save(h.simulation, nullptr, 0, &size) == BOUGH_OK);
+    std::string state(size, 0);
+    REQUIRE(bough_save(h.simulation, state.data(), size, &size) == BOUGH_OK);
     const double v[3] = {0, 0, 0.1}, force[3] = {1e308, 1e308, 0};
     for (int k = 0; k < 3; ++k) CHECK(bough_pull(h.simulation, 20, v, force) == BOUGH_OK);
     bough_report report = {};
@@ -57,12 +61,26 @@ TEST_CASE("a run that becomes non-finite says so at each step, and everything ca
     bough_hit hit;
     std::int32_t found;
     std::uint64_t hash;
-    std::size_t size;
     const double from[3] = {0, 1, 30}, to[3] = {0, 0, -1};
     CHECK(bough_read(h.simulation, BOUGH_POSITION, &a) == BOUGH_OK);
     CHECK(bough_pick(h.simulation, from, to, 1, &hit, &found) == BOUGH_OK);
     CHECK(bough_hash(h.simulation, &hash) == BOUGH_OK);
-    refused(bough_save(h.simulation, nullptr, 0, &size), BOUGH_OUTPUT, "not finite");
+    size = 7;
+    refused(bough_save(h.simulation, nullptr, 0, &size), BOUGH_NON_FINITE,
+            "the simulation became non-finite in step " + std::to_string(report.steps) + ": ");
+    CHECK(std::string(bough_error()).find("; its state is not saved") != std::string::npos);
+    refused(bough_save(h.simulation, state.data(), state.size(), &size), BOUGH_NON_FINITE, "; its state is not saved");
+    CHECK(size == 7);
+    // One that goes on with its motion, and has not been stepped.
+    bough_simulation* following = nullptr;
+    REQUIRE(bough_simulate(h.scene, nullptr, h.simulation, &following) == BOUGH_OK);
+    refused(bough_save(following, nullptr, 0, &size), BOUGH_NON_FINITE, "the simulation is not finite");
+    CHECK(bough_free(following) == BOUGH_OK);
+    // From a state that is finite it goes on.
+    REQUIRE(bough_restore(h.simulation, state.data(), state.size(), nullptr) == BOUGH_OK);
+    CHECK(bough_save(h.simulation, nullptr, 0, &size) == BOUGH_OK);
+    CHECK(size == state.size());
+    CHECK(bough_step(h.simulation, nullptr) == BOUGH_OK);
 }
 
 TEST_CASE("messages are valid UTF-8 in one line, whatever bytes a document has and wherever they are cut") {

@@ -41,8 +41,8 @@ TEST_CASE("A tree answers impulses as one dense solve of M + h beta K + h^2 K do
     const Vec3 a(0.3, -1, 0.2), b(-0.5, 0.1, 0.4);
     PathResponse response(run.plan, run.world.poses, run.world.response, run.world.rigid,
                           std::vector<std::int64_t>(bodies.begin(), bodies.end()));
-    response.add(0, points[0], a);
-    response.add(1, points[1], b);
+    response.apply_impulse(0, points[0], a);
+    response.apply_impulse(1, points[1], b);
     const Eigen::VectorXd rates = solver.solve(jacobian(bodies[0], points[0], false).transpose() * a +
                                                jacobian(bodies[1], points[1], false).transpose() * b);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -78,7 +78,7 @@ TEST_CASE("A tree answers impulses as one dense solve of M + h beta K + h^2 K do
     run.world.poses.begin(run.plan, run.state);
     PathResponse bent(run.plan, run.world.poses, run.world.response, run.world.rigid,
                       std::vector<std::int64_t>(bodies.begin(), bodies.end()));
-    bent.add_springs();
+    bent.apply_springs();
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 of_springs = jacobian(bodies[k], points[k], false) * sprung;
         CHECK((bent.velocity(k, points[k]) - of_springs).norm() < 1e-7 * of_springs.norm());

@@ -46,5 +46,22 @@ TEST_CASE("what cannot be run is refused once, with its place") {
     o = {};
     o.threads = -1;
     CHECK(refusal(one(tree), o).find("threads is") == 0);
+    o = {};
+    o.precision = Precision(7);
+    CHECK(refusal(one(tree), o) == "precision is 7, expected Precision::single or Precision::double_");
+    o = {};
+    o.method = Method(7);
+    CHECK(refusal(one(tree), o) == "method is 7, expected Method::coupled or Method::analytic");
+    Scene posed = one(tree);
+    posed.pose = Pose(9);
+    CHECK(refusal(posed) == "/pose: is 9, expected one of drawn, settled, rest");
+    Scene jointed = one(tree);
+    jointed.joint_inertia = JointInertia(2);
+    CHECK(refusal(jointed) == "/joint_inertia: is 2, expected one of branch, paper");
+    Scene meeting = one(tree);
+    meeting.contact.emplace().model = ContactModel(2);
+    CHECK(refusal(meeting) == "/contact/model: is 2, expected one of impulse, penalty");
+    pulled.pulls[0].on.by = Selector::By(4);
+    CHECK(refusal(pulled) == "/pulls/0/on/by: is 4, expected one of body, branch, nearest, level");
     CHECK(refusal(one(tree)).empty());
 }

@@ -90,22 +90,25 @@ TEST_CASE("a wind that is changed blows as one that the run began with, and allo
     const Tree tree = leafy();
     Wind other = *wind_preset("storm");
     other.seed = 9;
-    for (const bool portable : {false, true}) {
-        SimulationOptions o;
-        o.portable = portable;
-        Scene there = one(tree, "gusty"), here = one(tree);
-        here.wind = other;
-        Simulation changed(there, o), begun(here, o), left(there, o);
-        changed.set_wind(other);
-        const std::uint64_t hash = run(begun, 15);
-        CHECK(run(changed, 15) == hash);
-        CHECK(run(left, 15) != hash);
-        const Wind back = *wind_preset("gusty");
-        const std::size_t before = allocations;
-        changed.set_wind(back);
-        const std::size_t after = allocations; // before CHECK, which allocates itself
-        CHECK(after == before);
-    }
+    for (const Method method : {Method::coupled, Method::analytic})
+        for (const Precision precision : {Precision::single, Precision::double_})
+            for (const bool portable : {false, true}) {
+                SimulationOptions o = with(precision, method);
+                o.portable = portable;
+                Scene there = one(tree, "gusty"), here = one(tree);
+                here.wind = other;
+                Simulation changed(there, o), begun(here, o), left(there, o);
+                changed.set_wind(other);
+                const std::uint64_t hash = run(begun, 15);
+                CHECK(run(changed, 15) == hash);
+                CHECK(run(left, 15) != hash);
+                const Wind back = *wind_preset("gusty");
+                const std::size_t before = allocations;
+                changed.set_wind(back);
+                changed.step();
+                const std::size_t after = allocations; // before CHECK, which allocates itself
+                CHECK(after == before);
+            }
     Simulation still(one(tree));
     CHECK_THROWS_WITH(still.set_wind(other), Catch::Contains("began without one"));
     Simulation windy(one(tree, "gusty"));
@@ -204,6 +207,11 @@ TEST_CASE("wood that is changed moves as wood that the run began with, and alloc
             CHECK(left.steps() == 15);
             run(left, 5);
             CHECK(apart(left.positions(), changed.positions()) < 1e-3 * moved);
+            const std::size_t then = allocations;
+            changed.set_wood(3, 1);
+            changed.step();
+            const std::size_t stepped = allocations;
+            CHECK(stepped == then);
         }
     Simulation good(one(tree));
     for (const double bad : {0.0, -1.0, double(NAN), double(INFINITY)})
