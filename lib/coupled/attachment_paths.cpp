@@ -25,6 +25,12 @@ double straining(const Plan<T>& plan, const Attachments& a, const Attached& held
     return std::min(1.0, most / far_turn);
 }
 
+// [N m/rad] The bound on (P.f) 1 - sym(P f^T), with p = P / |P| and n^2 the square of the sine between P and f. `any` [N] is of unknown direction.
+Mat3 direction_bound(const Vec3& p, double arm, const Vec3& f, double any) {
+    const double force = f.norm(), n2 = force > 0 ? (p.cross(f) / force).squaredNorm() : 0;
+    return arm * ((force + any) * Mat3::Identity() - (force * (1 - n2 / 2) + any / 2) * p * p.transpose());
+}
+
 } // namespace
 
 template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
@@ -92,12 +98,12 @@ template <class T> void add_direction(const Plan<T>& plan, Attachments& a, const
     const Vec3 now =
         held.k * ((held.from_target + held.to_target) / 2 - start) + held.c * (held.target_velocity - velocity);
     const double strain = straining(plan, a, held, held.k + held.c / plan.dt, Vec3(now - held.force)),
-                 most = std::max(held.force.norm(), strain * strain * now.norm());
+                 excess = std::max(0.0, strain * strain * now.norm() - held.force.norm());
     along_paths(a, held, [&](AttachedBody& b, const Vec3&, const Vec3& P) {
         const double arm = P.norm();
-        if (!(arm > 0) || !(most > 0)) return;
+        if (!(arm > 0)) return;
         const Vec3 p = P / arm;
-        const Mat3 H = arm * most * (Mat3::Identity() - p * p.transpose());
+        const Mat3 H = direction_bound(p, arm, held.force, excess);
         b.sums.A_stiffness += H;
         b.sums.N -= H * b.turn;
         b.sums.N_rate += H * b.own;

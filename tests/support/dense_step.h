@@ -197,8 +197,12 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
         const Real strain = std::min(Real(1), turns / Real(0.1L));
         for (const Carrier& link : paths) {
             const V3& arm = link.to_next;
-            const Real tension = arm.norm() * std::max(held.force.norm(), strain * strain * f.norm());
-            const M3 H = tension * (M3::Identity() - arm * arm.transpose() / arm.squaredNorm());
+            const Real pull = held.force.norm(),
+                       cosine = pull > 0 ? held.force.dot(arm) / (pull * arm.norm()) : Real(1),
+                       more = std::max(Real(0), strain * strain * f.norm() - pull);
+            const M3 about = arm * arm.transpose() / arm.squaredNorm(), across = M3::Identity() - about;
+            const M3 H = arm.norm() *
+                         (pull * across + pull * (1 - cosine * cosine) / 2 * about + more * across + more / 2 * about);
             Matrix turn = Matrix::Zero(3, N);
             for (const std::size_t b : link.carried_by) {
                 const auto at = 3 * Eigen::Index(b);
