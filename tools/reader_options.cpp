@@ -6,10 +6,9 @@ namespace bough {
 
 void add_reader_options(OptionList& list) {
     ReaderChoice& choice = reader_choice();
-    list.add(
-            "--reader-memory", choice.megabytes,
-            "Memory that reading an FBX, COLLADA or OBJ model may take [MB] (1000 and 64 for each of the file's, "
-            "at most three quarters of what is free)")
+    list.add("--reader-memory", choice.megabytes,
+             "Memory that reading an FBX, COLLADA or OBJ model may take [MB] (1000 and 64 for each of the file's, "
+             "at most three quarters of what is free)")
         .takes("MB")
         .check(whole_number(1, std::int64_t(1) << 40));
     list.add("--reader-seconds", choice.seconds,
