@@ -26,22 +26,40 @@ double area_of(const Skin& skin, const Triangle& t) {
     return 0.5 * (b - a).cross(c - a).norm();
 }
 
+// What hangs together: by triangles, and by corners at one place, which seams of UV part.
+class Touching {
+public:
+    explicit Touching(const Skin& skin) : skin_(skin), sets_(skin.position.size()) {}
+    void join(std::int32_t a, std::int32_t b) { sets_.join(a, b); }
+    void join(const Triangle& t) {
+        for (const std::int32_t v : t) {
+            const Vec3& p = skin_.position[std::size_t(v)];
+            sets_.join(t[0], v);
+            sets_.join(at_.try_emplace({p.x(), p.y(), p.z()}, v).first->second, v);
+        }
+    }
+    std::int32_t find(std::int32_t v) { return sets_.find(v); }
+
+private:
+    const Skin& skin_;
+    DisjointSets sets_;
+    std::map<std::array<double, 3>, std::int32_t> at_;
+};
+
 // Leaves of a part; what of its triangles is none goes to `rest`.
 std::vector<Piece> pieces_of(const Skin& skin, const SkinPart& part, const Tree& tree,
                              std::vector<std::int32_t>& rest) {
     const std::size_t end = part.first_index + part.index_count;
-    DisjointSets sets(skin.position.size());
-    std::map<std::array<double, 3>, std::int32_t> at;
+    Touching sets(skin);
     std::map<std::int32_t, std::int32_t> of_leaf; // of a body that is one leaf, its first vertex
-    for (std::size_t t = part.first_index; t < end; ++t)
+    for (std::size_t t = part.first_index; t < end; ++t) {
+        sets.join(skin.triangle[t]);
         for (const std::int32_t v : skin.triangle[t]) {
-            sets.join(skin.triangle[t][0], v);
-            const Vec3& p = skin.position[std::size_t(v)];
-            sets.join(at.try_emplace({p.x(), p.y(), p.z()}, v).first->second, v);
             const std::int32_t body = skin.joint[std::size_t(v)][0];
             if (is_flat(tree.kind[std::size_t(body)]) && !is_clump(tree, std::size_t(body)))
                 sets.join(of_leaf.try_emplace(body, v).first->second, v);
         }
+    }
     // A kite's two faces lie a leaf's thickness apart.
     for (const std::int32_t first : skin.clump_leaf)
         for (std::int32_t k = 1; k < std::int32_t(leaf_vertices); ++k) sets.join(first, first + k);
@@ -77,14 +95,8 @@ struct Wood {
 
 // The triangles, by the pieces that they hang together in, the largest area first.
 std::vector<std::vector<Triangle>> by_size(const Skin& skin, const std::vector<Triangle>& triangle) {
-    DisjointSets sets(skin.position.size());
-    std::map<std::array<double, 3>, std::int32_t> at;
-    for (const Triangle& t : triangle)
-        for (const std::int32_t v : t) {
-            const Vec3& p = skin.position[std::size_t(v)];
-            sets.join(t[0], v);
-            sets.join(at.try_emplace({p.x(), p.y(), p.z()}, v).first->second, v);
-        }
+    Touching sets(skin);
+    for (const Triangle& t : triangle) sets.join(t);
     std::map<std::int32_t, std::pair<double, std::vector<Triangle>>> found;
     for (const Triangle& t : triangle) {
         auto& [area, of] = found[sets.find(t[0])];

@@ -8,6 +8,8 @@
 namespace bough {
 namespace {
 
+constexpr std::int64_t leaves_a_clump = 64; // on the average, at most
+
 enum class ClumpDraw : std::uint8_t {
     clump = 210,
     leaf,
@@ -47,7 +49,7 @@ std::vector<std::int32_t> clump_leaves_drawn(const Tree& tree, std::int64_t all)
         if (n > 1) ++clumps, leaves += n;
     if (all == 0)
         all = std::min(std::clamp<std::int64_t>(2 * std::int64_t(tree.leaf_count.size()), 10'000, 200'000),
-                       clump_leaves_most * clumps);
+                       leaves_a_clump * clumps);
     if (leaves <= all) return tree.leaf_count;
     const auto drawn = [](std::int32_t n, double part) {
         return std::max(std::int32_t(std::lround(part * double(n))), std::int32_t(1));

@@ -8,13 +8,12 @@
 // the way from the centre to the length's end in place of the length. The middle of leaf k is point k of a sequence of low discrepancy (the
 // additive recurrence of three irrationals). Leaves point away from the clump's joint and middle and droop a little. Those of a clump that hangs,
 // by more than 30 degrees below level, droop the more the steeper it hangs, and the leaves of one that hangs plumb do so too; those of a species
-// whose twigs hang do so wherever the clump points. Their upper faces look up and outward. All of it is drawn from the body's index, so that the same tree looks the same whoever draws it.
+// whose twigs hang do so wherever the clump points. Their upper faces look up and outward. All of it is drawn from the body's
+// index, so that the same tree looks the same whoever draws it.
 #pragma once
 #include "../model/tree.h"
 
 namespace bough {
-
-constexpr std::int64_t clump_leaves_most = 64; // of a clump, on the average
 
 // How many leaves each body is drawn as, 1..leaf_count; empty where the tree has no leaf_count: one each. all: 0 for the above. O(bodies).
 std::vector<std::int32_t> clump_leaves_drawn(const Tree&, std::int64_t all = 0);

@@ -50,16 +50,6 @@ template <class T> Vec3 end_of(const State<T>& state, const Tree& tree, std::siz
     return state.x_w[i].template cast<double>() + state.R_wb[i].template cast<double>().col(2) * tree.size[i][0];
 }
 
-Ground ground_of(const RootSpline& spline, const GroundMotion& motion) {
-    Ground ground;
-    ground.R = motion.rotation.normalized().toRotationMatrix();
-    const Vec3 arm = ground.R * spline.pivot;
-    ground.omega = motion.angular_velocity;
-    ground.x = motion.position + spline.pivot - arm;
-    ground.v = motion.velocity - ground.omega.cross(arm);
-    return ground;
-}
-
 template <class T> class RunOf final : public AnyRun {
 public:
     RunOf(std::shared_ptr<Assembly> of, const RunChoice& c) : AnyRun(std::move(of), c) {
@@ -286,9 +276,7 @@ public:
     }
     GroundMotion ground(std::size_t tree) const override {
         const RootSpline& spline = run_.plan.splines[driven(tree).spline];
-        const Ground ground = ground_at(spline, time());
-        const Vec3 arm = ground.R * spline.pivot;
-        return {ground.x + arm - spline.pivot, Quat(ground.R), ground.v + ground.omega.cross(arm), ground.omega};
+        return motion_of(spline, ground_at(spline, time()));
     }
 
     std::vector<JointMotion> joints() override {

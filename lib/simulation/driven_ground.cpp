@@ -47,6 +47,21 @@ void move_all_trees(Scene& scene, std::size_t trees) {
     }
 }
 
+Ground ground_of(const RootSpline& spline, const GroundMotion& motion) {
+    Ground ground;
+    ground.R = motion.rotation.normalized().toRotationMatrix();
+    const Vec3 arm = ground.R * spline.pivot;
+    ground.omega = motion.angular_velocity;
+    ground.x = motion.position + spline.pivot - arm;
+    ground.v = motion.velocity - ground.omega.cross(arm);
+    return ground;
+}
+
+GroundMotion motion_of(const RootSpline& spline, const Ground& ground) {
+    const Pivot pivot = pivot_of(spline, ground);
+    return {pivot.x, Quat(ground.R), pivot.v, ground.omega};
+}
+
 void make_driven(RootSpline& spline) {
     spline.position.emplace();
     spline.rotation.emplace();

@@ -6,11 +6,16 @@
 // resolve follows root_motion to O(h^4).
 #pragma once
 #include "../model/root_motion.h"
+#include "run_types.h"
 
 namespace bough {
 
 // Makes all of a scene's trees (`trees` of them) moved ones: those without keys of their own get keys that keep them where they are.
 void move_all_trees(Scene&, std::size_t trees);
+
+// A caller's motion is of the tree's place, which the spline turns about; a Ground's is of the world's origin, carried along. Both ways, O(1).
+Ground ground_of(const RootSpline&, const GroundMotion&);
+GroundMotion motion_of(const RootSpline&, const Ground&);
 
 // These functions read and give pose and velocities of a Ground. make_driven makes a curve that the others change without allocating.
 void make_driven(RootSpline&); // at rest where the tree was drawn

@@ -162,7 +162,7 @@ TEST_CASE("leaves are enlarged alike in small clumps and large ones") {
 
 TEST_CASE("leaves of a species whose twigs hang do so wherever their clump points") {
     Tree tree = clump(64);
-    tree.joint_rotation[0] = Quat::Identity() * Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
+    tree.joint_rotation[0] = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
     const Mat3 upright = tree.joint_rotation[0].toRotationMatrix();
     const auto falls = [&](double hang) {
         double sum = 0;
