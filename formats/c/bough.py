@@ -709,7 +709,7 @@ class Simulation(_Handle, _HasBodies):
 
     def attach(self, body, point, stiffness, damping=0):
         """A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point (3) [m] of a body, body frame, and a target in the world, which is
-        where the point is now. Any stiffness holds; a branch pressed along itself by 5000 times its wood's may twitch at 1/30 s. Returns the attachment's number, this simulation's own; until release(), or till the body breaks off."""
+        where the point is now. Any stiffness holds. Returns the attachment's number, this simulation's own; until release(), or till the body breaks off."""
         number = ctypes.c_uint64()
         _check(_c.bough_attach(self._handle, _whole(body, "body", 0, 2**63), _vector(point, "point"), _number(stiffness, "stiffness"),
                                _number(damping, "damping"), ctypes.byref(number)))

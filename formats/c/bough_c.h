@@ -238,8 +238,8 @@ bough_result bough_pick(bough_simulation* simulation, const double from[3], cons
 /* A force [N] of the world on a point [m] of a body of the trees, in the next step alone. Any number of them; needs settings.pulls. */
 bough_result bough_pull(bough_simulation* simulation, size_t body, const double point[3], const double force[3]);
 /* A hand, a rope, a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in the world, which is
- * where the point is now; from the next step on, until it is released or the body breaks off. Any stiffness holds; a branch pressed along itself by
- * 5000 times its wood's may twitch at 1/30 s, and less so in smaller steps. Nothing has to be asked for beforehand.
+ * where the point is now; from the next step on, until it is released or the body breaks off. Any stiffness holds. (In single
+ * precision a stem that a spring presses along itself with 10^5 N may go on moving.) Nothing has to be asked for beforehand.
  * *attachment: its number, above 0, which this simulation never gives twice; others count for themselves. O(bodies), which allocates; steps do not. Part of
  * no saved state. Coupled method. */
 bough_result bough_attach(bough_simulation* simulation, size_t body, const double point[3], double stiffness,

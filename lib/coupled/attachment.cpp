@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace bough {
 namespace {
 
-constexpr double lost = 0.01; // of the path's own masses, by the rounding of zeta
+// Of the path's own masses, by the rounding of zeta.
+template <class T> constexpr double lost = std::is_same_v<T, float> ? 1e-2 : 1e-6;
 
 // As midpoint.cpp, and where the joint is at y0.
 void place_body(AttachedBody& b, const AttachedBody& p, bool halfway) {
@@ -137,7 +139,7 @@ void take_softer(const Plan<T>& plan, const Attachments& a, Attached& held, std:
         answer = {std::min(answer.mass, far.mass), std::min(answer.push, far.push)};
     }
     const double digits = 1 / std::sqrt(double(std::numeric_limits<T>::epsilon())),
-                 most = std::sqrt(lost) * digits * answer.mass;
+                 most = std::sqrt(lost<T>) * digits * answer.mass;
     held.k = std::min(held.stiffness, most / std::norm(s1));
     held.c = std::min(held.damping, most / std::abs(s1));
     if (!(held.k < held.stiffness)) return;

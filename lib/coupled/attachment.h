@@ -22,8 +22,7 @@
 // this is e = 1/2, the second part. The first has e = n^2/2: that is enough for m <= 1/2, so wherever f presses. Elsewhere twice the bound is more
 // than the Hessian, which is what a step with R(infinity) = 0 needs to come to rest. With e = 0, as it was, pressed branches of grown trees trembled
 // for ever at 1/30 s: of 125 cases (springs of 1e3 N/m; calm; 300 bodies) 21 moved by more than 1 cm/s after 8 s, up to 33 m/s. Now 10 do, up to
-// 0.04, as at 1/120 s 10, up to 0.11. Not so where a spring is 5 10^5 times as stiff as the branch: there they still creep and twitch at 1/30 s, by
-// up to 3 m/s. Error where a tip is drawn aside by 0.3 of its branch, mean of 25: e = 0 0.26 %, n^2/2 0.27 %, 1/2 0.42 %.
+// 0.04, as at 1/120 s 10, up to 0.11. Error where a tip is drawn aside by 0.3 of its branch, mean of 25: e = 0 0.26 %, n^2/2 0.27 %, 1/2 0.42 %.
 // w is 1 where the linear model may not be trusted: where a joint would turn by more than 0.1 rad under f_0 - f, answered by the path's own springs
 // and inertias alone. Below, w is the square of that turn over 0.1 rad. (A straight twig that is pushed along itself by a micrometre has to turn by
 // as much as one that is pulled a metre aside.) As any L does, H leaves fixed points and the second order as they are. Tried on a twig of 0.8 mm,
@@ -32,14 +31,17 @@
 // e = 0 3e-7 / 1e-6. The price is that what is pressed comes to rest as slowly as that.
 //
 // Digits. Eliminating a joint takes zeta l^2 beside what the joint itself answers with, (J + |z| K) about its softest axis, and hands on their
-// difference. With m_t the least of (J + |z| K) / l^2 along the path, (zeta / m_t)^2 roundings of m_t are lost. So zeta is at most sqrt(0.01 /
-// epsilon) m_t: 290 m_t in float, 7 10^6 in double. A stiffer spring is taken with that stiffness k_c, and its target is shifted by f_k (1/k_c -
-// 1/k), f_k its own force of the last step. At rest it is then as long as a spring of k, and in float its point follows the target within 1 / 290 of
-// its way in a step. A stronger damper is taken as one of that c.
-// A spring shifted so, whose target is out of reach, pulls at every step by k_c times the remaining way more. What several such springs hold against
-// each other with grows until rounding moves the joints between them: (H / (J + |z| K) |s|^2)^2 roundings, as zeta's. So the f_k that shifts is at
-// most sqrt(1 / epsilon) times what turns a joint of the path by a radian in a step, the least of (J + |z| K) / (l |s|^2): 2900 of it in float, 7
-// 10^7 in double. Beyond that, a target is pulled at with that force and with k_c.
+// difference. With m_t the least of (J + |z| K) / l^2 along the path, (zeta / m_t)^2 roundings of m_t are lost. So zeta is at most 290 m_t in float,
+// where 0.01 of m_t is lost, and 7 10^4 m_t in double, where 10^-6 is. (With 0.01 in double too, pressed branches went on by 7 m/s.) A stiffer spring
+// is taken with that stiffness k_c, and its target is shifted by f_k (1/k_c - 1/k). f_k is its own force, of whose change each step takes a fifth. At
+// rest it is then as long as a spring of k. In float its point follows the target within 1 / 290 of its way in a step. A stronger damper is taken as
+// one of that c. With the whole of the last step's force for f_k, branches that 1e9 N/m pressed in float went on by up to 18 m/s at 1/30 s, and by up
+// to 53 m/s at 1/120 s (93 of 125 by more than 1 cm/s). Now 66 of 125 do at 1/30 s, by up to 0.5 m/s, as in double and in steps of 1/480 s: slow
+// swings. One of the 125, a stem that 10^5 N press, still goes on by 6 m/s in float.
+// A spring shifted so, whose target is out of reach, pulls harder at every step. What several such springs hold against each other with grows until
+// rounding moves the joints between them: (H / (J + |z| K) |s|^2)^2 roundings, as zeta's. So the f_k that shifts is at most sqrt(1 / epsilon) times
+// what turns a joint of the path by a radian in a step, the least of (J + |z| K) / (l |s|^2): 2900 of it in float, 7 10^7 in double. Beyond that, a
+// target is pulled at with that force and with k_c.
 //
 // Both forces are carried from step to step. Reads motions of the bodies on paths alone. Writes sums for them before the solves, and forces after
 // them. O(path) an attachment, about 0.3 us a joint of all paths together; all in double. A step allocates nothing. Errors none.

@@ -68,7 +68,7 @@ struct Attached : AttachedEnd {
     int steps = 0;
 
     Vec3 force = Vec3::Zero(),
-         spring = Vec3::Zero(); // [N] on the body at the last step's end, and the spring's own part; carried
+         spring = Vec3::Zero(); // [N] on the body at the last step's end, and the spring's own part, smoothed; carried
 
     // Of the step.
     bool on = false;

@@ -4,6 +4,11 @@
 #include <string>
 
 namespace bough {
+namespace {
+
+constexpr double followed = 0.2; // of what a spring's force has changed by, each step (attachment.h, digits)
+
+}
 
 void settle_attachments(Attachments& a) {
     for (AttachedBody& b : a.bodies) {
@@ -39,8 +44,9 @@ void settle_attachments(Attachments& a) {
             velocity -= held.far->velocity;
         }
         const Vec3 before = held.force;
-        held.spring = -held.k * (start + (way - far_way) - held.to_target);
-        held.force = held.spring - held.c * (velocity + gained - held.target_velocity - held.quicker / 2);
+        const Vec3 spring = -held.k * (start + (way - far_way) - held.to_target);
+        held.spring += followed * (spring - held.spring);
+        held.force = spring - held.c * (velocity + gained - held.target_velocity - held.quicker / 2);
         held.work = (before + held.force).dot(way) / 2;
         held.far_work = -(before + held.force).dot(far_way) / 2;
     }

@@ -121,8 +121,8 @@ public:
     // off.
     void pull(std::size_t body, const Vec3& point, const Vec3& force);
     // Attaches a hand, a rope or a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in
-    // the world. The target starts where the point is now. No stiffness makes it grow (attachment.h has what twitches). Returns the attachment's number, which is above 0 and which this
-    // simulation never gives twice. Any number of attachments act, from the next step on until release() or until the body breaks off. Nothing has to
+    // the world. The target starts where the point is now. No stiffness makes the motion grow. Returns the attachment's number, which is
+    // above 0 and which this simulation never gives twice. Any number of attachments act, from the next step on until release() or until the body breaks off. Nothing has to
     // be asked for beforehand. A call is O(bodies) and allocates; a step with an attachment takes some microseconds more and allocates nothing for
     // it. Saved states do not contain it. Coupled method only. Throws SceneError, also for bodies that are not there, stand still or have broken off.
     std::uint64_t attach(std::size_t body, const Vec3& point, double stiffness, double damping);
