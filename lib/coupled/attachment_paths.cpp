@@ -25,13 +25,15 @@ double straining(const Plan<T>& plan, const Attachments& a, const Attached& held
     return std::min(1.0, most / far_turn);
 }
 
-// [N m/rad] The bound on (P.f) 1 - sym(P f^T), with p = P / |P| and n^2 the square of the sine between P and f. `any` [N] is of unknown direction.
-Mat3 direction_bound(const Vec3& p, double arm, const Vec3& f, double any) {
-    const double force = f.norm(), n2 = force > 0 ? (p.cross(f) / force).squaredNorm() : 0;
+} // namespace
+
+Mat3 direction_bound(const Vec3& P, const Vec3& f, double any) {
+    const double arm = P.norm(), force = f.norm();
+    if (!(arm > 0)) return Mat3::Zero();
+    const Vec3 p = P / arm;
+    const double n2 = force > 0 ? (p.cross(f) / force).squaredNorm() : 0;
     return arm * ((force + any) * Mat3::Identity() - (force * (1 - n2 / 2) + any / 2) * p * p.transpose());
 }
-
-} // namespace
 
 template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
     std::vector<std::size_t>& touched = a.touched;
@@ -100,10 +102,7 @@ template <class T> void add_direction(const Plan<T>& plan, Attachments& a, const
     const double strain = straining(plan, a, held, held.k + held.c / plan.dt, Vec3(now - held.force)),
                  excess = std::max(0.0, strain * strain * now.norm() - held.force.norm());
     along_paths(a, held, [&](AttachedBody& b, const Vec3&, const Vec3& P) {
-        const double arm = P.norm();
-        if (!(arm > 0)) return;
-        const Vec3 p = P / arm;
-        const Mat3 H = direction_bound(p, arm, held.force, excess);
+        const Mat3 H = direction_bound(P, held.force, excess);
         b.sums.A_stiffness += H;
         b.sums.N -= H * b.turn;
         b.sums.N_rate += H * b.own;

@@ -36,6 +36,9 @@ struct PathAnswer {
 template <class T>
 PathAnswer path_answer(const Plan<T>&, const Attachments&, const AttachedEnd&, std::complex<double> s1);
 
+// [N m/rad] Returns a bound on (P.f) 1 - sym(P f^T), which attachment.h derives. `any` [N] is of unknown direction.
+Mat3 direction_bound(const Vec3& P, const Vec3& f, double any);
+
 // Adds H to every body of the paths, from their places at y*.
 template <class T> void add_direction(const Plan<T>&, Attachments&, const Attached&);
 

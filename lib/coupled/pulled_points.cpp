@@ -9,11 +9,8 @@ namespace {
 
 // H of what carries a force f at the place P from its joint.
 void turn_with(AttachedBody& b, const Vec3& P, const Vec3& f, double w) {
-    const double arm2 = P.squaredNorm(), size = f.norm();
-    if (!(arm2 > 0) || !(size > 0)) return;
     const Mat3 Pf = P * f.transpose();
-    const Mat3 H = (1 - w) * (P.dot(f) * Mat3::Identity() - (Pf + Pf.transpose()) / 2) +
-                   w * size * std::sqrt(arm2) * (Mat3::Identity() - P * P.transpose() / arm2);
+    const Mat3 H = (1 - w) * (P.dot(f) * Mat3::Identity() - (Pf + Pf.transpose()) / 2) + w * direction_bound(P, f, 0);
     b.sums.A_stiffness += H;
     b.sums.N -= H * b.turn;
     b.sums.N_rate += H * b.own;

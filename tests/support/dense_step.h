@@ -271,7 +271,9 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             for (int c = 0; c < 3; ++c)
                 H(r, c) = (curvature(V3::Unit(r) + V3::Unit(c)) - curvature(V3::Unit(r) - V3::Unit(c))) / 4;
         H *= 1 - w;
-        H += w * on.f.norm() * on.P.norm() * (M3::Identity() - on.P * on.P.transpose() / on.P.squaredNorm());
+        const Real size = on.f.norm() * on.P.norm(), cosine = size > 0 ? on.f.dot(on.P) / size : Real(1);
+        const M3 about = on.P * on.P.transpose() / on.P.squaredNorm();
+        H += w * size * (M3::Identity() - about + (1 - cosine * cosine) / 2 * about);
         const Matrix turn = turn_of(on.body), more = turn.transpose() * H * turn;
         K += more;
         K_turning += more;
