@@ -75,3 +75,19 @@ TEST_CASE("one coordinate of a SpeedTree file far off is refused, wherever it st
     }
     CHECK(tried == 3);
 }
+
+TEST_CASE("a radius beyond the tree's extent is refused with its branch and place, and noted before that") {
+    const auto thick = [](const std::string& radius) {
+        return replaced(trunk(41, 0, 0), "0 0 2 0.05", "0 0 2 " + radius);
+    };
+    CHECK(error_with(thick("50")) ==
+          "t.swc: the radius of branch 0 at 0, 2, 0 m (x, y up, z) is 50 m in a tree that is 4 large, with "
+          "a median radius of 0.05; expected less than the tree is large");
+    CHECK(error_with(thick("3")) == "");
+    const auto noted = [&](const std::string& radius) {
+        return imported(thick(radius), "t.swc", {}, true).notes_hold("is it a slip?");
+    };
+    CHECK(noted("3"));
+    CHECK(noted("1.1"));
+    CHECK_FALSE(noted("0.9"));
+}
