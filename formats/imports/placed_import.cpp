@@ -7,8 +7,9 @@
 namespace bough {
 namespace {
 
-constexpr double aside = 0.01, stands = 1e-3; // of the tree's extent; [m]: below the ground the wind is zero
-constexpr double tallest = 120, lowest = 0.1; // [m]
+constexpr double aside = 0.01, stands = 1e-3;           // of the tree's extent; [m]: below the ground the wind is zero
+constexpr double floats = 0.5, floats_of_extent = 0.05; // [m]; [1]: stems of one stool begin at several heights
+constexpr double tallest = 120, lowest = 0.1;           // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
@@ -58,19 +59,30 @@ Box box_of(std::span<const Vec3> points) {
 }
 
 void set_on_ground(Splines& s, bool keep, ImportNotes& notes) {
-    if (keep) return;
     const Box box = box_of(s.point);
     const double extent = (box.high - box.low).maxCoeff();
     Vec3 base = Vec3::Zero();
-    double ground = box.high.y();
+    double ground = box.high.y(), highest = box.low.y();
     std::size_t roots = 0;
     for (std::size_t b = 0; b < s.branches(); ++b) {
         if (s.parent[b] >= 0) continue;
         const Vec3& p = s.point[s.first_point[b]];
         base += p;
         ground = std::min(ground, p.y());
+        highest = std::max(highest, p.y());
         ++roots;
     }
+    if (keep) {
+        if (ground < -stands)
+            notes.lines.push_back("its foot is " + shown(-ground) +
+                                  " m below the ground, y = 0, under which no wind blows (--keep-place)");
+        return;
+    }
+    if (highest - ground > std::min(floats, floats_of_extent * extent))
+        notes.lines.push_back(
+            "the highest of its " + std::to_string(roots) + " trunks begins " + shown(highest - ground) +
+            " m above the lowest, on whose base the ground is set: in a simulation it begins in the air "
+            "(treeconvert --split sets each on the ground)");
     base /= double(std::max<std::size_t>(1, roots));
     base.y() = ground;
     const double off = std::max(std::abs(base.x()), std::abs(base.z()));
