@@ -154,7 +154,9 @@ void work(ErrorCommand& o) {
                           chosen_simd(o.run)};
     const double coarsest = std::max(1.0, 1 / options.steps_per_frame.front());
     if (double(problem.frames - 1) < 2 * coarsest)
-        throw UsageError("--frames: at least two of the longest steps are needed");
+        throw UsageError("--frames: is " + std::to_string(problem.frames) + ", expected at least " +
+                         std::to_string(std::int64_t(std::ceil(2 * coarsest)) + 1) +
+                         ": two of the longest steps, and the frame at the start");
     interrupt_at_boundary();
     ErrorReport report;
     {

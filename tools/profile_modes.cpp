@@ -51,6 +51,7 @@ void declare(OptionList& list, ModesCommand& o) {
     list.add("--report", o.report, "Also write the figures as .json or .csv, the first six shapes as .svg")
         .takes("FILE")
         .check(file_name());
+    name_treeconverts_options(list);
 }
 
 ModesReport report_of(const ModesCommand& o, const Setting& setting, const SmallMotion& small,
@@ -141,8 +142,19 @@ void write_swing(ModesCommand& o, const Setting& setting, const SmallMotion& sma
     sink->finish();
 }
 
+// A table under the name of another format would be read as that format.
+void refuse_other_ending(const std::string& output) {
+    const std::string end = ending(output);
+    if (end == ".json" || end == ".csv" || end == ".svg")
+        throw UsageError("-o " + output + ": is where the table goes; --report " + output + " writes a " + end);
+    if (!end.empty() && end != ".glb" && end != ".txt" && end != ".tsv")
+        throw UsageError("-o is '" + output +
+                         "', expected .txt for the table or .glb for a swing; --report writes .json, .csv and .svg");
+}
+
 void work(ModesCommand& o) {
     const bool swings = ending(o.common.output) == ".glb";
+    refuse_other_ending(o.common.output);
     if (!o.report.empty() && same_file(o.report, o.common.output))
         throw UsageError("--report and -o name the same file");
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};

@@ -112,17 +112,21 @@ void add_run_options(OptionList& list, RunOptions& o, double seconds_default) {
     list.renamed("--stiffness-scale", "--set stiffness_scale=X");
     list.renamed("--damping-scale", "--set damping_scale=X");
     list.renamed("--joint-limit", "--set joint_limit=DEG");
-    for (const char* name :
-         {"--units", "--up", "--trunk-diameter", "--scan-radii", "--material", "--segment-length", "--radii"})
+    name_treeconverts_options(list);
+    list.elsewhere("--stiffness", "there is --set stiffness_scale=X");
+    list.elsewhere("--damping", "there is --set damping_scale=X");
+    list.elsewhere("--speed", "there is --set wind.velocity=[X,0,0], a steady wind in m/s");
+    list.elsewhere("--leaves", "trees grow them by treegen --leaves; an imported tree keeps the leaves of its file");
+}
+
+void name_treeconverts_options(OptionList& list) {
+    for (const char* name : {"--units", "--up", "--trunk-diameter", "--scan-radii", "--material", "--segment-length",
+                             "--max-bodies", "--keep-place", "--radii"})
         list.elsewhere(name,
                        std::string("is treeconvert's: treeconvert FILE ") + name +
                            " ... -o TREE.json, then this tool with TREE.json (treesim --skin FILE shows FILE's own "
                            "mesh)");
     list.elsewhere("--root-stiffness", "there is --set material.root_stiffness=K, and treeconvert's --root-stiffness");
-    list.elsewhere("--stiffness", "there is --set stiffness_scale=X");
-    list.elsewhere("--damping", "there is --set damping_scale=X");
-    list.elsewhere("--speed", "there is --set wind.velocity=[X,0,0], a steady wind in m/s");
-    list.elsewhere("--leaves", "trees grow them by treegen --leaves; an imported tree keeps the leaves of its file");
 }
 
 std::int64_t frames_of(const RunOptions& o, double seconds_default) {

@@ -30,6 +30,9 @@ struct RunOptions {
 // seconds_default: what runs without --seconds and --frames.
 void add_run_options(OptionList&, RunOptions&, double seconds_default);
 
+// Who asks a tool that reads trees for what treeconvert does is told so.
+void name_treeconverts_options(OptionList&);
+
 void add_simd_option(OptionList&, RunOptions&);
 void add_wind_option(OptionList&, RunOptions&);
 void add_sleep_option(OptionList&, RunOptions&); // with sleep_default as it stands

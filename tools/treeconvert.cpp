@@ -6,6 +6,7 @@
 #include "formats/documents/tree.h"
 #include "formats/exports/obj.h"
 #include "formats/imports/any_tree.h"
+#include "formats/plain_text.h"
 #include "frame_sink.h"
 #include "import_file.h"
 #include "import_stats.h"
@@ -31,6 +32,8 @@ namespace {
 
 using namespace bough;
 
+constexpr double noted_height = 1e-3; // [m] as far as a foot is left off the ground (formats/imports/placed_import.h)
+
 struct Options {
     CommonOptions common;
     ImportChoice choice;
@@ -48,8 +51,10 @@ const ToolInfo info = {
     .name = "treeconvert",
     .about = "Turns splines, or any file that treegen imports, into a tree of jointed rigid bodies.",
     .usage = "treeconvert INPUT [-o FILE] [--mesh FILE] [--material NAME|FILE] ...",
-    .details = "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json gives "
-               "trunk_0.json, trunk_1.json ... in the order of the roots.",
+    .details =
+        "With --split, -o and --mesh are patterns with one %d (or %04d) in the file name: trunk_%d.json gives "
+        "trunk_0.json, trunk_1.json ... in the order of the roots. Of another program's file each is set down to "
+        "the ground, unless with --keep-place.",
     .examples = "treegen --bodies 2000 | treeconvert - --mesh rest.obj -o tree.json\n"
                 "treeconvert oak.xml --stats -o oak.tree.json",
     .formats = {"json", "safetensors"},
@@ -236,7 +241,7 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
          << "sway        " << sway_text(tree) << "\n"
          << "longest     " << report.segment_length << " m of branch in one body\n"
          << "merged      " << report.merged_points << " points; dropped " << report.dropped_branches
-         << " branches; radii raised " << report.thin_points << "\n";
+         << " branches; radii raised to have a mass " << report.thin_points << "\n";
     return text.str();
 }
 
@@ -310,12 +315,28 @@ void write_each(const std::vector<Tree>& trees, Options& o) {
     }
 }
 
+// The trees of one slope, each with its base on the ground; where they stand on it stays.
+void set_down(std::vector<Tree>& trees, std::vector<std::string>& notes) {
+    double most = 0;
+    std::size_t count = 0;
+    for (Tree& tree : trees) {
+        double& height = tree.joint_position.front().y();
+        count += std::abs(height) > noted_height;
+        most = std::max(most, std::abs(height));
+        height = 0;
+    }
+    if (count > 0)
+        notes.push_back("--split: " + std::to_string(count) + " of " + counted(trees.size(), "tree", "trees") +
+                        " set on the ground, over up to " + shown(most) + " m");
+}
+
 void work(Options& o) {
     if (o.list_materials) return list_materials();
     refuse_contradictions(o);
     const std::string name = input_name(o.input);
     ImportNotes found;
     Splines splines = read_import(o.input, o.choice, found);
+    const bool is_foreign = found.format != "bough-splines"; // a document of ours stays where it is
     if (o.stats) std::cerr << import_statistics(splines, found);
     std::vector<std::string> notes = std::move(found.lines);
     const std::size_t guesses = notes.size();
@@ -342,10 +363,13 @@ void work(Options& o) {
     require_bodies(tree, name);
     std::string merged;
     if (o.merge.below) merged = merge_by_trial(tree, o.merge, o.common, o.input);
-    if (o.split)
-        write_each(split_roots(tree), o);
-    else
+    if (o.split) {
+        std::vector<Tree> trees = split_roots(tree);
+        if (is_foreign && !o.choice.keep_place) set_down(trees, notes);
+        write_each(trees, o);
+    } else {
         write_one(tree, o, o.common.output, o.mesh, o.wind_groups);
+    }
     if (o.stats) std::cerr << statistics(splines, tree, report, material) << merged;
     for (std::size_t k = o.stats ? guesses : 0; k < notes.size(); ++k) // --stats has told of the guesses
         o.common.notes.push_back(name + ": " + notes[k]);

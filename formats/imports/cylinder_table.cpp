@@ -9,10 +9,12 @@
 //   parent     parent, parentID, parent_ID, p2                         needed
 //   id         ID, cyl_ID, p1; else the row's number from 1            any whole numbers, each once
 //   branch     branch, branchID, axis_ID, nbranch; else by geometry
+//   extension  extension, extension_ID                                 which cylinder goes on: tells a file that was cut
 //
 // A parent below 0 is none; so is 0 where no cylinder has that id, and what R, Python and MATLAB write for a value that
 // is not there: NA, NaN, None, null. Metres and Z up: all of these
 // programs say so of their tables.
+#include "cylinder_slips.h"
 #include "cylinders.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
@@ -32,7 +34,7 @@ using Triple = std::array<std::size_t, 3>;
 
 struct Columns {
     Triple start, end, axis;
-    std::size_t length, radius, diameter, parent, id, branch;
+    std::size_t length, radius, diameter, parent, id, branch, extension;
     static bool all(const Triple& t) { return t[0] != none && t[1] != none && t[2] != none; }
     bool complete() const { return all(start) && parent != none && (all(end) || (all(axis) && length != none)); }
 };
@@ -54,6 +56,7 @@ Columns columns_of(const Table& t) {
     c.parent = column({"parent", "parentid", "parentcyl", "parentcylinder", "p2"});
     c.id = column({"id", "cylid", "cylinderid", "cylinder", "p1"});
     c.branch = column({"branch", "branchid", "axisid", "nbranch"});
+    c.extension = column({"extension", "extensionid"});
     return c;
 }
 
@@ -87,7 +90,7 @@ Vec3 end_of(const Table& t, const Columns& c, const Vec3& start, const std::stri
 
 struct Rows {
     Cylinders cylinders;
-    std::vector<std::int64_t> id, parent; // as in the file
+    std::vector<std::int64_t> id, parent, extension; // as in the file
 };
 
 Rows read_rows(Table& t, const Columns& c, std::size_t most, const std::string& name) {
@@ -97,6 +100,7 @@ Rows read_rows(Table& t, const Columns& c, std::size_t most, const std::string& 
     out.start.reserve(most), out.end.reserve(most), out.radius.reserve(most), out.line.reserve(most);
     if (c.branch != none) out.branch.reserve(most);
     rows.id.reserve(most), rows.parent.reserve(most);
+    if (c.extension != none) rows.extension.reserve(most);
     while (t.next()) {
         const Vec3 start = point(t, c.start);
         const double radius = c.radius != none     ? t.number(c.radius)
@@ -111,6 +115,7 @@ Rows read_rows(Table& t, const Columns& c, std::size_t most, const std::string& 
         if (c.branch != none) out.branch.push_back(t.integer(c.branch));
         rows.id.push_back(c.id != none ? t.integer(c.id) : std::int64_t(rows.id.size()) + 1);
         rows.parent.push_back(is_missing(t.cell(c.parent)) ? -1 : t.integer(c.parent));
+        if (c.extension != none) rows.extension.push_back(parse_integer(t.cell(c.extension)).value_or(0));
     }
     return rows;
 }
@@ -139,7 +144,7 @@ private:
     std::vector<std::int32_t> row_;
 };
 
-void link(Rows& rows, const std::string& name) {
+void link(Rows& rows, const std::string& name, ImportNotes& notes) {
     Cylinders& c = rows.cylinders;
     const ById by_id(rows.id, c.line, name);
     c.parent.reserve(rows.id.size());
@@ -152,6 +157,13 @@ void link(Rows& rows, const std::string& name) {
                                                              "-1 for none");
         c.parent.push_back(row);
     }
+    std::vector<std::int32_t> extension;
+    extension.reserve(rows.extension.size());
+    for (const std::int64_t e : rows.extension) {
+        const std::int32_t row = e <= 0 ? -1 : by_id.row(e);
+        extension.push_back(row < 0 && e > 0 ? std::int32_t(c.size()) : row);
+    }
+    note_cut(c, extension, notes);
 }
 
 bool recognizes_cylinders(std::string_view content) {
@@ -174,8 +186,10 @@ Splines read_cylinders(std::string_view content, const ImportOptions& options, I
     const auto lines = std::size_t(std::count(content.begin(), content.end(), '\n'));
     Rows rows = read_rows(table, columns, lines, options.name);
     if (rows.id.empty()) throw InputError(options.name, "holds no cylinder, expected one a row after the names");
-    link(rows, options.name);
-    rows.id = {}, rows.parent = {};
+    link(rows, options.name, notes);
+    rows.id = {}, rows.parent = {}, rows.extension = {};
+    if (columns.id == none) refuse_second_scan(rows.cylinders, options.name);
+    find_odd_radius(rows.cylinders, options.name, notes);
     ImportedTree tree;
     tree.branches = branches_of(std::move(rows.cylinders), options.name, notes);
     fill_radii(tree.branches, notes);

@@ -16,7 +16,8 @@ struct ImportNotes {
     Vec3 moved = Vec3::Zero();        // [m] by which it was moved to the origin (placed_import.h), Y up
     std::string unit_from = "stated"; // "stated" by the file or its format, "given" as option, or "guessed"
     std::string up_from = "stated";
-    bool radii_guessed = false; // all of them, by the tree's size: the file has none
+    bool odd_radius_told = false; // by a reader that knows its line (placed_import.h)
+    bool radii_guessed = false;   // all of them, by the tree's size: the file has none
 };
 
 } // namespace bough

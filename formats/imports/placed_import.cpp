@@ -7,26 +7,19 @@
 namespace bough {
 namespace {
 
-constexpr double aside = 0.01, stands = 1e-3; // of the tree's extent; [m]: below the ground the wind is zero
-constexpr double tallest = 120, lowest = 0.1; // [m]
+constexpr double aside = 0.01, stands = 1e-3;           // of the tree's extent; [m]: below the ground the wind is zero
+constexpr double floats = 0.5, floats_of_extent = 0.05; // [m]; [1]: stems of one stool begin at several heights
+constexpr double tallest = 120, lowest = 0.1;           // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
 constexpr double aloof = 1e4,
                  far = 100; // of the median distance: a neuron's axon stays below the first, trees below the second
 
-struct Box {
-    Vec3 low, high;
+struct Oddness {
+    double extent, median; // least share of the tree's extent, least multiple of the median radius
 };
-
-Box box_of(const Splines& s) {
-    Box box{s.point.front(), s.point.front()};
-    for (const Vec3& p : s.point) {
-        box.low = box.low.cwiseMin(p);
-        box.high = box.high.cwiseMax(p);
-    }
-    return box;
-}
+constexpr Oddness refused{1, 100}, noted{0.25, 20};
 
 double middle_of(std::vector<double>& values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -34,22 +27,62 @@ double middle_of(std::vector<double>& values) {
     return *middle;
 }
 
+std::int64_t branch_at(const Splines& s, std::size_t point) {
+    const auto after = std::upper_bound(s.first_point.begin(), s.first_point.end(), std::int32_t(point));
+    return after - s.first_point.begin() - 1;
+}
+
+std::string place_text(const Vec3& p) {
+    return shown(p.x() + 0.0) + ", " + shown(p.y() + 0.0) + ", " + shown(p.z() + 0.0) + " m (x, y up, z)";
+}
+
+void find_thick(const Splines& s, const std::string& name, ImportNotes& notes) {
+    if (notes.odd_radius_told) return;
+    const Box box = box_of(s.point);
+    const auto odd = odd_radius(s.radius, (box.high - box.low).maxCoeff(), "m");
+    if (!odd) return;
+    const std::string found = "the radius of branch " + std::to_string(branch_at(s, odd->at)) + " at " +
+                              place_text(s.point[odd->at]) + " is " + odd->text;
+    if (odd->is_refused) throw InputError(name, found + "; expected less than the tree is large");
+    notes.lines.push_back(found + ": is it a slip?");
+}
+
 } // namespace
 
+Box box_of(std::span<const Vec3> points) {
+    Box box{points.front(), points.front()};
+    for (const Vec3& p : points) {
+        box.low = box.low.cwiseMin(p);
+        box.high = box.high.cwiseMax(p);
+    }
+    return box;
+}
+
 void set_on_ground(Splines& s, bool keep, ImportNotes& notes) {
-    if (keep) return;
-    const Box box = box_of(s);
+    const Box box = box_of(s.point);
     const double extent = (box.high - box.low).maxCoeff();
     Vec3 base = Vec3::Zero();
-    double ground = box.high.y();
+    double ground = box.high.y(), highest = box.low.y();
     std::size_t roots = 0;
     for (std::size_t b = 0; b < s.branches(); ++b) {
         if (s.parent[b] >= 0) continue;
         const Vec3& p = s.point[s.first_point[b]];
         base += p;
         ground = std::min(ground, p.y());
+        highest = std::max(highest, p.y());
         ++roots;
     }
+    if (keep) {
+        if (ground < -stands)
+            notes.lines.push_back("its foot is " + shown(-ground) +
+                                  " m below the ground, y = 0, under which no wind blows (--keep-place)");
+        return;
+    }
+    if (highest - ground > std::min(floats, floats_of_extent * extent))
+        notes.lines.push_back(
+            "the highest of its " + std::to_string(roots) + " trunks begins " + shown(highest - ground) +
+            " m above the lowest, on whose base the ground is set: in a simulation it begins in the air "
+            "(treeconvert --split sets each on the ground)");
     base /= double(std::max<std::size_t>(1, roots));
     base.y() = ground;
     const double off = std::max(std::abs(base.x()), std::abs(base.z()));
@@ -64,7 +97,7 @@ void set_on_ground(Splines& s, bool keep, ImportNotes& notes) {
 }
 
 void name_absurd_scale(const Splines& s, bool unit_given, ImportNotes& notes) {
-    const Box box = box_of(s);
+    const Box box = box_of(s.point);
     const double height = box.high.y() - box.low.y();
     if (height <= (unit_given ? given_tallest : tallest) && (unit_given || height >= lowest)) return;
     notes.lines.push_back("the tree is " + shown(height) + " m high, " +
@@ -74,7 +107,7 @@ void name_absurd_scale(const Splines& s, bool unit_given, ImportNotes& notes) {
 
 void refuse_too_far(const Splines& s, double reach, const std::string& name) {
     if (s.point.empty()) return;
-    const Box box = box_of(s);
+    const Box box = box_of(s.point);
     reach = std::max({reach, box.high.cwiseAbs().maxCoeff(), box.low.cwiseAbs().maxCoeff()});
     for (const double r : s.radius) reach = std::max(reach, r);
     if (reach > farthest)
@@ -82,13 +115,26 @@ void refuse_too_far(const Splines& s, double reach, const std::string& name) {
 }
 
 void refuse_too_small(const Splines& s, const std::string& name) {
-    const Box box = box_of(s);
+    const Box box = box_of(s.point);
     if (const double extent = (box.high - box.low).maxCoeff(); extent < smallest)
         throw InputError(name, "is " + shown(extent) + " m large, expected at least " + shown(smallest) + " m" + right);
 }
 
+std::optional<OddRadius> odd_radius(std::span<const double> radius, double extent, const std::string& unit) {
+    if (radius.empty()) return {};
+    std::vector<double> values(radius.begin(), radius.end());
+    const double median = middle_of(values);
+    const auto most = std::max_element(radius.begin(), radius.end());
+    const auto exceeds = [&](const Oddness& o) { return *most > o.extent * extent && *most > o.median * median; };
+    if (!(median > 0) || !exceeds(noted)) return {};
+    return OddRadius{std::size_t(most - radius.begin()), exceeds(refused),
+                     shown(*most) + " " + unit + " in a tree that is " + shown(extent) +
+                         " large, with a median radius of " + shown(median)};
+}
+
 void find_outlier(const Splines& s, const std::string& name, ImportNotes& notes) {
     if (s.point.empty()) return;
+    find_thick(s, name, notes);
     std::vector<double> values(s.point.size());
     Vec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
@@ -100,11 +146,8 @@ void find_outlier(const Splines& s, const std::string& name, ImportNotes& notes)
     const std::size_t worst = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
     const double most = values[worst], half = middle_of(values);
     if (!(most > far * half) || half == 0) return;
-    const Vec3& p = s.point[worst];
-    const auto after = std::upper_bound(s.first_point.begin(), s.first_point.end(), std::int32_t(worst));
-    const std::string found = "a point of branch " + std::to_string(after - s.first_point.begin() - 1) + " is at " +
-                              shown(p.x() + 0.0) + ", " + shown(p.y() + 0.0) + ", " + shown(p.z() + 0.0) +
-                              " m (x, y up, z), " + shown(most) +
+    const std::string found = "a point of branch " + std::to_string(branch_at(s, worst)) + " is at " +
+                              place_text(s.point[worst]) + ", " + shown(most) +
                               " m from the middle of the tree, half of which is within " + shown(half) + " m";
     if (most > aloof * half) throw InputError(name, found + "; expected all of it in one place" + right);
     notes.lines.push_back(found + ": is it a slip?");

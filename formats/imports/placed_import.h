@@ -2,12 +2,20 @@
 #pragma once
 #include "import_notes.h"
 #include "lib/model/splines.h"
+#include <optional>
+#include <span>
 
 namespace bough {
 
+struct Box {
+    Vec3 low, high;
+};
+Box box_of(std::span<const Vec3> points); // of one at least
+
 // Moves the tree so that its foot, the middle of its bases at the height of the lowest of them, stands at the origin: wind blows over the
 // ground at y = 0, and a scene's position says where the foot is. A foot stays that is within 1 mm of the
-// ground and 1 % of the tree's extent of the origin, and so does every one where `keep`. One note with the way. O(points).
+// ground and 1 % of the tree's extent of the origin, and so does every one where `keep`. One note with the way, one where another base is higher than the lowest by
+// 0.5 m or a twentieth of the extent, one where `keep` leaves the foot below the ground. O(points).
 void set_on_ground(Splines&, bool keep, ImportNotes&);
 
 // A note where the tree is higher than any (120 m) or lower than 0.1 m: the unit is then the likely mistake. Where the
@@ -22,7 +30,17 @@ void refuse_too_small(const Splines&, const std::string& name);
 
 // Looks for a point of a branch that is far from the middle of all (their medians along x, y, z). Beyond 10 000 times the distance within which half
 // of them are, it throws InputError: beside such a branch all others are without length, and what is left of the tree is a slip in one number.
-// Beyond 100 times, it adds a note. O(points).
+// Beyond 100 times, it adds a note. A radius that is odd (below) is refused or noted too. O(points).
 void find_outlier(const Splines&, const std::string& name, ImportNotes&);
+
+// A radius as no tree has it, the greatest of all. Refused: the wood is twice as thick as the whole tree is large, and more than 100 times
+// as thick as the median. Odd: half as thick, and more than 20 times. Of trees in files, the thickest wood is a twentieth of the extent;
+// a thick stump, or a cell's body, is near the median. O(points).
+struct OddRadius {
+    std::size_t at; // in the list
+    bool is_refused;
+    std::string text; // "50 m in a tree that is 17 large, with a median radius of 0.02"
+};
+std::optional<OddRadius> odd_radius(std::span<const double> radius, double extent, const std::string& unit);
 
 } // namespace bough

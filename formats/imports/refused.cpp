@@ -133,6 +133,10 @@ void refuse_xml(std::string_view head, const std::string& name) {
 
 void refuse_json(std::string_view head, const std::string& name) {
     const std::size_t document = head.find("\"bough-");
+    if (document != std::string_view::npos && holds(head, "\"bough-tree\""))
+        refuse(name, "a document of kind \"bough-tree\", a tree that was converted already",
+               "convert what it was made of again, which its \"source\" names; roots alone become softer by --set "
+               "material.root_stiffness=K of treesim and treeprofile");
     if (document != std::string_view::npos)
         throw InputError(name,
                          "is a document of kind " +

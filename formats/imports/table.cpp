@@ -68,6 +68,7 @@ Table::Table(std::string_view content, const std::string& name, std::span<const 
     : content_(content), name_(name), at_(bom_size(content)) {
     std::string_view line;
     if (!next_line(line)) return;
+    line_of_names_ = trimmed(line);
     delimiter_ = delimiter_of(line);
     each_cell(line, delimiter_, [&](std::string_view cell) { names_.push_back(compared(cell)); });
     while (names_.size() > 1 && names_.back().empty()) names_.pop_back(); // a delimiter at the end of the line
@@ -114,6 +115,9 @@ void Table::split(std::string_view line, char delimiter) {
 bool Table::next() {
     std::string_view line;
     if (!next_line(line)) return false;
+    if (trimmed(line) == line_of_names_)
+        throw InputError(file_line(name_, line_), "is a second line of names, of another table in the same file; "
+                                                  "expected one table in a file");
     split(line, delimiter_);
     if (cells_.size() < names_.size())
         throw InputError(file_line(name_, line_), counted(cells_.size(), "column", "columns") + ", expected " +

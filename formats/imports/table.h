@@ -27,7 +27,7 @@ public:
     std::size_t column(std::initializer_list<std::string_view> names) const;
     const std::vector<std::string>& names() const { return names_; } // as compared
 
-    // The next row that holds anything; false at the end. Throws InputError for one with fewer cells than names.
+    // The next row that holds anything; false at the end. Throws InputError for one with fewer cells than names, and for the line of names again.
     bool next();
     std::size_t line() const { return line_; } // 1-based, of the row
     std::string_view cell(std::size_t column) const { return cells_[column]; }
@@ -43,7 +43,7 @@ private:
     void split(std::string_view line, char delimiter);
     [[noreturn]] void refuse(std::size_t column, const char* expected) const;
 
-    std::string_view content_;
+    std::string_view content_, line_of_names_;
     std::string name_;
     std::vector<std::string> names_;
     std::vector<std::string_view> cells_;

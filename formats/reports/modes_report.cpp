@@ -1,10 +1,14 @@
 #include "modes_report.h"
 #include "gnuplot.h"
+#include "lib/base/counted.h"
 #include "lib/base/shortest_text.h"
 #include <algorithm>
+#include <cmath>
 
 namespace bough {
 namespace {
+
+constexpr double least_share = 1e-8; // of the tree's mass
 
 std::string moves_name(std::size_t k, std::size_t count) {
     return k + 1 == count ? "hanging" : "level_" + std::to_string(k);
@@ -61,6 +65,11 @@ std::vector<ReportRow> rows_of(const ModesReport& report) {
     return rows;
 }
 
+// Masses far below the last digit of the greatest are rounding.
+std::string mass_text(double share) {
+    return std::abs(share) < least_share ? "0%" : percent(share);
+}
+
 } // namespace
 
 std::string modes_table(const ModesReport& report) {
@@ -70,7 +79,7 @@ std::string modes_table(const ModesReport& report) {
         const NaturalMode& mode = report.modes[k];
         text +=
             padded(std::to_string(k + 1), 4) + padded(figure(mode.frequency), 10) + padded(percent(mode.damping), 10);
-        for (int axis = 0; axis < 3; ++axis) text += padded(percent(mode.effective_mass[axis] / report.mass), 12);
+        for (int axis = 0; axis < 3; ++axis) text += padded(mass_text(mode.effective_mass[axis] / report.mass), 12);
         text += "   ";
         std::vector<std::size_t> order(mode.share.size());
         for (std::size_t l = 0; l < order.size(); ++l) order[l] = l;
@@ -86,8 +95,8 @@ std::string modes_table(const ModesReport& report) {
         }
         text += "; farthest: branch " + std::to_string(report.branch[k]) + "\n";
     }
-    text += "\n" + report.name + ": " + std::to_string(report.bodies) + " bodies, " + figure(report.mass) + " kg, " +
-            figure(report.height) + " m; " + (report.wind.empty() ? "still air" : "wind " + report.wind) +
+    text += "\n" + report.name + ": " + counted(report.bodies, "body", "bodies") + ", " + figure(report.mass) +
+            " kg, " + figure(report.height) + " m; " + (report.wind.empty() ? "still air" : "wind " + report.wind) +
             "; damping is a share of the critical, masses of the tree's\n";
     return text;
 }

@@ -11,8 +11,9 @@ cleanup() { rm -rf "$work"; }
 trap cleanup EXIT
 cd "$work"
 maple=$top/data/young_maple.xml
+ending=json # of a tool's output: what wrong_use and bad_input write to
 sanitizers=$(sed -n 's/BOUGH_SANITIZE:STRING=//p' "$build/CMakeCache.txt") # empty in a plain build
-: "$build" "$maple" "$sanitizers"
+: "$build" "$ending" "$maple" "$sanitizers"
 
 # Runs start at rest here, as they are held against closed forms and each other, unless they say how they start. settle.sh has the default.
 treesim() {
@@ -87,7 +88,7 @@ wrong_use() {
     expect 0 "$tool" --version
     grep -q "^$tool [0-9]" out && grep -q '^compiler ' out && grep -q '^flags ' out && grep -q '^simd ' out ||
         fail "$tool --version: $(cat out)"
-    refused 4 "No such file" "$tool" "$input" "$@" -o missing/folder/x.json
+    refused 4 "No such file" "$tool" "$input" "$@" -o missing/folder/x.$ending
     mkdir -p folder
     refused 4 "irectory" "$tool" "$input" "$@" -o folder
     closed_stdout "$tool" "$input" "$@"
@@ -98,19 +99,19 @@ wrong_use() {
 bad_input() {
     local whole=$1 file
     shift
-    refused 2 "missing.json" "$@" missing.json -o made.json
+    refused 2 "missing.json" "$@" missing.json -o made.$ending
     mkdir -p folder
-    refused 2 "folder" "$@" folder -o made.json
+    refused 2 "folder" "$@" folder -o made.$ending
     : >empty.json
     head -c $(($(wc -c <"$whole") / 2)) "$whole" >half.json
     echo "once upon a time" >prose.json
     head -c 4000 /dev/urandom >noise.json
     for file in empty half prose noise; do
-        refused 2 "$file.json" "$@" $file.json -o made.json
-        absent made.json
+        refused 2 "$file.json" "$@" $file.json -o made.$ending
+        absent made.$ending
     done
-    refused 2 "<stdin>" "$@" - -o made.json
-    absent made.json
+    refused 2 "<stdin>" "$@" - -o made.$ending
+    absent made.$ending
 }
 
 closed_stdout() {
@@ -140,7 +141,7 @@ full_disk() {
     fi
     head -c 8192 /dev/zero >small/fill 2>/dev/null || true # a short output would fit otherwise
     local code=0
-    "$@" -o small/full.json >out 2>err </dev/null || code=$?
+    "$@" -o small/full.$ending >out 2>err </dev/null || code=$?
     local left
     left=$(ls -A small | grep -vx fill || true)
     umount small

@@ -30,6 +30,7 @@ treesim file.json --frames 3 --no-output --report hash 2>a
 treesim file.safetensors --frames 3 --no-output --report hash 2>b
 same a b
 refused 2 "file.json" treeconvert file.json
+refused 2 "a tree that was converted already; convert what it was made of again" treeconvert file.json --max-bodies 50
 
 # Importing here is importing in treegen.
 treegen --import "$maple" --leaves -q --no-source | treeconvert - -q --no-source >a.json
@@ -68,6 +69,27 @@ roots=$top/data/fixtures/two_trunks_spines.xml
 expect 0 treeconvert "$roots" -q --split -o trunk_%d.json --mesh trunk_%d.obj
 [[ -s trunk_0.json && -s trunk_1.json && -s trunk_1.obj && ! -e trunk_2.json ]] || fail "two trunks gave $(ls trunk_*)"
 expect 0 treesim trunk_1.json --frames 2
+
+# On a slope each is set on the ground of its own file, unless its place is kept.
+cat >slope.csv <<'END'
+parent,sx,sy,sz,ex,ey,ez,radius
+0,0,0,0,0,0,9,0.2
+0,30,0,4,30,0,13,0.2
+END
+bases() {
+    local k
+    for k in 0 1; do tr -d '\n' <slope_$k.json | sed 's/.*"joint_position": *\[\([^,]*,[^,]*\),.*/\1/'; echo -n ' '; done
+}
+expect 0 treeconvert slope.csv --split -o slope_%d.json
+grep -q -- '--split: 1 of 2 trees set on the ground, over up to 4 m' err || fail "$(cat err)"
+grep -q 'the highest of its 2 trunks begins 4 m above the lowest' err || fail "$(cat err)"
+[[ $(bases) == '-15,0 15,0 ' ]] || fail "the trees of a slope do not stand on their bases: $(bases)"
+expect 0 treeconvert slope.csv --split --keep-place -o slope_%d.json
+[[ $(bases) == '0,0 30,4 ' ]] || fail "--keep-place did not keep $(bases)"
+
+# What --stats counts as raised is what the note of --radii carry does not count.
+expect 0 treeconvert slope.csv --stats -o slope.json
+grep -q 'radii raised to have a mass 0$' err || fail "$(cat err)"
 
 # --strict makes an error of a guess; the same with the unit stated is none about the unit.
 expect 0 treeconvert "$maple" -o maple.json

@@ -3,12 +3,23 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 treegen --species maple --age 12 --bodies 300 --leaves --seed 3 | treeconvert - -o tree.json
+ending=txt
 wrong_use treeprofile modes tree.json --modes 3
 bad_input tree.json treeprofile modes
 refused 1 "--modes" treeprofile modes tree.json --modes 0
 refused 1 "--swing 3" treeprofile modes tree.json --modes 2 --swing 3 -o swing.glb
 refused 1 "only with -o FILE.glb" treeprofile modes tree.json --swing 2
 refused 1 "/wind/shelter" treeprofile modes tree.json --wind gusty --set 'wind.shelter={"cell":1}'
+for name in x.csv x.json x.svg; do
+    refused 1 "--report $name" treeprofile modes tree.json -o $name
+done
+refused 1 "x.html" treeprofile modes tree.json -o x.html
+absent x.csv x.json x.svg x.html
+expect 0 treeprofile modes tree.json --modes 1 -o x.txt
+expect 0 treeprofile modes tree.json --modes 1 -o table
+same x.txt table
+refused 1 "--scan-radii: is treeconvert's: treeconvert FILE --scan-radii" treeprofile modes tree.json --scan-radii
+refused 1 "--set material.root_stiffness=K" treeprofile modes tree.json --root-stiffness 5
 refused 1 "r.html" treeprofile modes tree.json --report r.html
 refused 1 "/wind/swirl" treeprofile modes tree.json --wind gusty --set 'wind.swirl={"center":[0,0],"radius":[0],"angle":[20],"period":3}'
 
@@ -59,6 +70,14 @@ for mode, row in zip(r["modes"], few):
         assert all(abs(float(row[f"shape_{k}_{name}"]) - shape[k - 1][name]) < 1e-6 for name in ("branch", "level", "x", "y", "z", "amplitude", "share"))
     assert "shape_4_branch" not in row
 END
+
+# One body is one; a straight rod moves no mass along itself, and rounding is not shown as if it did.
+treeconvert rod.json --segment-length 10 -o one.tree.json
+expect 0 treeprofile modes one.tree.json --modes 2
+grep -q ': 1 body, ' out || fail "$(cat out)"
+expect 0 treeprofile modes rod.tree.json --modes 4
+! grep -Eq '[0-9]e-(09|[1-9][0-9])%' out || fail "rounding is shown as masses: $(cat out)"
+grep -Eq ' 0% ' out || fail "$(cat out)"
 refused 1 "--branches" treeprofile modes tree.json --branches -1
 
 # A swing of one period; who cannot stand is told.

@@ -5,6 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 treegen --age 12 --bodies 100 --seed 3 | treeconvert - -q -o small.json
 refused 1 "--steps" treeprofile error small.json --wind gusty --steps 3
 refused 1 "--steps" treeprofile error small.json --wind gusty --steps 1/0
+refused 1 "--frames: is 3, expected at least 9" treeprofile error small.json --wind gusty --frames 3
 refused 1 "--substeps" treeprofile error small.json --substeps 2
 refused 1 "articulated-reference" treeprofile error small.json --solver articulated-reference
 refused 1 "--set pose=drawn" treeprofile error small.json --set pose=drawn

@@ -177,6 +177,87 @@ TEST_CASE("wrong tables of cylinders are refused with their line") {
     CHECK(error_of(text.substr(0, text.find('\n')), "a.txt").find("no row") != std::string::npos);
 }
 
+TEST_CASE("a second scan in a table, whose parents count from its own first row, is refused with its line") {
+    // A trunk of 4 m and a branch; the rows of the second are the first's, `aside`, and count their parents on from `after`.
+    const auto rows = [](double aside, int after, int size) {
+        std::ostringstream text;
+        const int parent[] = {0, 1, 2, 2, 4, 3};
+        const double x[] = {0, 0, 0, 0, 1, 0}, z[] = {0, 1, 2, 2, 2, 3}, dx[] = {0, 0, 0, 1, 1, 0},
+                     dz[] = {1, 1, 1, 0, 0, 1};
+        for (int k = 0; k < size; ++k)
+            text << (k == 0 ? 0 : parent[k] + after) << "," << x[k] + aside << ",0," << z[k] << ","
+                 << x[k] + dx[k] + aside << ",0," << z[k] + dz[k] << ",0.05\n";
+        return text.str();
+    };
+    const std::string names = "parent,sx,sy,sz,ex,ey,ez,radius\n";
+    const std::string error = "a.csv:8: begins a second scan, whose parents count from its own first row; expected "
+                              "parents that count all rows of the file, or one scan in a file";
+    CHECK(error_of(names + rows(0, 0, 6) + rows(10, 0, 6), "a.csv") == error);
+    CHECK(error_of(names + rows(0, 0, 6) + rows(0, 0, 6), "a.csv") == error); // the same scan twice
+    CHECK(error_of(names + rows(0, 0, 6) + rows(10, 0, 2), "a.csv") == error);
+    CHECK(error_of(names + rows(0, 0, 3) + rows(10, 0, 6), "a.csv").starts_with("a.csv:5: begins a second scan"));
+    CHECK(error_of(names + rows(0, 0, 6) + rows(10, 6, 6) + rows(20, 0, 6), "a.csv").starts_with("a.csv:14: begins a"));
+    // Two trees that count on, and wood that lost its parent before rows of the trunk, are no second scan.
+    CHECK(imported(names + rows(0, 0, 6) + rows(10, 6, 6), "a.csv").splines.branches() == 4);
+    const std::string lost = "0,0.5,0,3.5,1,0,3.5,0.05\n",
+                      on_trunk = "1,0,0,0.5,0,1,0.5,0.02\n2,0,0,1.5,0,1,1.5,0.02\n";
+    CHECK(error_of(names + rows(0, 0, 6) + lost + on_trunk, "a.csv").empty());
+    // All roots first.
+    CHECK(
+        error_of(names + rows(0, 0, 1) + rows(10, 0, 1) + rows(20, 0, 1) + "1,0,0,1,0,0,2,0.05\n2,10,0,1,10,0,2,0.05\n",
+                 "a.csv")
+            .empty());
+    const std::string table = names + rows(0, 0, 6);
+    CHECK(error_of(table + table, "a.csv") == "a.csv:8: is a second line of names, of another table in the same file; "
+                                              "expected one table in a file");
+}
+
+TEST_CASE("a scan that was cut off is noted by the first row whose extension is not there") {
+    const std::string rows = "parent,extension,sx,sy,sz,ex,ey,ez,radius\n"
+                             "0,2,0,0,0,0,0,1,0.1\n"
+                             "1,5,0,0,1,0,0,2,0.1\n"
+                             "1,4,0,0,1,1,0,1,0.1\n"
+                             "3,0,1,0,1,2,0,1,0.1\n"
+                             "2,12,0,0,2,0,0,3,0.1\n";
+    const auto noted = [](const std::string& table) {
+        for (const std::string& line : imported(table, "a.csv").notes.lines)
+            if (line.find("extension") != std::string::npos) return line;
+        return std::string();
+    };
+    CHECK(noted(rows) == "line 6: its extension is not in the file; was the file cut off?");
+    CHECK(noted(replaced(rows, "2,12,", "2,0,")).empty());
+    // In the number: 1 of 12.
+    CHECK(noted(replaced(rows, "2,12,", "2,1,")) ==
+          "line 6: its extension is another cylinder's child; was the file cut off?");
+    CHECK(noted(rows.substr(0, rows.find("2,12,"))) ==
+          "line 3: its extension is not in the file; was the file cut off?");
+    CHECK(noted(rows.substr(0, rows.find("3,0,1"))) ==
+          "line 3: its extension is not in the file, nor are those of 1 other row; was the file cut off?");
+    CHECK(noted(replaced(rows, "2,12,", "2,NA,")).empty());
+    for (const char* name : {"measured/Tf18.csv", "measured/Tf03.csv", "qsm/cylinder_treeqsm_rtwig.txt"})
+        if (const auto whole = foreign_case(name)) CHECK(noted(*whole).empty());
+}
+
+TEST_CASE("a cylinder far thicker than the tree is large is refused with its line, and noted before that") {
+    const auto table = [](double thick) {
+        std::ostringstream text;
+        text << "parent,sx,sy,sz,ex,ey,ez,radius\n";
+        for (int k = 0; k < 10; ++k)
+            text << k << ",0,0," << k << ",0,0," << k + 1 << "," << (k == 6 ? thick : 0.02) << "\n";
+        return text.str();
+    };
+    const std::string found = "radius is 50 units in a tree that is 10 large, with a median radius of 0.02";
+    CHECK(error_of(table(50), "a.csv") == "a.csv:8: " + found + "; expected less than the tree is large");
+    CHECK(error_of(table(1e9), "a.csv").starts_with("a.csv:8: radius is 1e+09 units"));
+    CHECK(error_of(table(10), "a.csv").empty());
+    const Imported thick = imported(table(3), "a.csv");
+    CHECK(thick.notes_hold(
+        "line 8: radius is 3 units in a tree that is 10 large, with a median radius of 0.02: is it a slip?"));
+    CHECK(std::count_if(thick.notes.lines.begin(), thick.notes.lines.end(),
+                        [](const std::string& line) { return line.find("is it a slip?") != std::string::npos; }) == 1);
+    CHECK_FALSE(imported(table(2), "a.csv").notes_hold("slip")); // a baobab
+}
+
 TEST_CASE("real tables agree with another reading of them") {
     // Counts, sum of |end - start|, lowest and highest end, least and greatest radius of the rows: read by Python's csv
     // (TreeQSM: split at tabs, end = start + length * axis / |axis|).

@@ -75,3 +75,43 @@ TEST_CASE("one coordinate of a SpeedTree file far off is refused, wherever it st
     }
     CHECK(tried == 3);
 }
+
+TEST_CASE("a radius beyond the tree's extent is refused with its branch and place, and noted before that") {
+    const auto thick = [](const std::string& radius) {
+        return replaced(trunk(41, 0, 0), "0 0 2 0.05", "0 0 2 " + radius);
+    };
+    CHECK(error_with(thick("50")) ==
+          "t.swc: the radius of branch 0 at 0, 2, 0 m (x, y up, z) is 50 m in a tree that is 4 large, with "
+          "a median radius of 0.05; expected less than the tree is large");
+    CHECK(error_with(thick("3")) == "");
+    const auto noted = [&](const std::string& radius) {
+        return imported(thick(radius), "t.swc", {}, true).notes_hold("is it a slip?");
+    };
+    CHECK(noted("3"));
+    CHECK(noted("1.1"));
+    CHECK_FALSE(noted("0.9"));
+}
+
+TEST_CASE("a trunk that begins above the lowest is told, and so is a foot that stays below the ground") {
+    const auto two = [](double rise) {
+        std::ostringstream swc;
+        for (int k = 0; k < 2; ++k)
+            swc << 2 * k + 1 << " 2 " << 30 * k << " 0 " << rise * k << " 0.1 -1\n"
+                << 2 * k + 2 << " 2 " << 30 * k << " 0 " << 20 + rise * k << " 0.1 " << 2 * k + 1 << "\n";
+        return swc.str();
+    };
+    const auto told = [](const std::string& swc, bool on_ground, const std::string& text) {
+        ImportOptions options;
+        options.unit = 1;
+        options.up = 'z';
+        return imported(swc, "t.swc", options, on_ground).notes_hold(text);
+    };
+    const std::string above = "the highest of its 2 trunks begins 4 m above the lowest";
+    CHECK(told(two(4), true, above));
+    CHECK(told(two(-4), true, above));
+    CHECK_FALSE(told(two(0.4), true, "above the lowest"));
+    CHECK_FALSE(told(two(4), false, "above the lowest"));
+    CHECK(told(two(-4), false, "its foot is 4 m below the ground, y = 0, under which no wind blows (--keep-place)"));
+    CHECK_FALSE(told(two(4), false, "below the ground"));
+    CHECK_FALSE(told(two(-4), true, "below the ground"));
+}
