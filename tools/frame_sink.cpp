@@ -17,7 +17,7 @@ public:
         writer_.finish();
         output_.finish();
     }
-    std::uint64_t bytes() const override { return output_.bytes(); }
+    std::uint64_t bytes() const override { return output_.bytes() + writer_.waiting(); }
 
 private:
     Output output_;

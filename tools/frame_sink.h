@@ -19,7 +19,7 @@ public:
     virtual void finish() = 0;                  // everything written so far is a valid output; throws OutputError
     virtual std::uint64_t bytes() const {
         return 0;
-    } // of the frames so far; 0 where finish() writes them. By the thread that writes
+    } // of the output so far, what waits for finish() too; 0 where it is not known. By the thread that writes
 };
 
 // `format`: jsonl, json or safetensors.

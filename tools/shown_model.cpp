@@ -85,7 +85,13 @@ SpeedtreeModel speedtree_model(TreesimOptions& o, const std::string& path, const
         read_import(path, {}, found); // for its unit, its axes and where it stands
     if (!o.skin.empty() && setting.ranges.size() == 1 && kept_its_place(setting, found.moved)) found.moved.setZero();
     const MappedInput file(path);
-    SpeedtreeModel model = read_speedtree_model(file.content(), path, found, notes, [&file] { file.give_back(); });
+    SpeedtreeModel model;
+    try {
+        model = read_speedtree_model(file.content(), path, found, notes, [&file] { file.give_back(); });
+    } catch (const NoOwnMesh& error) {
+        if (o.skin.empty()) throw NoOwnMesh(error.name, "; --mesh made shows one that is made from the tree");
+        throw;
+    }
     file.check();
     add_notes(model.name, notes, o);
     return model;
@@ -109,6 +115,16 @@ std::vector<FileModel> models_of_scene(TreesimOptions& o, const Setting& setting
         models.push_back({speedtree_model(o, path, setting), std::move(trees)});
     }
     return models;
+}
+
+// --mesh own, where there is none.
+[[noreturn]] void refuse_no_mesh(const TreesimOptions& o, const Setting& setting) {
+    for (const std::string& path : setting.converted)
+        if (!setting.tree_files.empty() && model_kind(MappedInput(path).content()))
+            throw UsageError("--mesh own: " + path +
+                             " has a mesh that bones move, which a scene does not show; name the file as INPUT or by "
+                             "--skin, or leave --mesh own out for a mesh that is made from the tree");
+    throw UsageError("--mesh own: " + input_name(o.run.input) + " has no mesh that could be moved");
 }
 
 } // namespace
@@ -181,8 +197,7 @@ void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting
         setting.imported->format == "SpeedTree raw XML")
         o.common.notes.push_back(
             "<stdin>: the mesh is made from the tree; the file's own is shown where INPUT names it");
-    if (o.mesh == "own" && !model)
-        throw UsageError("--mesh own: " + input_name(o.run.input) + " has no mesh that could be moved");
+    if (o.mesh == "own" && !model) refuse_no_mesh(o, setting);
     if (model) refuse_unused(o);
     if (!o.skin.empty() && setting.ranges.size() != 1)
         throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +

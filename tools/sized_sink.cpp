@@ -1,10 +1,9 @@
 #include "sized_sink.h"
 #include "formatted.h"
+#include <utility>
 
 namespace bough {
 namespace {
-
-constexpr double large = 2e9; // [B]
 
 // What holds the same motion in less.
 const char* smaller(const std::string& format) {
@@ -18,35 +17,39 @@ const char* smaller(const std::string& format) {
 class SizedSink : public FrameSink {
 public:
     SizedSink(std::unique_ptr<FrameSink> to, const std::string& format, std::int64_t frames,
-              std::function<void(const std::string&)> say)
-        : to_(std::move(to)), format_(format), frames_(frames), say_(std::move(say)) {}
+              std::function<void(const std::string&)> say, double large)
+        : to_(std::move(to)), format_(format), frames_(frames), say_(std::move(say)), large_(large) {}
     void write(const MotionFrame& frame) override {
         to_->write(frame);
-        if (first_) tell(double(to_->bytes()));
-        first_ = false;
+        if (written_ == 2) return;
+        ++written_;
+        const std::uint64_t before = std::exchange(bytes_, to_->bytes());
+        if (written_ == 2) tell(double(before), double(bytes_ - before));
     }
     void finish() override { to_->finish(); }
     std::uint64_t bytes() const override { return to_->bytes(); }
 
 private:
-    void tell(double frame) const {
-        if (frame * double(frames_) <= large) return;
-        say_("-o: will be about " + bytes_text(frame * double(frames_)) + ", " + bytes_text(frame) + " a frame; " +
-             smaller(format_));
+    void tell(double first, double frame) const {
+        const double all = first + frame * double(frames_ - 1);
+        if (all <= large_) return;
+        say_("-o: will be about " + bytes_text(all) + ", " + bytes_text(frame) + " a frame; " + smaller(format_));
     }
 
     std::unique_ptr<FrameSink> to_;
     std::string format_;
     std::int64_t frames_;
     std::function<void(const std::string&)> say_;
-    bool first_ = true;
+    double large_;
+    int written_ = 0; // up to 2
+    std::uint64_t bytes_ = 0;
 };
 
 } // namespace
 
 std::unique_ptr<FrameSink> sized_sink(std::unique_ptr<FrameSink> to, const std::string& format, std::int64_t frames,
-                                      std::function<void(const std::string&)> say) {
-    return std::make_unique<SizedSink>(std::move(to), format, frames, std::move(say));
+                                      std::function<void(const std::string&)> say, double large) {
+    return std::make_unique<SizedSink>(std::move(to), format, frames, std::move(say), large);
 }
 
 } // namespace bough

@@ -5,9 +5,12 @@
 
 namespace bough {
 
-// Hands all on. Where `frames` frames as large as the first would be more than 2 GB in all, `say` is told so once that one is written: how
-// large it gets, a frame's share, and what is smaller than `format` (of treesim's). say is called by the thread that writes.
+constexpr double large_output = 2e9; // [B]
+
+// Hands all on. Where `frames` frames will be more than `large` bytes in all, `say` is told so once two are written: how large it gets, a frame's
+// share, and what is smaller than `format` (of treesim's). A frame's share is what the second one added: with the first come heads, which may hold
+// something of each frame, and images. say is called by the thread that writes.
 std::unique_ptr<FrameSink> sized_sink(std::unique_ptr<FrameSink>, const std::string& format, std::int64_t frames,
-                                      std::function<void(const std::string&)> say);
+                                      std::function<void(const std::string&)> say, double large = large_output);
 
 } // namespace bough

@@ -38,6 +38,7 @@ public:
         output_.finish();
         if (error_) notes_.push_back(merge_note(tree_, groups_, *error_, height_of(skin_)));
     }
+    std::uint64_t bytes() const override { return output_.bytes() > 0 ? output_.bytes() : writer_.waiting(); }
 
 private:
     static void write_image(const std::string& file, const std::string& bytes) {

@@ -34,6 +34,7 @@ public:
     ~MotionWriter();
     void write(const MotionFrame&);
     void finish();
+    std::uint64_t waiting() const; // [bytes] of frames that finish() writes, beside a header of some hundred
 
 private:
     struct Implementation;

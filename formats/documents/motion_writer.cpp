@@ -86,6 +86,7 @@ struct MotionWriter::Implementation {
     Digits digits;
     std::vector<const FrameArray*> arrays;
     std::size_t frames = 0;
+    bool finished = false;
     // safetensors: the arrays' frames, one after the other, and the small arrays.
     std::unique_ptr<Spool> spool;
     std::vector<std::int64_t> frame;
@@ -141,6 +142,13 @@ struct MotionWriter::Implementation {
         return std::uint64_t(header.bodies) * array.components() * sizeof(double);
     }
 
+    std::uint64_t waiting() const {
+        if (form != MotionForm::safetensors || finished) return 0;
+        std::uint64_t each = sizeof(std::int64_t) + sizeof(double);
+        for (const FrameArray* array : arrays) each += bytes_a_frame(*array);
+        return frames * each + event.size() * (4 * sizeof(std::int64_t) + sizeof(double));
+    }
+
     void finish_binary() {
         std::vector<std::pair<std::string, Tensor>> tensors{{"frame", {"I64", {frames}, 8 * frames, {}}},
                                                             {"time", {"F64", {frames}, 8 * frames, {}}}};
@@ -179,7 +187,8 @@ struct MotionWriter::Implementation {
 };
 
 MotionWriter::MotionWriter(Output& output, const MotionHeader& header, MotionForm form, const Digits& digits)
-    : implementation_(new Implementation{output, header, form, digits, {}, 0, nullptr, {}, {}, {}, {}, {}, {}, {}}) {
+    : implementation_(
+          new Implementation{output, header, form, digits, {}, 0, false, nullptr, {}, {}, {}, {}, {}, {}, {}}) {
     for (const FrameArray& array : frame_arrays)
         if (header.fields.*array.wanted) implementation_->arrays.push_back(&array);
     if (form == MotionForm::safetensors) {
@@ -209,6 +218,11 @@ void MotionWriter::finish() {
     if (to.form == MotionForm::json) to.output.write(to.frames == 0 ? "]}\n" : "\n]}\n");
     if (to.form == MotionForm::safetensors) to.finish_binary();
     to.output.flush();
+    to.finished = true;
+}
+
+std::uint64_t MotionWriter::waiting() const {
+    return implementation_->waiting();
 }
 
 } // namespace bough

@@ -1,4 +1,5 @@
 #include "own_mover.h"
+#include "lib/base/parallel.h"
 #include "lib/model/drawn_pose.h"
 #include <algorithm>
 
@@ -29,12 +30,11 @@ void OwnMover::go_to(const MotionFrame& frame) {
 
 void OwnMover::positions(std::size_t first, std::span<Vec3> to) const {
     constexpr std::size_t share = 2048; // vertices a thread takes at once
-    const auto shares = std::int64_t((to.size() + share - 1) / share);
-#pragma omp parallel for schedule(static)
-    for (std::int64_t k = 0; k < shares; ++k) {
-        const std::size_t from = std::size_t(k) * share;
+    constexpr double vertex_ns = 30;
+    parallel_blocks((to.size() + share - 1) / share, vertex_ns * double(share), [&](std::size_t k, int) {
+        const std::size_t from = k * share;
         fill(first + from, to.subspan(from, std::min(share, to.size() - from)));
-    }
+    });
 }
 
 void OwnMover::fill(std::size_t first, std::span<Vec3> to) const {

@@ -88,7 +88,25 @@ void UsdaWriter::write(const MotionFrame& frame) {
         roots_move_ |= !((is - drawn).norm() <= 1e-6 * (1 + drawn.norm()));
         roots_move_ |= frames_ > 0 && is != place_[place_.size() - 1 - root_.size()];
     }
+    if (frames_ < 2) {
+        Output counted(nullptr, 0, ""); // counts alone
+        Text text(counted);
+        add_rotations(text, frames_);
+        text.hand_on();
+        (frames_ == 0 ? first_bytes_ : second_bytes_) = counted.bytes();
+    }
     ++frames_;
+}
+
+void UsdaWriter::add_rotations(Text& text, std::size_t frame) const {
+    const std::size_t joints = groups_.size();
+    usda_array(
+        text, in_motion + 1, std::to_string(frame) + ": ", joints,
+        [&](Text& to, std::size_t g) {
+            const Eigen::Vector4f& q = rotation_[frame * joints + g];
+            usda_tuple(to, Eigen::Vector4f(q[3], q[0], q[1], q[2]));
+        },
+        ",");
 }
 
 void UsdaWriter::finish() {
@@ -164,10 +182,9 @@ void UsdaWriter::finish() {
                     [&](Text& to, std::size_t g) { add(to, f, g); }, ",");
             usda_line(text, in_motion, "}");
         };
-        samples("quatf[] rotations.timeSamples = {", [&](Text& to, std::size_t f, std::size_t g) {
-            const Eigen::Vector4f& q = rotation_[f * joints + g];
-            usda_tuple(to, Eigen::Vector4f(q[3], q[0], q[1], q[2]));
-        });
+        usda_line(text, in_motion, "quatf[] rotations.timeSamples = {");
+        for (std::size_t f = 0; f < frames_; ++f) add_rotations(text, f);
+        usda_line(text, in_motion, "}");
         if (roots_move_) {
             std::vector<std::size_t> number_of(joints, 0); // of the roots
             for (std::size_t k = 0; k < root_.size(); ++k) number_of[root_[k]] = k;

@@ -10,6 +10,7 @@
 // Errors  OutputError.
 #pragma once
 #include "formats/open.h"
+#include "formats/text.h"
 #include "lib/growth/merge_joints.h"
 #include "lib/model/motion.h"
 #include "own_maps.h"
@@ -28,8 +29,12 @@ public:
                const JointGroups&, const UsdaOptions&);
     void write(const MotionFrame&); // the next frame: its pose
     void finish();                  // all of the file. Once; the caller finishes the Output
+    // [bytes] What the frames so far will take, about: each after the second as much as that one.
+    std::uint64_t waiting() const { return frames_ < 2 ? first_bytes_ : first_bytes_ + (frames_ - 1) * second_bytes_; }
 
 private:
+    void add_rotations(Text&, std::size_t frame) const;
+
     Output& output_;
     const Skin& skin_;
     const OwnMesh* const own_;
@@ -39,6 +44,7 @@ private:
     const UsdaOptions options_;
     GroupFrames drawn_;
     std::size_t frames_ = 0;
+    std::uint64_t first_bytes_ = 0, second_bytes_ = 0;
     std::vector<Eigen::Vector4f> rotation_; // x, y, z, w of each joint in its parent's frame, frame after frame
     std::vector<std::size_t> root_;         // joints without parent, and where they are, frame after frame
     std::vector<Vec3> place_;

@@ -3,6 +3,7 @@
 #include "lib/base/counted.h"
 #include "speedtree_corners.h"
 #include "speedtree_elements.h"
+#include <algorithm>
 
 namespace bough::speedtree {
 namespace {
@@ -10,8 +11,8 @@ namespace {
 class MeshReader {
 public:
     MeshReader(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
-               const Eigen::Affine3d& world)
-        : elements_(content, name), world_(world) {
+               const Eigen::Affine3d& world, const Eigen::AlignedBox3d& within)
+        : elements_(content, name), world_(world), within_(within) {
         for (std::size_t b = 0; b < bones.size(); ++b) bones_.emplace(bones[b].id, std::int32_t(b));
     }
 
@@ -87,12 +88,46 @@ private:
         return all;
     }
 
+    // The line is that of the largest coordinate's list.
+    [[noreturn]] void refuse_far(const pugi::xml_node& list, const Vec3& file, const std::string& expected,
+                                 const Fields& f) const {
+        int axis = 0;
+        file.cwiseAbs().maxCoeff(&axis);
+        const std::string name(1, "XYZ"[axis]);
+        f.refuse(list.name(), f.offset(list.child(name.c_str())),
+                 name + " holds " + shown(file[axis]) + ", expected " + expected);
+    }
+
+    std::vector<Eigen::Vector3f> placed_points(const pugi::xml_node& list, const Vec3& origin, const Fields& f) const {
+        std::vector<Eigen::Vector3f> points;
+        for (const Vec3& p : f.points(list, "")) {
+            const Vec3 at = world_ * Vec3(p + origin);
+            if (!within_.contains(at))
+                refuse_far(list, p,
+                           "points near the skeleton: this one is at " + shown(at.x()) + ", " + shown(at.y()) + ", " +
+                               shown(at.z()) + " m (x, y up, z)",
+                           f);
+            points.push_back(at.cast<float>());
+        }
+        return points;
+    }
+
+    // In the file's unit.
+    std::vector<Eigen::Vector3f> mesh_points(const pugi::xml_node& list, const Fields& f) const {
+        std::vector<Eigen::Vector3f> points;
+        const double most = std::min(farthest, farthest / world_.linear().col(0).norm());
+        for (const Vec3& p : f.points(list, "")) {
+            if (!(p.cwiseAbs().maxCoeff() <= most)) refuse_far(list, p, "at most " + shown(most), f);
+            points.push_back(p.cast<float>());
+        }
+        return points;
+    }
+
     void read_object(const pugi::xml_node& node, std::int32_t number, const Fields& f) {
         if (!node.child("Triangles")) return;
         const Vec3 origin = f.vector(node, "Abs", Vec3::Zero());
         std::vector<Eigen::Vector3f> points;
-        if (const pugi::xml_node list = node.child("Points"))
-            for (const Vec3& p : f.points(list, "")) points.push_back((world_ * Vec3(p + origin)).cast<float>());
+        if (const pugi::xml_node list = node.child("Points")) points = placed_points(list, origin, f);
         Records records = read_records(node.child("Vertices"), points.size(), bones_, f);
         const std::vector<Corners> all = all_triangles(node, points.size(), records.count, f);
         fill_bones(points.size(), all, records);
@@ -107,8 +142,7 @@ private:
     void read_lod(const pugi::xml_node& lod, std::int64_t mesh, const Fields& f) {
         const pugi::xml_node vertices = lod.child("Vertices"), other = lod.child("Points");
         if (!vertices && !other) return;
-        std::vector<Eigen::Vector3f> points;
-        for (const Vec3& p : f.points(other ? other : vertices, "")) points.push_back(p.cast<float>());
+        const std::vector<Eigen::Vector3f> points = mesh_points(other ? other : vertices, f);
         Shape shape;
         shape.mesh = mesh;
         shape.level = f.integer(lod, "Level", 0);
@@ -136,6 +170,7 @@ private:
 
     const Elements elements_;
     const Eigen::Affine3d world_;
+    const Eigen::AlignedBox3d within_;
     IndexOf bones_, materials_;
     MeshFile file_;
 };
@@ -143,8 +178,8 @@ private:
 } // namespace
 
 MeshFile parse_mesh(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
-                    const Eigen::Affine3d& world) {
-    return MeshReader(content, name, bones, world).read();
+                    const Eigen::Affine3d& world, const Eigen::AlignedBox3d& within) {
+    return MeshReader(content, name, bones, world, within).read();
 }
 
 bool has_mesh(std::string_view content) {

@@ -16,6 +16,8 @@
 
 namespace bough::speedtree {
 
+constexpr double farthest = 1e30; // [m] as for skeletons (placed_import.h)
+
 struct Map {
     std::string name;            // "Color", "Opacity", "Normal", "Gloss" ...
     std::string file;            // as the file names it; empty: none
@@ -44,10 +46,13 @@ struct MeshFile {
 };
 
 // `world`: the world [m] from the file's own unit and axes. `bones`: of parse(), for BoneID. Throws InputError FILE:LINE: indices,
-// bones and materials out of range, lists of unequal length, numbers that are not finite. O(size of the file); one object at a time is in
+// bones and materials out of range, points out of `within`, lists of unequal length, numbers that are not finite. O(size of the file); one object at a time is in
 // memory as text.
+// within: [m] where points of objects may be in the world. Those of meshes may be as far from their origin as `world` leaves below 1e30 m.
 MeshFile parse_mesh(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
-                    const Eigen::Affine3d& world);
+                    const Eigen::Affine3d& world,
+                    const Eigen::AlignedBox3d& within = {Vec3(Vec3::Constant(-farthest)),
+                                                         Vec3(Vec3::Constant(farthest))});
 
 // Whether an object of the file has triangles, by its text alone (meshes of leaves without any bark are no tree to be seen). O(bytes).
 bool has_mesh(std::string_view content);

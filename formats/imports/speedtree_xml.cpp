@@ -5,6 +5,7 @@
 #include "speedtree_elements.h"
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace bough::speedtree {
 namespace {
@@ -101,7 +102,7 @@ void parse_leaves(const pugi::xml_node& node, std::int32_t object, const Index& 
     const std::vector<std::int64_t> mesh = f.integers(node, "MeshID"), bone = f.integers(node, "BoneID"),
                                     lod = f.integers(node, "MeshLOD");
     const std::int64_t material = f.integer(node, "Material", no_material);
-    const std::size_t n = position.size();
+    const std::size_t n = position.size(), offset = f.offset(node);
     expect_count(node, n, f);
     f.expect_length(node, "RotAxisX", axis.size(), n);
     f.expect_length(node, "RotAngle", angle.size(), n);
@@ -119,6 +120,7 @@ void parse_leaves(const pugi::xml_node& node, std::int32_t object, const Index& 
         if (!mesh.empty()) leaf.mesh = mesh[i];
         if (!lod.empty()) leaf.lod = lod[i];
         leaf.material = material;
+        leaf.offset = offset;
         if (scale[i] < 0) f.refuse(node, "Scale holds " + shown(scale[i]) + ", expected 0 or more");
         if (scale[i] == 0) {
             ++file.leaves_without_size;
@@ -198,6 +200,17 @@ void parse_meshes(const Elements& elements, File& file) {
     });
 }
 
+// A file without any Mesh leaves them to the program that shows it.
+void check_mesh_ids(const File& file, const Fields& f) {
+    if (file.meshes.empty()) return;
+    std::unordered_set<std::int64_t> ids{-1};
+    for (const Mesh& mesh : file.meshes) ids.insert(mesh.id);
+    for (const LeafReference& leaf : file.leaves)
+        if (!ids.contains(leaf.mesh))
+            f.refuse("LeafReferences", leaf.offset,
+                     "MeshID " + std::to_string(leaf.mesh) + " does not exist, expected the ID of a Mesh or -1");
+}
+
 std::optional<double> stated_unit(const pugi::xml_node& root, const Fields& f) {
     const pugi::xml_attribute units = root.attribute("units");
     if (!units) return {};
@@ -251,6 +264,7 @@ File parse(std::string_view content, const std::string& name) {
     const Index bones = parse_bones(elements, f, file);
     parse_objects(elements, bones, f, file);
     parse_meshes(elements, file);
+    check_mesh_ids(file, f);
     return file;
 }
 

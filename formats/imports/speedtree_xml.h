@@ -42,6 +42,7 @@ struct LeafReference {
     Vec3 position = Vec3::Zero(), axis = Vec3::Zero();
     double angle = 0; // [deg] about axis
     double scale = 1;
+    std::size_t offset = 0; // of its LeafReferences in the file
 };
 
 struct Mesh {

@@ -1,5 +1,6 @@
 #include "driven_mesh.h"
 #include "formats/plain_text.h"
+#include "lib/base/parallel.h"
 #include <cmath>
 #include <limits>
 
@@ -8,9 +9,8 @@ namespace {
 
 // take(vertex, its place in `to`) for each, on all threads.
 template <class Take> void each(std::size_t first, std::span<Vec3> to, Take&& take) {
-    const auto count = std::int64_t(to.size());
-#pragma omp parallel for schedule(static)
-    for (std::int64_t k = 0; k < count; ++k) to[std::size_t(k)] = take(first + std::size_t(k));
+    constexpr double vertex_ns = 50;
+    parallel_for(to.size(), vertex_ns, [&](std::size_t k) { to[k] = take(first + k); });
 }
 
 // |A| A^-T, which exists where A has no inverse.

@@ -77,6 +77,8 @@ public:
             const std::string texture = "texture " + bough::in_ascii_quotes(file);
             std::string text = texture + " not found, its material does without it; looked for";
             for (std::size_t k = 0; k < looked.tried.size(); ++k) text += (k > 0 ? ", " : " ") + looked.tried[k];
+            if (!looked.folder.empty())
+                text = texture + " is a folder, " + looked.folder + ", expected an image; its material does without it";
             if (looked.tried.empty()) text = texture + " not looked for, as what is read from a pipe stands nowhere";
             if (!looked.outside.empty())
                 text = texture + " not opened, its material does without it; " + looked.outside + " " + out_of_reach;

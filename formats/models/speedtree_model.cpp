@@ -1,5 +1,6 @@
 #include "speedtree_model.h"
 #include "formats/imports/speedtree_bones.h"
+#include "formats/imports/speedtree_fields.h"
 #include "formats/plain_text.h"
 #include "lib/base/counted.h"
 #include "own_materials.h"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace bough {
 namespace {
@@ -238,9 +240,7 @@ private:
         if (surface.material >= 0 || leaf.material == no_material) return surface.material;
         for (std::size_t m = 0; m < model_.mesh.materials.size(); ++m)
             if (model_.mesh.materials[m].id == leaf.material) return std::int32_t(m);
-        if (leaf.material == -1 || model_.mesh.materials.empty()) return -1;
-        throw InputError(model_.name, "<LeafReferences> Material " + std::to_string(leaf.material) +
-                                          " does not exist, expected the ID of a Material");
+        return -1;
     }
 
     void add_placed() {
@@ -294,7 +294,42 @@ private:
     std::map<std::pair<const Shape*, std::int64_t>, std::vector<std::pair<std::int32_t, std::int32_t>>> made_;
 };
 
+// Where a mesh may be that goes with a skeleton: as far as a skeleton's own points may be from each other (placed_import.h).
+Eigen::AlignedBox3d about_skeleton(const SpeedtreeModel& model) {
+    constexpr double aloof = 1e4;
+    Eigen::AlignedBox3d box;
+    for (const Bone& bone : model.file.bones) {
+        box.extend(model.world * bone.start);
+        if (bone.has_end) box.extend(model.world * bone.end);
+    }
+    for (const Object& object : model.file.objects)
+        for (const Vec3& p : object.spine) box.extend(model.world * p);
+    Vec3 around = Vec3::Constant(farthest);
+    if (!box.isEmpty() && box.diagonal().norm() > 0)
+        around.setConstant(std::min(farthest, aloof * box.diagonal().norm()));
+    const Vec3 middle = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
+    return {Vec3(middle - around), Vec3(middle + around)};
+}
+
+// A leaf's material is that of the surfaces of its mesh that name none.
+void check_leaf_materials(const SpeedtreeModel& model, const Fields& f) {
+    if (model.mesh.materials.empty()) return;
+    std::unordered_set<std::int64_t> known{-1, no_material}, plain;
+    for (const MeshMaterial& material : model.mesh.materials) known.insert(material.id);
+    for (const Shape& shape : model.mesh.shape)
+        for (const Surface& surface : shape.surface)
+            if (surface.material < 0) plain.insert(shape.mesh);
+    for (const LeafReference& leaf : model.file.leaves)
+        if (!known.contains(leaf.material) && plain.contains(leaf.mesh))
+            f.refuse("LeafReferences", leaf.offset,
+                     "Material " + std::to_string(leaf.material) + " does not exist, expected the ID of a Material");
+}
+
 } // namespace
+
+NoOwnMesh::NoOwnMesh(const std::string& name, const std::string& advice)
+    : InputError(name, "has no mesh of its own (no triangles in its objects), expected one to be moved" + advice),
+      name(name) {}
 
 bool has_speedtree_mesh(std::string_view content) {
     return content.substr(0, 65536).find("<SpeedTreeRaw") != std::string_view::npos && has_mesh(content);
@@ -306,10 +341,10 @@ SpeedtreeModel read_speedtree_model(std::string_view content, const std::string&
     model.name = input_name(path);
     model.world = world_of(found);
     model.file = parse(content, model.name);
-    model.mesh = parse_mesh(content, model.name, model.file.bones, model.world);
+    model.mesh = parse_mesh(content, model.name, model.file.bones, model.world, about_skeleton(model));
+    check_leaf_materials(model, Fields(content, model.name));
     if (taken_in) taken_in();
-    if (model.mesh.surface.empty())
-        throw InputError(model.name, "has no mesh of its own (no triangles in its objects), expected one to be moved");
+    if (model.mesh.surface.empty()) throw NoOwnMesh(model.name);
     add_materials(model.mesh, model.name, folder_of(path), model.shown, notes);
     return model;
 }

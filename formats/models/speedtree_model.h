@@ -5,6 +5,7 @@
 // reference moves with its leaf, in the order of the file; where the tree has no such leaf body at its place, with the piece of wood
 // that bears it. Its shape is the mesh it names, at the level of detail it names, else the mesh's first.
 #pragma once
+#include "formats/error.h"
 #include "formats/exports/own_mesh.h"
 #include "formats/imports/import.h"
 #include "formats/imports/speedtree_mesh.h"
@@ -21,11 +22,17 @@ struct SpeedtreeModel {
     OwnMesh shown;                                       // its materials, and nothing else yet
 };
 
+// No object of the file has triangles.
+struct NoOwnMesh : InputError {
+    explicit NoOwnMesh(const std::string& name, const std::string& advice = "");
+    std::string name;
+};
+
 // Whether a file is one, and has a mesh in its objects. Looks at its head, and for its first triangles.
 bool has_speedtree_mesh(std::string_view content);
 
 // `found`: what an import of the file told of its unit, axes and place. The content must stay readable until it returns; `taken_in` as in
-// import.h. Throws InputError: no triangles, all that parse() and parse_mesh() refuse, a texture that is no image.
+// import.h. Throws NoOwnMesh; InputError: all that parse() and parse_mesh() refuse, a texture that is no image.
 SpeedtreeModel read_speedtree_model(std::string_view content, const std::string& path, const ImportNotes& found,
                                     ImportNotes& notes, const std::function<void()>& taken_in = {});
 

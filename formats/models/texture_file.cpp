@@ -164,6 +164,8 @@ std::string find_texture(const std::string& name, const std::string& folder, Tex
         if (!found.empty() && within_reach(found, folder)) return found; // a name but for capitals may be a link
         looked.tried.push_back(place.string());
         std::error_code none;
+        if (looked.folder.empty() && within_reach(place.string(), folder) && fs::is_directory(place, none))
+            looked.folder = place.string();
         if (looked.outside.empty() && fs::is_regular_file(place, none)) looked.outside = place.string();
     }
     return "";

@@ -20,6 +20,7 @@ struct Pixels {
 // Where a texture was looked for in vain.
 struct TexturePlaces {
     std::vector<std::string> tried;
+    std::string folder;  // of them the first that is a folder, "": none
     std::string outside; // of them the one where a file stands that is out of the folder, "": none
 };
 // The path of the file, "" if there is none that may be opened; `looked` gets the places that were tried.

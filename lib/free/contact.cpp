@@ -129,6 +129,7 @@ void find_contacts(const Plan<T>& plan, const Tree& tree, const Subtrees& trees,
             }
             ++tests.bodies;
             const BodyWay body(tree, i, before, after);
+            tests.pairs += free.parts.size();
             for (const FreePart& part : free.parts) meet_part(body, free, k, end, part, found);
             return true;
         });
@@ -144,7 +145,7 @@ void find_contacts(const Tree& tree, const NearPairs<T>& near, std::span<const N
         const std::size_t i = near.body_of(rank);
         ++tests.bodies;
         const BodyWay body(tree, i, tree_way.before.of(i), tree_way.after.of(i));
-        for (; p < pairs.size() && pairs[p].rank == rank; ++p)
+        for (; p < pairs.size() && pairs[p].rank == rank; ++p, ++tests.pairs)
             meet_part(body, free, k, end, free.parts[pairs[p].part], found);
     }
 }

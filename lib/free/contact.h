@@ -39,7 +39,7 @@ struct ContactPoint {
 
 // The tests of one kind that a search made, and those that pruning spared it.
 struct ContactTests {
-    std::uint64_t bodies = 0, reaches = 0;
+    std::uint64_t bodies = 0, reaches = 0, pairs = 0; // pairs: of a body and a part of what is free
 };
 
 // A tree's way through a step.

@@ -16,32 +16,41 @@ std::int64_t name_of(const FreeBody& free, std::size_t k, const Tree& tree) {
     return free.ball() ? std::int64_t(tree.size_bodies() + k) : free.parts.front().body;
 }
 
+// One search for each free body in turn, in their order; pairs: of those that are looked for, where many fly.
+template <class T>
+void find_next(const Plan<T>& plan, World<T>& world, std::span<const NearPair>& pairs, TreeWay<T> tree_way,
+               std::size_t k, const FreeMotion& end, std::vector<ContactPoint>& found) {
+    if (!world.many)
+        return find_contacts(plan, *world.tree, world.subtrees, tree_way, world.contact, world.free[k], k, end,
+                             world.brute_force, found, world.counts.tests);
+    std::size_t own = 0; // they are in the free bodies' order
+    while (own < pairs.size() && pairs[own].free == k) ++own;
+    find_contacts(*world.tree, world.near, pairs.first(own), tree_way, world.contact, world.free[k], k, end, found,
+                  world.counts.tests);
+    pairs = pairs.subspan(own);
+}
+
+template <class T>
+std::span<const NearPair> pairs_of(const Plan<T>& plan, State<T>& state, World<T>& world,
+                                   const std::vector<std::optional<FreeMotion>>& ends) {
+    if (!world.many) return {};
+    return world.near.find(plan, state, *world.tree, world.contact, world.free, ends);
+}
+
 // All that each meets, and how fast it may still come nearer to what it meets after the first.
 template <class T>
 std::vector<ContactPoint> meet_all(const Plan<T>& plan, State<T>& state, World<T>& world, std::vector<Way>& ways) {
     std::vector<ContactPoint> points;
-    std::span<const NearPair> pairs;
-    if (world.many) {
-        std::vector<FreeMotion> ends;
-        for (const Way& way : ways) ends.push_back(way.next);
-        pairs = world.near.find(plan, state, *world.tree, world.contact, world.free, ends);
-    }
+    std::vector<std::optional<FreeMotion>> ends;
+    for (const Way& way : ways) ends.push_back(way.next);
+    std::span<const NearPair> pairs = pairs_of(plan, state, world, ends);
     const TreeWay<T> tree_way{world.before, world.poses};
     for (std::size_t k = 0; k < world.free.size(); ++k) {
         FreeBody& free = world.free[k];
         Way& way = ways[k];
         way.from = way.to = points.size();
         if (free.at_rest || (free.leaf() && !world.contact.leaves)) continue;
-        if (world.many) {
-            std::size_t own = 0; // they are in the free bodies' order
-            while (own < pairs.size() && pairs[own].free == k) ++own;
-            find_contacts(*world.tree, world.near, pairs.first(own), tree_way, world.contact, free, k, way.next, points,
-                          world.counts.tests);
-            pairs = pairs.subspan(own);
-        } else {
-            find_contacts(plan, *world.tree, world.subtrees, tree_way, world.contact, free, k, way.next,
-                          world.brute_force, points, world.counts.tests);
-        }
+        find_next(plan, world, pairs, tree_way, k, way.next, points);
         for (std::size_t c = way.from; c < points.size(); ++c) way.first = std::min(way.first, points[c].way);
         const double left = plan.dt * (1 - way.first);
         for (std::size_t c = way.from; c < points.size(); ++c) {
@@ -54,40 +63,51 @@ std::vector<ContactPoint> meet_all(const Plan<T>& plan, State<T>& state, World<T
     return points;
 }
 
-// Where the rest of the way from `x` leads to: up to what is met next, trees where they are after the step, and was not met already.
+// Where the rest of each way leads to that met something, at the velocity after it: up to what is met next, trees where they are after the step, and
+// was not met already. All are looked for at once, as a fallen tree has thousands of parts. Moves the bodies to where they first met something.
 template <class T>
-Vec3 go_on(const Plan<T>& plan, World<T>& world, std::size_t k, const Vec3& x, const Vec3& d,
-           const std::vector<ContactPoint>& points, const Way& way) {
-    std::vector<ContactPoint> next;
-    FreeBody& free = world.free[k];
-    const Vec3 start = free.motion.x;
-    free.motion.x = x;
-    FreeMotion end = free.motion;
-    end.x = x + d;
-    find_contacts(plan, *world.tree, world.subtrees, TreeWay<T>{world.poses, world.poses}, world.contact, free, k, end,
-                  world.brute_force, next, world.counts.tests);
-    free.motion.x = start;
-    double part = 1;
-    for (const ContactPoint& c : next) {
-        const bool known =
-            std::any_of(points.begin() + std::ptrdiff_t(way.from), points.begin() + std::ptrdiff_t(way.to),
-                        [&](const ContactPoint& p) { return p.body == c.body; });
-        if (!known && c.normal.dot(d) < 0) part = std::min(part, c.way);
+std::vector<Vec3> go_on(const Plan<T>& plan, State<T>& state, World<T>& world, const std::vector<ContactPoint>& points,
+                        const std::vector<Way>& ways) {
+    std::vector<Vec3> to(ways.size(), Vec3::Zero()), rest = to;
+    std::vector<std::optional<FreeMotion>> ends(ways.size());
+    if (points.empty()) return to;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+        const Way& way = ways[k];
+        if (way.from == way.to) continue;
+        FreeMotion& motion = world.free[k].motion;
+        const Vec3 d = way.next.x - way.start.x;
+        rest[k] = (1 - way.first) * d + plan.dt * (1 - way.first) * (motion.v - way.next.v);
+        motion.x = way.start.x + way.first * d;
+        ends[k] = motion;
+        ends[k]->x += rest[k];
     }
-    return x + part * d;
+    std::span<const NearPair> pairs = pairs_of(plan, state, world, ends);
+    std::vector<ContactPoint> next;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+        const Way& way = ways[k];
+        if (!ends[k]) continue;
+        next.clear();
+        find_next(plan, world, pairs, TreeWay<T>{world.poses, world.poses}, k, *ends[k], next);
+        double part = 1;
+        for (const ContactPoint& c : next) {
+            const bool known =
+                std::any_of(points.begin() + std::ptrdiff_t(way.from), points.begin() + std::ptrdiff_t(way.to),
+                            [&](const ContactPoint& p) { return p.body == c.body; });
+            if (!known && c.normal.dot(rest[k]) < 0) part = std::min(part, c.way);
+        }
+        to[k] = world.free[k].motion.x + part * rest[k];
+    }
+    return to;
 }
 
-// Its motion at the step's end, now that its velocity is known.
+// Its motion at the step's end, now that its velocity is known. end: where it goes on to, if it met something.
 template <class T>
-void finish_way(const Plan<T>& plan, World<T>& world, std::size_t k, const Way& way,
+void finish_way(const Plan<T>& plan, World<T>& world, std::size_t k, const Way& way, Vec3 end,
                 const std::vector<ContactPoint>& points) {
     FreeBody& free = world.free[k];
     const Vec3 v = free.motion.v, omega = free.motion.omega;
     free.motion = way.next;
     if (way.from == way.to) return;
-    const double h = plan.dt, left = h * (1 - way.first);
-    const Vec3 d = way.next.x - way.start.x, x = way.start.x + way.first * d;
-    Vec3 end = go_on(plan, world, k, x, Vec3((1 - way.first) * d + left * (v - way.next.v)), points, way);
     bool lies = true; // on the ground alone, and not in it
     for (std::size_t c = way.from; c < way.to; ++c) {
         const ContactPoint& p = points[c];
@@ -104,7 +124,7 @@ void finish_way(const Plan<T>& plan, World<T>& world, std::size_t k, const Way& 
     free.motion.v = v;
     free.motion.omega = omega;
     const bool quiet = v.norm() < quiet_speed && omega.norm() * free.bound < quiet_speed;
-    free.quiet = quiet && lies ? free.quiet + h : 0;
+    free.quiet = quiet && lies ? free.quiet + plan.dt : 0;
     if (free.quiet < quiet_time) return;
     free.at_rest = true;
     free.motion.v = free.motion.omega = Vec3::Zero();
@@ -210,7 +230,8 @@ std::vector<ContactPoint> meet_and_go(const Plan<T>& plan, State<T>& state, Worl
     if (world.contact.rolling > 0) resist_rolling(world, points);
     load_trees(plan, state, points, on_tree);
     note_hits(plan, world, points);
-    for (std::size_t k = 0; k < ways.size(); ++k) finish_way(plan, world, k, ways[k], points);
+    const std::vector<Vec3> ends = go_on(plan, state, world, points, ways);
+    for (std::size_t k = 0; k < ways.size(); ++k) finish_way(plan, world, k, ways[k], ends[k], points);
     return points;
 }
 

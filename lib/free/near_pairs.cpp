@@ -64,13 +64,14 @@ void NearPairs<T>::begin(const Plan<T>& plan, State<T>& state, const Tree& tree,
 template <class T>
 const std::vector<NearPair>& NearPairs<T>::find(const Plan<T>& plan, State<T>& state, const Tree& tree,
                                                 const Contact& contact, const std::vector<FreeBody>& free,
-                                                const std::vector<FreeMotion>& ends) {
+                                                const std::vector<std::optional<FreeMotion>>& ends) {
     parts_.clear();
     pairs_.clear();
     for (std::size_t k = 0; k < free.size(); ++k)
-        if (!free[k].at_rest && (contact.leaves || !free[k].leaf())) add_parts(free[k], k, ends[k]);
+        if (ends[k] && !free[k].at_rest && (contact.leaves || !free[k].leaf())) add_parts(free[k], k, *ends[k]);
     make_grid();
     present(plan, state);
+    const bool stand = at_ == state.step;
     const std::size_t blocks = (order_.size() + bodies_a_block - 1) / bodies_a_block;
     found_.resize(blocks);
     parallel_blocks(blocks, body_ns * double(bodies_a_block), [&](std::size_t block, int) {
@@ -78,7 +79,7 @@ const std::vector<NearPair>& NearPairs<T>::find(const Plan<T>& plan, State<T>& s
         const std::size_t end = std::min(order_.size(), (block + 1) * bodies_a_block);
         for (std::size_t rank = block * bodies_a_block; rank < end; ++rank) {
             const std::size_t i = order_[rank];
-            const Ends now = ends_of(state, tree, i), before = std::exchange(ends_[rank], now);
+            const Ends now = stand ? ends_[rank] : ends_of(state, tree, i), before = std::exchange(ends_[rank], now);
             if (plan.mass[i] == 0 || (is_flat(tree.kind[i]) && !contact.leaves)) continue;
             const Capsule own = capsule_of(tree.kind[i], tree.size[i]);
             look(std::uint32_t(rank), box_of(before, now, std::max(own.radius_a, own.radius_b)), found_[block]);

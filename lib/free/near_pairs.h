@@ -12,6 +12,7 @@
 #include "../plan/state.h"
 #include "free_body.h"
 #include "subtree.h"
+#include <optional>
 
 namespace bough {
 
@@ -23,10 +24,12 @@ template <class T> class NearPairs {
 public:
     // Called before a step whose pairs are asked for. Notes where the bodies stand, unless that is known. Presents the state.
     void begin(const Plan<T>&, State<T>&, const Tree&, const Subtrees&);
-    // Called after the step. Returns the pairs by free body, rank and part. ends[k]: where free body k would be at the step's end. Bodies without
-    // contacts are left out: free bodies at rest, trees' bodies that fell, leaves unless contact.leaves. Presents the state.
+    // Called after the step. Returns the pairs by free body, rank and part, until the next call. ends[k]: where free body k would be at the step's end;
+    // empty: it is not looked for. Bodies without contacts are left out: free bodies at rest, trees' bodies that fell, leaves unless contact.leaves.
+    // Called again after the same step, it takes the trees as they stand after it, all the way. Presents the state.
     const std::vector<NearPair>& find(const Plan<T>&, State<T>&, const Tree&, const Contact& contact,
-                                      const std::vector<FreeBody>& free, const std::vector<FreeMotion>& ends);
+                                      const std::vector<FreeBody>& free,
+                                      const std::vector<std::optional<FreeMotion>>& ends);
     void forget() { at_ = -1; } // the state was set from outside
     std::size_t body_of(std::uint32_t rank) const { return order_[rank]; }
     std::size_t bytes() const;

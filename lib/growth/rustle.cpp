@@ -1,4 +1,5 @@
 #include "rustle.h"
+#include "../base/parallel.h"
 #include "random.h"
 #include <algorithm>
 #include <cassert>
@@ -114,21 +115,20 @@ void Rustle::go_to(std::int64_t frame) {
 }
 
 void Rustle::turn(std::vector<Vec3>& position, std::vector<Vec3>& normal) const {
-    const auto leaves = std::int64_t(leaves_.size());
-#pragma omp parallel for schedule(static)
-    for (std::int64_t k = 0; k < leaves; ++k) {
-        const Leaf& leaf = leaves_[std::size_t(k)];
-        const auto path = std::size_t(leaf.clump), first = std::size_t(skin_.clump_leaf[std::size_t(k)]);
+    constexpr double leaf_ns = 150;
+    parallel_for(leaves_.size(), leaf_ns, [&](std::size_t k) {
+        const Leaf& leaf = leaves_[k];
+        const auto path = std::size_t(leaf.clump), first = std::size_t(skin_.clump_leaf[k]);
         const double theta = amplitude_[path] * (std::sin(leaf.rate * phase_[path] + leaf.phase) +
                                                  std::sin(leaf.second * phase_[path] + leaf.psi));
-        if (theta == 0) continue;
+        if (theta == 0) return;
         const PlacedBlade blade = blade_of(position, first, leaf.off_width);
         const Mat3 R = Eigen::AngleAxisd(theta, blade.axis).toRotationMatrix();
         for (std::size_t v = first; v < first + leaf_vertices; ++v) {
             position[v] = blade.foot + R * (position[v] - blade.foot);
             normal[v] = R * normal[v];
         }
-    }
+    });
 }
 
 std::array<double, Rustle::targets> Rustle::weights() const {

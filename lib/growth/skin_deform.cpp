@@ -1,3 +1,4 @@
+#include "../base/parallel.h"
 #include "../model/drawn_pose.h"
 #include "skin.h"
 #include <cassert>
@@ -14,17 +15,12 @@ SkinDeformer::SkinDeformer(const Skin& skin, const Tree& tree) : skin_(skin) {
 void SkinDeformer::deform(const std::vector<Mat3>& R_wb, const std::vector<Vec3>& x_w, std::vector<Vec3>& position,
                           std::vector<Vec3>& normal) const {
     assert(R_wb.size() == drawn_R_bw_.size() && x_w.size() == drawn_x_w_.size());
-    const std::int64_t bodies = std::int64_t(R_wb.size()), vertices = std::int64_t(skin_.position.size());
     position.resize(skin_.position.size());
     normal.resize(skin_.normal.size());
     std::vector<Mat3> moved(R_wb.size()); // world now from world drawn
-#pragma omp parallel for schedule(static)
-    for (std::int64_t b = 0; b < bodies; ++b)
-        moved[std::size_t(b)] = R_wb[std::size_t(b)] * drawn_R_bw_[std::size_t(b)];
-
-#pragma omp parallel for schedule(static)
-    for (std::int64_t vertex = 0; vertex < vertices; ++vertex) {
-        const std::size_t v = std::size_t(vertex);
+    constexpr double body_ns = 15, vertex_ns = 40;
+    parallel_for(moved.size(), body_ns, [&](std::size_t b) { moved[b] = R_wb[b] * drawn_R_bw_[b]; });
+    parallel_for(position.size(), vertex_ns, [&](std::size_t v) {
         // The first weight is what the others leave, so that float weights sum to 1 in double.
         double first = 1;
         Vec3 at = Vec3::Zero(), facing = Vec3::Zero();
@@ -39,7 +35,7 @@ void SkinDeformer::deform(const std::vector<Mat3>& R_wb, const std::vector<Vec3>
         position[v] = at;
         const double length = facing.norm();
         normal[v] = length > 0 ? Vec3(facing / length) : Vec3(moved[std::size_t(skin_.joint[v][0])] * skin_.normal[v]);
-    }
+    });
 }
 
 } // namespace bough

@@ -180,6 +180,22 @@ broken 's/Triangles Material="1"/Triangles Material="9"/' 'Material 9 does not e
 broken 's/<BoneID>0 0/<BoneID>0 12/' 'BoneID 12 does not exist'
 broken 's/<NormalX>1/<NormalX>nan/' 'NormalX holds "nan"'
 broken 's/<QuadIndices>0/<QuadIndices>4/' 'QuadIndices holds "4"'
+broken 's/<MeshID>1/<MeshID>9/' 'MeshID 9 does not exist, expected the ID of a Mesh or -1'
+broken 's/LeafReferences Material="2"/LeafReferences Material="9"/' 'LeafReferences> Material 9 does not exist'
+for far in 1e200 1e38; do
+    broken "/<Points/,/<\/X>/s/<X>[^ ]*/<X>$far/" "Points> X holds ${far/e/e+}, expected points near the skeleton"
+done
+sed 's/<PointIndices>[^<]*</<PointIndices></; s/<VertexIndices>[^<]*</<VertexIndices></' art/tree.xml >art/bare.xml
+refused 2 "bare.xml: has no mesh of its own (no triangles in its objects), expected one to be moved; --mesh made shows one" treesim art/bare.xml --frames 2 -o x.glb
+expect 0 treesim art/bare.xml --frames 2 --mesh made -o bare.glb
+cp "$twig" "$(dirname "$twig")/twig_bark.bin" .
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig_armature.gltf"}]}' >skinned.json
+refused 1 "twig_armature.gltf has a mesh that bones move, which a scene does not show; name the file as INPUT or by --skin" treesim skinned.json --frames 2 --mesh own -o x.glb
+expect 0 treesim skinned.json --frames 2 -o skinned.glb
+mkdir -p folder/bark_normal.tga
+cp art/tree.xml folder
+expect 0 treesim folder/tree.xml --frames 2 -o folder.glb
+grep -q 'texture "bark_normal.tga" is a folder, folder/bark_normal.tga, expected an image; its material does without it$' err || fail "a texture that is a folder: $(cat err)"
 head -c 4000 art/tree.xml >art/half.xml
 refused 2 "half.xml:" treesim art/half.xml --frames 2 -o x.glb
 head -c 40 art/leaf.png >half.png

@@ -4,6 +4,7 @@
 #include "tests/support/replaced.h"
 #include "tests/support/shown_speedtree.h"
 #include "tests/support/speedtree_sample.h"
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace bough;
@@ -41,6 +42,7 @@ TEST_CASE("What is wrong with a mesh is told in a line with its place") {
     says("<QuadIndices>6 ", "<QuadIndices>6000 ", "QuadIndices holds \"6000\"");
     says("Triangles Material=\"7\"", "Triangles Material=\"8\"", "Material 8 does not exist");
     says("LeafReferences Material=\"3\"", "LeafReferences Material=\"8\"", "Material 8 does not exist");
+    says("<MeshID>1 1", "<MeshID>1 9", "MeshID 9 does not exist, expected the ID of a Mesh or -1");
     says("<BoneID>0 ", "<BoneID>77 ", "BoneID 77 does not exist");
     says("<NormalX>1 ", "<NormalX>nan ", "NormalX holds \"nan\"");
     says("<NormalX>1 ", "<NormalX>", "holds 793 values, expected 792");
@@ -49,4 +51,42 @@ TEST_CASE("What is wrong with a mesh is told in a line with its place") {
     std::string none = good;
     none.replace(x, end - x, "<Points><X></X><Y></Y><Z></Z>");
     CHECK_THAT(error_of_mesh(none), Contains("expected none, as there are no points"));
+}
+
+TEST_CASE(
+    "A point of a mesh beside all of its skeleton is refused with its line, and one of a leaf's mesh beyond 1e30 m") {
+    const std::string good = speedtree_sample::file({}, "", speedtree_sample::references(1));
+    const auto line_of_first = [&](const std::string& text, const char* found, std::size_t from) {
+        const std::size_t at = text.find(found, from);
+        return std::to_string(1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
+    };
+    const auto with = [&](const char* list, const std::string& number) {
+        std::string text = good;
+        const std::size_t x = text.find("<X>", text.find(list)) + 3;
+        return text.replace(x, text.find(' ', x) - x, number);
+    };
+    for (const char* number : {"1e200", "-1e200", "1e38", "1e9"}) {
+        const std::string text = with("<Points", number), error = error_of_mesh(text);
+        CAPTURE(number, error);
+        CHECK_THAT(error,
+                   Contains("t.xml:" + line_of_first(text, "<X>", text.find("<Points")) + ": <Points> X holds "));
+        CHECK_THAT(error, Contains("expected points near the skeleton"));
+    }
+    for (const char* number : {"1e200", "1e38"})
+        CHECK_THAT(error_of_mesh(with("<Vertices", number)), Contains("X holds " + std::string(number).substr(0, 2)));
+    CHECK(error_of_mesh(with("<Points", "100")).empty());
+}
+
+TEST_CASE("A leaf may name no mesh, or any where the file holds none; the line of another is told") {
+    const std::string good = speedtree_sample::file({}, "", speedtree_sample::references(1)),
+                      wrong = replaced(good, "<MeshID>1 1", "<MeshID>1 9");
+    const std::size_t at = wrong.find("<LeafReferences");
+    CHECK_THAT(
+        error_of_mesh(wrong),
+        Contains("t.xml:" + std::to_string(1 + std::count(wrong.begin(), wrong.begin() + std::ptrdiff_t(at), '\n')) +
+                 ": <LeafReferences> MeshID 9"));
+    CHECK(error_of_mesh(replaced(good, "<MeshID>1 1", "<MeshID>1 -1")).empty());
+    const std::size_t meshes = wrong.find("<Meshes"), end = wrong.find("</Meshes>");
+    std::string none = wrong;
+    CHECK(error_of_mesh(none.erase(meshes, end + 9 - meshes)).empty());
 }

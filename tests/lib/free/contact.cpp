@@ -326,3 +326,38 @@ TEST_CASE("A ball that rolls comes to rest after v^2 / 2 a, a = c g / (1 + I / m
     const double a = scene.contact->rolling * 9.81 / 1.4;
     CHECK(run.ball().motion.x.x() - 3 == Approx(v * v / (2 * a)).epsilon(0.02));
 }
+
+TEST_CASE("A fallen tree against a tree costs about its bodies, not the product of both, and meets what looking at all "
+          "does") {
+    const auto felled = [](int bodies) {
+        const double radius = 1.0 / bodies; // a quarter of a body's length
+        const make_tree::Wood stiff{900, 9e13, 6e12, 0.01};
+        Tree stands = make_tree::chain(bodies, 4, radius, radius, 0, stiff), falls = stands;
+        stands.joint_rotation[0] = falls.joint_rotation[0] = Quat::Identity(); // along the world's z
+        falls.joint_position[0] = Vec3(radius / 3, 2.2 * radius, 0);
+        return make_tree::forest({stands, falls});
+    };
+    Scene scene = empty_scene();
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.contact->friction = 0.5;
+    scene.fracture = Fracture();
+    scene.fracture->joints.resize(1);
+    const Way way = GENERATE(ways[0], ways[1]);
+    INFO(name(way));
+    const auto tests_of = [&](int bodies, bool brute_force) {
+        const Tree tree = felled(bodies);
+        Scene own = scene;
+        own.fracture->joints[0].on.body = bodies;
+        own.fracture->joints[0].torque = 0;
+        FreeRun<> run(tree, own, way);
+        run.world.brute_force = brute_force;
+        run.steps(20);
+        REQUIRE(run.world.free.size() == 1);
+        REQUIRE(run.world.free[0].parts.size() == std::size_t(bodies));
+        CHECK(run.world.counts.impulse > 0.1 * run.world.free[0].mass);
+        return std::pair(run.world.counts.tests.pairs, run.hash());
+    };
+    const auto few = tests_of(40, false), many = tests_of(160, false), all = tests_of(40, true);
+    CHECK(few.second == all.second);
+    CHECK(many.first < 6 * few.first); // the product grows by 16
+}
