@@ -194,6 +194,7 @@ void put_together(TreesimOptions& o) {
     std::vector<NamedFile> parts;
     for (const std::string& part : o.join.parts) parts.push_back({"PART", part});
     refuse_overwriting(parts, {{"-o", o.common.output}});
+    require_outputs({{"-o", o.common.output}});
     interrupt_at_boundary();
     const std::string line = join_parts(o.join, o.common, format);
     if (!line.empty()) std::cerr << line << "\n";
