@@ -6,6 +6,15 @@ namespace bough {
 
 const char* const out_of_reach = "leads out of the folder of the file that names it; --outside lets it";
 
+const char* const no_regular_file =
+    "is no regular file, expected one: what a file names is not read from a pipe or device";
+
+bool opens_at_once(const std::string& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    return !exists(status) || is_regular_file(status) || is_directory(status);
+}
+
 bool& may_reach_outside() {
     static bool may = false;
     return may;

@@ -11,6 +11,13 @@ bool within_reach(const std::string& path, const std::string& folder);
 // What is said where it is not: "leads out of the folder of the file that names it; --outside lets it".
 extern const char* const out_of_reach;
 
+// Whether opening `path`, which a file names, waits for nobody: it is no pipe, socket or device. What is not there and a folder are left to
+// the reader, which says so.
+bool opens_at_once(const std::string& path);
+
+// What is said where it would wait.
+extern const char* const no_regular_file;
+
 // Of this process, false unless the user says so (--outside). Set before anything is read.
 bool& may_reach_outside();
 

@@ -36,6 +36,35 @@ absent x.json
 expect 0 treeconvert own/out.gltf --outside -o out.json
 expect 0 treeconvert own/in.gltf -o in.json
 
+# A FIFO that a file names is not opened, and a tree's file of the name - is that file, not stdin.
+mkfifo own/fifo
+scene fifo
+expect 2 timeout 20 treesim own/scene.json --frames 2 -o x.jsonl
+one_line "is no regular file" treesim
+sed 's/points.bin/fifo/' own/in.gltf >own/fifo.gltf
+expect 2 timeout 20 treeconvert own/fifo.gltf -o x.json
+one_line "is no regular file" treeconvert
+rm own/fifo own/fifo.gltf
+cp secret.json own/-
+scene -
+(cd own && timeout 20 treesim scene.json --frames 2 -o ../x.jsonl </dev/null) >out 2>err || fail "a tree in a file named -: $(cat err)"
+rm x.jsonl own/-
+
+# Buffers of one file hold it once, however it is spelt.
+if [[ -z $sanitizers ]]; then
+    head -c 20000000 /dev/zero | cat points.bin - >own/large.bin
+    python3 - <<'END'
+import json
+gltf = json.load(open("own/in.gltf"))
+gltf["buffers"] = [{"byteLength": 20000000 + k, "uri": "./" * (k % 3) + "large.bin"} for k in range(36)]
+json.dump(gltf, open("own/many.gltf", "w"))
+END
+    code=0
+    (ulimit -v 500000 && exec treeconvert own/many.gltf -q -o x.json) >out 2>err </dev/null || code=$?
+    [[ $code -eq 0 ]] || fail "exit $code for buffers of one file: $(cat err)"
+    rm x.json own/large.bin own/many.gltf
+fi
+
 # An OBJ's materials are no matter of ours: what it names is not opened. (A FIFO that nobody writes to would keep who opens it for ever.)
 mkfifo trap
 for name in trap ../trap "$PWD/trap"; do
