@@ -58,8 +58,10 @@ std::string from_base64(std::string_view text) {
 
 std::string place_of_uri(const std::string& uri, const std::string& folder) {
     if (uri.starts_with("data:")) return "";
+    const std::string file = folder + "/" + unescaped(uri);
+    if (folder.empty() || !within_reach(file, folder)) return uri;
     std::error_code error;
-    return std::filesystem::weakly_canonical(folder + "/" + unescaped(uri), error).string();
+    return std::filesystem::weakly_canonical(file, error).string();
 }
 
 std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
@@ -80,7 +82,9 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
     if (!within_reach(file, folder)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + out_of_reach);
     if (!opens_at_once(file)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + no_regular_file);
     try {
-        return read_input(file);
+        std::string bytes = read_input(file);
+        named_files_read().insert(file);
+        return bytes;
     } catch (const InputError&) {
         throw std::runtime_error(bough::in_ascii_quotes(uri) + " is not beside the file, or cannot be read");
     }

@@ -78,8 +78,9 @@ public:
             std::string text = texture + " not found, its material does without it; looked for";
             for (std::size_t k = 0; k < looked.tried.size(); ++k) text += (k > 0 ? ", " : " ") + looked.tried[k];
             if (looked.tried.empty()) text = texture + " not looked for, as what is read from a pipe stands nowhere";
-            if (!looked.outside.empty())
-                text = texture + " not opened, its material does without it; " + looked.outside + " " + out_of_reach;
+            if (!looked.outside.empty() && looked.tried.empty())
+                text = texture + " not opened, its material does without it";
+            if (!looked.outside.empty()) text += "; " + looked.outside + " " + out_of_reach;
             notes_.lines.push_back(text);
         }
         for (const std::string& text : unread_) notes_.lines.push_back(text);
