@@ -10,6 +10,9 @@
 #include <new>
 #include <pthread.h>
 #include <stdexcept>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -146,9 +149,15 @@ std::string outcome(const std::function<std::string()>& work, const Kept& kept, 
     return std::move(job.bytes);
 }
 
-[[noreturn]] void be_child(int pipe, const std::function<std::string()>& work, const Kept& kept, std::size_t stack) {
+[[noreturn]] void be_child(int pipe, [[maybe_unused]] pid_t parent, const std::function<std::string()>& work,
+                           const Kept& kept, std::size_t stack) {
     for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU})
         ::signal(crash, SIG_DFL);
+#ifdef __linux__
+    // A killed parent ends nothing by itself. It may have died before this was asked for, on which the child has another parent.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(1);
+#endif
     const int nowhere = ::open("/dev/null", O_WRONLY);
     if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
     const std::function<std::string()> limited = [&] {
@@ -193,6 +202,7 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error(std::string("no pipe to a child process: ") + std::strerror(errno));
     const Kept kept = kept_limits(limits);
+    const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child < 0) {
         const int error = errno;
@@ -201,7 +211,7 @@ ChildResult run_forked(const std::function<std::string()>& work, const ChildLimi
     }
     if (child == 0) {
         ::close(ends[0]);
-        be_child(ends[1], work, kept, limits.stack);
+        be_child(ends[1], parent, work, kept, limits.stack);
     }
     ::close(ends[1]);
     std::string bytes;

@@ -77,6 +77,14 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
                                  " reads and the output would replace");
 }
 
+void refuse_overwriting_by_images(const std::vector<NamedFile>& read, const std::vector<std::string>& images) {
+    for (const std::string& image : images)
+        for (const NamedFile& input : read)
+            if (!input.file.empty() && replaces({"", {}, {output_place(image)}}, input.file))
+                throw UsageError("-o: an image beside it would be '" + image + "', which " + input.option +
+                                 " reads and the output would replace; expected another name");
+}
+
 void require_outputs(const std::vector<NamedFile>& written) {
     std::vector<Written> all;
     for (const NamedFile& output : written) {

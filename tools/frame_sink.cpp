@@ -31,11 +31,11 @@ class ObjSink : public FrameSink {
 public:
     // mover: makes the skin's, and may keep a reference to it.
     ObjSink(const std::string& pattern, Skin skin, const OwnMesh* own, const std::function<Mover(const Skin&)>& mover,
-            std::vector<std::string>& notes)
+            const std::vector<NamedFile>& read, std::vector<std::string>& notes)
         : pattern_(pattern), notes_(notes), skin_(std::move(skin)), mover_(mover(skin_)),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
         const OwnMaps maps = own ? maps_of(*own, mtl_) : OwnMaps{};
-        write_images(maps);
+        write_images(maps, read);
         Output output(sequence_mtl(pattern));
         write_mtl(output, skin_, maps.part);
         output.finish();
@@ -65,8 +65,11 @@ public:
 
 private:
     // Into a folder of their own beside the .mtl, which is made.
-    void write_images(const OwnMaps& maps) {
+    void write_images(const OwnMaps& maps, const std::vector<NamedFile>& read) {
         const std::filesystem::path folder = std::filesystem::path(sequence_mtl(pattern_)).parent_path();
+        std::vector<std::string> files;
+        for (const ImageFile& image : maps.image) files.push_back((folder / image.name).string());
+        refuse_overwriting_by_images(read, files);
         for (const ImageFile& image : maps.image) {
             const std::filesystem::path file = folder / image.name;
             std::error_code error;
@@ -100,18 +103,19 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 }
 
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const OwnMesh* own,
-                                    const RustleMaker& rustle, std::vector<std::string>& notes) {
+                                    const RustleMaker& rustle, const std::vector<NamedFile>& read,
+                                    std::vector<std::string>& notes) {
     const auto mover = [&](const Skin& kept) -> Mover {
         const auto moved = std::make_shared<SkinMover>(kept, tree, rustle(kept, false));
         return [moved](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
             moved->move(frame, position, normal);
         };
     };
-    return std::make_unique<ObjSink>(pattern, std::move(skin), own, mover, notes);
+    return std::make_unique<ObjSink>(pattern, std::move(skin), own, mover, read, notes);
 }
 
 std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh mesh,
-                                           std::vector<std::string>& notes) {
+                                           const std::vector<NamedFile>& read, std::vector<std::string>& notes) {
     const auto moved = std::make_shared<DrivenMesh>(std::move(mesh));
     const Mover mover = [moved](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
         moved->go_to(frame);
@@ -121,7 +125,7 @@ std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMes
         moved->normals(0, normal);
     };
     return std::make_unique<ObjSink>(
-        pattern, moved->skin(), &moved->look(), [&](const Skin&) { return mover; }, notes);
+        pattern, moved->skin(), &moved->look(), [&](const Skin&) { return mover; }, read, notes);
 }
 
 } // namespace bough

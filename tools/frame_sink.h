@@ -1,5 +1,6 @@
 // frame_sink.h: where treesim's frames go: a motion document, an OBJ sequence, a point cache, or an animated glTF file.
 #pragma once
+#include "file_names.h"
 #include "formats/exports/gltf.h"
 #include "formats/models/driven_mesh.h"
 #include "formats/models/driven_model.h"
@@ -29,13 +30,15 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 // What makes the leaves of a skin's clumps rustle, nothing where they do not; `together` as in rustle.h. Called once, when a sink is made.
 using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool together)>;
 
-// One OBJ a frame, each whole or absent, and one mtl with the images that `own` has, null where the skin was made. Keeps references to the tree and the notes, which name what an earlier, longer run
+// One OBJ a frame, each whole or absent, and one mtl with the images that `own` has, null where the skin was made. Throws UsageError where an image would replace a file of `read`. Keeps references to the tree and the notes, which name what an earlier, longer run
 // has left behind the last frame.
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, Skin, const OwnMesh* own,
-                                    const RustleMaker&, std::vector<std::string>& notes);
+                                    const RustleMaker&, const std::vector<NamedFile>& read,
+                                    std::vector<std::string>& notes);
 
 // The same of a model's own mesh, moved by its bones.
-std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh, std::vector<std::string>& notes);
+std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh, const std::vector<NamedFile>& read,
+                                           std::vector<std::string>& notes);
 
 // One point cache, `format` mdd or pc2: of `count` frames from number `first` on. Keeps a reference to the tree; what the
 // user should know is added to the notes. Throws UsageError where the format cannot count so many.

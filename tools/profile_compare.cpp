@@ -54,6 +54,7 @@ void work_compare(CompareOptions& o) {
     if (o.old_report.empty() || o.new_report.empty())
         throw UsageError("compare: two reports are needed, OLD.json NEW.json");
     refuse_overwriting({{"OLD", o.old_report}, {"NEW", o.new_report}}, {{"-o", o.common.output}});
+    require_outputs({{"-o", o.common.output}});
     const Report before = read_report(read_input(o.old_report), input_name(o.old_report));
     const Report after = read_report(read_input(o.new_report), input_name(o.new_report));
     refuse_different(o, before, after);

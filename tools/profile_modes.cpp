@@ -155,12 +155,11 @@ void refuse_other_ending(const std::string& output) {
 void work(ModesCommand& o) {
     const bool swings = ending(o.common.output) == ".glb";
     refuse_other_ending(o.common.output);
-    if (!o.report.empty() && same_file(o.report, o.common.output))
-        throw UsageError("--report and -o name the same file");
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);
     if (const std::string end = ending(o.report); !o.report.empty() && end != ".json" && end != ".csv" && end != ".svg")
         throw UsageError("--report is '" + o.report + "', expected a name that ends in .json, .csv or .svg");
+    require_outputs(written);
     if (ending(o.report) == ".svg") require_gnuplot(o.report);
     if (o.swing && !swings) throw UsageError("--swing: only with -o FILE.glb, in which the mode swings");
     const int swing = o.swing.value_or(1);

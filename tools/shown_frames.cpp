@@ -1,6 +1,7 @@
 #include "shown_frames.h"
 #include "baked_sinks.h"
 #include "formats/documents/motion.h"
+#include "formats/inside.h"
 #include "lib/base/counted.h"
 #include "lib/base/hash_text.h"
 #include "progress.h"
@@ -11,6 +12,15 @@
 
 namespace bough {
 namespace {
+
+// What the run reads, which no image beside the output may replace.
+std::vector<NamedFile> files_of_run(const TreesimOptions& o, const Setting& setting) {
+    std::vector<NamedFile> read{
+        {"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}, {"--skin", o.skin}, {"--resume", o.resume}};
+    for (const std::string& file : setting.tree_files) read.push_back({"the scene", file});
+    for (const std::string& file : named_files_read()) read.push_back({"the model", file});
+    return read;
+}
 
 DrivenPlace place_of(const Setting& setting) {
     if (setting.scene.trees.empty()) return {};
@@ -47,7 +57,8 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
         DrivenMesh mesh(*model, shown, place_of(setting), o.common.notes);
         model->document.reset(); // its arrays are in the mesh
         o.common.notes.push_back(counted(mesh.bones(), "bone", "bones") + " of the model moved");
-        if (format == "obj") return driven_obj_sink(o.common.output, std::move(mesh), o.common.notes);
+        if (format == "obj")
+            return driven_obj_sink(o.common.output, std::move(mesh), files_of_run(o, setting), o.common.notes);
         return driven_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
     } catch (const OtherTree& error) {
         return pass_over(error);
@@ -87,14 +98,15 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         if (format == "vat") drawn.clump_leaves = leaves_in_vat;
         Skin skin = own ? skin_of(*own) : build_skin(shown, drawn);
         if (format == "obj")
-            return obj_sink(o.common.output, shown, std::move(skin), own ? &*own : nullptr, rustle, o.common.notes);
+            return obj_sink(o.common.output, shown, std::move(skin), own ? &*own : nullptr, rustle,
+                            files_of_run(o, setting), o.common.notes);
         if (format == "vat")
             return vat_sink(o.common.output, shown, std::move(skin), std::move(own), rustle,
                             {o.run.fps, last - first + 1, o.loop.seconds.has_value(), bound}, o.vat,
                             with_command_line(setting.source, o.common), o.common.notes);
         if (format == "usda")
             return usda_sink(o.common.output, shown, std::move(skin), std::move(own), o.run.fps, o.gltf,
-                             with_command_line(setting.source, o.common), o.common.notes);
+                             with_command_line(setting.source, o.common), files_of_run(o, setting), o.common.notes);
         return cache_sink(o.common.output, format, shown, std::move(skin), rustle, cached, o.common.notes);
     }
     const std::string source = with_command_line(setting.source, o.common);

@@ -2,6 +2,7 @@
 #include "error_line.h"
 #include "file_names.h"
 #include "formats/documents/motion.h"
+#include "formats/inside.h"
 #include "frame_queue.h"
 #include "lib/base/hash_text.h"
 #include "notes.h"
@@ -183,6 +184,8 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
     for (const std::string& file : setting.converted) // another program's, whole
         refuse_overwriting({{"INPUT", file}}, {{"--save-tree", o.save_tree}});
     complete_model(model, o, setting, format);
+    written.push_back({"--save-tree", o.save_tree});
+    for (const std::string& file : named_files_read()) refuse_overwriting({{"the model", file}}, written);
     return simulate(o, read, format, std::move(model));
 }
 
@@ -194,6 +197,7 @@ void put_together(TreesimOptions& o) {
     std::vector<NamedFile> parts;
     for (const std::string& part : o.join.parts) parts.push_back({"PART", part});
     refuse_overwriting(parts, {{"-o", o.common.output}});
+    require_outputs({{"-o", o.common.output}});
     interrupt_at_boundary();
     const std::string line = join_parts(o.join, o.common, format);
     if (!line.empty()) std::cerr << line << "\n";

@@ -75,9 +75,12 @@ ordered_json value_of(const Walker& walker) {
 
 std::string tree_file(const std::string& scene_file, const Placement& place) {
     const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
-    const std::string path = (folder / place.file).string();
+    std::string path = (folder / place.file).string();
+    if (path == "-") path = "./-"; // stdin is the user's to name, not a file's
     if (!within_reach(path, folder.string()))
         throw InputError(input_name(scene_file) + ": /trees", "names '" + place.file + "', which " + out_of_reach);
+    if (!opens_at_once(path))
+        throw InputError(input_name(scene_file) + ": /trees", "names '" + place.file + "', which " + no_regular_file);
     return path;
 }
 

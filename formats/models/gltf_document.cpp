@@ -1,11 +1,13 @@
 #include "gltf_document.h"
 #include "formats/error.h"
+#include "formats/free_memory.h"
 #include "formats/json_shape.h"
 #include "formats/plain_text.h"
 #include "gltf_uri.h"
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <new>
 
 namespace bough {
@@ -86,16 +88,50 @@ struct Layout {
     std::vector<std::size_t> buffer, offset, size;
 };
 
+// A small file can name many large ones: what they take together has to be free once more, for what is made of it.
+void require_room(const GltfDocument& document, std::size_t more) {
+    constexpr std::size_t always = std::size_t(64) << 20; // asked for each small one it would take longer than reading
+    const std::size_t bytes = document.binary.size() + more;
+    if (bytes < always) return;
+    if (const std::size_t left = free_memory().value_or(SIZE_MAX); left < bytes)
+        throw std::runtime_error("does not fit into memory: its buffers and images take " +
+                                 std::to_string(bytes >> 20) + " MB or more, and " + std::to_string(left >> 20) +
+                                 " MB are free; expected less");
+}
+
+// [bytes] of each file that buffers name, as far as the longest of them reaches.
+std::map<std::string, std::size_t> longest_buffers(const Json& buffers, const std::string& folder) {
+    std::map<std::string, std::size_t> longest;
+    for (const Json& buffer : buffers) {
+        if (!buffer.contains("uri")) continue;
+        std::size_t& length = longest[place_of_uri(buffer["uri"].get<std::string>(), folder)];
+        length = std::max(length, whole_number(buffer, "byteLength", "buffer"));
+    }
+    return longest;
+}
+
 Layout merge_buffers(GltfDocument& document, const Chunks& chunks, const std::string& folder) {
     Json& json = document.json;
     Layout layout;
     Json kept = Json::array({Json{{"byteLength", 0}}});
     const Json buffers = json.value("buffers", Json::array());
+    const std::map<std::string, std::size_t> longest = longest_buffers(buffers, folder);
+    struct Held {
+        std::size_t offset, size;
+    };
+    std::map<std::string, Held> held; // by file: buffers of one file share its bytes
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const Json& buffer = buffers[i];
         const std::size_t length = whole_number(buffer, "byteLength", "buffer " + std::to_string(i));
-        std::string bytes;
+        std::string bytes, place;
         if (buffer.contains("uri")) {
+            place = place_of_uri(buffer["uri"].get<std::string>(), folder);
+            if (const auto same = held.find(place); same != held.end() && same->second.size >= length) {
+                layout.buffer.push_back(0);
+                layout.offset.push_back(same->second.offset);
+                layout.size.push_back(length);
+                continue;
+            }
             bytes = bytes_of_uri(buffer["uri"].get<std::string>(), folder);
         } else if (i == 0 && chunks.has_binary) {
             bytes = chunks.binary;
@@ -113,7 +149,10 @@ Layout merge_buffers(GltfDocument& document, const Chunks& chunks, const std::st
         layout.buffer.push_back(0);
         layout.offset.push_back(document.binary.size());
         layout.size.push_back(length);
-        document.binary.append(bytes, 0, length);
+        const std::size_t kept_bytes = place.empty() ? length : std::min(bytes.size(), longest.at(place));
+        require_room(document, kept_bytes);
+        document.binary.append(bytes, 0, kept_bytes);
+        if (!place.empty()) held[place] = {layout.offset.back(), kept_bytes};
         if (layout.offset.back() == 0) kept[0] = buffer; // its name and extras
     }
     kept[0].erase("uri");
@@ -158,11 +197,21 @@ std::size_t add_view(GltfDocument& document, std::string_view bytes) {
 
 void embed_images(GltfDocument& document, const std::string& name, const std::string& folder, ImportNotes& notes) {
     if (!document.json.contains("images")) return;
+    std::map<std::string, std::size_t> views; // by file: images of one file share its view
+    std::map<std::string, const char*> types;
     for (std::size_t i = 0; i < document.json["images"].size(); ++i) {
         const Json image = document.json["images"][i];
         if (!image.contains("uri")) continue;
         const std::string uri = image["uri"].get<std::string>();
         if (uri.starts_with("data:")) continue;
+        const std::string place = place_of_uri(uri, folder);
+        if (const auto same = views.find(place); same != views.end()) {
+            Json& embedded = document.json["images"][i];
+            embedded.erase("uri");
+            embedded["mimeType"] = types[place];
+            embedded["bufferView"] = same->second;
+            continue;
+        }
         std::string bytes, why = "is of no kind that a .glb can hold";
         try {
             bytes = bytes_of_uri(uri, folder);
@@ -179,7 +228,9 @@ void embed_images(GltfDocument& document, const std::string& name, const std::st
                                   " not put into the file, its name stays: " + why);
             continue;
         }
+        require_room(document, bytes.size());
         const std::size_t view = add_view(document, bytes);
+        views[place] = view, types[place] = type;
         Json& embedded = document.json["images"][i];
         embedded.erase("uri");
         embedded["mimeType"] = type;

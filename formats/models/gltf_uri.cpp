@@ -4,6 +4,7 @@
 #include "formats/open.h"
 #include "formats/plain_text.h"
 #include <array>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 
@@ -55,6 +56,14 @@ std::string from_base64(std::string_view text) {
 
 } // namespace
 
+std::string place_of_uri(const std::string& uri, const std::string& folder) {
+    if (uri.starts_with("data:")) return "";
+    const std::string file = folder + "/" + unescaped(uri);
+    if (folder.empty() || !within_reach(file, folder)) return uri;
+    std::error_code error;
+    return std::filesystem::weakly_canonical(file, error).string();
+}
+
 std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
     if (uri.starts_with("data:")) {
         const std::size_t comma = uri.find(',');
@@ -71,8 +80,11 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
                                  " cannot be looked for: the file was read from a pipe or from memory");
     const std::string file = folder + "/" + unescaped(uri);
     if (!within_reach(file, folder)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + out_of_reach);
+    if (!opens_at_once(file)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + no_regular_file);
     try {
-        return read_input(file);
+        std::string bytes = read_input(file);
+        named_files_read().insert(file);
+        return bytes;
     } catch (const InputError&) {
         throw std::runtime_error(bough::in_ascii_quotes(uri) + " is not beside the file, or cannot be read");
     }

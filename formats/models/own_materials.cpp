@@ -80,8 +80,9 @@ public:
             if (!looked.folder.empty())
                 text = texture + " is a folder, " + looked.folder + ", expected an image; its material does without it";
             if (looked.tried.empty()) text = texture + " not looked for, as what is read from a pipe stands nowhere";
-            if (!looked.outside.empty())
-                text = texture + " not opened, its material does without it; " + looked.outside + " " + out_of_reach;
+            if (!looked.outside.empty() && looked.tried.empty())
+                text = texture + " not opened, its material does without it";
+            if (!looked.outside.empty()) text += "; " + looked.outside + " " + out_of_reach;
             notes_.lines.push_back(text);
         }
         for (const std::string& text : unread_) notes_.lines.push_back(text);

@@ -160,13 +160,17 @@ std::string find_texture(const std::string& name, const std::string& folder, Tex
     if (const fs::path bare = fs::path(file).filename(); !folder.empty() && !bare.empty())
         if (places.empty() || places[0] != fs::path(folder) / bare) places.push_back(fs::path(folder) / bare);
     for (const fs::path& place : places) {
-        const std::string found = within_reach(place.string(), folder) ? existing(place) : "";
-        if (!found.empty() && within_reach(found, folder)) return found; // a name but for capitals may be a link
-        looked.tried.push_back(place.string());
-        std::error_code none;
-        if (looked.folder.empty() && within_reach(place.string(), folder) && fs::is_directory(place, none))
-            looked.folder = place.string();
-        if (looked.outside.empty() && fs::is_regular_file(place, none)) looked.outside = place.string();
+        std::string outside = place.string(); // which is not looked at
+        if (within_reach(outside, folder)) {
+            outside = existing(place);
+            if (outside.empty())
+                looked.tried.push_back(place.string());
+            else if (within_reach(outside, folder)) // a name but for capitals may be a link
+                return outside;
+            std::error_code none;
+            if (looked.folder.empty() && fs::is_directory(place, none)) looked.folder = place.string();
+        }
+        if (looked.outside.empty()) looked.outside = outside;
     }
     return "";
 }
@@ -185,6 +189,7 @@ std::string unread_kind(const std::string& path) {
 Texture read_texture(const std::string& path, const std::string& named_by) {
     Texture texture;
     texture.bytes = read_input(path);
+    named_files_read().insert(path);
     std::string why;
     if (texture.bytes.empty() || !decode(texture.bytes, texture.pixels, why))
         throw InputError(path, "is no image that can be read (" + (texture.bytes.empty() ? "it is empty" : why) +

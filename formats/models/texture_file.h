@@ -21,7 +21,7 @@ struct Pixels {
 struct TexturePlaces {
     std::vector<std::string> tried;
     std::string folder;  // of them the first that is a folder, "": none
-    std::string outside; // of them the one where a file stands that is out of the folder, "": none
+    std::string outside; // the first place that was not looked at, as it is out of the folder; "": none
 };
 // The path of the file, "" if there is none that may be opened; `looked` gets the places that were tried.
 std::string find_texture(const std::string& name, const std::string& folder, TexturePlaces& looked);

@@ -36,6 +36,35 @@ absent x.json
 expect 0 treeconvert own/out.gltf --outside -o out.json
 expect 0 treeconvert own/in.gltf -o in.json
 
+# A FIFO that a file names is not opened, and a tree's file of the name - is that file, not stdin.
+mkfifo own/fifo
+scene fifo
+expect 2 timeout 20 treesim own/scene.json --frames 2 -o x.jsonl
+one_line "is no regular file" treesim
+sed 's/points.bin/fifo/' own/in.gltf >own/fifo.gltf
+expect 2 timeout 20 treeconvert own/fifo.gltf -o x.json
+one_line "is no regular file" treeconvert
+rm own/fifo own/fifo.gltf
+cp secret.json own/-
+scene -
+(cd own && timeout 20 treesim scene.json --frames 2 -o ../x.jsonl </dev/null) >out 2>err || fail "a tree in a file named -: $(cat err)"
+rm x.jsonl own/-
+
+# Buffers of one file hold it once, however it is spelt.
+if [[ -z $sanitizers ]]; then
+    head -c 20000000 /dev/zero | cat points.bin - >own/large.bin
+    python3 - <<'END'
+import json
+gltf = json.load(open("own/in.gltf"))
+gltf["buffers"] = [{"byteLength": 20000000 + k, "uri": "./" * (k % 3) + "large.bin"} for k in range(36)]
+json.dump(gltf, open("own/many.gltf", "w"))
+END
+    code=0
+    (ulimit -v 500000 && exec treeconvert own/many.gltf -q -o x.json) >out 2>err </dev/null || code=$?
+    [[ $code -eq 0 ]] || fail "exit $code for buffers of one file: $(cat err)"
+    rm x.json own/large.bin own/many.gltf
+fi
+
 # An OBJ's materials are no matter of ours: what it names is not opened. (A FIFO that nobody writes to would keep who opens it for ever.)
 mkfifo trap
 for name in trap ../trap "$PWD/trap"; do
@@ -43,11 +72,21 @@ for name in trap ../trap "$PWD/trap"; do
     expect 0 timeout 60 treegen --envelope own/mtllib.obj --bodies 60 -q -o x.json
 done
 rm -f x.json
-# A texture that stands outside: said so, where one that is nowhere is said to be looked for.
+# A texture outside is not looked at, and it is the same to who reads the messages whether one stands there.
 sed 's/File="textures.bark.TGA"/File="..\/secret.json"/; s/File="bark_normal.tga"/File="..\/none.tga"/' "$top/data/fixtures/meshed_tree.xml" >own/tree.xml
 expect 0 treesim own/tree.xml --frames 1 -o x.glb
-grep -q 'texture "../secret.json" not opened, .*; own/../secret.json leads out of the folder of the file that names it; --outside lets it$' err || fail "a texture outside: $(cat err)"
-grep -q 'texture "../none.tga" not found, .*; looked for own/../none.tga, own/none.tga$' err || fail "a texture that is nowhere: $(cat err)"
+grep -q 'texture "../secret.json" not found, .*; looked for own/secret.json; own/../secret.json leads out of the folder of the file that names it; --outside lets it$' err || fail "a texture outside: $(cat err)"
+grep -q 'texture "../none.tga" not found, .*; looked for own/none.tga; own/../none.tga leads out of the folder of the file that names it; --outside lets it$' err || fail "a texture that is nowhere: $(cat err)"
+if command -v strace >/dev/null && strace -o calls true 2>/dev/null; then
+    strace -f -e trace=%file -o calls treesim own/tree.xml --settle 0 --frames 1 -q -o x.glb 2>err || fail "under strace: $(cat err)"
+    scene ../secret.json
+    strace -f -e trace=%file -o scene_calls treesim own/scene.json --frames 1 -q 2>err && fail "a tree outside under strace"
+    strace -f -e trace=%file -o gltf_calls treeconvert own/out.gltf -q -o y.json 2>err && fail "a buffer outside under strace"
+    grep -q "own/tree.xml" calls && grep -q "own/scene.json" scene_calls && grep -q "own/out.gltf" gltf_calls || fail "strace sees nothing"
+    ! grep -hE '(^|[^n]/|")secret\.json|\.\./|points\.bin' calls scene_calls gltf_calls || fail "a name outside is asked for"
+    rm calls scene_calls gltf_calls
+    scene ./tree.json
+fi
 refused 2 "own/../secret.json: is no image that can be read" treesim own/tree.xml --frames 1 --outside -o x.glb
 rm x.glb
 

@@ -117,7 +117,7 @@ expect 0 treesim tree.json --frames 4 -o s_%03d.obj
 
 # Inputs without an end.
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "/dev/zero"}]}' >zero.json
-refused 2 "/dev/zero: is a device, expected a file" treesim zero.json --frames 2 --outside
+refused 2 "names '/dev/zero', which is no regular file" treesim zero.json --frames 2 --outside
 refused 2 "is a device" treeconvert /dev/urandom -o endless.json
 refused 2 "is a device" treegen --params /dev/zero -o endless.json
 absent endless.json
