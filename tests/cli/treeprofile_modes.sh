@@ -98,7 +98,8 @@ fi
 expect 0 treeprofile modes rod.tree.json --modes 1 --set stiffness_scale=0.01
 grep -q "branch 0 buckles .*--radii carry" err || fail "what carries a rod that cannot stand is not said: $(cat err)"
 # Outputs are looked at before anything is computed.
-refused 1 "the same file as" treeprofile modes tree.json --modes 2 --report same.json -o ./same.json
+ln -s same.json same.txt
+refused 1 "the same file as" treeprofile modes tree.json --modes 2 --report same.json -o same.txt
 refused 4 "none/x.json" treeprofile modes none.json --modes 2 --report none/x.json
 refused 4 "none/x.txt" treeprofile modes none.json --modes 2 -o none/x.txt
 absent same.json
