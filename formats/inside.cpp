@@ -1,11 +1,15 @@
 #include "inside.h"
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 
 namespace bough {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::mutex named_files_mutex;
+std::set<std::string> named_files;
 
 // Whether the name alone leads out: it is absolute and of another folder, or it climbs above the folder on its way.
 bool leads_out(const std::string& path, const std::string& folder) {
@@ -44,9 +48,14 @@ bool opens_at_once(const std::string& path) {
     return !exists(status) || is_regular_file(status) || is_directory(status);
 }
 
-std::set<std::string>& named_files_read() {
-    static std::set<std::string> read;
-    return read;
+std::set<std::string> named_files_read() {
+    const std::lock_guard guard(named_files_mutex);
+    return named_files;
+}
+
+void note_named_file(const std::string& path) {
+    const std::lock_guard guard(named_files_mutex);
+    named_files.insert(path);
 }
 
 bool& may_reach_outside() {

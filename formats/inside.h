@@ -20,8 +20,9 @@ bool opens_at_once(const std::string& path);
 // What is said where it would wait.
 extern const char* const no_regular_file;
 
-// The buffers and images that this process read since a file named them. No output may replace them.
-std::set<std::string>& named_files_read();
+// The buffers and images that this process read since a file named them. No output may replace them. Any thread may add to them.
+std::set<std::string> named_files_read();
+void note_named_file(const std::string& path);
 
 // Of this process, false unless the user says so (--outside). Set before anything is read.
 bool& may_reach_outside();

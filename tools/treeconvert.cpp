@@ -6,6 +6,7 @@
 #include "formats/documents/tree.h"
 #include "formats/exports/obj.h"
 #include "formats/imports/any_tree.h"
+#include "formats/imports/placed_import.h"
 #include "formats/plain_text.h"
 #include "frame_sink.h"
 #include "import_file.h"
@@ -31,8 +32,6 @@
 namespace {
 
 using namespace bough;
-
-constexpr double noted_height = 1e-3; // [m] as far as a foot is left off the ground (formats/imports/placed_import.h)
 
 struct Options {
     CommonOptions common;

@@ -7,14 +7,13 @@
 namespace bough {
 namespace {
 
-constexpr double aside = 0.01, stands = 1e-3;           // of the tree's extent; [m]: below the ground the wind is zero
+constexpr double aside = 0.01;                          // of the tree's extent
 constexpr double floats = 0.5, floats_of_extent = 0.05; // [m]; [1]: stems of one stool begin at several heights
 constexpr double tallest = 120, lowest = 0.1;           // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
 constexpr double farthest = 1e30, smallest = 1e-30; // [m]
-constexpr double aloof = 1e4,
-                 far = 100; // of the median distance: a neuron's axon stays below the first, trees below the second
+constexpr double far = 100; // of the median distance: trees stay below it, a neuron's axon below aloof
 
 struct Oddness {
     double extent, median; // least share of the tree's extent, least multiple of the median radius
@@ -73,7 +72,7 @@ void set_on_ground(Splines& s, bool keep, ImportNotes& notes) {
         ++roots;
     }
     if (keep) {
-        if (ground < -stands)
+        if (ground < -noted_height)
             notes.lines.push_back("its foot is " + shown(-ground) +
                                   " m below the ground, y = 0, under which no wind blows (--keep-place)");
         return;
@@ -86,7 +85,7 @@ void set_on_ground(Splines& s, bool keep, ImportNotes& notes) {
     base /= double(std::max<std::size_t>(1, roots));
     base.y() = ground;
     const double off = std::max(std::abs(base.x()), std::abs(base.z()));
-    if (off <= aside * extent && std::abs(ground) <= std::min(stands, aside * extent)) return;
+    if (off <= aside * extent && std::abs(ground) <= std::min(noted_height, aside * extent)) return;
     notes.moved = -base;
     for (Vec3& p : s.point) p -= base;
     for (Vec3& p : s.leaf_position) p -= base;

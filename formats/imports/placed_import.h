@@ -7,6 +7,9 @@
 
 namespace bough {
 
+constexpr double noted_height = 1e-3; // [m] that a foot may be off the ground: below it the wind is zero
+constexpr double aloof = 1e4;         // times a tree's size: what is farther from it is none of it
+
 struct Box {
     Vec3 low, high;
 };
@@ -14,8 +17,8 @@ Box box_of(std::span<const Vec3> points); // of one at least
 
 // Moves the tree so that its foot, the middle of its bases at the height of the lowest of them, stands at the origin: wind blows over the
 // ground at y = 0, and a scene's position says where the foot is. A foot stays that is within 1 mm of the
-// ground and 1 % of the tree's extent of the origin, and so does every one where `keep`. One note with the way, one where another base is higher than the lowest by
-// 0.5 m or a twentieth of the extent, one where `keep` leaves the foot below the ground. O(points).
+// ground and 1 % of the tree's extent of the origin, and so does every one where `keep`. One note with the way, one where another base is higher than
+// the lowest by 0.5 m or a twentieth of the extent, one where `keep` leaves the foot below the ground. O(points).
 void set_on_ground(Splines&, bool keep, ImportNotes&);
 
 // A note where the tree is higher than any (120 m) or lower than 0.1 m: the unit is then the likely mistake. Where the

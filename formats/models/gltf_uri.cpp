@@ -83,7 +83,7 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
     if (!opens_at_once(file)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + no_regular_file);
     try {
         std::string bytes = read_input(file);
-        named_files_read().insert(file);
+        note_named_file(file);
         return bytes;
     } catch (const InputError&) {
         throw std::runtime_error(bough::in_ascii_quotes(uri) + " is not beside the file, or cannot be read");

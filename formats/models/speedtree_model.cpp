@@ -1,4 +1,5 @@
 #include "speedtree_model.h"
+#include "formats/imports/placed_import.h"
 #include "formats/imports/speedtree_bones.h"
 #include "formats/imports/speedtree_fields.h"
 #include "formats/plain_text.h"
@@ -296,7 +297,6 @@ private:
 
 // Where a mesh may be that goes with a skeleton: as far as a skeleton's own points may be from each other (placed_import.h).
 Eigen::AlignedBox3d about_skeleton(const SpeedtreeModel& model) {
-    constexpr double aloof = 1e4;
     Eigen::AlignedBox3d box;
     for (const Bone& bone : model.file.bones) {
         box.extend(model.world * bone.start);

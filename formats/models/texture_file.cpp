@@ -189,7 +189,7 @@ std::string unread_kind(const std::string& path) {
 Texture read_texture(const std::string& path, const std::string& named_by) {
     Texture texture;
     texture.bytes = read_input(path);
-    named_files_read().insert(path);
+    note_named_file(path);
     std::string why;
     if (texture.bytes.empty() || !decode(texture.bytes, texture.pixels, why))
         throw InputError(path, "is no image that can be read (" + (texture.bytes.empty() ? "it is empty" : why) +

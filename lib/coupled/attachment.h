@@ -36,8 +36,8 @@
 // is taken with that stiffness k_c, and its target is shifted by f_k (1/k_c - 1/k). f_k is its own force, of whose change each step takes a fifth. At
 // rest it is then as long as a spring of k. In float its point follows the target within 1 / 290 of its way in a step. A stronger damper is taken as
 // one of that c. With the whole of the last step's force for f_k, branches that 1e9 N/m pressed in float went on by up to 18 m/s at 1/30 s, and by up
-// to 53 m/s at 1/120 s (93 of 125 by more than 1 cm/s). Now 66 of 125 do at 1/30 s, by up to 0.5 m/s, as in double and in steps of 1/480 s: slow
-// swings. One of the 125, a stem that 10^5 N press, still goes on by 6 m/s in float.
+// to 53 m/s at 1/120 s (93 of 125 by more than 1 cm/s). Now 65 of 125 do at 1/30 s, by up to 0.5 m/s, as 73 in double at 1/120 s: slow
+// swings. Only one stem, which 10^5 N press (4 of the 125), still goes on by up to 6 m/s in float.
 // A spring shifted so, whose target is out of reach, pulls harder at every step. What several such springs hold against each other with grows until
 // rounding moves the joints between them: (H / (J + |z| K) |s|^2)^2 roundings, as zeta's. So the f_k that shifts is at most sqrt(1 / epsilon) times
 // what turns a joint of the path by a radian in a step, the least of (J + |z| K) / (l |s|^2): 2900 of it in float, 7 10^7 in double. Beyond that, a

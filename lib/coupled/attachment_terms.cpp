@@ -8,7 +8,7 @@ namespace {
 
 constexpr double followed = 0.2; // of what a spring's force has changed by, each step (attachment.h, digits)
 
-}
+} // namespace
 
 void settle_attachments(Attachments& a) {
     for (AttachedBody& b : a.bodies) {

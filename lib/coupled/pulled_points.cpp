@@ -2,7 +2,6 @@
 #include "../plan/pushes.h"
 #include "attachment_paths.h"
 #include <algorithm>
-#include <cmath>
 
 namespace bough {
 namespace {
