@@ -54,6 +54,7 @@ std::string folder_of(const std::string& path);
 class Output {
 public:
     explicit Output(const std::string& path);
+    Output(const std::string& path, const std::string& name); // name: in messages, where the file is still to move
     // To memory, `capacity` bytes of it: what does not fit is counted (bytes()) and left out. `name` stands in messages.
     Output(char* to, std::size_t capacity, const std::string& name);
     Output(const Output&) = delete;

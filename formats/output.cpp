@@ -19,7 +19,9 @@ constexpr std::size_t buffer_size = std::size_t(1) << 20;
 
 }
 
-Output::Output(const std::string& path) : name_(path == "-" ? "<stdout>" : path) {
+Output::Output(const std::string& path) : Output(path, path == "-" ? "<stdout>" : path) {}
+
+Output::Output(const std::string& path, const std::string& name) : name_(name) {
     if (path == "-") {
         if (::fcntl(STDOUT_FILENO, F_GETFD) < 0) fail("is closed", errno);
         file_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);

@@ -20,6 +20,8 @@ OutputFolder::OutputFolder(const std::string& path) : path_(without_slash(path))
         return;
     }
     if (errno != ENOENT) fail("cannot be written to", errno);
+    if (::lstat(path_.c_str(), &status) == 0)
+        fail("is a link that leads nowhere", ENOENT); // which no folder can replace
     try {
         fresh_ = std::make_unique<TemporaryFolder>(path_);
     } catch (const std::system_error& error) {
@@ -32,7 +34,7 @@ OutputFolder::~OutputFolder() {
 }
 
 Output& OutputFolder::add(const std::string& name) {
-    file_.push_back(std::make_unique<Output>((fresh_ ? fresh_->name() : path_) + "/" + name));
+    file_.push_back(std::make_unique<Output>((fresh_ ? fresh_->name() : path_) + "/" + name, path_ + "/" + name));
     return *file_.back();
 }
 

@@ -148,13 +148,13 @@ def ended(kind, line, child, timeout=120):
 
 
 def hidden(folder):
-    return [name for _, _, names in os.walk(folder) for name in names if name.startswith(".bough-")]
+    return [name for _, folders, names in os.walk(folder) for name in folders + names if name.startswith(".bough-")]
 
 
 def judge(kind, line, out, before, whole, cut=False):
     """Every file is whole, as it was before, or absent. cut: a run that was interrupted may have written a shorter whole one."""
+    for name in hidden(out):
+        wrong(kind, line, f"{name} was left behind")
     for name, content in contents(out).items():
-        if os.path.basename(name).startswith(".bough-"):
-            wrong(kind, line, f"{name} was left behind")
-        elif not cut and "treeprofile stages" not in line and content not in (before.get(name), whole.get(name)):
+        if not cut and "treeprofile stages" not in line and content not in (before.get(name), whole.get(name)):
             wrong(kind, line, f"{name} has {len(content)} bytes, whole are {len(whole.get(name, b''))}")

@@ -1,6 +1,7 @@
 #include "file_names.h"
 #include "exits.h"
 #include "formats/exports/sequence.h"
+#include "formats/inside.h"
 #include "formats/output_place.h"
 #include "formats/plain_text.h"
 #include <algorithm>
@@ -77,12 +78,19 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
                                  " reads and the output would replace");
 }
 
-void refuse_overwriting_by_images(const std::vector<NamedFile>& read, const std::vector<std::string>& images) {
-    for (const std::string& image : images)
-        for (const NamedFile& input : read)
-            if (!input.file.empty() && replaces({"", {}, {output_place(image)}}, input.file))
-                throw UsageError("-o: an image beside it would be '" + image + "', which " + input.option +
-                                 " reads and the output would replace; expected another name");
+void refuse_overwriting_the_model(const std::vector<NamedFile>& written) {
+    for (const std::string& file : named_files_read()) refuse_overwriting({{"the model", file}}, written);
+}
+
+void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std::vector<std::string>& images) {
+    for (const std::string& image : images) {
+        const Written written{"", {}, {output_place(image)}};
+        for (const NamedFile& other : named)
+            if (!other.file.empty() &&
+                (replaces(written, other.file) || (other.file != "-" && holds(written, output_place(other.file)))))
+                throw UsageError("-o: an image beside it would be '" + image + "', which " + other.option +
+                                 " names; expected another name");
+    }
 }
 
 void require_outputs(const std::vector<NamedFile>& written) {

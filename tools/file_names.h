@@ -15,8 +15,11 @@ struct NamedFile {
 };
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written);
 
-// The same of the images that are written into a folder beside the output of -o.
-void refuse_overwriting_by_images(const std::vector<NamedFile>& read, const std::vector<std::string>& images);
+// The same of the buffers and images that a model names (formats/inside.h), once it has been read.
+void refuse_overwriting_the_model(const std::vector<NamedFile>& written);
+
+// The same of the images that are written into a folder beside the output of -o. `named`: what is read, and the other outputs.
+void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std::vector<std::string>& images);
 
 // Before the work: throws UsageError where two outputs are one file, and OutputError where one cannot be written, as in a folder that is not
 // there. Empty names are none; a pattern stands for all its files, and is tried with its number 0.

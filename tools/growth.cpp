@@ -102,7 +102,7 @@ void refuse_what_is_foreign(const GrowthOptions& o, const ImportChoice& choice, 
 void add_growth_options(OptionList& list, GrowthOptions& o) {
     list.group("Growth");
     list.add("--species", o.species, "Which tree to grow (see --list-species)").takes("NAME").one_of(species_names());
-    list.add_flag("--list-species", o.list_species, "Print the names that --species takes, and exit");
+    list.add_flag("--list-species", o.list_species, "Write the names that --species takes, and exit");
     list.add("--params", o.params,
              "Grow by this file's parameters: Arbaro XML, tree-gen, Blender Sapling, ez-tree, or a bough-species\n"
              "document; - for stdin")

@@ -13,13 +13,14 @@
 namespace bough {
 namespace {
 
-// What the run reads, which no image beside the output may replace.
+// What the run reads and writes, none of which an image beside the output may replace.
 std::vector<NamedFile> files_of_run(const TreesimOptions& o, const Setting& setting) {
-    std::vector<NamedFile> read{
-        {"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}, {"--skin", o.skin}, {"--resume", o.resume}};
-    for (const std::string& file : setting.tree_files) read.push_back({"the scene", file});
-    for (const std::string& file : named_files_read()) read.push_back({"the model", file});
-    return read;
+    std::vector<NamedFile> files{
+        {"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}, {"--skin", o.skin},
+        {"--resume", o.resume}, {"--save-state", o.save_state},    {"--save-tree", o.save_tree}};
+    for (const std::string& file : setting.tree_files) files.push_back({"the scene", file});
+    for (const std::string& file : named_files_read()) files.push_back({"the model", file});
+    return files;
 }
 
 DrivenPlace place_of(const Setting& setting) {

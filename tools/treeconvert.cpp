@@ -104,7 +104,7 @@ void declare(OptionList& list, Options& o) {
     list.add("--material", o.material,
              "Wood: a preset's name (--list-materials) or a bough-material file; the splines' own unless given")
         .takes("NAME|FILE");
-    list.add_flag("--list-materials", o.list_materials, "Print the presets with their figures and sources, and exit");
+    list.add_flag("--list-materials", o.list_materials, "Write the presets with their figures and sources, and exit");
     list.group("Input");
     list.add_flag("--strict", o.strict, "Guesses, repairs and omissions are errors");
     list.add_flag("--stats", o.stats, "Print what was understood of the input and what was made of it on stderr");
@@ -118,8 +118,9 @@ void declare(OptionList& list, Options& o) {
 
 void refuse_own_inputs(const Options& o, const std::string& output, const std::string& mesh,
                        const std::string& wind_groups) {
-    refuse_overwriting({{"INPUT", o.input}, {"--material", o.material}, {"--wind", wind_file(o.merge.wind)}},
-                       {{"-o", output}, {"--mesh", mesh}, {"--wind-groups", wind_groups}});
+    const std::vector<NamedFile> written{{"-o", output}, {"--mesh", mesh}, {"--wind-groups", wind_groups}};
+    refuse_overwriting({{"INPUT", o.input}, {"--material", o.material}, {"--wind", wind_file(o.merge.wind)}}, written);
+    refuse_overwriting_the_model(written);
 }
 
 void refuse_no_patterns(const Options& o) {
@@ -177,11 +178,15 @@ Material chosen_material(const Options& o, const Splines& splines) {
     return read_material(read_input(o.material), input_name(o.material));
 }
 
-void list_materials() {
-    std::cout << "name\tdensity[kg/m3]\tE[Pa]\tG[Pa]\tdamping ratio\tstrength[Pa]\tsource\n";
+void list_materials(const std::string& file) {
+    std::ostringstream text;
+    text << "name\tdensity[kg/m3]\tE[Pa]\tG[Pa]\tdamping ratio\tstrength[Pa]\tsource\n";
     for (const Material& m : wood_presets())
-        std::cout << m.name << "\t" << m.density << "\t" << m.youngs_modulus << "\t" << m.shear_modulus << "\t"
-                  << m.damping_ratio << "\t" << m.strength << "\t" << m.source << "\n";
+        text << m.name << "\t" << m.density << "\t" << m.youngs_modulus << "\t" << m.shear_modulus << "\t"
+             << m.damping_ratio << "\t" << m.strength << "\t" << m.source << "\n";
+    Output output(file);
+    output.write(text.str());
+    output.finish();
 }
 
 SegmentOptions segment_options(const Options& o) {
@@ -330,11 +335,12 @@ void set_down(std::vector<Tree>& trees, std::vector<std::string>& notes) {
 }
 
 void work(Options& o) {
-    if (o.list_materials) return list_materials();
+    if (o.list_materials) return list_materials(o.common.output);
     refuse_contradictions(o);
     const std::string name = input_name(o.input);
     ImportNotes found;
     Splines splines = read_import(o.input, o.choice, found);
+    refuse_own_inputs(o, o.common.output, o.mesh, o.wind_groups);
     const bool is_foreign = found.format != "bough-splines"; // a document of ours stays where it is
     if (o.stats) std::cerr << import_statistics(splines, found);
     std::vector<std::string> notes = std::move(found.lines);

@@ -109,6 +109,7 @@ Splines imported(Options& o) {
         if (!own || !chosen_skeleton(o.common).empty()) // splines may be written in their own place
             refuse_overwriting({{"--import", o.import}}, {{"-o", o.common.output}});
     });
+    refuse_overwriting_the_model({{"-o", o.common.output}});
     const std::string name = input_name(o.import);
     if (o.stats) std::cerr << import_statistics(splines, notes);
     if (o.strict && !notes.lines.empty()) throw InputError(name, notes.lines.front() + " (--strict)");
@@ -140,8 +141,9 @@ void write(const Splines& splines, CommonOptions& common) {
 
 void work(Options& o) {
     if (o.growth.list_species) {
-        for (const std::string& name : species_names()) std::cout << name << "\n";
-        return;
+        Output output(o.common.output);
+        for (const std::string& name : species_names()) output.write(name + "\n");
+        return output.finish();
     }
     refuse_contradictions(o);
     require_outputs({{"-o", o.common.output}});

@@ -2,7 +2,6 @@
 #include "error_line.h"
 #include "file_names.h"
 #include "formats/documents/motion.h"
-#include "formats/inside.h"
 #include "frame_queue.h"
 #include "lib/base/hash_text.h"
 #include "notes.h"
@@ -185,7 +184,7 @@ std::int64_t make(TreesimOptions& o, const std::string& format) {
         refuse_overwriting({{"INPUT", file}}, {{"--save-tree", o.save_tree}});
     complete_model(model, o, setting, format);
     written.push_back({"--save-tree", o.save_tree});
-    for (const std::string& file : named_files_read()) refuse_overwriting({{"the model", file}}, written);
+    refuse_overwriting_the_model(written);
     return simulate(o, read, format, std::move(model));
 }
 

@@ -73,7 +73,8 @@ private:
                std::string outputs) {
         if (file.empty()) return;
         begin(name, "UsdUVTexture");
-        input("asset inputs:file = @./" + file + "@");
+        const char* const quote = file.find('@') == std::string::npos ? "@" : "@@@";
+        input(std::string("asset inputs:file = ") + quote + "./" + file + quote);
         input(std::string("token inputs:sourceColorSpace = \"") + space + "\"");
         input("float2 inputs:st.connect = <" + path_ + "/uv.outputs:result>");
         input("token inputs:wrapS = \"repeat\"");

@@ -41,7 +41,7 @@ const Map* color_map(const MeshMaterial& material) {
 class Builder {
 public:
     Builder(const std::string& name, const std::string& folder, bool flip_opacity, OwnMesh& mesh, ImportNotes& notes)
-        : name_(name), folder_(folder), flip_opacity_(flip_opacity), mesh_(mesh), notes_(notes) {}
+        : name_(name), textures_(folder), flip_opacity_(flip_opacity), mesh_(mesh), notes_(notes) {}
 
     void add(const MeshMaterial& material) {
         Json pbr, json{{"name", material.name}};
@@ -100,7 +100,7 @@ private:
         if (const auto found = texture_.find(map->file); found != texture_.end()) return &found->second;
         if (!not_found_.insert(map->file).second) return nullptr;
         TexturePlaces looked;
-        const std::string path = find_texture(map->file, folder_, looked);
+        const std::string path = textures_.find(map->file, looked);
         if (path.empty()) {
             missing_.emplace_back(map->file, std::move(looked));
             return nullptr;
@@ -124,7 +124,7 @@ private:
         std::string found;
         for (const char* ending : {".png", ".tga", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp"})
             if (TexturePlaces looked; found.empty()) {
-                found = find_texture(stem + ending, folder_, looked);
+                found = textures_.find(stem + ending, looked);
                 if (!found.empty() && !unread_kind(found).empty()) found.clear(); // its ending says otherwise
             }
         if (noted_.insert(file).second)
@@ -193,7 +193,8 @@ private:
                          png_of(from.width, from.height, 3, rgb));
     }
 
-    const std::string &name_, &folder_;
+    const std::string& name_;
+    TextureFinder textures_;
     const bool flip_opacity_;
     OwnMesh& mesh_;
     ImportNotes& notes_;

@@ -44,16 +44,17 @@ std::string with_slashes(std::string name) {
     return name;
 }
 
-// The path itself, or the only thing in its folder that is called so but for capitals.
-std::string existing(const fs::path& path) {
+// The regular files of a folder by their names in small letters; of those with one such name the first by its bytes.
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+    std::map<std::string, std::string> found;
     std::error_code error;
-    if (fs::is_regular_file(path, error)) return path.string();
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    const std::string wanted = lower_case(path.filename().string());
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        if (lower_case(entry->path().filename().string()) == wanted && entry->is_regular_file(error))
-            return entry->path().string();
-    return "";
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        if (std::error_code none; !entry->is_regular_file(none)) continue;
+        const std::string path = entry->path().string();
+        const auto [at, fresh] = found.try_emplace(lower_case(entry->path().filename().string()), path);
+        if (!fresh && path < at->second) at->second = path;
+    }
+    return found;
 }
 
 // A TIFF in memory, as libtiff wants to read it.
@@ -152,20 +153,32 @@ bool Pixels::transparent() const {
     return false;
 }
 
-std::string find_texture(const std::string& name, const std::string& folder, TexturePlaces& looked) {
+// The path itself, or what its folder has under that name but for capitals.
+std::string TextureFinder::existing(const std::string& path) {
+    std::error_code error;
+    const fs::path file(path);
+    if (fs::is_regular_file(file, error)) return path;
+    const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+    auto listed = listed_.find(folder);
+    if (listed == listed_.end()) listed = listed_.emplace(folder, files_of(folder)).first;
+    const auto found = listed->second.find(lower_case(file.filename().string()));
+    return found == listed->second.end() ? "" : found->second;
+}
+
+std::string TextureFinder::find(const std::string& name, TexturePlaces& looked) {
     const std::string file = with_slashes(name);
     const bool absolute = file.starts_with("/") || (file.size() > 2 && file[1] == ':' && file[2] == '/');
     std::vector<fs::path> places;
-    if (absolute || !folder.empty()) places.push_back(absolute ? fs::path(file) : fs::path(folder) / file);
-    if (const fs::path bare = fs::path(file).filename(); !folder.empty() && !bare.empty())
-        if (places.empty() || places[0] != fs::path(folder) / bare) places.push_back(fs::path(folder) / bare);
+    if (absolute || !folder_.empty()) places.push_back(absolute ? fs::path(file) : fs::path(folder_) / file);
+    if (const fs::path bare = fs::path(file).filename(); !folder_.empty() && !bare.empty())
+        if (places.empty() || places[0] != fs::path(folder_) / bare) places.push_back(fs::path(folder_) / bare);
     for (const fs::path& place : places) {
         std::string outside = place.string(); // which is not looked at
-        if (within_reach(outside, folder)) {
-            outside = existing(place);
+        if (within_reach(outside, folder_)) {
+            outside = existing(place.string());
             if (outside.empty())
                 looked.tried.push_back(place.string());
-            else if (within_reach(outside, folder)) // a name but for capitals may be a link
+            else if (within_reach(outside, folder_)) // a name but for capitals may be a link
                 return outside;
             std::error_code none;
             if (looked.folder.empty() && fs::is_directory(place, none)) looked.folder = place.string();

@@ -6,6 +6,7 @@
 // PNG and JPEG stay byte for byte; TGA, BMP, TIFF and whatever else stb_image reads are decoded and written as PNG.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,23 @@ struct TexturePlaces {
     std::string folder;  // of them the first that is a folder, "": none
     std::string outside; // the first place that was not looked at, as it is out of the folder; "": none
 };
-// The path of the file, "" if there is none that may be opened; `looked` gets the places that were tried.
-std::string find_texture(const std::string& name, const std::string& folder, TexturePlaces& looked);
+
+// Finds the textures of one file. A folder's entries are read once, when a name is not there as it is written.
+class TextureFinder {
+public:
+    explicit TextureFinder(std::string folder)
+        : folder_(std::move(folder)) {} // of the file that names them; "": there is none
+    // The path of the file, "" if there is none that may be opened; `looked` gets the places that were tried. Of several that differ in capitals
+    // alone the first by its bytes. O(log of the folder's entries) but for the first name that is not there.
+    std::string find(const std::string& name, TexturePlaces& looked);
+
+private:
+    std::string existing(const std::string& path);
+
+    std::string folder_;
+    std::map<std::string, std::map<std::string, std::string>>
+        listed_; // folder -> a file's name in small letters -> its path
+};
 
 // What kind of image the file is, by its first bytes, where it is one that games and the web use and that is not read here: "DDS", "KTX", "WebP",
 // "OpenEXR"; "" for others.

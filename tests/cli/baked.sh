@@ -62,6 +62,10 @@ expect 0 treesim tree.json --wind gusty --frames 6 --settle 0 -o apple.usda --te
 grep -o '@[^@]*@' apple.usda | tr -d @ >images
 [[ $(wc -l <images) -ge 3 ]] || fail "images: $(cat images)"
 while read -r image; do [[ $(head -c 4 "$image" | tail -c 3) == PNG ]] || fail "$image is no picture"; done <images
+expect 0 treesim tree.json --wind gusty --frames 2 --settle 0 -o a@b.usda --textures 256 # USD quotes a path that has an @ by three of them
+grep -o '@@@[^ ]*@@@' a@b.usda | sed 's/@@@//g' >images
+[[ $(wc -l <images) -ge 3 ]] || fail "images: $(cat images)"
+while read -r image; do [[ -s $image ]] || fail "$image is not there"; done <images
 "${run[@]}" -q --no-source -o plain.usda
 "${run[@]}" -q --no-source --format usda >stdout.usda
 same plain.usda stdout.usda

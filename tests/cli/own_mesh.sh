@@ -278,11 +278,14 @@ cp own_images/m_textures/leaf.png leaf_kept.png
 sed 's/File="leaf.png"/File="m_textures\/leaf.png"/' art/tree.xml >own_images/m.xml
 cp art/leaf_opacity.bmp own_images/
 for output in own_images/m.usda own_images/m_%d.obj own_images/frames/../m.usda; do
-    refused 1 "m_textures/leaf.png', which the model reads and the output would replace" treesim own_images/m.xml --frames 2 -o $output
+    refused 1 "m_textures/leaf.png', which the model names" treesim own_images/m.xml --frames 2 -o $output
     absent own_images/m.usda own_images/m_0.obj own_images/m_.mtl own_images/m.mtl
     cmp own_images/m_textures/leaf.png leaf_kept.png || fail "$output has replaced an image of the model"
 done
 refused 1 "which the model reads" treesim own_images/m.xml --frames 2 -o own_images/m_textures/leaf.png --format glb
 cmp own_images/m_textures/leaf.png leaf_kept.png || fail "-o has replaced an image of the model"
+for option in --save-state --save-tree; do # nor one that the run writes
+    refused 1 "leaf.png', which $option names" treesim own_images/m.xml --frames 2 -o own_images/new.usda $option own_images/new_textures/leaf.png
+done
 expect 0 treesim own_images/m.xml --frames 2 -o own_images/other.usda
 expect 0 treesim own_images/m.xml --frames 2 -o own_images/other.usda # over its own, again

@@ -35,6 +35,13 @@ refused 2 "leads out of the folder" treeconvert own/out.gltf -o x.json
 absent x.json
 expect 0 treeconvert own/out.gltf --outside -o out.json
 expect 0 treeconvert own/in.gltf -o in.json
+# Neither it nor what is made of it may replace that file.
+for output in "treeconvert own/in.gltf -o own/points.bin" "treeconvert own/in.gltf -o x.json --mesh own/points.bin.obj" "treegen --import own/in.gltf -o own/points.bin"; do
+    ln -sf points.bin own/points.bin.obj
+    refused 1 "own/points.bin" $output
+    cmp points.bin own/points.bin || fail "$output has replaced the model's own file"
+done
+rm own/points.bin.obj
 
 # A FIFO that a file names is not opened, and a tree's file of the name - is that file, not stdin.
 mkfifo own/fifo

@@ -46,6 +46,8 @@ bodies() { treeconvert whole.json -q --stats "$@" 2>&1 >/dev/null | sed -n 's/^b
 while IFS=$'\t' read -r name _; do
     [[ $name == name ]] || expect 0 treeconvert splines.json --material "$name" -o "wood_$name.json"
 done < <(treeconvert --list-materials)
+expect 0 treeconvert --list-materials -o materials
+treeconvert --list-materials | cmp - materials || fail "treeconvert --list-materials -o"
 [[ $(for f in wood_*.json; do sed 's/"\(material\|source\)"[^,]*,//g' "$f" | cksum; done | sort -u | wc -l) -gt 1 ]] ||
     fail "all materials are one"
 

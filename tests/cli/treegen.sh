@@ -20,6 +20,8 @@ refused 1 "one argument too many, expected options alone" treegen --seed 1 tree.
 # Every listed name grows; the same seed gives the same bytes, another seed does not.
 expect 0 treegen --list-species
 while read -r name; do expect 0 treegen --species "$name" --age 6 --bodies 200 -o "$name.json"; done < <(treegen --list-species)
+expect 0 treegen --list-species -o species
+treegen --list-species | cmp - species || fail "treegen --list-species -o"
 expect 0 treegen --species willow --age 8 --bodies 500 --seed 7 --no-source --threads 1 -o a.json
 expect 0 treegen --species willow --age 8 --bodies 500 --seed 7 --no-source --threads 3 -o b.json
 same a.json b.json

@@ -110,28 +110,48 @@ TEST_CASE("a glTF file reaches no buffer or image outside its folder, nor the ne
 
 TEST_CASE("a texture outside the folder of the file that names it is not found") {
     const Places places;
+    TextureFinder textures(places.own);
     TexturePlaces looked;
     for (const std::string name : {"file", "below/file", "FILE", "below\\file"})
-        CHECK(!find_texture(name, places.own, looked).empty());
+        CHECK(!textures.find(name, looked).empty());
     CHECK(looked.tried.empty());
     for (const std::string name :
          {"link", "twice", "LINK", "up/secret", "../secret", "..\\secret", "..\\own2\\secret"}) {
         CAPTURE(name);
         looked = {};
-        CHECK(find_texture(name, places.own, looked).empty());
+        CHECK(textures.find(name, looked).empty());
         CHECK(!looked.outside.empty());
     }
     // It is told which place was not looked at, whatever stands there.
     for (const auto& [name, outside] : {std::pair("link", "/link"), std::pair("../secret", "/../secret"),
                                         std::pair("../none", "/../none"), std::pair("none", "")}) {
         looked = {};
-        CHECK(find_texture(name, places.own, looked).empty());
+        CHECK(textures.find(name, looked).empty());
         CHECK(looked.outside == (*outside ? places.own + outside : ""));
     }
-    CHECK(find_texture(places.folder / "secret", places.own, looked).empty());
-    CHECK(find_texture("/etc/passwd", places.own, looked).empty());
+    CHECK(textures.find(places.folder / "secret", looked).empty());
+    CHECK(textures.find("/etc/passwd", looked).empty());
     // An absolute path of another machine falls back on the bare name, as ever.
-    CHECK(find_texture("C:\\elsewhere\\file", places.own, looked) == places.own + "/file");
+    CHECK(textures.find("C:\\elsewhere\\file", looked) == places.own + "/file");
     const Outside allowed;
-    CHECK(find_texture("../secret", places.own, looked) == places.own + "/../secret");
+    CHECK(textures.find("../secret", looked) == places.own + "/../secret");
+}
+
+TEST_CASE("a folder is looked through once, however many textures are missing") {
+    const Places places;
+    TextureFinder textures(places.own);
+    TexturePlaces looked;
+    CHECK(textures.find("none", looked).empty());
+    std::ofstream(places.own + "/LATER") << "x"; // which a second look would find
+    CHECK(textures.find("later", looked).empty());
+    CHECK(textures.find("LATER", looked) == places.own + "/LATER");
+    CHECK(TextureFinder(places.own).find("later", looked) == places.own + "/LATER");
+}
+
+TEST_CASE("of files whose names differ in capitals alone the first by its bytes is taken") {
+    const Places places;
+    for (const char* name : {"bark.png", "Bark.png", "BARK.png"}) std::ofstream(places.own + "/" + name) << name;
+    TexturePlaces looked;
+    CHECK(TextureFinder(places.own).find("bARK.png", looked) == places.own + "/BARK.png");
+    CHECK(TextureFinder(places.own).find("Bark.png", looked) == places.own + "/Bark.png");
 }

@@ -36,6 +36,12 @@ TEST_CASE("a folder that is not there appears whole, or nothing is left of it") 
     }
 }
 
+TEST_CASE("messages name a file of a new folder by the name that it is to have") {
+    const Folder folder;
+    OutputFolder made(folder / "oak_vat");
+    CHECK(made.add("a").name() == folder / "oak_vat/a");
+}
+
 TEST_CASE("in a folder that is there each file is replaced, once all are written; others stay") {
     const Folder folder;
     fs::create_directory(folder / "oak_vat");
@@ -62,6 +68,11 @@ TEST_CASE("what is no folder, and a folder in one that is not there, are told of
     std::ofstream(folder / "file") << "x";
     CHECK_THROWS_AS(OutputFolder(folder / "file"), OutputError);
     CHECK_THROWS_AS(require_output_folder(folder / "missing/oak_vat"), OutputError);
+    fs::create_symlink(folder / "nowhere", folder / "link");
+    for (const char* slash : {"", "/"})
+        CHECK_THROWS_WITH(OutputFolder(folder / "link" + slash),
+                          folder / "link/" + ": is a link that leads nowhere: No such file or directory");
+    fs::remove(folder / "link");
     require_output_folder(folder / "oak_vat/");
     CHECK(folder.files() == 1);
 }

@@ -6,7 +6,7 @@
 
 namespace bough {
 
-std::string find_texture(const std::string&, const std::string&, TexturePlaces&) {
+std::string TextureFinder::find(const std::string&, TexturePlaces&) {
     return "";
 }
 std::string unread_kind(const std::string&) {
