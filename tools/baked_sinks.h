@@ -36,6 +36,11 @@ std::unique_ptr<FrameSink> vat_sink(const std::string& folder, const Tree&, Skin
                                     const RustleMaker&, const VatFrames&, const VatChoice&, const std::string& source,
                                     std::vector<std::string>& notes);
 
+// The same of a model's own mesh, moved by its bones.
+std::unique_ptr<FrameSink> driven_vat_sink(const std::string& folder, const Tree&, DrivenMesh, const VatFrames&,
+                                           const VatChoice&, const std::string& source,
+                                           std::vector<std::string>& notes);
+
 // One .usda, written by finish(), and its images in a folder beside it. Keeps references to the tree and the notes. Throws UsageError for images beside stdout, and for one that would replace a file of `read`.
 std::unique_ptr<FrameSink> usda_sink(const std::string& file, const Tree&, Skin, std::optional<OwnMesh> own, double fps,
                                      const GltfChoice&, const std::string& source, const std::vector<NamedFile>& read,

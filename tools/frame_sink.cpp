@@ -24,9 +24,6 @@ private:
     MotionWriter writer_;
 };
 
-// Puts the vertices of a skin where a frame has them.
-using Mover = std::function<void(const MotionFrame&, std::vector<Vec3>& position, std::vector<Vec3>& normal)>;
-
 class ObjSink : public FrameSink {
 public:
     // mover: makes the skin's, and may keep a reference to it.
@@ -105,27 +102,15 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const OwnMesh* own,
                                     const RustleMaker& rustle, const std::vector<NamedFile>& read,
                                     std::vector<std::string>& notes) {
-    const auto mover = [&](const Skin& kept) -> Mover {
-        const auto moved = std::make_shared<SkinMover>(kept, tree, rustle(kept, false));
-        return [moved](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
-            moved->move(frame, position, normal);
-        };
-    };
+    const auto mover = [&](const Skin& kept) { return mover_of(kept, tree, rustle(kept, false)); };
     return std::make_unique<ObjSink>(pattern, std::move(skin), own, mover, read, notes);
 }
 
 std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh mesh,
                                            const std::vector<NamedFile>& read, std::vector<std::string>& notes) {
     const auto moved = std::make_shared<DrivenMesh>(std::move(mesh));
-    const Mover mover = [moved](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
-        moved->go_to(frame);
-        position.resize(moved->vertices());
-        normal.resize(moved->vertices());
-        moved->positions(0, position);
-        moved->normals(0, normal);
-    };
     return std::make_unique<ObjSink>(
-        pattern, moved->skin(), &moved->look(), [&](const Skin&) { return mover; }, read, notes);
+        pattern, moved->skin(), &moved->look(), [&](const Skin&) { return mover_of(moved); }, read, notes);
 }
 
 } // namespace bough

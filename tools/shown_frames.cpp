@@ -60,6 +60,10 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
         o.common.notes.push_back(counted(mesh.bones(), "bone", "bones") + " of the model moved");
         if (format == "obj")
             return driven_obj_sink(o.common.output, std::move(mesh), files_of_run(o, setting), o.common.notes);
+        if (format == "vat")
+            return driven_vat_sink(o.common.output, shown, std::move(mesh),
+                                   {o.run.fps, cached.count, o.loop.seconds.has_value(), true}, o.vat, source,
+                                   o.common.notes);
         return driven_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
     } catch (const OtherTree& error) {
         return pass_over(error);

@@ -20,9 +20,9 @@ bool wants_own(const TreesimOptions& o, const std::string& format) {
 
 // A model's mesh that its bones move is shown by these.
 bool shows_bones(const std::string& format) {
-    return format == "glb" || format == "obj" || is_point_cache(format);
+    return format == "glb" || format == "obj" || format == "vat" || is_point_cache(format);
 }
-constexpr const char* bones_shown_by = ".glb, frames of .obj, .mdd and .pc2 alone";
+constexpr const char* bones_shown_by = ".glb, frames of .obj, .mdd, .pc2 and NAME_vat/ alone";
 
 // Whether a mesh of it is in Draco's form, which a .glb keeps and no other output can show.
 bool is_packed(const UserModel& model) {

@@ -1,10 +1,15 @@
-// skin_mover.h: a skin as a frame of a motion has it: moved by its bodies, the leaves of its clumps rustling.
+// skin_mover.h: a skin as a frame of a motion has it: moved by its bodies, the leaves of its clumps rustling, or by a model's own bones.
 #pragma once
+#include "formats/models/driven_mesh.h"
 #include "lib/growth/rustle.h"
 #include "lib/model/motion.h"
+#include <functional>
 #include <memory>
 
 namespace bough {
+
+// Puts the vertices of a skin where a frame has them.
+using Mover = std::function<void(const MotionFrame&, std::vector<Vec3>& position, std::vector<Vec3>& normal)>;
 
 class SkinMover {
 public:
@@ -25,5 +30,24 @@ private:
     std::unique_ptr<Rustle> rustle_;
     std::vector<Mat3> rotation_;
 };
+
+// Of a skin, which must outlive it. rustle: null where nothing rustles.
+inline Mover mover_of(const Skin& skin, const Tree& tree, std::unique_ptr<Rustle> rustle) {
+    const auto mover = std::make_shared<SkinMover>(skin, tree, std::move(rustle));
+    return [mover](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
+        mover->move(frame, position, normal);
+    };
+}
+
+// Of all vertices of a model's own mesh.
+inline Mover mover_of(std::shared_ptr<DrivenMesh> mesh) {
+    return [mesh](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
+        mesh->go_to(frame);
+        position.resize(mesh->vertices());
+        normal.resize(mesh->vertices());
+        mesh->positions(0, position);
+        mesh->normals(0, normal);
+    };
+}
 
 } // namespace bough

@@ -12,13 +12,14 @@ namespace {
 
 class VatSink : public FrameSink {
 public:
-    VatSink(const std::string& folder, const Tree& tree, Skin skin, std::optional<OwnMesh> own,
-            const RustleMaker& rustle, ReducedSkin mesh, const VatOptions& options)
+    // mover: makes the reduced skin's, and may keep a reference to it.
+    VatSink(const std::string& folder, Skin skin, std::optional<OwnMesh> own, ReducedSkin mesh,
+            const std::function<Mover(const Skin&)>& mover, const VatOptions& options)
         : name_(folder), skin_(std::move(skin)), own_(std::move(own)), mesh_(std::move(mesh)),
-          mover_(mesh_.skin, tree, rustle(mesh_.skin, false)), folder_(folder),
+          mover_(mover(mesh_.skin)), folder_(folder),
           writer_(folder_, vat_name(folder), mesh_, {&skin_, own_ ? &*own_ : nullptr}, options) {}
     void write(const MotionFrame& frame) override {
-        mover_.move(frame, position_, normal_);
+        mover_(frame, position_, normal_);
         writer_.write(position_, normal_);
     }
     void finish() override {
@@ -35,7 +36,7 @@ private:
     const Skin skin_;
     const std::optional<OwnMesh> own_;
     const ReducedSkin mesh_;
-    SkinMover mover_;
+    const Mover mover_;
     OutputFolder folder_;
     VatWriter writer_;
     std::vector<Vec3> position_, normal_;
@@ -53,6 +54,49 @@ private:
                          std::to_string(vat_side) + " simplifies it" + fewer);
     throw UsageError("--vat-vertices is " + std::to_string(*choice.vertices) + ", but the simplifier leaves " +
                      std::to_string(vertices) + " of the largest piece of wood alone" + fewer);
+}
+
+// Throws UsageError for more frames than a texture holds.
+VatOptions vat_options(const std::string& folder, const VatFrames& frames, const VatChoice& choice,
+                       const std::string& source) {
+    VatOptions options;
+    options.fps = frames.fps;
+    options.looping = frames.looping;
+    options.png = choice.png();
+    options.generator = std::string("bough ") + bough_version();
+    options.source = source;
+    if (frames.count > std::int64_t(options.most_frames()))
+        throw UsageError("-o is '" + folder + "': " + std::to_string(frames.count) + " frames, and a texture holds " +
+                         std::to_string(options.most_frames()) +
+                         (options.png ? "" : " with their normals (--vat-image png: 8192)") +
+                         "; take fewer seconds, or a lower --fps");
+    return options;
+}
+
+// The skin, or with --vat-vertices fewer vertices of it.
+ReducedSkin small_enough(const std::string& folder, const Skin& skin, const Tree& tree, const VatFrames& frames,
+                         const VatChoice& choice, std::vector<std::string>& notes) {
+    const std::size_t all = skin.position.size(), most = choice.vertices ? std::size_t(*choice.vertices) : vat_side;
+    if (!choice.vertices && all > most) refuse_vertices(folder, all, choice, frames.of_file);
+    ReducedSkin mesh = reduced_skin(skin, tree, most);
+    if (mesh.vertex.size() > most) refuse_vertices(folder, mesh.vertex.size(), choice, frames.of_file);
+    if (mesh.vertex.size() < all)
+        notes.push_back(
+            "--vat-vertices: " + std::to_string(mesh.vertex.size()) + " of " + std::to_string(all) +
+            " vertices are left: wood is off by " +
+            formatted("%.2g m (%.2g %% of the height)", mesh.error, 100 * mesh.error / height_of(skin)) +
+            " as the simplifier counts" +
+            (mesh.wood_kept < mesh.wood_pieces ? ", the largest " + std::to_string(mesh.wood_kept) + " of " +
+                                                     std::to_string(mesh.wood_pieces) + " pieces of wood are kept"
+                                               : "") +
+            (mesh.kept < mesh.pieces ? ", " + std::to_string(mesh.kept) + " of " + std::to_string(mesh.pieces) +
+                                           formatted(" leaves are kept, %.2g times as long", mesh.growth)
+                                     : ""));
+    const std::filesystem::path other =
+        std::filesystem::path(without_slash(folder)) / (vat_name(folder) + (choice.png() ? "_vat.exr" : "_vat.png"));
+    if (std::error_code none; std::filesystem::exists(other, none))
+        notes.push_back(folder + ": " + other.filename().string() + " of an earlier run stays there");
+    return mesh;
 }
 
 } // namespace
@@ -85,38 +129,23 @@ std::vector<std::string> vat_outputs(const std::string& folder, const VatChoice&
 std::unique_ptr<FrameSink> vat_sink(const std::string& folder, const Tree& tree, Skin skin, std::optional<OwnMesh> own,
                                     const RustleMaker& rustle, const VatFrames& frames, const VatChoice& choice,
                                     const std::string& source, std::vector<std::string>& notes) {
-    VatOptions options;
-    options.fps = frames.fps;
-    options.looping = frames.looping;
-    options.png = choice.png();
-    options.generator = std::string("bough ") + bough_version();
-    options.source = source;
-    if (frames.count > std::int64_t(options.most_frames()))
-        throw UsageError("-o is '" + folder + "': " + std::to_string(frames.count) + " frames, and a texture holds " +
-                         std::to_string(options.most_frames()) +
-                         (options.png ? "" : " with their normals (--vat-image png: 8192)") +
-                         "; take fewer seconds, or a lower --fps");
-    const std::size_t all = skin.position.size(), most = choice.vertices ? std::size_t(*choice.vertices) : vat_side;
-    if (!choice.vertices && all > most) refuse_vertices(folder, all, choice, frames.of_file);
-    ReducedSkin mesh = reduced_skin(skin, tree, most);
-    if (mesh.vertex.size() > most) refuse_vertices(folder, mesh.vertex.size(), choice, frames.of_file);
-    if (mesh.vertex.size() < all)
-        notes.push_back(
-            "--vat-vertices: " + std::to_string(mesh.vertex.size()) + " of " + std::to_string(all) +
-            " vertices are left: wood is off by " +
-            formatted("%.2g m (%.2g %% of the height)", mesh.error, 100 * mesh.error / height_of(skin)) +
-            " as the simplifier counts" +
-            (mesh.wood_kept < mesh.wood_pieces ? ", the largest " + std::to_string(mesh.wood_kept) + " of " +
-                                                     std::to_string(mesh.wood_pieces) + " pieces of wood are kept"
-                                               : "") +
-            (mesh.kept < mesh.pieces ? ", " + std::to_string(mesh.kept) + " of " + std::to_string(mesh.pieces) +
-                                           formatted(" leaves are kept, %.2g times as long", mesh.growth)
-                                     : ""));
-    const std::filesystem::path other =
-        std::filesystem::path(without_slash(folder)) / (vat_name(folder) + (options.png ? "_vat.exr" : "_vat.png"));
-    if (std::error_code none; std::filesystem::exists(other, none))
-        notes.push_back(folder + ": " + other.filename().string() + " of an earlier run stays there");
-    return std::make_unique<VatSink>(folder, tree, std::move(skin), std::move(own), rustle, std::move(mesh), options);
+    const VatOptions options = vat_options(folder, frames, choice, source);
+    ReducedSkin mesh = small_enough(folder, skin, tree, frames, choice, notes);
+    const auto mover = [&](const Skin& kept) { return mover_of(kept, tree, rustle(kept, false)); };
+    return std::make_unique<VatSink>(folder, std::move(skin), std::move(own), std::move(mesh), mover, options);
+}
+
+std::unique_ptr<FrameSink> driven_vat_sink(const std::string& folder, const Tree& tree, DrivenMesh driven,
+                                           const VatFrames& frames, const VatChoice& choice, const std::string& source,
+                                           std::vector<std::string>& notes) {
+    const VatOptions options = vat_options(folder, frames, choice, source);
+    Skin skin = driven.skin();
+    ReducedSkin mesh = small_enough(folder, skin, tree, frames, choice, notes);
+    OwnMesh look = driven.look();
+    const auto moved = std::make_shared<DrivenMesh>(std::move(driven));
+    moved->keep(mesh.vertex, mesh.skin.position);
+    const auto mover = [&](const Skin&) { return mover_of(moved); };
+    return std::make_unique<VatSink>(folder, std::move(skin), std::move(look), std::move(mesh), mover, options);
 }
 
 } // namespace bough

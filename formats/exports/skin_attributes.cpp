@@ -5,7 +5,8 @@ namespace bough {
 
 SkinAttributes attributes_of(const Skin& skin, const OwnMesh* own) {
     SkinAttributes made;
-    if (!own) {
+    const auto has_vertices = [&](const OwnPart& part) { return vertices_of(*own, part) > 0; };
+    if (!own || std::none_of(own->part.begin(), own->part.end(), has_vertices)) {
         made.uv.resize(1);
         for (const auto& [u, v] : skin.texture) made.uv[0].push_back({u, 1 - v});
         return made;

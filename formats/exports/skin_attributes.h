@@ -9,7 +9,7 @@ struct SkinAttributes {
     std::vector<std::array<float, 4>> color;           // or empty
 };
 
-// own: what the skin was made of (skin_of); null: none. O(vertices).
+// own: what the skin was made of (skin_of), or its look alone, without surfaces; null: none. O(vertices).
 SkinAttributes attributes_of(const Skin&, const OwnMesh* own);
 
 } // namespace bough

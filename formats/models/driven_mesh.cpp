@@ -1,6 +1,7 @@
 #include "driven_mesh.h"
 #include "formats/plain_text.h"
 #include "lib/base/parallel.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -94,12 +95,45 @@ void DrivenMesh::normals(std::size_t first, std::span<Vec3> to) const {
     });
 }
 
+std::int32_t DrivenMesh::body_of(std::size_t vertex) const {
+    const auto share = surface_.share.begin();
+    const auto most = std::max_element(share + std::ptrdiff_t(surface_.first_share[vertex]),
+                                       share + std::ptrdiff_t(surface_.first_share[vertex + 1]),
+                                       [](const auto& a, const auto& b) { return a.weight < b.weight; });
+    const std::int32_t bone = way_[std::size_t(most->matrix)].bone;
+    return bone < 0 ? 0 : std::max(0, bones_.bone()[std::size_t(bone)].turn);
+}
+
+void DrivenMesh::keep(std::span<const std::int32_t> vertex, std::span<const Vec3> drawn) {
+    DrivenSurface kept;
+    for (std::size_t k = 0; k < vertex.size(); ++k) {
+        const auto v = std::size_t(vertex[k]);
+        const Eigen::Affine3d M = blended(v);
+        const Vec3 place = M.inverse() * drawn[k];
+        kept.position.push_back(place.allFinite() ? Eigen::Vector3f(place.cast<float>()) : surface_.position[v]);
+        kept.normal.push_back(surface_.normal[v]);
+        kept.uv.push_back(surface_.uv[v]);
+        kept.share.insert(kept.share.end(), surface_.share.begin() + std::ptrdiff_t(surface_.first_share[v]),
+                          surface_.share.begin() + std::ptrdiff_t(surface_.first_share[v + 1]));
+        kept.first_share.push_back(kept.share.size());
+    }
+    surface_.position = std::move(kept.position);
+    surface_.normal = std::move(kept.normal);
+    surface_.uv = std::move(kept.uv);
+    surface_.share = std::move(kept.share);
+    surface_.first_share = std::move(kept.first_share);
+    surface_.triangle.clear();
+}
+
 Skin DrivenMesh::skin() const {
     Skin skin;
     skin.position.resize(vertices());
     skin.normal.resize(vertices());
     positions(0, skin.position);
     normals(0, skin.normal);
+    skin.joint.resize(vertices());
+    skin.weight.assign(vertices(), {1, 0, 0, 0});
+    for (std::size_t v = 0; v < vertices(); ++v) skin.joint[v].fill(body_of(v));
     skin.texture = surface_.uv;
     skin.triangle = surface_.triangle;
     skin.part = surface_.part;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <memory>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,6 +48,34 @@ constexpr std::size_t megabyte = std::size_t(1) << 20;
 }
 
 } // namespace
+
+#ifdef __linux__
+TEST_CASE("a child ends with a process that is killed") {
+    int pipe[2];
+    REQUIRE(::pipe(pipe) == 0);
+    const pid_t parent = ::fork();
+    REQUIRE(parent >= 0);
+    if (parent == 0) {
+        run_forked([&]() -> std::string {
+            const pid_t self = ::getpid();
+            (void)!::write(pipe[1], &self, sizeof self);
+            for (;;) ::pause();
+        });
+        ::_exit(0);
+    }
+    ::close(pipe[1]);
+    pid_t child = 0;
+    REQUIRE(::read(pipe[0], &child, sizeof child) == sizeof child);
+    ::kill(parent, SIGKILL);
+    REQUIRE(::waitpid(parent, nullptr, 0) == parent);
+    // The pipe ends with the last process that has it. A child that lives on keeps it for ever.
+    pollfd ended{pipe[0], POLLIN, 0};
+    const bool gone = ::poll(&ended, 1, 60000) == 1;
+    if (!gone) ::kill(child, SIGKILL);
+    CHECK(gone);
+    ::close(pipe[0]);
+}
+#endif
 
 TEST_CASE("work in a child hands back what it returns, throws and dies of") {
     CHECK(run_forked([] { return std::string("a\0b", 3); }).bytes == std::string("a\0b", 3));

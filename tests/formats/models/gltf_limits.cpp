@@ -3,6 +3,7 @@
 #include "formats/models/gltf_document.h"
 #include "formats/models/model_scene.h"
 #include "tests/support/import_support.h"
+#include "tests/support/random_documents.h"
 #include "tests/support/sanitized.h"
 #include <ctime>
 
@@ -98,4 +99,23 @@ TEST_CASE("reading many nodes takes time in proportion to their number") {
     };
     if (sanitized) return;
     CHECK(seconds(160000) < 12 * seconds(40000)); // 16 and more where it goes with the square
+}
+
+TEST_CASE("buffers and images of one file are held once, however it is spelt") {
+    const Folder folder;
+    const std::string image = "\x89PNG\r\n\x1a\n" + std::string(3000, 'x');
+    put(folder / "a.png", image);
+    put(folder / "b.bin", std::string(5000, 'b'));
+    Json json{{"asset", {{"version", "2.0"}}}, {"buffers", Json::array()}, {"images", Json::array()}};
+    for (const char* spelt : {"", "./", "././"})
+        for (int k = 0; k < 5; ++k) {
+            json["images"].push_back({{"uri", std::string(spelt) + "a.png"}});
+            json["buffers"].push_back({{"uri", std::string(spelt) + "b.bin"}, {"byteLength", 5000}});
+        }
+    ImportNotes notes;
+    const GltfDocument read = read_gltf(json.dump(), "m.gltf", folder.path.string(), GltfImages::embed, notes);
+    CHECK(read.binary.size() < 3000 + 5000 + 200);
+    CHECK(read.binary.find(image) != std::string::npos);
+    REQUIRE(read.json["images"].size() == 15);
+    for (const Json& each : read.json["images"]) CHECK(each["bufferView"] == read.json["images"][0]["bufferView"]);
 }
