@@ -124,6 +124,45 @@ TEST_CASE("helpers take part, as many as the limit lets; little work stays with 
     CHECK(thread_limit() == machine_threads());
 }
 
+TEST_CASE("a thread begins with the same blocks in every loop, and goes on at the far end of the others'") {
+    const ThreadLimit limit(2);
+    for (const Order order : {Order::forward, Order::backward}) {
+        int helped = 0;
+        for (int k = 0; k < 40; ++k) {
+            std::vector<int> worker_of(60, -1);
+            parallel_blocks(
+                60, much,
+                [&](std::size_t block, int worker) {
+                    worker_of[block] = worker;
+                    wait_a_moment();
+                },
+                order);
+            const std::ptrdiff_t helpers = std::count(worker_of.begin(), worker_of.end(), 1);
+            REQUIRE(helpers + std::count(worker_of.begin(), worker_of.end(), 0) == 60);
+            if (helpers == 0) continue; // it came too late
+            ++helped;
+            // The caller, who has the other half, takes this block last.
+            REQUIRE(worker_of[order == Order::forward ? 30 : 59] == 1);
+        }
+        CHECK(helped > 0);
+    }
+}
+
+TEST_CASE("a loop may go backward") {
+    const ThreadLimit alone(1);
+    std::vector<std::size_t> done;
+    parallel_blocks(
+        5, much, [&](std::size_t block, int) { done.push_back(block); }, Order::backward);
+    CHECK(done == std::vector<std::size_t>{4, 3, 2, 1, 0});
+    const ThreadLimit limit(4);
+    for (int k = 0; k < 100; ++k) {
+        std::vector<int> times(37, 0);
+        parallel_blocks(
+            37, much, [&](std::size_t block, int) { ++times[block]; }, Order::backward);
+        REQUIRE(std::count(times.begin(), times.end(), 1) == 37);
+    }
+}
+
 TEST_CASE("what a block throws reaches the caller, of several blocks the first's") {
     const ThreadLimit limit(4);
     for (int k = 0; k < 200; ++k) {

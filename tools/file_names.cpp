@@ -86,10 +86,9 @@ void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std
     for (const std::string& image : images) {
         const Written written{"", {}, {output_place(image)}};
         for (const NamedFile& other : named)
-            if (!other.file.empty() &&
-                (replaces(written, other.file) || (other.file != "-" && holds(written, output_place(other.file)))))
-                throw UsageError("-o: an image beside it would be '" + image + "', which " + other.option +
-                                 " names; expected another name");
+            if (!other.file.empty() && other.file != "-" && holds(written, output_place(other.file)))
+                throw UsageError("-o: an image beside it would be '" + image + "', the file of " + other.option +
+                                 "; expected another name");
     }
 }
 

@@ -165,6 +165,7 @@ void work(ScalingCommand& o) {
     const Scene scene = chosen_scene(o.run);
     std::string source;
     const std::vector<ScalingTree> trees = chosen_trees(o, scene, source);
+    refuse_overwriting_the_model({{"--report", o.report}, {"-o", o.common.output}});
     interrupt_at_boundary();
     ScalingReport report;
     {

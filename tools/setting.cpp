@@ -124,6 +124,7 @@ void refuse_overwriting_trees(const Setting& setting, const std::vector<NamedFil
     std::vector<NamedFile> read;
     for (const std::string& file : setting.tree_files) read.push_back({"the scene", file});
     refuse_overwriting(read, written);
+    refuse_overwriting_the_model(written);
 }
 
 Scene chosen_scene(const RunOptions& o) {

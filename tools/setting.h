@@ -24,7 +24,7 @@ void apply_scene(Setting&, const std::string& input);
 // The files that read_setting reads: INPUT, the trees of a scene, each once, the wind's. Throws as it does where the scene cannot be read.
 std::vector<std::string> files_read(const RunOptions&);
 
-// Throws UsageError where an output is a file that a tree of the scene was read from. What the options name is compared before anything
+// Throws UsageError where an output is a file that a tree of the scene was read from, or that a model names. What the options name is compared before anything
 // is read (refuse_overwriting).
 void refuse_overwriting_trees(const Setting&, const std::vector<NamedFile>& written);
 

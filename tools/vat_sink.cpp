@@ -15,24 +15,18 @@ public:
     // mover: makes the reduced skin's, and may keep a reference to it.
     VatSink(const std::string& folder, Skin skin, std::optional<OwnMesh> own, ReducedSkin mesh,
             const std::function<Mover(const Skin&)>& mover, const VatOptions& options)
-        : name_(folder), skin_(std::move(skin)), own_(std::move(own)), mesh_(std::move(mesh)),
-          mover_(mover(mesh_.skin)), folder_(folder),
-          writer_(folder_, vat_name(folder), mesh_, {&skin_, own_ ? &*own_ : nullptr}, options) {}
+        : skin_(std::move(skin)), own_(std::move(own)), mesh_(std::move(mesh)), mover_(mover(mesh_.skin)),
+          folder_(folder), writer_(folder_, vat_name(folder), mesh_, {&skin_, own_ ? &*own_ : nullptr}, options) {}
     void write(const MotionFrame& frame) override {
         mover_(frame, position_, normal_);
         writer_.write(position_, normal_);
     }
     void finish() override {
-        try {
-            writer_.finish();
-            folder_.finish();
-        } catch (const OutputError& error) {
-            throw OutputError(name_, error.what());
-        }
+        writer_.finish();
+        folder_.finish();
     }
 
 private:
-    const std::string name_;
     const Skin skin_;
     const std::optional<OwnMesh> own_;
     const ReducedSkin mesh_;
@@ -46,7 +40,7 @@ private:
 [[noreturn]] void refuse_vertices(const std::string& folder, std::size_t vertices, const VatChoice& choice,
                                   bool of_file) {
     const std::string fewer =
-        of_file ? "; --mesh made --sides 3 shows one that is made from the tree, of fewer"
+        of_file ? "; --mesh made --sides 3 (without --skin) shows one that is made from the tree, of fewer"
                 : "; treeconvert --max-bodies makes fewer, with leaves in clumps; --sides 3 gives wood fewer corners";
     if (!choice.vertices)
         throw UsageError("-o is '" + folder + "': the mesh has " + std::to_string(vertices) +
@@ -79,6 +73,8 @@ ReducedSkin small_enough(const std::string& folder, const Skin& skin, const Tree
     const std::size_t all = skin.position.size(), most = choice.vertices ? std::size_t(*choice.vertices) : vat_side;
     if (!choice.vertices && all > most) refuse_vertices(folder, all, choice, frames.of_file);
     ReducedSkin mesh = reduced_skin(skin, tree, most);
+    if (mesh.vertex.empty())
+        throw UsageError("--vat-vertices is " + std::to_string(most) + ", which leaves no triangle of the mesh");
     if (mesh.vertex.size() > most) refuse_vertices(folder, mesh.vertex.size(), choice, frames.of_file);
     if (mesh.vertex.size() < all)
         notes.push_back(
@@ -139,7 +135,7 @@ std::unique_ptr<FrameSink> driven_vat_sink(const std::string& folder, const Tree
                                            const VatFrames& frames, const VatChoice& choice, const std::string& source,
                                            std::vector<std::string>& notes) {
     const VatOptions options = vat_options(folder, frames, choice, source);
-    Skin skin = driven.skin();
+    Skin skin = driven.skin_of_bodies();
     ReducedSkin mesh = small_enough(folder, skin, tree, frames, choice, notes);
     OwnMesh look = driven.look();
     const auto moved = std::make_shared<DrivenMesh>(std::move(driven));

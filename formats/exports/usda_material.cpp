@@ -14,6 +14,15 @@ std::string triple(const Vec3& c) {
     return "(" + decimal(c.x()) + ", " + decimal(c.y()) + ", " + decimal(c.z());
 }
 
+// As USD quotes one: by three @ where it has one itself.
+std::string asset_path(std::string path) {
+    if (path.find('@') == std::string::npos) return "@" + path + "@";
+    const std::string quote = "@@@";
+    for (std::size_t at = 0; (at = path.find(quote, at)) != std::string::npos; at += 1 + quote.size())
+        path.insert(at, "\\");
+    return quote + path + quote;
+}
+
 class Material {
 public:
     Material(Text& text, const std::string& path) : text_(text), path_(path) {}
@@ -73,8 +82,7 @@ private:
                std::string outputs) {
         if (file.empty()) return;
         begin(name, "UsdUVTexture");
-        const char* const quote = file.find('@') == std::string::npos ? "@" : "@@@";
-        input(std::string("asset inputs:file = ") + quote + "./" + file + quote);
+        input("asset inputs:file = " + asset_path("./" + file));
         input(std::string("token inputs:sourceColorSpace = \"") + space + "\"");
         input("float2 inputs:st.connect = <" + path_ + "/uv.outputs:result>");
         input("token inputs:wrapS = \"repeat\"");

@@ -78,7 +78,8 @@ struct Writer {
                 for (const std::int32_t c : mesh.skin.triangle[t]) to.add(std::uint16_t(std::size_t(c) - of.first));
         });
         const int indices = file.add_accessor(view, 0, GltfType::u16, 3 * part.index_count, "SCALAR");
-        return text + "},\"indices\":" + std::to_string(indices) + ",\"material\":" + std::to_string(material) + "}";
+        return text + "},\"indices\":" + std::to_string(indices) +
+               (material < 0 ? "" : ",\"material\":" + std::to_string(material)) + "}";
     }
 };
 
@@ -97,15 +98,16 @@ void write_vat_mesh(Output& output, const std::string& name, const ReducedSkin& 
         if (mesh.skin.part[m].index_count > 0)
             primitives +=
                 (primitives.empty() ? "" : ",\n") + writer.primitive(m, own ? own->part[m].material : std::int32_t(m));
-    const std::string materials =
-        own ? gltf_own_materials(file, *own) : "\"materials\":[\n" + gltf_materials(skin) + "]";
+    std::string materials = own ? own->material.empty() ? "" : gltf_own_materials(file, *own)
+                                : "\"materials\":[\n" + gltf_materials(skin) + "]";
+    if (!materials.empty()) materials += ",\n";
     std::string quoted;
     append_string(quoted, name);
     std::string node = "{\"name\":" + quoted + ",\"mesh\":0";
     if (!origin.isZero(0)) node += ",\"translation\":" + gltf_list(origin);
     file.write(output, gltf_asset(options.generator, options.source) +
                            ",\n\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\n\"nodes\":[" + node + "}],\n" + materials +
-                           ",\n\"meshes\":[{\"name\":" + quoted + ",\"primitives\":[\n" + primitives + "]}]");
+                           "\"meshes\":[{\"name\":" + quoted + ",\"primitives\":[\n" + primitives + "]}]");
 }
 
 } // namespace bough

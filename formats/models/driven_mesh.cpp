@@ -95,6 +95,7 @@ void DrivenMesh::normals(std::size_t first, std::span<Vec3> to) const {
     });
 }
 
+// The body of its largest share.
 std::int32_t DrivenMesh::body_of(std::size_t vertex) const {
     const auto share = surface_.share.begin();
     const auto most = std::max_element(share + std::ptrdiff_t(surface_.first_share[vertex]),
@@ -104,13 +105,22 @@ std::int32_t DrivenMesh::body_of(std::size_t vertex) const {
     return bone < 0 ? 0 : std::max(0, bones_.bone()[std::size_t(bone)].turn);
 }
 
+// Where a vertex has to be in the mesh's axes to be drawn there; as it is where it is drawn there already, and where its bones leave no such place.
+Eigen::Vector3f DrivenMesh::place_for(std::size_t vertex, const Vec3& drawn) const {
+    const Eigen::Affine3d M = blended(vertex);
+    const Eigen::Vector3f& now = surface_.position[vertex];
+    const double moved = (M * now.cast<double>() - drawn).norm();
+    if (moved == 0) return now;
+    const Eigen::Vector3f place = (M.inverse() * drawn).cast<float>();
+    const double left = (M * place.cast<double>() - drawn).norm();
+    return place.allFinite() && left < 0.01 * moved ? place : now; // NaN is not less
+}
+
 void DrivenMesh::keep(std::span<const std::int32_t> vertex, std::span<const Vec3> drawn) {
     DrivenSurface kept;
     for (std::size_t k = 0; k < vertex.size(); ++k) {
         const auto v = std::size_t(vertex[k]);
-        const Eigen::Affine3d M = blended(v);
-        const Vec3 place = M.inverse() * drawn[k];
-        kept.position.push_back(place.allFinite() ? Eigen::Vector3f(place.cast<float>()) : surface_.position[v]);
+        kept.position.push_back(place_for(v, drawn[k]));
         kept.normal.push_back(surface_.normal[v]);
         kept.uv.push_back(surface_.uv[v]);
         kept.share.insert(kept.share.end(), surface_.share.begin() + std::ptrdiff_t(surface_.first_share[v]),
@@ -131,13 +141,18 @@ Skin DrivenMesh::skin() const {
     skin.normal.resize(vertices());
     positions(0, skin.position);
     normals(0, skin.normal);
-    skin.joint.resize(vertices());
-    skin.weight.assign(vertices(), {1, 0, 0, 0});
-    for (std::size_t v = 0; v < vertices(); ++v) skin.joint[v].fill(body_of(v));
     skin.texture = surface_.uv;
     skin.triangle = surface_.triangle;
     skin.part = surface_.part;
     return skin;
+}
+
+Skin DrivenMesh::skin_of_bodies() const {
+    Skin made = skin();
+    made.joint.resize(vertices());
+    made.weight.assign(vertices(), {1, 0, 0, 0});
+    for (std::size_t v = 0; v < vertices(); ++v) made.joint[v].fill(body_of(v));
+    return made;
 }
 
 } // namespace bough

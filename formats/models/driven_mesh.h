@@ -20,10 +20,12 @@ public:
 
     std::size_t vertices() const { return surface_.position.size(); }
     const OwnMesh& look() const { return surface_.look; } // parts in order, without surfaces
-    // Of all vertices as they are drawn: texture coordinates, triangles and parts; as its joint the one body that has most of it (0 where none
-    // has). O(vertices).
+    // Of all vertices as they are drawn: texture coordinates, triangles and parts; no joints. O(vertices).
     Skin skin() const;
-    // Keeps these vertices alone, in this order, drawn at these places [m], and no triangles. Before the first go_to(). O(vertices).
+    // The same with one joint a vertex: the body of its largest share, 0 where a bone has that which no body moves. O(vertices).
+    Skin skin_of_bodies() const;
+    // Keeps these vertices alone, in this order, drawn at these places [m], and no triangles. A vertex whose bones can take it to no such place stays
+    // where it is drawn. Before the first go_to(). O(vertices).
     void keep(std::span<const std::int32_t> vertex, std::span<const Vec3> drawn);
 
     std::size_t bones() const { return bones_.bone().size(); }
@@ -42,6 +44,7 @@ private:
     };
     Eigen::Affine3d blended(std::size_t vertex) const;
     std::int32_t body_of(std::size_t vertex) const;
+    Eigen::Vector3f place_for(std::size_t vertex, const Vec3& drawn) const;
     void turn_mirrored();
     void check_range(const std::string& name) const;
 

@@ -44,16 +44,13 @@ std::string with_slashes(std::string name) {
     return name;
 }
 
-// The regular files of a folder by their names in small letters; of those with one such name the first by its bytes.
-std::map<std::string, std::string> files_of(const fs::path& folder) {
-    std::map<std::string, std::string> found;
+// The regular files of a folder by their names in small letters.
+std::map<std::string, std::set<std::string>> files_of(const fs::path& folder) {
+    std::map<std::string, std::set<std::string>> found;
     std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-        if (std::error_code none; !entry->is_regular_file(none)) continue;
-        const std::string path = entry->path().string();
-        const auto [at, fresh] = found.try_emplace(lower_case(entry->path().filename().string()), path);
-        if (!fresh && path < at->second) at->second = path;
-    }
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (std::error_code none; entry->is_regular_file(none))
+            found[lower_case(entry->path().filename().string())].insert(entry->path().string());
     return found;
 }
 
@@ -162,7 +159,10 @@ std::string TextureFinder::existing(const std::string& path) {
     auto listed = listed_.find(folder);
     if (listed == listed_.end()) listed = listed_.emplace(folder, files_of(folder)).first;
     const auto found = listed->second.find(lower_case(file.filename().string()));
-    return found == listed->second.end() ? "" : found->second;
+    if (found == listed->second.end()) return "";
+    for (const std::string& each : found->second)
+        if (within_reach(each, folder_)) return each;
+    return *found->second.begin();
 }
 
 std::string TextureFinder::find(const std::string& name, TexturePlaces& looked) {

@@ -7,6 +7,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,15 +32,15 @@ public:
     explicit TextureFinder(std::string folder)
         : folder_(std::move(folder)) {} // of the file that names them; "": there is none
     // The path of the file, "" if there is none that may be opened; `looked` gets the places that were tried. Of several that differ in capitals
-    // alone the first by its bytes. O(log of the folder's entries) but for the first name that is not there.
+    // alone the first by its bytes that may be opened. O(log of the folder's entries) but for the first name that is not there.
     std::string find(const std::string& name, TexturePlaces& looked);
 
 private:
     std::string existing(const std::string& path);
 
     std::string folder_;
-    std::map<std::string, std::map<std::string, std::string>>
-        listed_; // folder -> a file's name in small letters -> its path
+    std::map<std::string, std::map<std::string, std::set<std::string>>>
+        listed_; // folder -> a name in small letters -> paths
 };
 
 // What kind of image the file is, by its first bytes, where it is one that games and the web use and that is not read here: "DDS", "KTX", "WebP",

@@ -9,6 +9,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -49,54 +50,103 @@ template <class F> bool look_out(const F& ready) {
     return false;
 }
 
+// Blocks that nobody has begun: [begin, end), in one number.
+struct alignas(64) Stretch {
+    std::atomic<std::uint64_t> left{0}; // end << 32 | begin
+
+    void set(std::size_t begin, std::size_t end) {
+        left.store(std::uint64_t(end) << 32 | begin, std::memory_order_relaxed);
+    }
+    bool is_empty() const { return is_empty(left.load(std::memory_order_relaxed)); }
+    std::optional<std::size_t> take(Order from) {
+        std::uint64_t now = left.load(std::memory_order_relaxed), then;
+        do {
+            if (is_empty(now)) return std::nullopt;
+            then = from == Order::forward ? now + 1 : now - (std::uint64_t(1) << 32);
+        } while (!left.compare_exchange_weak(now, then, std::memory_order_relaxed));
+        return from == Order::forward ? begin_of(now) : end_of(then);
+    }
+
+private:
+    static std::size_t begin_of(std::uint64_t both) { return both & 0xFFFFFFFFu; }
+    static std::size_t end_of(std::uint64_t both) { return both >> 32; }
+    static bool is_empty(std::uint64_t both) { return begin_of(both) >= end_of(both); }
+};
+
+constexpr std::size_t most_stretches = 32, most_blocks = 0xFFFFFFFFu, none_failed = SIZE_MAX;
+
 // A loop. Its place is the pool's for good, so that a late helper may look at it.
 //   state   places left for helpers, and how many helpers are inside: one number, so that nobody enters what has been closed
-//   left    blocks that nobody has begun; less than 0 where several have found none
+//   failed  the first block that threw
 // The rest is written by the caller while there are no places and nobody is inside, and read by those who have entered.
 struct alignas(64) Loop {
     static constexpr std::uint32_t place = 1u << 16, inside_mask = place - 1;
     std::atomic<std::uint32_t> state{0};
     std::atomic<bool> taken{false};
-    alignas(64) std::atomic<std::int64_t> left{0};
-    alignas(64) std::size_t blocks = 0;
+    std::array<Stretch, most_stretches> stretch;
+    alignas(64) std::size_t stretches = 1;
+    Order order = Order::forward;
     parallel::Work work = nullptr;
     const void* what = nullptr;
     std::fenv_t numbers{}; // rounding and denormals of the caller
-    std::mutex mutex;      // over what follows
+    std::atomic<std::size_t> failed{none_failed};
+    std::mutex mutex; // over error
     std::exception_ptr error;
-    std::size_t failed = 0; // the block that threw it
 
     void fail(std::size_t block) {
-        left.store(0, std::memory_order_relaxed); // blocks are begun in order: none before this one is left out
         const std::lock_guard lock(mutex);
-        if (error && failed < block) return;
+        if (failed < block) return;
         error = std::current_exception();
         failed = block;
     }
 
-    void work_on(int worker) {
+    // The next block of the stretch of this thread, else from the far end of another. Once one has failed, those before it, from the first on.
+    std::optional<std::size_t> next(std::size_t own) {
+        if (failed.load(std::memory_order_relaxed) != none_failed) {
+            for (std::size_t s = 0; s < stretches; ++s)
+                if (const auto block = stretch[s].take(Order::forward))
+                    return *block < failed.load(std::memory_order_relaxed) ? block : std::nullopt;
+            return std::nullopt;
+        }
+        if (const auto block = stretch[own].take(order)) return block;
+        const Order far_end = order == Order::forward ? Order::backward : Order::forward;
+        for (std::size_t k = 1; k < stretches; ++k)
+            if (const auto block = stretch[(own + k) % stretches].take(far_end)) return block;
+        return std::nullopt;
+    }
+
+    // thread: the caller is 0, helpers have numbers from 1 on for good.
+    void work_on(int worker, std::size_t thread) {
         inside = true;
-        for (std::int64_t n; (n = left.fetch_sub(1, std::memory_order_relaxed)) > 0;) {
-            const std::size_t block = blocks - std::size_t(n);
+        const std::size_t own = thread == 0 || stretches == 1 ? 0 : 1 + (thread - 1) % (stretches - 1);
+        while (const auto block = next(own)) {
             try {
-                work(what, block, worker);
+                work(what, *block, worker);
             } catch (...) {
-                fail(block);
+                fail(*block);
             }
         }
         inside = false;
     }
 
+    bool is_done() const {
+        return std::all_of(stretch.begin(), stretch.begin() + std::ptrdiff_t(stretches),
+                           [](const Stretch& s) { return s.is_empty(); });
+    }
+
     // As a helper; false if there was no place or nothing to do.
-    bool help() {
+    bool help(std::size_t thread) {
         std::uint32_t s = state.load(std::memory_order_acquire);
         do {
-            if (s < place || left.load(std::memory_order_relaxed) <= 0) return false;
+            if (s < place) return false;
         } while (!state.compare_exchange_weak(s, s - place + 1, std::memory_order_acquire));
-        std::fesetenv(&numbers);
-        work_on(int(s / place));
+        const bool helps = !is_done();
+        if (helps) {
+            std::fesetenv(&numbers);
+            work_on(int(s / place), thread);
+        }
         if (state.fetch_sub(1, std::memory_order_release) == 1) state.notify_one(); // closed, and the last
-        return true;
+        return helps;
     }
 
     void wait_for_helpers() {
@@ -146,6 +196,7 @@ public:
     }
 
     void serve() {
+        const std::size_t number = 1 + served_.fetch_add(1, std::memory_order_relaxed);
         Taken taken;
         Time::time_point asked = Time::now();
         Time::duration pause{0}; // the last one's
@@ -153,7 +204,7 @@ public:
             const std::uint32_t seen = calls_.load(std::memory_order_acquire);
             if (ended_.load(std::memory_order_acquire)) return;
             bool helped = false;
-            for (Loop& loop : loops_) helped = loop.help() || helped;
+            for (Loop& loop : loops_) helped = loop.help(number) || helped;
             if (const Time::time_point now = Time::now(); now - asked >= ask_every) {
                 asked = now;
                 if (taken.since_last()) {
@@ -184,7 +235,7 @@ public:
     // The thread that forked is the only one: no helper is there, and no other caller.
     void in_child() {
         helpers_.clear();
-        started_ = 0;
+        started_ = served_ = 0;
         for (Loop& loop : loops_) {
             loop.state = 0;
             loop.taken = false;
@@ -218,7 +269,7 @@ private:
     std::array<Loop, 16> loops_; // at a time: those who find none free work alone
     alignas(64) std::atomic<std::uint32_t> calls_{0};
     std::atomic<Time::rep> crowded_until_{0};
-    std::atomic<std::uint32_t> started_{0};
+    std::atomic<std::uint32_t> started_{0}, served_{0};
     std::atomic<bool> ended_{false};
     std::mutex mutex_; // over helpers_
     std::vector<pthread_t> helpers_;
@@ -272,21 +323,25 @@ std::size_t parallel::pieces(std::size_t count, double ns) {
     return all < 2 * worth ? 1 : std::size_t(std::min(double(count), all / (worth / 2)));
 }
 
-void parallel::run(std::size_t blocks, int threads, double ns, Work work, const void* what) {
-    Loop* const loop = pool.take();
+void parallel::run(std::size_t blocks, int threads, double ns, Order order, Work work, const void* what) {
+    Loop* const loop = blocks <= most_blocks ? pool.take() : nullptr;
     if (!loop) {
-        for (std::size_t block = 0; block < blocks; ++block) work(what, block, 0);
+        for (std::size_t k = 0; k < blocks; ++k) work(what, order == Order::forward ? k : blocks - 1 - k, 0);
         return;
     }
-    loop->blocks = blocks;
+    const std::size_t stretches = std::min(std::size_t(threads), most_stretches);
+    for (std::size_t s = 0; s < stretches; ++s)
+        loop->stretch[s].set(blocks * s / stretches, blocks * (s + 1) / stretches);
+    loop->stretches = stretches;
+    loop->order = order;
+    loop->failed.store(none_failed, std::memory_order_relaxed);
     loop->work = work;
     loop->what = what;
     std::fegetenv(&loop->numbers);
-    loop->left.store(std::int64_t(blocks), std::memory_order_relaxed);
     const auto helpers = std::uint32_t(threads - 1);
     loop->state.store(helpers * Loop::place, std::memory_order_release);
     pool.call(helpers, ns);
-    loop->work_on(0);
+    loop->work_on(0, 0);
     loop->state.fetch_and(Loop::inside_mask, std::memory_order_relaxed); // no more come
     loop->wait_for_helpers();
     const std::exception_ptr error = std::exchange(loop->error, nullptr);

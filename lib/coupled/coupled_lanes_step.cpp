@@ -165,12 +165,14 @@ SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLan
         tie_in_lanes(plan, own, work, scheme_of(own.scheme).pole[std::size_t(k)].p);
         sweeps.accelerate(top_rows, blocks[0], top);
     }
-    // From the last on, which is in the caches still.
-    parallel_blocks(blocks.size() - 1, cost * double(wait) / 5, [&](std::size_t which, int) {
-        const std::size_t b = blocks.size() - 1 - which;
-        if (!blocks[b].whole && rest_of(work.lanes, b) == Rest::awake)
-            sweeps.accelerate(rows_of_block(blocks[b]), blocks[b], flags[b]);
-    });
+    parallel_blocks(
+        blocks.size() - 1, cost * double(wait) / 5,
+        [&](std::size_t which, int) {
+            const std::size_t b = 1 + which;
+            if (!blocks[b].whole && rest_of(work.lanes, b) == Rest::awake)
+                sweeps.accelerate(rows_of_block(blocks[b]), blocks[b], flags[b]);
+        },
+        Order::backward); // the last are in the caches still
     SweepFlags all;
     for (const SweepFlags& f : flags) all += f;
     return all;

@@ -36,12 +36,13 @@ absent x.json
 expect 0 treeconvert own/out.gltf --outside -o out.json
 expect 0 treeconvert own/in.gltf -o in.json
 # Neither it nor what is made of it may replace that file.
-for output in "treeconvert own/in.gltf -o own/points.bin" "treeconvert own/in.gltf -o x.json --mesh own/points.bin.obj" "treegen --import own/in.gltf -o own/points.bin"; do
+for output in "treeconvert own/in.gltf -o own/points.bin" "treeconvert own/in.gltf -o x.json --mesh own/points.bin.obj" "treegen --import own/in.gltf -o own/points.bin" "treeprofile stages own/in.gltf --frames 4 -o own/points.bin" "treeprofile modes own/in.gltf -o own/points.bin.json"; do
+    ln -sf points.bin own/points.bin.json
     ln -sf points.bin own/points.bin.obj
     refused 1 "own/points.bin" $output
     cmp points.bin own/points.bin || fail "$output has replaced the model's own file"
 done
-rm own/points.bin.obj
+rm own/points.bin.obj own/points.bin.json
 
 # A FIFO that a file names is not opened, and a tree's file of the name - is that file, not stdin.
 mkfifo own/fifo

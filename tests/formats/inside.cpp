@@ -154,4 +154,7 @@ TEST_CASE("of files whose names differ in capitals alone the first by its bytes 
     TexturePlaces looked;
     CHECK(TextureFinder(places.own).find("bARK.png", looked) == places.own + "/BARK.png");
     CHECK(TextureFinder(places.own).find("Bark.png", looked) == places.own + "/Bark.png");
+    std::filesystem::remove(places.own + "/BARK.png");
+    std::filesystem::create_symlink(places.folder / "secret", places.own + "/BARK.png");
+    CHECK(TextureFinder(places.own).find("bARK.png", looked) == places.own + "/Bark.png"); // BARK.png leads out
 }

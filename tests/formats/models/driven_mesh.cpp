@@ -224,6 +224,70 @@ TEST_CASE("a skinned mesh goes where the sum of its bones' matrices puts it, wha
     CHECK(mesh.bones() == 2);
 }
 
+TEST_CASE("vertices that are kept are drawn where they are put, and go with the bones that they had") {
+    TwoBones model;
+    const Tree tree = model.tree();
+    ImportNotes notes;
+    std::vector<std::string> lines;
+    DrivenMesh mesh(read_user_model(model.file.saved(), notes), tree, {}, lines);
+    std::vector<Vec3> all(mesh.vertices());
+    mesh.positions(0, all);
+    // Of the leaf on the twig, of that in the pot, of the tube below, in the middle and above, in any order.
+    const std::vector<std::int32_t> kept = {27, 1, 17, 4, 9};
+    std::vector<Vec3> put;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        put.push_back(all[std::size_t(kept[k])] + 0.01 * double(k) * Vec3(1, -2, 3)); // the first stays
+    mesh.keep(kept, put);
+    REQUIRE(mesh.vertices() == kept.size());
+    CHECK(mesh.skin().triangle.empty());
+    std::vector<Vec3> drawn(kept.size());
+    mesh.positions(0, drawn);
+    for (std::size_t k = 0; k < kept.size(); ++k) CHECK((drawn[k] - put[k]).norm() < 1e-6);
+    const Mat3 R = around_z(0.7), Q = Eigen::AngleAxisd(-0.3, Vec3::UnitX()).toRotationMatrix();
+    mesh.go_to(bent_frame(tree, R, Q, Mat3::Identity(), Vec3::Zero()));
+    mesh.positions(0, drawn);
+    const auto with_upper = [&](const Vec3& p) -> Vec3 { return Q * (upper_joint + R * (p - upper_joint)); };
+    CHECK((drawn[0] - with_upper(put[0])).norm() < 1e-6);
+    CHECK((drawn[1] - with_upper(put[1])).norm() < 1e-6);
+    CHECK((drawn[2] - (0.5 * (Q * put[2]) + 0.5 * with_upper(put[2]))).norm() < 1e-6);
+    CHECK((drawn[3] - put[3]).norm() < 1e-6);
+    CHECK((drawn[4] - Q * put[4]).norm() < 1e-6);
+}
+
+TEST_CASE("a vertex whose bones draw everything at one place stays there, finite") {
+    TwoBones model;
+    model.file.json["nodes"][5]["scale"] = {0, 0, 0}; // the twig's leaf is drawn as a point
+    const Tree tree = model.tree();
+    ImportNotes notes;
+    std::vector<std::string> lines;
+    DrivenMesh mesh(read_user_model(model.file.saved(), notes), tree, {}, lines);
+    std::vector<Vec3> before(1), after(1);
+    mesh.positions(0, before);
+    mesh.keep(std::vector<std::int32_t>{0}, std::vector<Vec3>{before[0] + Vec3(0.1, 0, 0)});
+    mesh.positions(0, after);
+    CHECK((after[0] - before[0]).norm() < 1e-12);
+}
+
+TEST_CASE("a vertex's body is the one that its largest share follows") {
+    TwoBones model;
+    const Tree tree = model.tree();
+    ImportNotes notes;
+    std::vector<std::string> lines;
+    const DrivenMesh mesh(read_user_model(model.file.saved(), notes), tree, {}, lines);
+    const Skin skin = mesh.skin_of_bodies();
+    const DrawnPose drawn = drawn_pose(tree);
+    REQUIRE(skin.joint.size() == 29);
+    const auto height = [&](std::size_t v) { return drawn.x_w[std::size_t(skin.joint[v][0])].y(); };
+    for (std::size_t v = 0; v < 29; ++v) {
+        CHECK(skin.weight[v] == std::array<float, 4>{1, 0, 0, 0});
+        const bool pot = v >= 3 && v < 9, above = v < 3 || (v >= 9 && model.upper[v - 9] == 1);
+        if (pot)
+            CHECK(skin.joint[v][0] == 0);
+        else if (v < 9 || model.upper[v - 9] != 0.5)
+            CHECK((height(v) > 1 - 1e-6) == above);
+    }
+}
+
 TEST_CASE("a skinned mesh's triangles, coordinates and materials are the file's") {
     TwoBones model;
     GltfJson& json = model.file.json;
