@@ -25,7 +25,7 @@ using Time = std::chrono::steady_clock;
 // How long a thread looks out before it sleeps: longer than what stands between the loops of a step, over which helpers stay awake (a sleeper takes
 // some 5 us of its caller to wake, and some 50 to come), and short beside the slice of time that another program waits for.
 constexpr std::chrono::microseconds patience(50);
-constexpr double worth = 10e3, worth_waking = 40e3; // [ns] of work for a helper that is awake; for one that sleeps
+constexpr double worth = 10e3, worth_waking = 100e3; // [ns] of work for a helper that is awake; for one that sleeps
 // Where another program wants the core of a helper, which is then taken from it against its will, helpers are no longer looking out, and woken for much
 // alone, for a while that doubles each time.
 constexpr double worth_crowded = 400e3; // [ns]

@@ -4,12 +4,14 @@
 //   parallel_for(bodies, ns, [&](std::size_t body) { ... });                    // many small things, in blocks as large as pay
 //
 // Threads. The caller works too. Helpers, which all callers share, take blocks as long as there are any. The caller waits only for helpers inside a
-// block, not for those that have not come: a helper whose core is busy is not missed. Each begins with a stretch of the blocks of its own, the same in
-// every loop of as many blocks, and goes on at the far ends of the others': what a core has in its cache it finds there in the next loop. Between loops a helper looks out for the next one for
-// `patience`, then sleeps until it is called. The caller does the same while it waits. (OpenMP's barrier waits for every thread, and spins for
-// milliseconds in just the time that the late one needs: with two programs on two cores this takes ten times the time of one thread.)
+// block, not for those that have not come: a helper whose core is busy is not missed. Each begins with a stretch of the blocks of its own, the same
+// in every loop of as many blocks, and goes on at the far ends of the others': what a core has in its cache it finds there in the next loop. Between
+// loops a helper looks out for the next one for `patience`, then sleeps until it is called. The caller does the same while it waits. (OpenMP's
+// barrier waits for every thread, and spins for milliseconds in just the time that the late one needs: with two programs on two cores this takes ten
+// times the time of one thread.)
 // How many. A loop takes as many threads as the work pays for, and at most thread_limit(). `ns` is about what one block or body takes one thread. A
-// helper that is awake pays from 10 us of work on, one that must be woken from 40 us on; the caller does less than that alone.
+// helper that is awake pays from 10 us of work on, one that must be woken from 100 us on, which is dear on virtual machines; the caller does less
+// than that alone.
 // Cost: less than a microsecond where nobody has to be woken, some microseconds where somebody has. Allocates only when helpers are started. What is
 // done must not depend on who does it: blocks of one loop write to different places. `worker`, 0 <= worker < threads_for(...), belongs to one thread
 // at a time, for memory to work in. The loop sees what was written before it, and the code after the loop sees what the loop wrote.
