@@ -19,8 +19,8 @@ int threads_for(std::size_t, double) {
 }
 
 namespace parallel {
-void run(std::size_t blocks, int, double, Work work, const void* what) {
-    for (std::size_t block = 0; block < blocks; ++block) work(what, block, 0);
+void run(std::size_t blocks, int, double, Order order, Work work, const void* what) {
+    for (std::size_t k = 0; k < blocks; ++k) work(what, order == Order::forward ? k : blocks - 1 - k, 0);
 }
 std::size_t pieces(std::size_t count, double) {
     return count > 0 ? 1 : 0;
