@@ -86,6 +86,8 @@ Report read_report(std::string_view content, const std::string& name) {
     } catch (const Json::parse_error& error) {
         throw InputError(name,
                          "is not JSON at byte " + std::to_string(error.byte) + ", expected a report of treeprofile");
+    } catch (const Json::out_of_range&) {
+        throw InputError(name, "has a number beyond any double, expected a report of treeprofile");
     }
     if (!j.is_object()) throw InputError(name, "expected a report of treeprofile (an object)");
     const Reader read{name};
