@@ -152,7 +152,7 @@ assert apart(several[:n], own) < 3e-6 and apart(several[n:2 * n], turned) < 3e-6
 assert len(several) > 2 * n and all(v[0] < -3 for v in several[2 * n:]), "the made tree stands at -6"
 P
 
-# A model's own mesh in a texture: its vertices are where those of its OBJ frames are, 1e-4 m; of fewer each is one of these, within what the note says.
+# A model's own mesh in a texture: its vertices are where those of its OBJ frames are, 1e-4 m; of fewer each is near one of these, 2e-3 m.
 twig_run=("$twig" --wind storm --set stiffness_scale=0.003 --frames 4 --fps 5 --settle 0)
 expect 0 treesim "${twig_run[@]}" -o bones_%d.obj
 expect 0 treesim "${twig_run[@]}" -o bones_vat/ --vat-image png
