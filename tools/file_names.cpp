@@ -86,7 +86,8 @@ void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std
     for (const std::string& image : images) {
         const Written written{"", {}, {output_place(image)}};
         for (const NamedFile& other : named)
-            if (!other.file.empty() && other.file != "-" && holds(written, output_place(other.file)))
+            if (!other.file.empty() &&
+                (other.file == "-" ? replaces(written, "-") : holds(written, output_place(other.file))))
                 throw UsageError("-o: an image beside it would be '" + image + "', the file of " + other.option +
                                  "; expected another name");
     }

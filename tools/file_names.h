@@ -18,7 +18,8 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
 // The same of the buffers and images that a model names (formats/inside.h), once it has been read.
 void refuse_overwriting_the_model(const std::vector<NamedFile>& written);
 
-// The same of the images that are written into a folder beside the output of -o. `named`: what is read, but for stdin, and the other outputs.
+// The same of the images that are written into a folder beside the output of -o. `named`: what is read (- is stdin), and the other
+// outputs that are files.
 void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std::vector<std::string>& images);
 
 // Before the work: throws UsageError where two outputs are one file, and OutputError where one cannot be written, as in a folder that is not
