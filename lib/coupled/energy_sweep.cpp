@@ -140,12 +140,15 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
     BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane, T fold) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         const Rows<T> y1 = next(row, lane);
+        const T *const next_row = constants(row + 1, lane).at, *const next_start = now(row + 1, lane).at,
+                       *const next_end = next(row + 1, lane).at;
         const Body b{k.real(constant::mass), k.vector(constant::com), k.vector(constant::K),
                      k.symmetric(constant::inertia_joint)};
         const M3<W> R_pj = this->joint_rotation(k);
         const V3<W> d = k.vector(constant::joint_position);
         const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
         V3<W> arm;
+        prefetch<0, wind ? 4 : 2>(next_start);
 
         // At y* (midpoint.h)
         V3<W> rate_at_com{}, air_velocity{};
@@ -153,7 +156,9 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             const M3<W> G = f.R * R_pj;
             V3<W> half, half_rate;
             this->halfway(y0, G, f.turn, half, half_rate);
+            prefetch<4, 8>(next_start);
             const WideMaps<T> maps = wide_maps<T>(theta_0 + half);
+            prefetch<8, 12>(next_start);
             const M3<W> GJ = G * maps.J();
             const V3<W> r = f.R * d;
             f.R = G * maps.R();
@@ -161,6 +166,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             f.omega = f.omega + GJ * (eta_0 + half_rate);
             f.turn = f.turn + GJ * half;
             f.y = f.y + r.y;
+            prefetch<0, 4>(next_row);
             const V3<W> c = f.R * b.com;
             rate_at_com = f.v + cross(f.omega, c);
             if constexpr (field) {
@@ -179,14 +185,18 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
         const V3<W> c_0 = f.start.R * b.com, host_omega = f.start.omega;
         const V3<W> carried_0 = f.start.v + cross(host_omega, c_0); // of the centre of mass, were the joint fixed
         f.start.omega = f.start.omega + spin_0;
+        prefetch<4, 8>(next_row);
         sums.quantity[energy::kinetic] +=
             kinetic(b, f.start.R, c_0, f.start.v, f.start.omega, f.start.v, f.start.omega);
 
+        prefetch<8, 12>(next_row);
         const V3<W> theta_1 = y1.vector(motion::theta);
         const V3<W> spin_1 = move(f.end, R_pj, d, theta_1, y1.vector(motion::theta_dot), arm);
         f.fast_v = f.fast_v + cross(f.fast_omega, arm);
         const V3<W> host_omega_1 = f.end.omega + f.fast_omega, omega = host_omega_1 + spin_1;
+        prefetch<12, 16>(next_row);
         const V3<W> c_1 = f.end.R * b.com;
+        prefetch<0, 3>(next_end);
         if constexpr (wood) {
             const W fast = where_above(W((rows.h * rows.h) * dot(omega, omega)), all(T(watched_turn) * T(watched_turn)),
                                        all(T(1)));
@@ -195,6 +205,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             write(out.fast + row * std::size_t(L) + std::size_t(lane), fast);
         }
 
+        prefetch<3, 6>(next_end);
         const V3<W> own = f.end.x + c_1 - (f.start.x + c_0); // as seen from the ground
         const V3<W> g = vector(rows.gravity) - ground.a;
         const V3<W> borne = host_1 * transposed_times(host_0, c_0); // c_0, were the joint fixed
@@ -226,6 +237,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             work = work_along(own);
             if constexpr (!wood) work_seen = work_along(seen);
         }
+        prefetch<16, 20>(next_row);
         const bool pulled = rows.pulls && rows.pull_of_row[row] >= 0;
         W gained = stored - b.mass * dot(g, own) - work;
         if (pulled) book_pulls(row, lane, f, gained);
@@ -248,6 +260,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             write(out.fast + row * std::size_t(L) + std::size_t(lane), keep);
             f.end.omega = f.end.omega + keep * spin_1; // in the tree's balance with what it keeps
         }
+        prefetch<20, constant::carried_drag>(next_row);
         sums.quantity[energy::gained] += gained;
         sums.quantity[energy::slow] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.end.v, f.end.omega);
         sums.quantity[energy::mixed] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.fast_v, f.fast_omega);
