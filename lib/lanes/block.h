@@ -14,7 +14,7 @@ struct Group {
 };
 
 struct Block {
-    std::uint32_t first_group = 0, end_group = 0, terminal_group = 0; // from terminal_group on: level 0
+    std::uint32_t first_group = 0, end_group = 0, terminal_group = 0; // from terminal_group on: nothing begins on them
     std::uint32_t first_fork = 0, end_fork = 0;                       // joints
     std::uint32_t first_row = 0, end_row = 0;
     bool whole = false; // whole trees: nothing of it stands on another block

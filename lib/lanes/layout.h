@@ -1,17 +1,18 @@
 // layout.h: how a forest's bodies are laid out in rows of lanes (coupled_sweeps.h).
 //
 // A row is 64 bytes of one quantity: 16 bodies in float, 8 in double (its lanes), whatever the machine's registers.
-//   chain   bodies one upon the other, all branches, or one leaf, petal or fruit. At a fork the chain goes on into the child of the highest level, of
-//           these the longest: levels are few (Strahler's order)
-//   group   as many chains side by side as a row has lanes, of one kind of body. They are of one level, longest first; where these leave lanes empty,
-//           chains of lower levels fill them. Its row k holds their k-th bodies. Where a chain has ended, or is missing, stand bodies of no mass that
-//           nothing moves (pads)
-//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; threads share blocks out. The first block, the
-//           top, is what is above: bodies that carry more than a block. Trees share blocks, and the top's groups, only within a stand
+//   chain   bodies one upon the other, all branches, or one leaf, petal or fruit. At a fork the chain goes on into the child that carries the longest
+//           way out. A chain of many bodies is cut into several, each beginning on the one before
+//   group   as many chains side by side as a row has lanes, of one kind of body: first those that carry others, those with the longest way out first
+//           (Hu 1961: trees of equal tasks take the fewest rows so); then those on which nothing begins (terminal), longest first. Terminal chains
+//           also fill lanes that the first leave empty. Row k holds their k-th bodies. Where a chain has ended, or is missing, stand bodies of no
+//           mass that nothing moves (pads)
+//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; threads share blocks out. Where a tree's ways
+//           out are so long that they alone would take half the rows, blocks are up to four times as large. The first block, the top, is what is
+//           above: bodies that carry more than a block. Trees share blocks, and the top's groups, only within a stand
 //   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for each chain that begins on
 //           another block's body (port), and one for each ground
-// Within a block groups are in the order of a sweep outward, with those of level 0, on which nothing begins, last. None of it depends on threads or
-// registers. Nor does a tree's part depend on trees beyond its stand (trees one after another until they have 256 bodies). So no sum's order depends
+// Within a block groups are in the order of a sweep outward, with the terminal ones last. None of it depends on threads or registers. Nor does a tree's part depend on trees beyond its stand (trees one after another until they have 256 bodies). So no sum's order depends
 // on these.
 // Cost O(n log n). Reads parent and kind; parent[i] < i.
 #pragma once

@@ -74,16 +74,16 @@ TEMPLATE_TEST_CASE("the step that is counted is baseline's, bit for bit", "", fl
     }
 }
 
-TEST_CASE("operations go with the rows: each further rod of a chain adds as many") {
+TEST_CASE("operations go with the rows: each further part of a chain adds as many") {
     for (const bool wind : {false, true}) {
         Scene scene;
         if (wind) scene.wind = *wind_preset("breeze");
-        const Count ten = of_chain(10, scene), twenty = of_chain(20, scene), forty = of_chain(40, scene);
-        CAPTURE(wind, ten, twenty, forty);
-        CHECK(twenty.additions - ten.additions == (forty.additions - twenty.additions) / 2);
-        CHECK(twenty.multiplications - ten.multiplications == (forty.multiplications - twenty.multiplications) / 2);
-        CHECK(twenty.divisions - ten.divisions == (forty.divisions - twenty.divisions) / 2);
-        CHECK(twenty.additions > ten.additions);
+        const Count one = of_chain(16, scene), two = of_chain(32, scene), four = of_chain(64, scene);
+        CAPTURE(wind, one, two, four);
+        CHECK(two.additions - one.additions == (four.additions - two.additions) / 2);
+        CHECK(two.multiplications - one.multiplications == (four.multiplications - two.multiplications) / 2);
+        CHECK(two.divisions - one.divisions == (four.divisions - two.divisions) / 2);
+        CHECK(two.additions > one.additions);
     }
 }
 
