@@ -2,7 +2,7 @@
 // outward state_update and external_forces, inward composite, drag and spring.
 //
 // The order is reversed against analytic_step.cpp's: poses and velocities are worked out where they are read, at the start of the next step, and
-// never written. As in coupled_sweeps.h chains of one level run side by side in the lanes, and terminal groups go out and back before the next one
+// never written. As in coupled_sweeps.h chains run side by side in the lanes, and terminal groups go out and back before the next one
 // does. A joint's own step (wide_spring.h) follows as soon as its composite is there. Two rows are stepped at a time, which keeps the units busy
 // while each waits for its own eigenvalues. Joints wait for nothing further out than their blocks, so a step visits each block once and goes through
 // memory once.

@@ -1,7 +1,7 @@
 // coupled_sweeps.h: the coupled step (coupled_step.h) in three sweeps over a block's rows of lanes, fused from the plain step's stages. The first
 // goes outward (midpoint and body_loads), the second inward (the resolvent's elimination), the third outward (its accelerations and the step's end).
 //
-// Chains of one level run side by side in the lanes. Along a chain the parent's quantities stay in registers. Only where a chain begins on another's
+// Chains run side by side in the lanes. Along a chain the parent's quantities stay in registers. Only where a chain begins on another's
 // body do they pass through memory, by a record that is transposed in registers (wide.h, transpose). Terminal groups, most of a tree, go out and back
 // before the next one does. Composites need every body of a subtree before the accelerations can start, so 216 bytes a body in float wait in memory
 // between the inward and the second outward sweep. The blocks are then taken in reverse order, as the last ones are still in the cache. A block of

@@ -148,7 +148,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
         const V3<W> d = k.vector(constant::joint_position);
         const V3<W> theta_0 = y0.vector(motion::theta), eta_0 = y0.vector(motion::theta_dot);
         V3<W> arm;
-        prefetch<0, wind ? 4 : 2>(next_start);
+        prefetch<0, wind ? 4 : 6>(next_start);
 
         // At y* (midpoint.h)
         V3<W> rate_at_com{}, air_velocity{};
@@ -166,7 +166,6 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             f.omega = f.omega + GJ * (eta_0 + half_rate);
             f.turn = f.turn + GJ * half;
             f.y = f.y + r.y;
-            prefetch<0, 4>(next_row);
             const V3<W> c = f.R * b.com;
             rate_at_com = f.v + cross(f.omega, c);
             if constexpr (field) {
@@ -179,6 +178,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             }
         }
 
+        prefetch<0, 4>(next_row);
         constexpr bool wood = kind == Kind::branch;
         const M3<W> host_0 = f.start.R, host_1 = f.end.R;
         const V3<W> spin_0 = move(f.start, R_pj, d, theta_0, eta_0, arm);
@@ -237,7 +237,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             work = work_along(own);
             if constexpr (!wood) work_seen = work_along(seen);
         }
-        prefetch<16, 20>(next_row);
+        prefetch<16, constant::carried_moment>(next_row);
         const bool pulled = rows.pulls && rows.pull_of_row[row] >= 0;
         W gained = stored - b.mass * dot(g, own) - work;
         if (pulled) book_pulls(row, lane, f, gained);
@@ -260,7 +260,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             write(out.fast + row * std::size_t(L) + std::size_t(lane), keep);
             f.end.omega = f.end.omega + keep * spin_1; // in the tree's balance with what it keeps
         }
-        prefetch<20, constant::carried_drag>(next_row);
+        if constexpr (wind) prefetch<constant::drag_area, constant::carried_drag>(next_row);
         sums.quantity[energy::gained] += gained;
         sums.quantity[energy::slow] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.end.v, f.end.omega);
         sums.quantity[energy::mixed] += kinetic(b, f.end.R, c_1, f.end.v, f.end.omega, f.fast_v, f.fast_omega);

@@ -10,7 +10,7 @@ constexpr std::uint32_t nothing = 0xffffffffu;
 struct Group {
     std::uint32_t first_row = 0, length = 0;
     std::uint32_t first_base = 0; // of the lanes' base joints, in Layout::base and Layout::landing
-    Kind kind = Kind::branch;     // branch, fruit, or leaf for leaf and petal
+    Kind kind = Kind::branch;     // branch, fruit, clump, or leaf for leaf and petal
 };
 
 struct Block {

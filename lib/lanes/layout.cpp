@@ -1,6 +1,8 @@
 #include "layout.h"
 #include "stands.h"
 #include <algorithm>
+#include <array>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +13,7 @@ namespace {
 // 8192 91, of 16384 91; these figures 93. One of 100 000: 104, 99, 94, 91, 86. A stand of small trees is indifferent.
 constexpr std::size_t largest_block = 4096, largest_deep_block = 16384, smallest_block = 1024;
 constexpr std::uint32_t longest_carrying = 8, longest_bare = 16; // chains [bodies]
+constexpr std::size_t kinds = std::size_t(Kind::clump) + 1;
 
 struct Chain {
     std::int32_t first;
@@ -53,7 +56,8 @@ private:
     std::uint32_t blocks = 1;
     std::vector<std::int32_t> next; // body on which the chain goes on, -1: tip
     std::vector<Chain> chains;      // block by block, in the order that groups take them
-    std::uint32_t block_slots = 0;  // slots below are of groups before the present one
+    std::vector<std::uint32_t> begins_on,
+        begins_beside; // of each chain: a chain that begins on it; another on the same
 
     bool starts_block(std::size_t i) const { return parent[i] < 0 || block_of[std::size_t(parent[i])] != block_of[i]; }
 
@@ -73,32 +77,47 @@ private:
         for (std::size_t s = 0; s + 1 < stand.size(); ++s) cut_stand(stand[s], stand[s + 1], size);
     }
 
-    // Blocks are twice as large where their longest ways out leave the lanes empty.
+    // Where the longest ways out of blocks would take half the rows, blocks are doubled as long as that saves rows.
     void cut_stand(std::size_t first, std::size_t end, const std::vector<std::uint32_t>& size) {
-        const std::size_t sixth = (end - first) / 6;
+        const std::size_t bodies = end - first, most = std::min(bodies / 10, largest_deep_block);
         const std::uint32_t before = blocks;
-        for (std::size_t full = std::clamp(sixth, smallest_block, largest_block);; full *= 2) {
+        std::size_t full = std::clamp(bodies / 6, smallest_block, largest_block);
+        fill_blocks(first, end, size, full);
+        Need need = need_of(first, end, before);
+        while (2 * full <= most && 2 * need.ways * std::size_t(out.lanes) >= bodies) {
             blocks = before;
-            fill_blocks(first, end, size, full);
-            if (2 * full > std::min(sixth, largest_deep_block)) return;
-            if (2 * std::size_t(out.lanes) * longest_ways(first, end, before) < end - first) return;
+            fill_blocks(first, end, size, 2 * full);
+            const Need larger = need_of(first, end, before);
+            if (larger.rows >= need.rows) {
+                blocks = before;
+                return fill_blocks(first, end, size, full);
+            }
+            full *= 2;
+            need = larger;
         }
     }
 
-    // Returns the rows of the longest ways from base to tip in the blocks from `before` on, one of each, together.
-    std::size_t longest_ways(std::size_t first, std::size_t end, std::uint32_t before) const {
-        std::vector<std::uint32_t> height(end - first, 1), longest(blocks - before, 0);
-        std::size_t sum = 0;
+    // What no order of chains can do without: rows for the longest way out of each block, and for each block these or its bodies.
+    struct Need {
+        std::size_t ways = 0, rows = 0;
+    };
+    // Of a stand's part of the top, and its blocks, which are those from `before` on.
+    Need need_of(std::size_t first, std::size_t end, std::uint32_t before) const {
+        std::vector<std::size_t> height(end - first, 1), longest(blocks - before + 1, 0), bodies(longest.size(), 0);
         for (std::size_t i = end; i-- > first;) {
-            if (!starts_block(i)) {
-                std::uint32_t& below = height[std::size_t(parent[i]) - first];
-                below = std::max(below, height[i - first] + 1);
-            } else if (block_of[i] >= before && height[i - first] > longest[block_of[i] - before]) {
-                sum += height[i - first] - longest[block_of[i] - before];
-                longest[block_of[i] - before] = height[i - first];
-            }
+            const std::size_t block = block_of[i] == 0 ? 0 : block_of[i] - before + 1;
+            ++bodies[block];
+            longest[block] = std::max(longest[block], height[i - first]);
+            if (starts_block(i)) continue;
+            std::size_t& below = height[std::size_t(parent[i]) - first];
+            below = std::max(below, height[i - first] + 1);
         }
-        return sum;
+        Need need;
+        for (std::size_t b = 0; b < longest.size(); ++b) {
+            need.ways += longest[b];
+            need.rows += std::max(longest[b], bodies[b] / std::size_t(out.lanes));
+        }
+        return need;
     }
 
     // Whole subtrees, in document order, until a block is full.
@@ -120,12 +139,12 @@ private:
         }
     }
 
-    // On each body the chain goes on into the child that carries the longest way out. Then chains are cut into equal parts.
+    // On each body the chain goes on into the child that carries the longest way out. Where nothing more begins on it for long, the rest is cut off.
+    // Both parts are cut into equal ones where they are long.
     void find_chains() {
         next.assign(n, -1);
-        std::vector<std::uint32_t> height(n, 1),
-            length(n, 1);                          // rows to the farthest tip in the block, to the chain's end,
-        std::vector<std::uint32_t> carrying(n, 0); // to the last of its bodies that carries another chain
+        // Rows from each body to the farthest tip in the block, to the chain's end, and to the chain's last body that carries another chain.
+        std::vector<std::uint32_t> height(n, 1), length(n, 1), carrying(n, 0);
         std::vector<bool> carries(n, false);
         for (std::size_t i = n; i-- > 0;) {
             if (next[i] >= 0) length[i] = length[std::size_t(next[i])] + 1;
@@ -175,6 +194,23 @@ private:
                               -std::int64_t(c.length));
         };
         std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) { return key(a) < key(b); });
+        link_chains();
+    }
+
+    // Lists the chains that begin on each chain within its block.
+    void link_chains() {
+        std::vector<std::uint32_t> chain_of(n);
+        for (std::uint32_t c = 0; c < chains.size(); ++c)
+            for (std::int32_t i = chains[c].first; i >= 0; i = next[std::size_t(i)]) chain_of[std::size_t(i)] = c;
+        begins_on.assign(chains.size(), nothing);
+        begins_beside.assign(chains.size(), nothing);
+        for (std::uint32_t c = 0; c < chains.size(); ++c) {
+            const auto i = std::size_t(chains[c].first);
+            if (starts_block(i)) continue;
+            const std::uint32_t below = chain_of[std::size_t(parent[i])];
+            begins_beside[c] = begins_on[below];
+            begins_on[below] = c;
+        }
     }
 
     // The bodies of a chain into lane `lane` of a group.
@@ -187,15 +223,13 @@ private:
         }
     }
 
-    // One block: first what carries other chains, the highest first; then the rest, the longest first. Of trees it is known (Hu 1961) that this
-    // order takes the fewest rows, were all chains of one length. Lanes that are left empty take what fits of the rest.
-    void place_block(Block& block, const Chain* first, const Chain* end) {
+    void place_block(Block& block, std::uint32_t first, std::uint32_t end) {
         block.first_row = out.rows;
         block.first_group = std::uint32_t(out.groups.size());
         block.terminal_group = nothing;
         while (first < end) { // of the top stand by stand, of others at once
-            const Chain* last = first;
-            while (last < end && last->stand == first->stand) ++last;
+            std::uint32_t last = first;
+            while (last < end && chains[last].stand == chains[first].stand) ++last;
             place_stand(block, first, last);
             first = last;
         }
@@ -203,48 +237,64 @@ private:
         block.end_row = out.rows;
     }
 
-    void place_stand(Block& block, const Chain* first, const Chain* end) {
+    // First what carries other chains, the highest first; then the rest, the longest first. The order is after Hu (1961): of trees of equal tasks, none
+    // takes fewer rows. Lanes that are left empty take what fits of the rest; where most are left, the rest says how long the group is.
+    void place_stand(Block& block, std::uint32_t first, std::uint32_t end) {
         const auto lanes = std::size_t(out.lanes);
-        std::vector<bool> done(std::size_t(end - first), false);
-        const auto ready = [&](const Chain& c) {
-            return starts_block(std::size_t(c.first)) ||
-                   out.slot[std::size_t(parent[std::size_t(c.first)])] < block_slots;
+        std::array<std::set<std::uint32_t>, kinds> carrying, bare; // chains that may be placed: what they begin on is
+        const auto enter = [&](std::uint32_t c) {
+            (chains[c].terminal ? bare : carrying)[std::size_t(chains[c].kind)].insert(c);
         };
-        for (const Chain* c = first; c < end; ++c) {
-            if (done[std::size_t(c - first)]) continue;
-            if (c->terminal && block.terminal_group == nothing) block.terminal_group = std::uint32_t(out.groups.size());
-            block_slots = std::uint32_t(out.rows * lanes);
-            std::vector<const Chain*> together;
-            std::uint32_t length = c->length;
-            bool sparse = false; // so few carry others that the rest says how long the group is
-            for (const Chain* d = c; d < end && together.size() < lanes; ++d) {
-                if (d->terminal && d->kind > c->kind) break;
-                if (done[std::size_t(d - first)] || d->kind != c->kind || !ready(*d)) continue;
-                if (d->terminal && !c->terminal && d->length > length) {
-                    sparse = sparse || 2 * together.size() < lanes;
-                    if (!sparse) continue;
+        const auto next_of = [](const std::array<std::set<std::uint32_t>, kinds>& of) {
+            std::uint32_t c = nothing;
+            for (const std::set<std::uint32_t>& all : of)
+                if (!all.empty()) c = std::min(c, *all.begin());
+            return c;
+        };
+        for (std::uint32_t c = first; c < end; ++c)
+            if (starts_block(std::size_t(chains[c].first))) enter(c);
+        std::vector<std::uint32_t> together;
+        for (std::uint32_t c = next_of(carrying); true; c = next_of(carrying)) {
+            const bool terminal = c == nothing;
+            if (terminal) c = next_of(bare);
+            if (c == nothing) return;
+            if (terminal && block.terminal_group == nothing) block.terminal_group = std::uint32_t(out.groups.size());
+            const Kind kind_here = chains[c].kind;
+            std::uint32_t length = chains[c].length;
+            together.clear();
+            const auto take = [&](std::set<std::uint32_t>& from, std::set<std::uint32_t>::iterator at) {
+                while (together.size() < lanes && at != from.end()) {
+                    length = std::max(length, chains[*at].length);
+                    together.push_back(*at);
+                    at = from.erase(at);
                 }
-                done[std::size_t(d - first)] = true;
-                together.push_back(d);
-                length = std::max(length, d->length);
-            }
-            const Group group{out.rows, length, std::uint32_t(out.base.size()), c->kind};
+            };
+            std::set<std::uint32_t>&on = carrying[std::size_t(kind_here)], &rest = bare[std::size_t(kind_here)];
+            take(on, on.begin());
+            const auto fits = [&](const Chain& d) {
+                return d.terminal && (d.kind > kind_here || (d.kind == kind_here && d.length <= length));
+            };
+            const auto at = chains.begin();
+            const auto fitting = std::partition_point(at + first, at + end, [&](const Chain& d) { return !fits(d); });
+            take(rest, 2 * together.size() < lanes ? rest.begin() : rest.lower_bound(std::uint32_t(fitting - at)));
+            const Group group{out.rows, length, std::uint32_t(out.base.size()), kind_here};
             out.base.resize(out.base.size() + lanes, 0);
             out.body.resize((out.rows + length) * lanes, -1);
-            for (std::size_t lane = 0; lane < together.size(); ++lane) place(*together[lane], group, lane);
+            for (std::size_t lane = 0; lane < together.size(); ++lane) place(chains[together[lane]], group, lane);
             out.groups.push_back(group);
             out.rows += length;
+            for (const std::uint32_t placed : together)
+                for (std::uint32_t d = begins_on[placed]; d != nothing; d = begins_beside[d]) enter(d);
         }
     }
 
     void place_groups() {
         out.slot.assign(n, nothing);
         out.blocks.resize(blocks);
-        const Chain* chain = chains.data();
-        const Chain* const all = chain + chains.size();
+        std::uint32_t chain = 0;
         for (std::uint32_t b = 0; b < blocks; ++b) {
-            const Chain* const first = chain;
-            while (chain < all && chain->block == b) ++chain;
+            const std::uint32_t first = chain;
+            while (chain < chains.size() && chains[chain].block == b) ++chain;
             place_block(out.blocks[b], first, chain);
             // The top goes inward only when all that it carries has come.
             if (out.blocks[b].terminal_group == nothing || b == 0)

@@ -2,14 +2,16 @@
 //
 // A row is 64 bytes of one quantity: 16 bodies in float, 8 in double (its lanes), whatever the machine's registers.
 //   chain   bodies one upon the other, all branches, or one leaf, petal or fruit. At a fork the chain goes on into the child that carries the longest
-//           way out. A chain of many bodies is cut into several, each beginning on the one before
-//   group   as many chains side by side as a row has lanes, of one kind of body: first those that carry others, those with the longest way out first
-//           (Hu 1961: trees of equal tasks take the fewest rows so); then those on which nothing begins (terminal), longest first. Terminal chains
-//           also fill lanes that the first leave empty. Row k holds their k-th bodies. Where a chain has ended, or is missing, stand bodies of no
-//           mass that nothing moves (pads)
-//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; threads share blocks out. Where a tree's ways
-//           out are so long that they alone would take half the rows, blocks are up to four times as large. The first block, the top, is what is
-//           above: bodies that carry more than a block. Trees share blocks, and the top's groups, only within a stand
+//           way out. A part of more than 8 bodies on which nothing begins is a chain of its own; then chains are cut into equal ones of at most 8
+//           bodies, or 16 on which nothing begins
+//   group   as many chains side by side as a row has lanes, of one kind of body: first those that carry others, those with the longest way out first;
+//           then those on which nothing begins (terminal), longest first. Terminal chains also fill lanes that the first leave empty. Row k holds
+//           their k-th bodies. Where a chain has ended, or is missing, stand bodies of no mass that nothing moves (pads). After Hu (1961): of trees
+//           of equal tasks, no order takes fewer rows
+//   block   subtrees together of some thousand bodies, whose step's own arrays stay in a core's cache; threads share blocks out. Where the longest
+//           ways out of a stand's blocks would take half of the rows, and longer blocks save some, blocks are up to four times as large, but at most
+//           a tenth of the stand; they leave the nearest cache. The first block, the top, is what is above: bodies that carry more than a block.
+//           Trees share blocks, and the top's groups, only within a stand
 //   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for each chain that begins on
 //           another block's body (port), and one for each ground
 // Within a block groups are in the order of a sweep outward, with the terminal ones last. None of it depends on threads or registers. Nor does a tree's part depend on trees beyond its stand (trees one after another until they have 256 bodies). So no sum's order depends

@@ -68,6 +68,37 @@ inline Shape deep(std::int32_t pieces, bool leaves) {
     return {leaves ? "deep chain with leaves" : "deep chain", parent, kind};
 }
 
+// Limbs of 250 bodies on a trunk's first, each body with a twig of 12.
+inline Shape limbs(std::int32_t axes) {
+    std::vector<std::int32_t> parent{-1};
+    for (std::int32_t axis = 0; axis < axes; ++axis) {
+        std::int32_t below = 0;
+        for (std::int32_t k = 0; k < 250; ++k) {
+            const auto body = std::int32_t(parent.size());
+            parent.push_back(below);
+            below = body;
+            for (std::int32_t twig = 0; twig < 12; ++twig) parent.push_back(body + twig);
+        }
+    }
+    return {"limbs", parent, std::vector<Kind>(parent.size(), Kind::branch)};
+}
+
+// Long ropes side by side: larger blocks would part them.
+inline Shape ropes(std::int32_t count, std::int32_t pieces) {
+    std::vector<std::int32_t> parent{-1};
+    for (std::int32_t k = 0; k < count * pieces; ++k) parent.push_back(k % pieces == 0 ? 0 : k);
+    return {"ropes", parent, std::vector<Kind>(parent.size(), Kind::branch)};
+}
+
+// Both, one after the other.
+inline Shape beside(const Shape& a, const Shape& b) {
+    Shape both{a.name + " and " + b.name, a.parent, a.kind};
+    for (const std::int32_t p : b.parent) both.parent.push_back(p < 0 ? p : p + std::int32_t(a.parent.size()));
+    both.kind.insert(both.kind.end(), b.kind.begin(), b.kind.end());
+    both.ground.insert(both.ground.end(), b.ground.begin(), b.ground.end());
+    return both;
+}
+
 // Each body with two others on it, to a depth of 13.
 inline Shape binary() {
     std::vector<std::int32_t> parent{-1};
@@ -101,6 +132,8 @@ inline std::vector<Shape> shapes() {
                            deep(3000, false),
                            deep(9000, true),
                            binary(),
+                           limbs(35),
+                           beside(limbs(8), limbs(9)), // two tops
                            meadow(3000)};
     Shape forest{"forest", make_tree::forest({make_tree::branched(), make_tree::random_tree(1200, 5),
                                               make_tree::chain(7, 1, 0.02, 0.01), make_tree::random_tree(2600, 6)})};

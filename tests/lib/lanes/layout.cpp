@@ -132,9 +132,16 @@ void check_blocks(const Found& f) {
     CHECK(parted == 0);
     for (std::size_t b = 1; b < bodies.size(); ++b) {
         CHECK(bodies[b] > 0);
-        CHECK(bodies[b] <= 16384);
+        CHECK(bodies[b] <= std::max<std::size_t>(4096, std::min<std::size_t>(16384, f.n / 10)));
         CHECK(bodies[b] < least_above); // what is on top carries more than a block
     }
+}
+
+// True if a chain other than the one that goes on at its end begins on the chain.
+bool carries_aside(const Found& f, const Group& g, std::size_t lane, std::uint32_t length) {
+    for (std::uint32_t k = 0; k + 1 < length; ++k)
+        if (f.fork_at(g.first_row + k, lane) != 0) return true;
+    return false;
 }
 
 // Heights are counted body by body: the rows of the longest way out in the block.
@@ -156,8 +163,18 @@ void check_order(const Found& f) {
         lesser += on >= 0 && height[i] > height[std::size_t(on)];
     }
     cuts = std::size_t(std::count(cut.begin(), cut.end(), true));
-    CHECK(lesser == 0); // the chain goes on into the child that carries the longest way out
-    CHECK(cuts <= f.n / 4);
+    CHECK(lesser == 0);            // the chain goes on into the child that carries the longest way out
+    CHECK(cuts <= f.n / 5);        // parts of 5 bodies and more
+    std::size_t carrying_long = 0; // more than 8 bodies, and a chain begins on one that is not in the last 8 rows
+    for (const Group& g : f.out.groups)
+        for (std::size_t l = 0; l < f.lanes; ++l) {
+            std::uint32_t length = 0, last_fork = 0;
+            for (; length < g.length && f.at(g.first_row + length, l) >= 0; ++length)
+                if (f.fork_at(g.first_row + length, l) != 0) last_fork = length + 1;
+            const bool only_goes_on = last_fork == length && last_fork > 0 && !carries_aside(f, g, l, length);
+            carrying_long += last_fork > 0 && !only_goes_on && length > 8;
+        }
+    CHECK(carrying_long == 0);
     for (std::size_t b = 0; b < f.out.blocks.size(); ++b) {
         const Block& block = f.out.blocks[b];
         std::uint32_t before = nothing, forks = 0;
@@ -168,6 +185,8 @@ void check_order(const Found& f) {
             for (std::uint32_t r = 0; r < g.length; ++r) fork |= f.out.fork_of_row[g.first_row + r] >= 0;
             if (k >= block.terminal_group) {
                 forks += fork;
+                climbs += k > block.terminal_group && g.kind == f.out.groups[k - 1].kind &&
+                          g.length > f.out.groups[k - 1].length;
                 continue;
             }
             bare += b > 0 && !fork;
@@ -357,18 +376,8 @@ TEST_CASE("few lanes of a grown_tree tree are pads") {
 
 // The rows that a tree's longest ways out and its number of bodies make necessary, whatever the order, are within a fifth of what is taken.
 TEST_CASE("long axes with long side branches leave few lanes empty") {
-    std::vector<std::int32_t> parent{-1};
-    for (std::int32_t axis = 0; axis < 30;
-         ++axis) { // limbs on a trunk's first body, of 250 bodies, each with twigs of 12
-        std::int32_t below = 0;
-        for (std::int32_t k = 0; k < 250; ++k) {
-            const auto body = std::int32_t(parent.size());
-            parent.push_back(below);
-            below = body;
-            for (std::int32_t twig = 0; twig < 12; ++twig) parent.push_back(twig == 0 ? body : body + twig);
-        }
-    }
-    const Shape shape("limbs", parent, std::vector<Kind>(parent.size(), Kind::branch));
+    const Shape shape = limbs(60);
+    const std::vector<std::int32_t>& parent = shape.parent;
     for (const int lanes : {8, 16}) {
         const Layout layout = shape.layout(lanes);
         std::vector<std::size_t> bodies(layout.blocks.size(), 0), height(parent.size(), 1), block(parent.size());
@@ -390,4 +399,53 @@ TEST_CASE("long axes with long side branches leave few lanes empty") {
         CHECK(double(layout.rows) < 1.2 * double(least));
         CHECK(double(layout.rows) * lanes < 1.5 * double(parent.size()));
     }
+}
+
+TEST_CASE("blocks grow where that saves rows, and only there") {
+    const auto largest = [](const Shape& shape) {
+        const Layout layout = shape.layout(16);
+        std::size_t most = 0;
+        for (std::size_t b = 1; b < layout.blocks.size(); ++b) {
+            std::size_t bodies = 0;
+            for (std::size_t s = layout.blocks[b].first_row * std::size_t(16);
+                 s < layout.blocks[b].end_row * std::size_t(16); ++s)
+                bodies += layout.body[s] >= 0;
+            most = std::max(most, bodies);
+        }
+        return most;
+    };
+    CHECK(largest(limbs(60)) > 4096);
+    CHECK(largest(limbs(10)) <= 4096); // a tenth of the stand
+    CHECK(largest(ropes(10, 20000)) <= 4096);
+    CHECK(largest(bare_star(200000)) <= 4096); // its rows are full
+}
+
+// Bodies of the first tree stand in the same lanes of as long groups, in the same blocks, whatever follows.
+TEST_CASE("what a tree's layout is does not depend on trees beyond its stand") {
+    for (const Shape& a : {limbs(60), Shape("", grown_tree(20000)), ropes(10, 20000)})
+        for (const int lanes : {8, 16}) {
+            CAPTURE(a.name, lanes);
+            const Layout alone = a.layout(lanes), with = beside(a, ropes(12, 20000)).layout(lanes);
+            const auto block_of = [](const Layout& layout, std::uint32_t slot) {
+                std::size_t b = 0;
+                while (slot / std::uint32_t(layout.lanes) >= layout.blocks[b].end_row) ++b;
+                return b;
+            };
+            std::size_t differ = 0;
+            for (std::size_t i = 0; i < a.parent.size(); i += 7) {
+                const std::size_t block = block_of(alone, alone.slot[i]);
+                const auto row = [&](const Layout& layout) {
+                    return layout.slot[i] - layout.blocks[block].first_row * std::uint32_t(lanes);
+                };
+                differ += block_of(with, with.slot[i]) != block || row(alone) != row(with);
+            }
+            CHECK(differ == 0);
+        }
+}
+
+TEST_CASE("a chain of half a million bodies, and one of leaves, are laid out") { // once quadratic: minutes
+    std::vector<std::int32_t> parent;
+    for (std::int32_t k = 0; k < 500000; ++k) parent.push_back(k - 1);
+    for (const Kind kind : {Kind::branch, Kind::leaf})
+        CHECK(Shape("", parent, std::vector<Kind>(parent.size(), kind)).layout(16).rows == parent.size());
 }
