@@ -14,8 +14,8 @@
 //           Trees share blocks, and the top's groups, only within a stand
 //   joint   a record for what passes between chains: one for every body on which another chain begins (fork), one for each chain that begins on
 //           another block's body (port), and one for each ground
-// Within a block groups are in the order of a sweep outward, with the terminal ones last. None of it depends on threads or registers. Nor does a tree's part depend on trees beyond its stand (trees one after another until they have 256 bodies). So no sum's order depends
-// on these.
+// Within a block groups are in the order of a sweep outward, with the terminal ones last. None of it depends on threads or registers. Nor does a
+// tree's part depend on trees beyond its stand (trees one after another until they have 256 bodies). So no sum's order depends on these.
 // Cost O(n log n). Reads parent and kind; parent[i] < i.
 #pragma once
 #include "block.h"
