@@ -54,10 +54,10 @@ private:
     std::vector<std::uint32_t> stand; // first body of each, and n
     std::vector<std::uint32_t> block_of;
     std::uint32_t blocks = 1;
-    std::vector<std::int32_t> next; // body on which the chain goes on, -1: tip
-    std::vector<Chain> chains;      // block by block, in the order that groups take them
-    std::vector<std::uint32_t> begins_on,
-        begins_beside; // of each chain: a chain that begins on it; another on the same
+    std::vector<std::int32_t> next;           // body on which the chain goes on, -1: tip
+    std::vector<Chain> chains;                // block by block, in the order that groups take them
+    std::vector<std::uint32_t> begins_on;     // of each chain: a chain that begins on it, or nothing
+    std::vector<std::uint32_t> begins_beside; // and another that begins on the same, or nothing
 
     bool starts_block(std::size_t i) const { return parent[i] < 0 || block_of[std::size_t(parent[i])] != block_of[i]; }
 
@@ -83,6 +83,7 @@ private:
         const std::uint32_t before = blocks;
         std::size_t full = std::clamp(bodies / 6, smallest_block, largest_block);
         fill_blocks(first, end, size, full);
+        if (2 * full > most) return;
         Need need = need_of(first, end, before);
         while (2 * full <= most && 2 * need.ways * std::size_t(out.lanes) >= bodies) {
             blocks = before;
