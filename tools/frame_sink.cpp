@@ -4,6 +4,7 @@
 #include "lib/base/counted.h"
 #include "skin_mover.h"
 #include <filesystem>
+#include <optional>
 
 namespace bough {
 namespace {
@@ -32,16 +33,17 @@ public:
         : pattern_(pattern), notes_(notes), skin_(std::move(skin)), mover_(mover(skin_)),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
         const OwnMaps maps = own ? maps_of(*own, mtl_) : OwnMaps{};
-        write_images(maps, read);
-        Output output(sequence_mtl(pattern));
-        write_mtl(output, skin_, maps.part);
-        output.finish();
+        take_images(maps, read);
+        mtl_waiting_.emplace(sequence_mtl(pattern));
+        write_mtl(*mtl_waiting_, skin_, maps.part);
     }
     void write(const MotionFrame& frame) override {
         mover_(frame, position_, normal_);
         try {
             Output output(sequence_name(pattern_, frame.frame));
             write_obj(output, skin_, position_, normal_, mtl_);
+            output.flush(); // a full disk shows before anything else is there
+            finish_materials();
             output.finish();
             bytes_ += output.bytes();
         } catch (const OutputError& error) {
@@ -61,22 +63,32 @@ public:
     std::uint64_t bytes() const override { return bytes_; }
 
 private:
-    // Into a folder of their own beside the .mtl, which is made.
-    void write_images(const OwnMaps& maps, const std::vector<NamedFile>& read) {
+    // They go into a folder of their own beside the .mtl, which is made.
+    void take_images(const OwnMaps& maps, const std::vector<NamedFile>& read) {
         const std::filesystem::path folder = std::filesystem::path(sequence_mtl(pattern_)).parent_path();
         std::vector<std::string> files;
-        for (const ImageFile& image : maps.image) files.push_back((folder / image.name).string());
-        refuse_overwriting_by_images(read, files);
         for (const ImageFile& image : maps.image) {
-            const std::filesystem::path file = folder / image.name;
+            files.push_back((folder / image.name).string());
+            images_waiting_.push_back({files.back(), *image.bytes});
+        }
+        refuse_overwriting_by_images(read, files);
+    }
+    // Without a frame there are none either.
+    void finish_materials() {
+        if (!mtl_waiting_) return;
+        for (const auto& [file, bytes] : images_waiting_) {
+            const std::filesystem::path folder = std::filesystem::path(file).parent_path();
             std::error_code error;
-            std::filesystem::create_directories(file.parent_path(), error);
-            if (error) throw OutputError(file.parent_path().string(), "cannot be made: " + error.message());
-            Output output(file.string());
-            output.write(*image.bytes);
+            std::filesystem::create_directories(folder, error);
+            if (error) throw OutputError(folder.string(), "cannot be made: " + error.message());
+            Output output(file);
+            output.write(bytes);
             output.finish();
             bytes_ += output.bytes();
         }
+        images_waiting_ = {};
+        mtl_waiting_->finish();
+        mtl_waiting_.reset();
     }
 
     std::string pattern_;
@@ -84,6 +96,9 @@ private:
     Skin skin_;
     Mover mover_;
     std::string mtl_;
+    // For the first frame:
+    std::vector<std::pair<std::string, std::string>> images_waiting_; // file, bytes
+    std::optional<Output> mtl_waiting_;
     std::vector<Vec3> position_, normal_;
     std::int64_t written_ = 0, last_ = -1;
     std::uint64_t bytes_ = 0;

@@ -139,17 +139,21 @@ std::int64_t simulate(TreesimOptions& o, const std::shared_ptr<Setting>& setting
         o.common.notes.push_back(
             "nothing will move: the scene has no wind, pulls, attachments, moved roots or balls; try --wind gusty");
     FrameRange range = frames_to_make(o, run, frames);
+    const auto shown_with = [&](const std::vector<std::uint32_t>& broken) {
+        return shown_frames(o, *setting, run, format, broken, range.first, range.last, std::move(model));
+    };
+    const bool breaks = is_mesh(format) && setting->scene.fracture;
+    ShownFrames shown;
+    if (!breaks) shown = shown_with({}); // first, as it may refuse
     settle(run, before, o);
     const std::int64_t started = run.steps();
-    std::vector<std::uint32_t> broken;
-    if (is_mesh(format) && setting->scene.fracture) broken = what_breaks(o, run.copy(), range);
+    if (breaks) shown = shown_with(what_breaks(o, run.copy(), range));
     Companions beside;
     if (o.report.error) beside.error.emplace(run);
     if (o.report.rigid) {
         beside.rigid.emplace(*setting, o.run, o.common.threads);
         settle(beside.rigid->whole(), before, o);
     }
-    ShownFrames shown = shown_frames(o, *setting, run, format, broken, range.first, range.last, std::move(model));
     LoopStart loop;
     if (loops) {
         loop = close_loop(run, o.loop, o.run, o.common);

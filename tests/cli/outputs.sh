@@ -81,6 +81,14 @@ grep -aq EXT_mesh rest.glb || fail "treeconvert wrote no instances"
 refused 1 "--leaves-as" "${run[@]}" -o x.glb --leaves-as cards
 refused 1 "--leaves-as" "${run[@]}" -o x_%d.obj --leaves-as instances
 refused 1 "--leaves-as" treeconvert splines.json --mesh x.obj --leaves-as instances
+mkdir limited
+frames_limited() (
+    ulimit -f 2 # KB: less than a frame, more than its materials
+    exec treesim splines.json --settle 0 --frames 2 -q -o limited/x_%d.obj
+)
+if frames_limited 2>err; then fail "frames above the limit are written"; fi
+grep -q "stopped after 0 frames" err || fail "not said where it stopped: $(cat err)"
+[[ -z $(ls -A limited) ]] || fail "without a frame there is $(ls -A limited)"
 treegen --age 12 --bodies 60 -q | treeconvert - -q -o bare.json
 expect 0 treesim bare.json --frames 2 -o bare.glb --leaves-as instances
 grep -q "no leaves" err || fail "nothing is said of a tree without leaves: $(cat err)"
