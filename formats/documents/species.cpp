@@ -122,6 +122,8 @@ std::vector<Field> fields_of(Species& s, Forms& forms) {
         optional({"fruit_radius", &p.fruit_radius}),
         optional({"fruit_stalk", &p.fruit_stalk}),
         optional({"split_exponent", &p.split_exponent}),
+        optional({"crown_top", &p.crown_top}),
+        optional({"leading_shoot", &p.leading_shoot}),
         optional({"least_radius", &p.least_radius}),
         optional({"most_slender", &p.most_slender}),
         optional({"pipe_exponent", &p.pipe_exponent}),

@@ -92,6 +92,8 @@ void check_rules(const GrowthParameters& p) {
     } else {
         untouched("split_exponent", p.split_exponent, 0);
         untouched("most_slender", p.most_slender, 0);
+        untouched("crown_top", p.crown_top, -1);
+        untouched("leading_shoot", p.leading_shoot, 0);
         untouched("blossoms", p.blossoms, 0);
         untouched("fruits", p.fruits, 0);
     }
@@ -150,6 +152,13 @@ void check_growth(const GrowthParameters& p) {
     if (p.split_exponent != 0) within("split_exponent", p.split_exponent, 1, 4);
     within("least_radius", p.least_radius, 0, 10);
     within("most_slender", p.most_slender, 0, 1e6);
+    within("leading_shoot", p.leading_shoot, 0, 0.5);
+    if (p.crown_top != -1) {
+        within("crown_top", p.crown_top, 0.01, 1);
+        if (p.shape == 3 || p.shape == 6 || p.shape == 8)
+            throw std::invalid_argument("crown_top: is there with shape " + std::to_string(p.shape) +
+                                        ", which is not narrowest at the top, expected shape 0, 1, 2, 4, 5 or 7");
+    }
     if (p.most_sag != 0) within("most_sag", p.most_sag, 0.01, 3);
     if (const auto defect = check(p.wood))
         throw std::invalid_argument("wood." + defect->field + ": " + defect->message);

@@ -41,6 +41,7 @@ private:
     Quat split(const Stem&, std::int32_t branch, const Segment& end, int next, int clones, double& unbend);
     void bear(const GrownStem&);
     Stem child_of(const GrownStem&, int index, double offset, double turn) const;
+    Stem leading_shoot(const GrownStem& trunk) const;
     double whorled(double offset, double base, const GrownStem&, double dist) const;
 
     const GrowthParameters& p_;
@@ -277,6 +278,22 @@ void Grower::bear(const GrownStem& grown) {
         const Stem child = child_of(grown, i, offset, turn);
         if (child.length > 0) born_.push_back(child);
     }
+    if (stem.level == 0 && p_.leading_shoot > 0) born_.push_back(leading_shoot(grown));
+}
+
+Stem Grower::leading_shoot(const GrownStem& trunk) const {
+    const Stem& stem = trunk.stem;
+    Stem shoot;
+    shoot.key = random_key(stem.key, Draw::leader, 0);
+    shoot.parent = trunk.branch;
+    shoot.parent_at = 1;
+    shoot.level = p_.levels - 1;
+    shoot.position = trunk.point_at(stem.length);
+    shoot.place = 1;
+    shoot.length = p_.leading_shoot * stem.length;
+    shoot.radius = radius_at(out_, trunk.branch, 1);
+    shoot.frame = trunk.segment.back().frame;
+    return shoot;
 }
 
 // Moves an offset by `dist` of the way to the nearest place above the base where two segments meet.
@@ -284,7 +301,8 @@ double Grower::whorled(double offset, double base, const GrownStem& grown, doubl
     const double step = grown.stem.length / grown.curve_res;
     const double least = std::max(1.0, std::ceil(base / step));
     if (dist <= 0 || least > grown.curve_res - 1) return offset;
-    const double node = std::clamp(std::round(offset / step), least, double(grown.curve_res - 1));
+    const bool led = grown.stem.level == 0 && p_.leading_shoot > 0;
+    const double node = std::clamp(std::round(offset / step), least, double(grown.curve_res - (led ? 0 : 1)));
     return offset + dist * (node * step - offset);
 }
 

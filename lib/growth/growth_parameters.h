@@ -69,7 +69,11 @@ struct GrowthParameters {
     double fruits = 0, fruit_radius = 0.03; // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
     double fruit_stalk = 1;                 // 0.01..1000, our own: length of its stalk over its radius
     double split_exponent =
-        0;                    // 0 or 1..4, our own: k parts of a split stem each have k^(-1/this) of its radius; 0: all
+        0; // 0 or 1..4, our own: k parts of a split stem each have k^(-1/this) of its radius; 0: all
+    // Our own: length of the highest boughs over the longest's, 0.01..1, where `shape` itself says 0.2, 0.5 or 0; -1: as it says.
+    double crown_top = -1;
+    // Our own: length of the shoot in which the trunk ends over the trunk's, 0 (none)..0.5. It is of the last level, with leaves.
+    double leading_shoot = 0;
     double least_radius = 0;  // [m] 0..10, our own: no stem is thinner anywhere; wood carries its leaves down to 0.5 mm
     double most_slender = 0;  // 0 (off)..1e6, our own: no child is longer than this times its radius at the base
     double pipe_exponent = 0; // 0 (off) or 1..4, our own: radii are raised to carry their side branches (pipe.h)

@@ -38,7 +38,8 @@ enum class Draw : std::uint8_t {
     place, // of children, jitter
     bend,
     split_share, // whether a stem splits where it could
-    trunk_place
+    trunk_place,
+    leader // descendant
 };
 
 struct Stem {

@@ -37,7 +37,9 @@ double envelope_ratio(const GrowthParameters& p, double ratio) {
 
 double crown_ratio(const GrowthParameters& p, double trunk, double base, double offset) {
     const double ratio = (trunk - offset) / (trunk - base);
-    return p.shape == 8 ? envelope_ratio(p, ratio) : shape_ratio(p.shape, ratio);
+    if (p.shape == 8) return envelope_ratio(p, ratio);
+    const double share = shape_ratio(p.shape, ratio);
+    return p.crown_top < 0 ? share : 1 - (1 - share) * (1 - p.crown_top) / (1 - shape_ratio(p.shape, 0));
 }
 
 double exact_taper_radius(double taper, double radius, double length, double z) {

@@ -21,7 +21,8 @@ double envelope_ratio(const GrowthParameters&, double ratio);
 // peak unless that is half way up.
 double shape_ratio(const GrowthParameters& p, int shape, double ratio);
 
-// Length over `length_max` times the trunk's, of a child at `offset` on a trunk of length `trunk`, bare up to `base`.
+// Length over `length_max` times the trunk's, of a child at `offset` on a trunk of length `trunk`, bare up to `base`. With crown_top it is
+// stretched linearly: 1 stays 1, and the shape's own ratio at the top becomes crown_top.
 double crown_ratio(const GrowthParameters&, double trunk, double base, double offset);
 
 // Radius at z (0 base .. 1 tip) of a stem of base radius `radius`, length `length`: section "Stem radius", without flare,

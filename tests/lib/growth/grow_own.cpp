@@ -3,6 +3,7 @@
 #include "lib/growth/pipe.h"
 #include "lib/growth/weber_penn.h"
 #include "tests/support/grow_measure.h"
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -51,6 +52,50 @@ double sag(const Splines& s, const Material& wood, double tip_mass) {
 }
 
 } // namespace
+
+TEST_CASE("A crown that comes to a point: boughs from a cone's apex down, and a leafy shoot in which the trunk ends") {
+    GrowthParameters p;
+    p.levels = 3;
+    p.scale = 10;
+    p.ratio = 0.02;
+    p.shape = 0; // a cone
+    p.crown_top = 0.1;
+    p.leading_shoot = 0.05;
+    p.leaves = 12;
+    p.leaf_distrib = 3;
+    p.level[0].length = p.level[2].length = 1;
+    p.level[1].branches = 40;
+    p.level[1].length = 0.3;
+    p.level[1].down_angle = 60;
+    p.level[2].branches = 0;
+    const Splines s = grow(p, 1, {.leaves = true});
+    std::size_t shoots = 0;
+    for (const std::size_t b : children(s, 0)) {
+        if (s.level[b] == 2) {
+            ++shoots;
+            CHECK(s.parent_at[b] == 1);
+            CHECK(length(s, b) == Approx(0.05 * 10));
+            CHECK(angle(start_direction(s, b), end_direction(s, 0)) < 1e-6);
+            CHECK(s.radius[first(s, b)] == Approx(s.radius[last(s, 0)]));
+            CHECK(std::count(s.leaf_branch.begin(), s.leaf_branch.end(), std::int32_t(b)) == 12);
+            continue;
+        }
+        // A straight line from 3 m at the ground to 0.3 m at the top.
+        CHECK(length(s, b) == Approx(3 - 2.7 * s.parent_at[b]));
+    }
+    CHECK(shoots == 1);
+    // At the foot and the top of each shape, whatever its own ratio there.
+    for (const int shape : {0, 1, 2, 4, 5, 7}) {
+        p.shape = shape;
+        CHECK(crown_ratio(p, 10, 2, 10) == Approx(0.1));
+        CHECK(crown_ratio(p, 10, 2,
+                          2 + 8 * (1 - (shape == 1                 ? 0.5
+                                        : shape == 5 || shape == 7 ? 0.7
+                                                                   : 1.0))) == Approx(1));
+    }
+    p.shape = 3;
+    CHECK_THROWS_WITH(grow(p, 1, {}), Catch::Contains("crown_top: is there with shape 3"));
+}
 
 TEST_CASE("A level branch is thickened until its load turns it by most_sag, no more") {
     const Material& wood = wood_presets().front();
