@@ -1,4 +1,5 @@
-# Debian packages by CPack: one for the tools, one for the libraries, one for who builds upon them, one for Python. tools/debian makes them.
+# Debian packages by CPack: one for the tools, one for the libraries, one for who builds upon them, one for Python,
+# and one for the page where it is there. tools/debian makes them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME bough)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -41,5 +42,15 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "libbough0 (>= ${PROJECT_VERSION}), pyth
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/prerm "#!/bin/sh\nset -e\nrm -f /usr/lib/python3/dist-packages/__pycache__/bough.cpython-*.pyc\n")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
+
+if(BOUGH_PAGE)
+  list(APPEND CPACK_COMPONENTS_ALL page)
+  set(CPACK_DEBIAN_PAGE_PACKAGE_NAME bough-live)
+  set(CPACK_COMPONENT_PAGE_DESCRIPTION "trees that move like wood: the page in which a tree is pulled by hand
+ bough-live serves it to this machine alone.")
+  set(CPACK_DEBIAN_PAGE_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_PAGE_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PAGE_PACKAGE_DEPENDS "python3")
+endif()
 
 include(CPack)
