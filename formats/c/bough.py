@@ -36,7 +36,7 @@ import weakref
 import numpy as np
 
 __all__ = ["Error", "UsageError", "InputError", "NonFiniteError", "OutputError", "Splines", "Tree", "Scene", "Simulation", "Wind", "Report", "Events",
-           "StepError", "Hit", "species", "grow", "convert", "read_splines", "read_tree", "read_scene", "wind_preset", "__version__"]
+           "Balls", "StepError", "Hit", "species", "grow", "convert", "read_splines", "read_tree", "read_scene", "wind_preset", "__version__"]
 
 _ABI = 3
 
@@ -145,6 +145,10 @@ class _Events(ctypes.Structure):
     _fields_ = [("count", _size), ("what", ctypes.c_void_p), ("body", ctypes.c_void_p), ("on", ctypes.c_void_p), ("value", ctypes.c_void_p)]
 
 
+class _Balls(ctypes.Structure):
+    _fields_ = [("count", _size), ("first", _size), ("radius", ctypes.c_void_p), ("mass", ctypes.c_void_p)]
+
+
 class _Hit(ctypes.Structure):
     _fields_ = [("body", _size), ("point", _double3), ("world", _double3), ("distance", ctypes.c_double)]
 
@@ -172,7 +176,7 @@ _pointer, _string = ctypes.c_void_p, ctypes.c_char_p
 _c.bough_abi.restype = ctypes.c_int32
 if _c.bough_abi() != _ABI:
     raise ImportError(f"bough: the library's interface is of version {_c.bough_abi()}, this file's of {_ABI}; install both of one bough")
-if not hasattr(_c, "bough_time"):
+if not hasattr(_c, "bough_explain"):
     raise ImportError("bough: the library is older than this file; install both of one bough")
 for _name, _result, _arguments in (
         ("version", _string, []), ("error", _string, []), ("free", None, [_pointer]), ("species", _string, [_size]),
@@ -185,6 +189,7 @@ for _name, _result, _arguments in (
         ("scene_put", int, [_pointer, _size, _pointer]), ("scene_add", int, [_pointer, _pointer, _pointer, ctypes.c_double]),
         ("wind_preset", int, [_string, _pointer]), ("scene_set_wind", int, [_pointer] * 2), ("simulate", int, [_pointer] * 4),
         ("step", int, [_pointer] * 2), ("settle", int, [_pointer, ctypes.c_double]), ("settling_time", int, [_pointer] * 2), ("time", int, [_pointer] * 2), ("read", int, [_pointer, ctypes.c_int, _pointer]), ("read_events", int, [_pointer] * 2),
+        ("read_broken", int, [_pointer] * 3), ("simulation_balls", int, [_pointer] * 2), ("posed_tree", int, [_pointer] * 2), ("explain", _string, [_pointer]),
         ("simulation_bodies", int, [_pointer] * 2), ("pick", int, [_pointer, _pointer, _pointer, ctypes.c_double, _pointer, _pointer]),
         ("pull", int, [_pointer, _size, _pointer, _pointer]),
         ("attach", int, [_pointer, _size, _pointer, ctypes.c_double, ctypes.c_double, _pointer]),
@@ -557,6 +562,9 @@ Hit.__doc__ = "What a ray met: body, point (3) [m] in its frame, world (3) [m], 
 Events = collections.namedtuple("Events", "what body on value")
 Events.__doc__ = """Of the last step, arrays over events: what ("broke", "hit", "landed", "leapt"), body, on (-1: the ground, or nothing), value (broke: torque
 [N m]; hit: impulse [N s]; landed, leapt: speed [m/s])."""
+Balls = collections.namedtuple("Balls", "first radii masses")
+Balls.__doc__ = """What is thrown at the trees, then walkers: the first one's number in positions, where all are behind the trees' bodies; radii (balls) [m], masses
+(balls) [kg]."""
 _EVENTS = ("broke", "hit", "landed", "leapt")
 
 
@@ -694,6 +702,31 @@ class Simulation(_Handle, _HasBodies):
         _check(_c.bough_read_events(self._handle, ctypes.byref(found)))
         view = lambda field, dtype: self._view(getattr(found, field), (found.count,), dtype).copy()
         return Events([_EVENTS[k] for k in view("what", np.int32)], view("body", np.int32), view("on", np.int32), view("value", np.float64))
+
+    @property
+    def broken(self):
+        """(joints) uint32: bodies whose joints broke since the start, in that order; an array of its own."""
+        found, count = _pointer(), _size()
+        _check(_c.bough_read_broken(self._handle, ctypes.byref(found), ctypes.byref(count)))
+        return self._view(found.value, (count.value,), np.uint32).copy()
+
+    @property
+    def balls(self):
+        """Balls: what the scene's document throws or sends at the trees."""
+        found = _Balls()
+        _check(_c.bough_simulation_balls(self._handle, ctypes.byref(found)))
+        return Balls(found.first, *(self._view(getattr(found, field), (found.count,), np.float64) for field in ("radius", "mass")))
+
+    def posed_tree(self):
+        """The trees as they stand now, joined in one Tree: drawn so, at rest so in a scene at the origin. Not where joints broke or are held."""
+        return Tree(_made(_c.bough_posed_tree, self._handle))
+
+    def explain(self):
+        """Which stages and arrays the scene needs, and why: the text of `treesim --report plan`."""
+        text = _c.bough_explain(self._handle)
+        if text is None:
+            raise Error(_c.bough_error().decode(errors="replace"))
+        return text.decode()
 
     def pick(self, origin, direction, aperture=0):
         """The first of the trees' bodies that a ray from origin (3) [m] along direction (3) meets; where it meets none, the one whose axis is least

@@ -221,6 +221,18 @@ typedef struct bough_events {
 } bough_events;
 bough_result bough_read_events(bough_simulation* simulation, bough_events* events);
 
+/* Bodies whose joints broke since the start, in that order; they and what they bear keep their numbers. Valid until the next step. */
+bough_result bough_read_broken(bough_simulation* simulation, const uint32_t** bodies, size_t* count);
+
+/* What a scene's document throws or sends at the trees: arrays of `count` that live as long as the simulation. */
+typedef struct bough_balls {
+    size_t count;         /* balls, then walkers as the balls that they are shown as */
+    size_t first;         /* the first one's number in BOUGH_POSITION, where all are behind the trees' bodies */
+    const double* radius; /* [m] */
+    const double* mass;   /* [kg] */
+} bough_balls;
+bough_result bough_simulation_balls(bough_simulation* simulation, bough_balls* balls);
+
 /* The trees' bodies, joined; without balls and walkers. */
 bough_result bough_simulation_bodies(const bough_simulation* simulation, bough_bodies* bodies);
 
@@ -296,6 +308,14 @@ bough_result bough_read_error(const bough_simulation* simulation, bough_step_err
 bough_result bough_save(const bough_simulation* simulation, void* buffer, size_t capacity, size_t* size);
 /* Goes on from there, bit by bit as the run that was saved would; wind, gravity and wood are those that this run has by now. */
 bough_result bough_restore(bough_simulation* simulation, const void* bytes, size_t size, const char* name);
+
+/* The trees as they stand now, joined, to be written or run again in a scene at the origin: at rest they then stay so. Stiffness and damping are the
+ * trees' own, without bough_set_wood and the scene's scales. BOUGH_USAGE where joints are held, or broke. O(bodies). */
+bough_result bough_posed_tree(const bough_simulation* simulation, bough_tree** tree);
+
+/* Which stages and arrays the scene needs, and why: what `treesim --report plan` prints, lines of UTF-8. NULL for what is no simulation. Valid until the next
+ * such call for it. */
+const char* bough_explain(const bough_simulation* simulation);
 
 /* Of angles and rates, broken joints and free bodies: what `treesim --hash` prints. */
 bough_result bough_hash(const bough_simulation* simulation, uint64_t* hash);

@@ -41,8 +41,10 @@ struct SimulationObject final : Object {
     std::optional<Wind> wind; // as it is by now
     std::vector<std::size_t> first_body;
     std::vector<std::int32_t> events; // what they were, as numbers
-    std::optional<RunError> error;    // refers to the simulation
-    std::string non_finite;           // the message of the step that made it so; "": none did
+    std::vector<double> radius, mass; // of balls and walkers
+    std::string explained;
+    std::optional<RunError> error; // refers to the simulation
+    std::string non_finite;        // the message of the step that made it so; "": none did
 };
 
 std::shared_ptr<SplinesObject> object_of(Splines);

@@ -88,10 +88,6 @@ bool has_finite_joints(const SavedState& state) {
     return true;
 }
 
-std::int32_t number_of(const std::string& event) {
-    return event == "broke" ? BOUGH_BROKE : event == "hit" ? BOUGH_HIT : event == "landed" ? BOUGH_LANDED : BOUGH_LEAPT;
-}
-
 } // namespace
 
 bough_settings bough_default_settings(void) {
@@ -176,24 +172,6 @@ bough_result bough_read(bough_simulation* simulation, bough_field field, bough_a
     return call([&] {
         const Use<SimulationObject> use(simulation);
         required(array, "array") = read(use->simulation, std::int32_t(field)); // which may be none of them
-    });
-}
-
-bough_result bough_read_events(bough_simulation* simulation, bough_events* events) {
-    return call([&] {
-        const Use<SimulationObject> use(simulation);
-        required(events, "events");
-        const MotionEvents& own = use->simulation.events();
-        use->events.clear();
-        for (const std::string& what : own.what) use->events.push_back(number_of(what));
-        *events = {own.what.size(), use->events.data(), own.body.data(), own.on.data(), own.value.data()};
-    });
-}
-
-bough_result bough_simulation_bodies(const bough_simulation* simulation, bough_bodies* bodies) {
-    return call([&] {
-        const Use<SimulationObject> use(simulation);
-        required(bodies, "bodies") = bodies_of(use->simulation.tree(), use->first_body);
     });
 }
 

@@ -239,6 +239,27 @@ run = bough.Simulation(broken)
 report = run.step()
 assert report.broke > 0 and run.events.what.count("broke") == report.broke
 assert (tree.kinds[run.events.body] == 1).all() and (run.events.value > 0).all()
+assert run.broken.tolist() == run.events.body[np.array(run.events.what) == "broke"].tolist() and len(run.balls.radii) == 0
+raises(bough.UsageError, "joints broke in this run", run.posed_tree)
+
+# What is thrown stands behind the trees' bodies, as the document throws it.
+thrown = bough.Scene(document=b'{"format": "bough-scene", "version": 1, "trees": [{"file": "t"}], "balls": [{"position": [3, 9, 0], "radius": 0.2, "mass": 2}]}')
+thrown.put(0, tree)
+run = bough.Simulation(thrown)
+assert run.balls.first == len(tree) and run.balls.radii.tolist() == [0.2] and run.balls.masses.tolist() == [2] and len(run.broken) == 0
+assert run.positions[run.balls.first:].tolist() == [[3, 9, 0]]
+
+# A tree as it stands is drawn so, and stays; the plan is what treesim prints of it, which lets trees sleep and counts calls.
+run = of(tree, wind="storm")
+stages = lambda text: [line.split("; no sleep")[0] for line in text.splitlines() if line.startswith("stage ")]
+assert len(stages(run.explain())) > 15 and stages(run.explain()) == stages(pathlib.Path("storm.plan").read_text())
+for _ in range(20):
+    run.step()
+stands = run.positions.copy()
+posed = of(run.posed_tree(), wind=None)
+for _ in range(20):
+    assert np.abs(posed.positions - stands).max() < 1e-6
+    posed.step()
 
 # Threads of their own.
 hashes = []

@@ -12,6 +12,7 @@ treesim birch.json --wind gusty --frames 15 --fields pose,velocity -o birch.json
 echo '{"format": "bough-scene", "version": 1, "wind": "storm", "material": {"E": 6e9},
     "trees": [{"file": "birch.json"}, {"file": "birch.json", "position": [9, 0, 2], "yaw": 40}]}' >park.json
 hash park.json --frames 15 --precision float >park.hash
+treesim birch.json --wind storm --frames 1 --settle 0 --report plan 2>storm.plan >/dev/null
 # Other programs' trees, as treesim moves what treeconvert makes of them.
 mkdir imports
 cp "$maple" "$top"/data/fixtures/{archi_small.csv,simpleforest_small.csv,shuffled.swc,shrub.mtg,lines.obj,lines.gltf,eztree_list.json,bare_bones.xml,twig_armature.gltf,twig_bark.bin,moved_armature.dae,twig_meshopt.glb} imports

@@ -91,6 +91,15 @@ TEST_CASE("handles that are none, of another kind or freed are refused by every 
             return bough_read_events(s, &e);
         },
         [](auto* s) {
+            const std::uint32_t* bodies;
+            std::size_t count;
+            return bough_read_broken(s, &bodies, &count);
+        },
+        [](auto* s) {
+            bough_balls b;
+            return bough_simulation_balls(s, &b);
+        },
+        [](auto* s) {
             bough_bodies b;
             return bough_simulation_bodies(s, &b);
         },
@@ -126,6 +135,15 @@ TEST_CASE("handles that are none, of another kind or freed are refused by every 
         [](auto* s) {
             bough_step_error error;
             return bough_read_error(s, &error);
+        },
+        [](auto* s) {
+            bough_tree* tree;
+            return bough_posed_tree(s, &tree);
+        },
+        [](auto* s) {
+            std::uint64_t hash;
+            CHECK(bough_explain(s) == nullptr);
+            return bough_hash(s, &hash);
         },
         [](auto* s) {
             std::size_t size;
@@ -175,6 +193,11 @@ TEST_CASE("NULL for what must be there is refused by every function, and outputs
     refused(bough_time(h.simulation, nullptr), BOUGH_USAGE, "seconds: is NULL");
     refused(bough_read(h.simulation, BOUGH_POSITION, nullptr), BOUGH_USAGE, "array: is NULL");
     refused(bough_read_events(h.simulation, nullptr), BOUGH_USAGE, "events: is NULL");
+    const std::uint32_t* broken;
+    refused(bough_read_broken(h.simulation, nullptr, &size), BOUGH_USAGE, "bodies: is NULL");
+    refused(bough_read_broken(h.simulation, &broken, nullptr), BOUGH_USAGE, "count: is NULL");
+    refused(bough_simulation_balls(h.simulation, nullptr), BOUGH_USAGE, "balls: is NULL");
+    refused(bough_posed_tree(h.simulation, nullptr), BOUGH_USAGE, "tree: is NULL");
     refused(bough_simulation_bodies(h.simulation, nullptr), BOUGH_USAGE, "bodies: is NULL");
     refused(bough_pick(h.simulation, nullptr, v, 0, &hit, &found), BOUGH_USAGE, "from: is NULL");
     refused(bough_pick(h.simulation, v, nullptr, 0, &hit, &found), BOUGH_USAGE, "direction: is NULL");
