@@ -95,6 +95,20 @@ void add_pulls(const Tree& tree, const std::vector<TreeRange>& ranges, const Dra
         }
 }
 
+// What is held pushes back as hard as it has to, and on the joints between it and the ground alone.
+void keep_attached(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene,
+                   std::vector<double>& motion) {
+    const auto keep = [&](const Selector& end) {
+        for (const Selected& on : select(tree, ranges, end))
+            for (auto i = std::int64_t(on.body); i >= 0; i = tree.parent[std::size_t(i)])
+                motion[std::size_t(i)] = std::numeric_limits<double>::infinity();
+    };
+    for (const Attachment& held : scene.attachments) {
+        keep(held.on);
+        if (held.with) keep(*held.with);
+    }
+}
+
 } // namespace
 
 std::vector<double> composite_reach(const Tree& tree) {
@@ -109,7 +123,8 @@ std::vector<double> composite_reach(const Tree& tree) {
 }
 
 std::string no_estimate(const Scene& scene) {
-    if (!scene.attachments.empty()) return "its estimate knows nothing of what /attachments hold";
+    for (const Attachment& held : scene.attachments)
+        if (!held.time.empty()) return "its estimate knows nothing of /attachments whose targets move";
     for (const Pull& pull : scene.pulls)
         if (pull.in_body) return "its estimate knows nothing of /pulls that turn with their bodies";
     if (!scene.root_motion.empty()) return "its estimate knows nothing of what /root_motion does";
@@ -136,6 +151,7 @@ std::vector<double> added_motion(const Tree& tree, const std::vector<TreeRange>&
     }
     const std::vector<double> reach = composite_reach(tree);
     for (std::size_t i = 0; i < motion.size(); ++i) motion[i] *= swing * reach[i];
+    keep_attached(tree, ranges, scene, motion);
     return motion;
 }
 

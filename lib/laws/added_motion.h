@@ -9,8 +9,9 @@
 //   v = s V_c gust_factor + 3 turbulence |V| V_c / |V_c|,   times the profile at the body's height,
 // V_c is the cell's mean velocity (V without a grid); s is 2 where the cell has octaves, else 1. With a swirl the largest load of its mean direction
 // and its two extreme ones counts. Plates, which will turn into the wind, are taken broadside. Pulls act at the largest of their keys, in any phase
-// with the wind. With Pose::rest gravity acts too; with Pose::settled its moment counts once, as the sag that the drawn pose lacks. Two things are
-// left out: shelter, and that a joint which rings in the gusts' own rhythm can turn by more.
+// with the wind. With Pose::rest gravity acts too; with Pose::settled its moment counts once, as the sag that the drawn pose lacks. What is attached
+// pushes back with a force that is not known beforehand: joints between it and the ground have an infinite estimate, so that none of them is held.
+// Other joints feel nothing of it. Two things are left out: shelter, and that a joint which rings in the gusts' own rhythm can turn by more.
 // How well the estimate holds (hold.h): a bare cherry of 19 642 bodies was held to 1 cm over 10 s of calm, breeze and gusty. Its tips were off by
 // 1.5, 2.0 and 4.1 mm RMS, and by 16, 32 and 149 mm at most, at ends that whip. An estimate from a trial run (study/merge_below.h) holds in that run.
 // Reads a checked tree (joined, stiffness not yet scaled by the scene). O(n), and O(depth) a pull. Errors none.
@@ -26,11 +27,12 @@ namespace bough {
 // [m] Returns the reach of each joint's composite.
 std::vector<double> composite_reach(const Tree&);
 
-// Returns why there is no estimate for this scene, or "". The estimate needs something that moves the tree. It knows nothing of attachments, of pulls
-// that turn with their bodies, or of root motion.
+// Returns why there is no estimate for this scene, or "". The estimate needs something that moves the tree. It knows nothing of attachments whose
+// targets move, of pulls that turn with their bodies, or of root motion.
 std::string no_estimate(const Scene&);
 
-// [m] Returns the estimate of each joint; infinite where K is 0 under a load. Throws std::out_of_range as select() does.
+// [m] Returns the estimate of each joint; infinite where K is 0 under a load, and between what is attached and the ground. Throws std::out_of_range
+// as select() does.
 std::vector<double> added_motion(const Tree&, const std::vector<TreeRange>&, const Scene&);
 
 } // namespace bough
