@@ -164,6 +164,55 @@ export async function a_picked_subtree_is_stiffened({ browser, url }) {
     await closePage(page);
 }
 
+export async function a_part_moves_alone({ browser, url }) {
+    const page = await openPage(browser, url);
+    await page.evaluate(() => bough.open('willow'));
+    await page.click('#wind-storm');
+    await still(page);
+    const inside = await page.evaluate(() => {
+        const { parent, kind } = bough.mesh, count = new Array(parent.length).fill(1);
+        for (let i = parent.length - 1; i > 0; --i) if (parent[i] >= 0) count[parent[i]] += count[i];
+        bough.pick(count.findIndex((own, i) => own > 10 && own < 200 && kind[i] === 0 && parent[i] >= 0));
+        return Array.from(bough.view.skinned.marked.subarray(0, parent.length), (one) => one > 0);
+    });
+    const way = async () => { // how far bodies go in a second of storm: [in the part, elsewhere]
+        await restarted(page);
+        const first = await steps(page, 1), later = await steps(page, 60), most = [0, 0];
+        inside.forEach((own, i) => { most[own ? 0 : 1] = Math.max(most[own ? 0 : 1], norm(less(at(later, i), at(first, i)))); });
+        return most;
+    };
+    await page.click('#only');
+    await page.waitForFunction(() => !bough.applying && bough.state.only.length === 1);
+    const alone = await way();
+    expect(alone[0] > 1e-3 && alone[1] < 1e-9, `the part goes ${alone[0]} m, what is to stand still ${alone[1]} m`);
+    expect((await page.textContent('#parts')).includes('only this moves'), 'it is not listed');
+    await page.click('#only');
+    await page.waitForFunction(() => !bough.applying && bough.state.only.length === 0);
+    const all = await way();
+    expect(all[1] > 1e-2, `all of it is to move, and goes ${all[1]} m`);
+    await page.evaluate(() => document.querySelectorAll('details').forEach((one) => { one.open = true; }));
+    const turning = async (levels) => { // how many bodies turn in what bears them
+        await page.selectOption('select[aria-label="Moves"]', String(levels));
+        await page.waitForFunction((levels) => !bough.applying && bough.state.levels === levels, levels);
+        await restarted(page);
+        await steps(page, 30);
+        return page.evaluate(() => {
+            const { poses } = bough.view.skinned, { parent } = bough.mesh;
+            let count = 0;
+            for (let i = 0; i < parent.length; ++i) {
+                if (parent[i] < 0) continue;
+                const a = poses.subarray(8 * i + 4, 8 * i + 8), b = poses.subarray(8 * parent[i] + 4, 8 * parent[i] + 8);
+                const off = (sign) => Math.hypot(...a.map((one, k) => one - sign * b[k])); // q and -q are one turn
+                if (Math.min(off(1), off(-1)) > 1e-5) ++count;
+            }
+            return count;
+        });
+    };
+    const [trunk, two, every] = [await turning(1), await turning(2), await turning(0)];
+    expect(trunk > 0 && trunk < 0.05 * inside.length && two > 2 * trunk && every > 2 * two, `${trunk}, ${two} and ${every} of ${inside.length} bodies turn`);
+    await closePage(page);
+}
+
 export async function keep_the_pose_and_undo({ browser, url }) {
     const page = await openPage(browser, url);
     await page.evaluate(() => bough.open('willow'));

@@ -38,7 +38,7 @@ export async function stateOfAddress(hash) {
     const state = { ...structuredClone(defaults), ...own, wind: { ...defaults.wind, ...own.wind } };
     const whole = Array.isArray(state.trees) && Array.isArray(state.places) && state.places.length > 0 &&
         state.places.every(({ tree, position }) => state.trees[tree] && Array.isArray(position) && position.every(isNumber)) &&
-        ['gravity', 'stiffness', 'damping', 'strength', 'least', 'rate'].every((key) => isNumber(state[key]));
+        ['gravity', 'stiffness', 'damping', 'strength', 'least', 'levels', 'rate'].every((key) => isNumber(state[key])) && Array.isArray(state.only);
     if (!whole) throw new Error('The address holds a scene without trees, or with something that is no number');
     return state;
 }

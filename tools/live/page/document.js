@@ -49,7 +49,11 @@ export function sceneDocument(state, gravity = state.drawnGravity) {
     const curves = [...(state.base.wood?.curves ?? []), ...curvesOf(state)];
     if (state.base.wood || curves.length > 0) document.wood = { ...state.base.wood, curves };
     if (state.strength > 0) document.fracture = { ...state.base.fracture, strength: 1e6 * state.strength };
-    if (state.least > 0) document.simulate = { ...state.base.simulate, radius: state.least };
+    const moves = {};
+    if (state.least > 0) moves.radius = state.least;
+    if (state.levels > 0) moves.last_level = state.levels - 1;
+    if (state.only.length > 0) moves.subtrees = state.only.map(({ place, body }) => ({ tree: place, body }));
+    if (Object.keys(moves).length > 0) document.simulate = { ...state.base.simulate, ...moves };
     return document;
 }
 
@@ -69,9 +73,9 @@ export function stateOfScene(document, trees, treeOf, { defaults, presets }) {
         gravity: -gravity[1], drawnGravity: -gravity[1],
         stiffness: stiffness_scale ?? 1, damping: damping_scale ?? 1,
     };
-    const taken = (section, field) => { // from the document, and where that leaves an empty section, with it
+    const taken = (section, field, otherwise = 0) => { // from the document, and where that leaves an empty section, with it
         const value = base[section]?.[field];
-        if (value === undefined) return 0;
+        if (value === undefined) return otherwise;
         const { [field]: _, ...others } = base[section];
         if (Object.keys(others).length > 0) base[section] = others;
         else delete base[section];
@@ -79,6 +83,9 @@ export function stateOfScene(document, trees, treeOf, { defaults, presets }) {
     };
     state.strength = taken('fracture', 'strength') / 1e6;
     state.least = taken('simulate', 'radius');
+    state.levels = taken('simulate', 'last_level', -1) + 1;
+    const bodies = base.simulate?.subtrees?.every(({ body, point, ...on }) => body !== undefined && !point && Object.keys(on).every((key) => key === 'tree'));
+    if (bodies) state.only = taken('simulate', 'subtrees').map(({ tree, body }) => ({ place: tree ?? 0, body }));
     state.wind = windOf(wind, base, presets);
     return state;
 }

@@ -39,7 +39,7 @@ export class Panel {
         });
         const kind = choice({ label: 'Grow', options: species.map((name) => [name, name]), change: () => grow() });
         const age = slider({
-            label: 'Age', unit: 'years', min: 1, max: 40, digits: 2, allowed: [0, 1000], help: '0: a mature tree; what is older than 20 takes seconds to grow',
+            label: 'Age', unit: 'years', min: 1, max: 40, digits: 2, allowed: [0, 1000], help: '0: a mature tree; a willow older than 20 takes seconds to grow',
             change: (_, done) => done && grow(),
         });
         const bodies = slider({ label: 'Bodies', min: 100, max: 50000, log: true, digits: 2, allowed: [50, 1000000], change: (_, done) => done && grow() });
@@ -97,6 +97,10 @@ export class Panel {
     }
     #wood() {
         const { app } = this;
+        const levels = choice({
+            label: 'Moves', options: [[0, 'all wood'], [1, 'the trunk alone'], [2, 'two levels of branches'], [3, 'three levels of branches']],
+            change: (value) => app.change((state) => { state.levels = Number(value); }, true),
+        });
         const ask = (x, y, from, to, samples) => app.client.ask('curve', { x, y, from, to, samples });
         const editor = (key, label) => {
             const made = new CurveEditor({ label, ask, change: (keys, done) => app.change(({ curves }) => { curves.keys[key] = keys; }, done) });
@@ -104,6 +108,7 @@ export class Panel {
             this.controls.push((state) => made.set(state.curves.keys[key], app.thickest));
             return made.row;
         };
+        this.controls.push((state) => levels.set(state.levels));
         return [
             this.#bound({ label: 'Stiffness', unit: '×', min: 1 / 32, max: 32, log: true, allowed: [1e-4, 1e6] },
                 ({ stiffness }) => stiffness, (state, value) => { state.stiffness = value; }),
@@ -117,6 +122,7 @@ export class Panel {
                 ({ strength }) => strength, (state, value) => { state.strength = value; }),
             this.#bound({ label: 'Rigid below', unit: 'm', min: 0, max: 0.05, digits: 2, allowed: [0, 10], help: 'wood that is thinner (radius) does not bend by itself; 0: all bends' },
                 ({ least }) => least, (state, value) => { state.least = value; }),
+            levels.row,
         ];
     }
     #picked() {
@@ -130,18 +136,26 @@ export class Panel {
             own[key] = value;
             if (own.stiffness === 1 && own.damping === 1) state.parts.splice(state.parts.indexOf(own), 1);
         };
+        const only = element('input', {
+            type: 'checkbox', id: 'only',
+            onchange: () => app.change((state) => { state.only = only.checked && app.picked ? [{ place: app.picked.place, body: app.picked.own }] : []; }, true),
+        });
+        const isOnly = (state) => Boolean(app.picked) && state.only.some(({ place, body }) => place === app.picked.place && body === app.picked.own);
         const parts = element('ul', { class: 'note', id: 'parts' });
-        let listed = '[]';
+        let listed = '[[],[]]';
         this.controls.push((state) => {
-            if (JSON.stringify(state.parts) === listed) return; // a button that is pressed stays the one that has the focus
-            listed = JSON.stringify(state.parts);
-            parts.replaceChildren(...state.parts.map(({ place, body, stiffness, damping }) => element('li', {}, button(
-                `Body ${body}${state.places.length > 1 ? ` of tree ${place + 1}` : ''}: stiffness ${short(stiffness)} ×, damping ${short(damping)} ×`,
-                () => app.pick(app.mesh.first[place] + body), { class: 'small' }))));
+            only.checked = isOnly(state);
+            if (JSON.stringify([state.parts, state.only]) === listed) return; // a button that is pressed stays the one that has the focus
+            listed = JSON.stringify([state.parts, state.only]);
+            const line = ({ place, body }, says) => element('li', {}, button(
+                `Body ${body}${state.places.length > 1 ? ` of tree ${place + 1}` : ''}: ${says}`, () => app.pick(app.mesh.first[place] + body), { class: 'small' }));
+            parts.replaceChildren(...state.only.map((one) => line(one, 'only this moves')),
+                ...state.parts.map((one) => line(one, `stiffness ${short(one.stiffness)} ×, damping ${short(one.damping)} ×`)));
         });
         this.pickedBox = element('div', { hidden: true },
             this.#bound({ label: 'Stiffness', unit: '×', min: 1 / 32, max: 32, log: true, allowed: [1e-4, 1e6] }, (state) => part(state)?.stiffness ?? 1, put('stiffness')),
             this.#bound({ label: 'Damping', unit: '×', min: 1 / 32, max: 32, log: true, allowed: [0, 1e4] }, (state) => part(state)?.damping ?? 1, put('damping')),
+            element('label', { class: 'check' }, only, 'Only this moves, with all that it bears'),
             element('div', { class: 'buttons' }, button('Let go of it', () => app.pick(null))));
         return [this.pickedText, this.pickedBox, parts];
     }

@@ -13,6 +13,8 @@ export const defaults = {
     parts: [], // {place, body, stiffness, damping}: subtrees
     strength: 0, // MPa: wood breaks; 0: never
     least: 0, // m: thinner wood does not move by itself
+    levels: 0, // of branches that move, 1 the trunks alone; 0: all
+    only: [], // {place, body}: these subtrees alone move; none: all
     rate: 60, // steps a second
     precision: 'float',
 };
@@ -23,13 +25,13 @@ export const copyOf = (state) => structuredClone(state);
 export function withOtherTrees(state, trees, places) {
     const { wind: { blows: _, ...wind }, gravity, drawnGravity } = state;
     const own = gravity === drawnGravity ? defaults.gravity : gravity;
-    return { ...copyOf(state), trees, places, wind, base: {}, parts: [], gravity: own, drawnGravity: defaults.drawnGravity };
+    return { ...copyOf(state), trees, places, wind, base: {}, parts: [], only: [], gravity: own, drawnGravity: defaults.drawnGravity };
 }
 
 // The trees of files cut to so many bodies in all.
 export function fewer(state, bodies) {
     const each = Math.max(20, Math.floor(bodies / state.places.length));
-    return { ...copyOf(state), parts: [], trees: state.trees.map((source) => ({ ...(source.of ?? source), maxBodies: each })) };
+    return { ...copyOf(state), parts: [], only: [], trees: state.trees.map((source) => ({ ...(source.of ?? source), maxBodies: each })) };
 }
 
 const mostKept = 20; // poses in a history: each is a tree in memory
