@@ -22,7 +22,9 @@ inside = {
     "youngMaple": text("young_maple.xml"),
 }
 whole = text("index.html")
+begun = whole[whole.index("<script>") : whole.index("</script>") + len("</script>")]  # of files beside, which there are none of
 for outside, instead in [
+    (begun, ""),
     ('<link rel="stylesheet" href="style.css">', f"<style>\n{text('style.css')}</style>"),
     (
         '<script src="page.js"></script>',

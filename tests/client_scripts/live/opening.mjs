@@ -146,3 +146,40 @@ export async function without_a_clipboard_the_address_is_shown({ browser, url })
     expect(chosen === '' || chosen === address, `"${chosen}" is chosen`);
     await closePage(page);
 }
+
+// Copied to another web server, below its root, in a folder whose name has a blank; then to one that does not know what WebAssembly is.
+export async function another_server_has_it_below_its_root({ browser, folder, work }) {
+    const root = path.join(work, 'other_server'), place = 'a b/trees.live';
+    fs.rmSync(root, { recursive: true, force: true });
+    fs.cpSync(folder, path.join(root, place), { recursive: true });
+    const own = ['-u', '-m', 'http.server', '0', '--bind', '127.0.0.1'];
+    const untold = ['-u', '-c', 'import http.server as s; s.SimpleHTTPRequestHandler.extensions_map[".wasm"] = "text/plain"; s.test(s.SimpleHTTPRequestHandler, s.ThreadingHTTPServer, port=0, bind="127.0.0.1")'];
+    for (const command of [own, untold]) {
+        const server = spawn('python3', command, { cwd: root });
+        try {
+            const port = await new Promise((done, failed) => {
+                server.stdout.on('data', (text) => /port (\d+)/.test(text) && done(/port (\d+)/.exec(text)[1]));
+                server.once('exit', () => failed(new Error('no server')));
+            });
+            const address = `http://127.0.0.1:${port}/${encodeURI(place)}/`, asked = [], bad = [];
+            const page = await openPage(browser, 'about:blank', { waits: false });
+            page.on('request', (request) => asked.push(request.url()));
+            page.on('response', (answer) => answer.status() >= 400 && bad.push(answer.url()));
+            await page.goto(address);
+            await page.waitForFunction(() => globalThis.bough?.times.moved, null, { timeout: 60000 });
+            await page.evaluate(() => { bough.view.draw = function () { this.orbit.place(this.camera); }; });
+            await page.evaluate(() => bough.open('young_maple'));
+            expect(await page.evaluate(() => bough.state.trees[0].file) === 'young_maple' && (await messages(page)).length === 0, `it says ${await messages(page)}`);
+            const elsewhere = asked.filter((one) => !one.startsWith(address) && !/^(blob|data):/.test(one));
+            expect(asked.length >= 5 && elsewhere.length === 0 && bad.length === 0, `asks for ${elsewhere}, is refused ${bad}`);
+            await page.waitForFunction(() => location.hash.startsWith('#s='));
+            const shared = await page.evaluate(() => location.href);
+            await closePage(page);
+            const other = await openPage(browser, shared); // an address that was passed on
+            expect(await other.evaluate(() => bough.state.trees[0].file) === 'young_maple', 'the address opens another tree');
+            await closePage(other);
+        } finally {
+            server.kill();
+        }
+    }
+}

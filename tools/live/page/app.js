@@ -1,7 +1,7 @@
 // app.js: the page as a whole: its state, how it comes to the Worker, frame after frame.
 import { stateOfAddress } from './address.js';
 import { Bar } from './bar.js';
-import { youngMaple } from './builtins.js';
+import { first, youngMaple } from './builtins.js';
 import { Files } from './files.js';
 import { busy, problem, say, unsay } from './messages.js';
 import { Meters } from './meters.js';
@@ -9,16 +9,14 @@ import { Panel } from './panel.js';
 import { Pointers } from './pointers.js';
 import { saveMotion, saveScene, updateAddress } from './save.js';
 import { copyOf, defaults, fewer, History, subtreeOf, withOtherTrees } from './state.js';
-import { View } from './view.js';
 
-const first = 'maple';
 const tooSlow = 12; // ms a step beyond which 60 frames a second have no room
 
 export class App {
-    // beside(): a promise of another Worker's client.
-    constructor(client, known, beside) {
+    // another(): a promise of another Worker's client.
+    constructor({ client, view, known, another, times }) {
         this.client = client;
-        this.beside = beside;
+        this.another = another;
         this.presets = known.presets;
         this.state = copyOf(defaults);
         this.thickest = 0.2; // m, radius
@@ -26,13 +24,13 @@ export class App {
         this.speed = 1;
         this.picked = null;
         this.problem = problem;
-        this.view = new View(document.getElementById('picture'));
+        this.view = view;
         this.meters = new Meters();
         this.files = new Files(this);
         this.panel = new Panel(this, known);
         this.bar = new Bar(this);
         this.pointers = new Pointers({ client, view: this.view, problem, say, picked: (body) => this.pick(body) });
-        this.times = { opened: performance.now() };
+        this.times = Object.assign(times, { built: performance.now() });
         this.frames = 0;
         addEventListener('resize', () => this.fit());
     }

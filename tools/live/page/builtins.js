@@ -9,6 +9,8 @@ const wind = (speed, turbulence, gustFactor, gustPeriod) => ({ ...defaults.wind,
 
 export const youngMaple = { file: 'young_maple', name: 'young_maple.xml' }; // its bytes come with the page
 
+export const first = 'maple'; // the one that is shown where nothing else is asked for
+
 export const builtins = {
     maple: {
         label: 'Maple in leaf',

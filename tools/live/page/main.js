@@ -1,7 +1,10 @@
 // main.js: the page begins: what the browser must have, the Worker with the library, the first scene.
+import { stateOfAddress } from './address.js';
 import { App } from './app.js';
+import { builtinState, first } from './builtins.js';
 import { Client } from './client.js';
 import { problem } from './messages.js';
+import { View } from './view.js';
 
 // A module of one function that adds two vectors: whether the browser takes it says whether it has SIMD.
 const simd = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11);
@@ -16,34 +19,47 @@ function lacking() {
     return null;
 }
 
-async function wasmBytes() {
-    const inside = globalThis.boughInside?.wasm;
-    if (inside) return Uint8Array.from(atob(inside), (c) => c.charCodeAt(0)).buffer;
-    const answer = await fetch('bough.wasm').catch((error) => {
-        throw new Error(location.protocol === 'file:'
-            ? 'a browser lets no page read files beside it; open bough_live.html, which has all in one, or run tools/live/live'
-            : `bough.wasm could not be read: ${error.message}`);
-    });
-    if (!answer.ok) throw new Error(`bough.wasm: the server answers ${answer.status}, expected the file beside the page`);
-    return answer.arrayBuffer();
+const inside = globalThis.boughInside, begun = globalThis.boughBegun;
+
+// The library: compiled, or as bytes where the page is one file.
+async function library() {
+    if (inside) return { bytes: Uint8Array.from(atob(inside.wasm), (c) => c.charCodeAt(0)).buffer };
+    if (!begun) throw new Error('a browser lets no page read files beside it; open bough_live.html, which has all in one, or run tools/live/live');
+    const { module, error } = await begun.wasm;
+    if (error) throw new Error(`bough.wasm could not be read: ${error.message}`);
+    return { module };
 }
 
 function worker() {
-    const inside = globalThis.boughInside?.worker;
-    return new Worker(inside ? URL.createObjectURL(new Blob([inside], { type: 'text/javascript' })) : 'worker.js');
+    return new Worker(inside ? URL.createObjectURL(new Blob([inside.worker], { type: 'text/javascript' })) : 'worker.js');
+}
+
+// The trees that are about to be shown, as far as they are grown: the Worker makes them while the page's own things are made.
+async function firstTrees() {
+    const state = await stateOfAddress(location.hash).catch(() => null);
+    if (!state && new URLSearchParams(location.search).has('open')) return [];
+    return (state ?? builtinState(first)).trees.filter(({ species }) => species);
 }
 
 async function begin() {
+    const times = { read: performance.now() }, now = (what) => () => { times[what] = performance.now(); }; // ms since the address was opened
     const missing = lacking();
     if (missing) return problem(missing);
     try {
-        const wasm = await wasmBytes();
+        const wasm = await library();
+        now('compiled')();
+        const client = new Client(begun?.worker ?? worker());
+        const started = client.ask('start', wasm);
+        client.ask('prepare', { trees: await firstTrees() }).then(now('grown'), () => {}); // start says what is wrong
+        const view = new View(document.getElementById('picture'));
+        now('view')();
+        const known = await started;
         const another = async () => {
             const client = new Client(worker());
-            return { client, known: await client.ask('start', { wasm }) };
+            await client.ask('start', wasm);
+            return client;
         };
-        const { client, known } = await another();
-        const app = globalThis.bough = new App(client, known, async () => (await another()).client);
+        const app = globalThis.bough = new App({ client, view, known, another, times });
         await app.begin();
     } catch (error) {
         console.error(error, error.inWorker);

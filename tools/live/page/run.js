@@ -23,6 +23,14 @@ export class Run {
         this.files.set(id, { name, bytes: new Uint8Array(bytes) });
     }
 
+    // Trees that a state is about to have; what is wrong with one that state says.
+    prepare(sources) {
+        for (const source of sources) {
+            try {
+                this.tree(source);
+            } catch { /* apply() meets it again */ }
+        }
+    }
     tree(source) {
         const key = sourceKey(source);
         const found = this.trees.get(key);

@@ -39,7 +39,7 @@ export async function saveMotion(app, { seconds, loop }) {
     });
     let client;
     try {
-        client = await app.beside();
+        client = await app.another();
         client.progress = ({ done, of }) => sign.say(of > 0 ? `Motion: ${Math.round(100 * done / of)} % written` : `Motion: ${(done / fps).toFixed(0)} s run until it repeats`);
         if (given.up) return null;
         for (const file of files) await client.ask('file', file, [file.bytes]);

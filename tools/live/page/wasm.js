@@ -5,10 +5,16 @@ import createModule from 'bough-module';
 export class LibraryError extends Error {}
 
 export class Library {
-    // progress(done, of): how far a motion is that is written.
-    static async open(wasmBinary, progress) {
-        const module = await createModule({ wasmBinary, progress, printErr: (text) => console.error(text) });
-        return new Library(module);
+    // Of the module, compiled or as bytes. progress(done, of): how far a motion is that is written.
+    static async open({ module, bytes }, progress) {
+        const compiled = module ?? await WebAssembly.compile(bytes);
+        return new Promise((done, failed) => {
+            const instantiateWasm = (imports, made) => {
+                WebAssembly.instantiate(compiled, imports).then((instance) => made(instance, compiled), failed);
+                return {}; // comes later
+            };
+            createModule({ instantiateWasm, progress, printErr: (text) => console.error(text) }).then((own) => done(new Library(own)), failed);
+        });
     }
     constructor(module) {
         this.module = module;

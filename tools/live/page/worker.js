@@ -5,7 +5,7 @@ import { Run } from './run.js';
 let run = null;
 
 const answers = {
-    async start({ wasm }) {
+    async start(wasm) {
         const library = await Library.open(wasm, (done, of) => postMessage([0, null, { done, of }]));
         run = new Run(library);
         return {
@@ -14,6 +14,7 @@ const answers = {
             presets: Object.fromEntries(['calm', 'breeze', 'gusty', 'storm'].map((name) => [name, library.windPreset(name)])),
         };
     },
+    prepare: ({ trees }) => run.prepare(trees),
     apply: ({ state, restart }) => run.apply(state, restart),
     file: ({ id, name, bytes }) => run.addFile(id, name, bytes),
     frame: (asked) => run.frame(asked),
@@ -31,7 +32,10 @@ const answers = {
     memory: () => run.memory(),
 };
 
-onmessage = async ({ data: [number, name, asked] }) => {
+let last = Promise.resolve();
+onmessage = ({ data }) => { last = last.then(() => answer(data)); };
+
+async function answer([number, name, asked]) {
     try {
         const result = await answers[name](asked ?? {});
         const transfer = result?.transfer ?? [];
@@ -41,4 +45,4 @@ onmessage = async ({ data: [number, name, asked] }) => {
         const known = error instanceof LibraryError;
         postMessage([number, { message: error.message, known, stack: known ? '' : error.stack }]);
     }
-};
+}
