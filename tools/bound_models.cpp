@@ -6,8 +6,6 @@
 namespace bough {
 namespace {
 
-using Bodies = std::vector<std::int32_t>;
-
 // Where a scene puts its tree.
 Eigen::Affine3d place_of(const Scene& scene, std::size_t tree) {
     if (scene.trees.empty()) return Eigen::Affine3d::Identity();
@@ -31,23 +29,19 @@ std::string with_images(const std::string& material, std::size_t by) {
     return json.dump();
 }
 
-// Where a mesh's shapes and materials stand in the one that it is put into.
-struct Shared {
-    std::size_t shape, material;
-};
+} // namespace
 
-Shared share(OwnMesh& to, OwnMesh& more) {
-    const Shared at{to.shape.size(), to.material.size()};
+SharedParts share(OwnMesh& to, OwnMesh& more) {
+    const SharedParts at{to.shape.size(), to.material.size()};
     for (const std::string& material : more.material) to.material.push_back(with_images(material, to.image.size()));
     std::move(more.image.begin(), more.image.end(), std::back_inserter(to.image));
     std::move(more.shape.begin(), more.shape.end(), std::back_inserter(to.shape));
     return at;
 }
 
-// bodies: of each body of the tree that `more` is bound to, its number among all.
-void add_parts(OwnMesh& to, OwnMesh&& more, const Shared& at, const Bodies& bodies) {
+void add_parts(OwnMesh& to, OwnMesh&& more, const SharedParts& at, const Bodies& bodies) {
     for (OwnPart& part : more.part) {
-        part.material += std::int32_t(at.material);
+        if (part.material >= 0) part.material += std::int32_t(at.material);
         for (auto& two : part.body)
             for (std::int32_t& body : two) body = bodies[std::size_t(body)];
         for (OwnPlace& place : part.placed) {
@@ -58,17 +52,16 @@ void add_parts(OwnMesh& to, OwnMesh&& more, const Shared& at, const Bodies& bodi
     }
 }
 
-} // namespace
-
-OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setting& setting,
+OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setting& setting, const Bodies& elsewhere,
                    const std::function<OwnMesh(const Tree&)>& made, std::vector<std::string>& notes) {
     const std::vector<TreeRange>& ranges = setting.whole ? setting.whole->places.whole : setting.ranges;
-    if (ranges.size() == 1 && ranges.front().bodies == shown.size_bodies())
+    if (!models.empty() && ranges.size() == 1 && ranges.front().bodies == shown.size_bodies())
         return bound_to(std::move(models.front().model), shown, place_of(setting.scene, 0), notes);
     OwnMesh mesh;
     std::vector<char> bound(shown.size_bodies(), false);
+    for (const std::int32_t i : elsewhere) bound[std::size_t(i)] = true;
     for (FileModel& file : models) {
-        std::optional<Shared> at;
+        std::optional<SharedParts> at;
         std::vector<std::string> said;
         for (const std::size_t k : file.trees) {
             Bodies bodies;
@@ -88,7 +81,7 @@ OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setti
         if (!bound[i]) rest.push_back(std::int32_t(i));
     if (rest.empty()) return mesh;
     OwnMesh others = made(part_of(shown, rest));
-    const Shared at = share(mesh, others);
+    const SharedParts at = share(mesh, others);
     add_parts(mesh, std::move(others), at, rest);
     return mesh;
 }

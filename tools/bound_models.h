@@ -6,14 +6,26 @@
 
 namespace bough {
 
+using Bodies = std::vector<std::int32_t>; // rising
+
 struct FileModel {
     SpeedtreeModel model;
     std::vector<std::size_t> trees; // of the scene that are of the file; of a tree that is alone: 0
 };
 
-// Each tree shows its file's mesh where the scene puts it. What is none of theirs (other trees, balls) is a tree by itself, which `made` gives a mesh. Trees of one
+// Each tree shows its file's mesh where the scene puts it. What is none of theirs (other trees, balls) is a tree by itself, which `made` gives a mesh; bodies
+// that are shown `elsewhere` get none. Trees of one
 // file share materials, images and shapes. shown: all of the run's trees, and balls behind them. O(vertices, times pieces of a branch). Throws as bound_to does.
-OwnMesh bound_mesh(std::vector<FileModel>, const Tree& shown, const Setting&,
+OwnMesh bound_mesh(std::vector<FileModel>, const Tree& shown, const Setting&, const Bodies& elsewhere,
                    const std::function<OwnMesh(const Tree&)>& made, std::vector<std::string>& notes);
+
+// Where a mesh's shapes and materials stand in the one that it is put into.
+struct SharedParts {
+    std::size_t shape, material;
+};
+// Puts materials, images and shapes of a mesh behind another's; its parts stay with it.
+SharedParts share(OwnMesh& to, OwnMesh& more);
+// Then its parts, as often as there are trees of it. bodies: of each body that they are bound to, its number among all.
+void add_parts(OwnMesh& to, OwnMesh&& more, const SharedParts& at, const Bodies& bodies);
 
 } // namespace bough

@@ -72,6 +72,23 @@ private:
     DrivenMesh mesh_;
 };
 
+// A mesh whose pieces move in ways of their own.
+class MovedVertices {
+public:
+    explicit MovedVertices(MovedMesh mesh) : skin_(std::move(mesh.skin)), mover_(mesh.mover(skin_, {})) {}
+    std::size_t count() const { return skin_.position.size(); }
+    bool floats_suffice() const { return bough::floats_suffice(skin_.position); }
+    void go_to(const MotionFrame& frame) { mover_(frame, position_, normal_); }
+    void positions(std::size_t first, std::span<Vec3> to) const {
+        std::copy_n(position_.begin() + std::ptrdiff_t(first), to.size(), to.begin());
+    }
+
+private:
+    Skin skin_;
+    Mover mover_;
+    std::vector<Vec3> position_, normal_;
+};
+
 template <class Vertices> class CacheSink : public FrameSink {
 public:
     template <class... From>
@@ -129,6 +146,11 @@ std::unique_ptr<FrameSink> cache_sink(const std::string& file, const std::string
 std::unique_ptr<FrameSink> own_cache_sink(const std::string& file, const std::string& format, const Tree& tree,
                                           OwnMesh mesh, const CacheFrames& frames, std::vector<std::string>& notes) {
     return cache_of<OwnVertices>(file, format, frames, notes, std::move(mesh), tree);
+}
+
+std::unique_ptr<FrameSink> moved_cache_sink(const std::string& file, const std::string& format, MovedMesh mesh,
+                                            const CacheFrames& frames, std::vector<std::string>& notes) {
+    return cache_of<MovedVertices>(file, format, frames, notes, std::move(mesh));
 }
 
 std::unique_ptr<FrameSink> driven_cache_sink(const std::string& file, const std::string& format, DrivenMesh mesh,

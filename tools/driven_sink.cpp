@@ -13,10 +13,7 @@ public:
     void finish() override {
         output_.write(model_.finish(output_.name()));
         output_.finish();
-        const std::size_t all = model_.keys().joints() * model_.keys().frames(), kept = model_.keys().count();
-        notes_.push_back(counted(model_.bones(), "bone", "bones") + " of the model moved");
-        if (kept < all)
-            notes_.push_back(std::to_string(kept) + " of " + std::to_string(all) + " keys written (--key-tolerance)");
+        note_driven(model_.bones(), model_.keys().joints() * model_.keys().frames(), model_.keys().count(), notes_);
     }
 
 private:
@@ -26,6 +23,12 @@ private:
 };
 
 } // namespace
+
+void note_driven(std::size_t bones, std::size_t keys, std::size_t written, std::vector<std::string>& notes) {
+    notes.push_back(counted(bones, "bone", "bones") + " of the model moved");
+    if (written < keys)
+        notes.push_back(std::to_string(written) + " of " + std::to_string(keys) + " keys written (--key-tolerance)");
+}
 
 std::unique_ptr<FrameSink> driven_sink(const std::string& file, UserModel model, const Tree& tree,
                                        const DrivenOptions& options, std::vector<std::string>& notes) {

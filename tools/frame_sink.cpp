@@ -27,12 +27,11 @@ private:
 
 class ObjSink : public FrameSink {
 public:
-    // mover: makes the skin's, and may keep a reference to it.
-    ObjSink(const std::string& pattern, Skin skin, const OwnMesh* own, const std::function<Mover(const Skin&)>& mover,
-            const std::vector<NamedFile>& read, std::vector<std::string>& notes)
-        : pattern_(pattern), notes_(notes), skin_(std::move(skin)), mover_(mover(skin_)),
+    ObjSink(const std::string& pattern, MovedMesh mesh, const std::vector<NamedFile>& read,
+            std::vector<std::string>& notes)
+        : pattern_(pattern), notes_(notes), skin_(std::move(mesh.skin)), mover_(mesh.mover(skin_, {})),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
-        const OwnMaps maps = own ? maps_of(*own, mtl_) : OwnMaps{};
+        const OwnMaps maps = mesh.own ? maps_of(*mesh.own, mtl_) : OwnMaps{};
         take_images(maps, read);
         mtl_waiting_.emplace(sequence_mtl(pattern));
         write_mtl(*mtl_waiting_, skin_, maps.part);
@@ -114,18 +113,9 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
     return std::make_unique<MotionSink>(file, form, header, digits);
 }
 
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree& tree, Skin skin, const OwnMesh* own,
-                                    const RustleMaker& rustle, const std::vector<NamedFile>& read,
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, MovedMesh mesh, const std::vector<NamedFile>& read,
                                     std::vector<std::string>& notes) {
-    const auto mover = [&](const Skin& kept) { return mover_of(kept, tree, rustle(kept, false)); };
-    return std::make_unique<ObjSink>(pattern, std::move(skin), own, mover, read, notes);
-}
-
-std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh mesh,
-                                           const std::vector<NamedFile>& read, std::vector<std::string>& notes) {
-    const auto moved = std::make_shared<DrivenMesh>(std::move(mesh));
-    return std::make_unique<ObjSink>(
-        pattern, moved->skin(), &moved->look(), [&](const Skin&) { return mover_of(moved); }, read, notes);
+    return std::make_unique<ObjSink>(pattern, std::move(mesh), read, notes);
 }
 
 } // namespace bough

@@ -30,15 +30,11 @@ std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::strin
 // What makes the leaves of a skin's clumps rustle, nothing where they do not; `together` as in rustle.h. Called once, when a sink is made.
 using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool together)>;
 
-// One OBJ a frame, each whole or absent, and one mtl with the images that `own` has, null where the skin was made. Throws UsageError where an image would replace a file of `read`. Keeps references to the tree and the notes, which name what an earlier, longer run
+// One OBJ a frame, each whole or absent, and one mtl with the mesh's images. Throws UsageError where an image would replace a file of `read`. Keeps a reference to the notes, which name what an earlier, longer run
 // has left behind the last frame.
-std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, const Tree&, Skin, const OwnMesh* own,
-                                    const RustleMaker&, const std::vector<NamedFile>& read,
+struct MovedMesh; // skin_mover.h
+std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, MovedMesh, const std::vector<NamedFile>& read,
                                     std::vector<std::string>& notes);
-
-// The same of a model's own mesh, moved by its bones.
-std::unique_ptr<FrameSink> driven_obj_sink(const std::string& pattern, DrivenMesh, const std::vector<NamedFile>& read,
-                                           std::vector<std::string>& notes);
 
 // One point cache, `format` mdd or pc2: of `count` frames from number `first` on. Keeps a reference to the tree; what the
 // user should know is added to the notes. Throws UsageError where the format cannot count so many.
@@ -85,6 +81,10 @@ std::string leaves_note(const Tree&, const GltfChoice&);
 // What merging joints cost, beside the height of what is shown.
 std::string merge_note(const Tree&, const JointGroups&, const MergeError&, double height, bool instances = false);
 
+// The same of one whose pieces move in ways of their own.
+std::unique_ptr<FrameSink> moved_cache_sink(const std::string& file, const std::string& format, MovedMesh,
+                                            const CacheFrames&, std::vector<std::string>& notes);
+
 // One .glb, written by finish(), which also notes what merging joints and leaving out keys cost. Keeps a reference to
 // the tree and the notes.
 std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int sides, const RustleMaker&, double fps,
@@ -93,6 +93,13 @@ std::unique_ptr<FrameSink> gltf_sink(const std::string& file, const Tree&, int s
 // The same of a mesh that came with the tree.
 std::unique_ptr<FrameSink> own_sink(const std::string& file, const Tree&, OwnMesh, double fps, const GltfChoice&,
                                     const std::string& source, std::vector<std::string>& notes);
+
+// The same into `glb`, which outlives it: whole once it is finished.
+std::unique_ptr<FrameSink> own_sink_into(std::string& glb, const Tree&, OwnMesh, double fps, const GltfChoice&,
+                                         const std::string& source, std::vector<std::string>& notes);
+
+// How many bones of a model moved, and how many keys of all are written.
+void note_driven(std::size_t bones, std::size_t keys, std::size_t written, std::vector<std::string>& notes);
 
 // --skin: the user's own model with the motion added, written by finish(). Keeps references to the tree and the notes.
 // The model is read before threads are started (user_model.h).

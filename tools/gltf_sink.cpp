@@ -18,17 +18,19 @@ class GltfSink : public FrameSink {
 public:
     GltfSink(const std::string& file, const Tree& tree, int sides, const RustleMaker& rustle, const GltfChoice& choice,
              const GltfOptions& options, std::vector<std::string>& notes)
-        : GltfSink(file, tree, choice, notes) {
+        : GltfSink(std::make_unique<Output>(file), tree, choice, notes) {
         skin_ = chosen_skin(tree, sides, choice);
         rustle_ = rustle(skin_, true);
-        writer_ = std::make_unique<GltfWriter>(output_, skin_, tree, groups_, options, rustle_.get());
+        writer_ = std::make_unique<GltfWriter>(*output_, skin_, tree, groups_, options, rustle_.get());
         for (const Vec3& p : skin_.position) reach(p.y());
     }
-    GltfSink(const std::string& file, const Tree& tree, OwnMesh own, const GltfChoice& choice,
-             const GltfOptions& options, std::vector<std::string>& notes)
-        : GltfSink(file, tree, choice, notes) {
+    // memory: where the bytes go in place of the output; null: nowhere else.
+    GltfSink(std::unique_ptr<Output> output, std::string* memory, const Tree& tree, OwnMesh own,
+             const GltfChoice& choice, const GltfOptions& options, std::vector<std::string>& notes)
+        : GltfSink(std::move(output), tree, choice, notes) {
+        memory_ = memory;
         own_ = std::move(own);
-        writer_ = std::make_unique<GltfWriter>(output_, own_, tree, groups_, options);
+        writer_ = std::make_unique<GltfWriter>(*output_, own_, tree, groups_, options);
         for (const OwnPart& part : own_.part)
             each_vertex(own_, part, [this](const OwnSurface& from, std::size_t v, const OwnPlace* place) {
                 reach(double(position_of(from, v, place).y()));
@@ -39,14 +41,20 @@ public:
         if (error_) error_->add(frame.rotation, frame.position);
     }
     void finish() override {
-        writer_->finish();
-        output_.finish();
+        if (memory_) {
+            *memory_ = writer_->finish_in_memory();
+        } else {
+            writer_->finish();
+            output_->finish();
+        }
         note();
     }
 
 private:
-    GltfSink(const std::string& file, const Tree& tree, const GltfChoice& choice, std::vector<std::string>& notes)
-        : output_(file), tree_(tree), choice_(choice), notes_(notes), groups_(chosen_joints(tree, choice)) {
+    GltfSink(std::unique_ptr<Output> output, const Tree& tree, const GltfChoice& choice,
+             std::vector<std::string>& notes)
+        : output_(std::move(output)), tree_(tree), choice_(choice), notes_(notes),
+          groups_(chosen_joints(tree, choice)) {
         if (groups_.size() < tree.size_bodies()) error_.emplace(tree, groups_);
     }
     void reach(double y) { low_ = std::min(low_, y), high_ = std::max(high_, y); }
@@ -61,7 +69,8 @@ private:
         notes_.push_back(text.str());
     }
 
-    Output output_;
+    std::unique_ptr<Output> output_;
+    std::string* memory_ = nullptr; // in place of it
     const Tree& tree_;
     const GltfChoice choice_;
     std::vector<std::string>& notes_;
@@ -180,7 +189,17 @@ std::unique_ptr<FrameSink> own_sink(const std::string& file, const Tree& tree, O
                                     std::vector<std::string>& notes) {
     GltfOptions options = gltf_options(choice, source);
     options.fps = fps;
-    return std::make_unique<GltfSink>(file, tree, std::move(own), choice, options, notes);
+    return std::make_unique<GltfSink>(std::make_unique<Output>(file), nullptr, tree, std::move(own), choice, options,
+                                      notes);
+}
+
+std::unique_ptr<FrameSink> own_sink_into(std::string& glb, const Tree& tree, OwnMesh own, double fps,
+                                         const GltfChoice& choice, const std::string& source,
+                                         std::vector<std::string>& notes) {
+    GltfOptions options = gltf_options(choice, source);
+    options.fps = fps;
+    return std::make_unique<GltfSink>(std::make_unique<Output>(nullptr, 0, "the .glb"), &glb, tree, std::move(own),
+                                      choice, options, notes);
 }
 
 } // namespace bough

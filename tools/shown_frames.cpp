@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "rustling.h"
 #include "sized_sink.h"
+#include <algorithm>
 #include <iostream>
 #include <numbers>
 
@@ -60,11 +61,12 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
         model->document.reset(); // its arrays are in the mesh
         o.common.notes.push_back(counted(mesh.bones(), "bone", "bones") + " of the model moved");
         if (format == "obj")
-            return driven_obj_sink(o.common.output, std::move(mesh), files_of_run(o, setting), o.common.notes);
+            return obj_sink(o.common.output, moved(std::move(mesh)), files_of_run(o, setting), o.common.notes);
         if (format == "vat")
-            return driven_vat_sink(o.common.output, shown, std::move(mesh),
-                                   {o.run.fps, cached.count, o.loop.seconds.has_value(), true}, o.vat, source,
-                                   o.common.notes);
+            return vat_sink(o.common.output, shown, moved(std::move(mesh)),
+                            {o.run.fps, cached.count, o.loop.seconds.has_value(), true}, o.vat, source, o.common.notes);
+        if (format == "usda")
+            return usda_sink(o.common.output, shown.name, rigged(mesh), o.run.fps, source, files_of_run(o, setting));
         return driven_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
     } catch (const OtherTree& error) {
         return pass_over(error);
@@ -73,24 +75,78 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
     }
 }
 
+// What makes the mesh of a tree that has none of its own, beside others that have.
+std::function<OwnMesh(const Tree&)> made_mesh(const TreesimOptions& o, const std::string& format) {
+    return [&o, &format](const Tree& tree) {
+        std::optional<OwnMesh> made = dressed(tree, o.sides, o.dress, format, plain_leaves(o));
+        return made ? std::move(*made) : dress(tree, Species(), {LeafDetail::kite, 0, o.sides.value_or(8)});
+    };
+}
+
+// Of a scene some of whose files are skinned models. Null where none of them can be moved by its tree: notes say so, and the others remain to be shown.
+std::unique_ptr<FrameSink> placed(TreesimOptions& o, const Setting& setting, const Tree& shown,
+                                  const std::string& format, const CacheFrames& cached, ShownModel& model) {
+    if (model.skinned.empty()) return nullptr;
+    std::vector<PlacedForest> forests;
+    std::vector<PlacedMesh> meshes;
+    Bodies elsewhere;
+    const std::string source = with_command_line(setting.source, o.common);
+    std::vector<PlacedFile> files = placed_files(std::exchange(model.skinned, {}), shown, setting);
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        const Bodies bodies = bodies_of(files[k]);
+        const auto pass_over = [&](const InputError& error) {
+            if (o.mesh == "own") throw;
+            o.common.notes.push_back(std::string(error.what()) + ": a mesh made from the tree is shown");
+        };
+        try {
+            if (format == "glb")
+                forests.push_back(forest_of(std::move(files[k]), driven_options(o, setting, source), o.common.notes));
+            else
+                std::ranges::move(meshes_of(std::move(files[k]), k, o.common.notes), std::back_inserter(meshes));
+        } catch (const OtherTree& error) {
+            pass_over(error);
+            continue;
+        } catch (const NoSkinnedMesh& error) {
+            pass_over(error);
+            continue;
+        }
+        elsewhere.insert(elsewhere.end(), bodies.begin(), bodies.end());
+    }
+    if (forests.empty() && meshes.empty()) return nullptr;
+    std::sort(elsewhere.begin(), elsewhere.end());
+    OtherMesh others = other_mesh(
+        bound_mesh(std::exchange(model.bound, {}), shown, setting, elsewhere, made_mesh(o, format), o.common.notes),
+        elsewhere, shown.size_bodies());
+    if (others.bodies.empty() && !o.gltf.max_joints.empty())
+        throw UsageError("--max-joints: only with --mesh made, as all of the scene's trees show bones of their own");
+    if (format == "glb")
+        return forest_sink(o.common.output, std::move(forests), std::move(others), shown, o.run.fps, o.gltf, source,
+                           o.common.notes);
+    o.common.notes.push_back(counted(bones_of(meshes), "bone", "bones") + " of the models moved");
+    if (format == "usda")
+        return usda_sink(o.common.output, shown.name, rigged(meshes, std::move(others), shown, o.gltf, o.common.notes),
+                         o.run.fps, source, files_of_run(o, setting));
+    MovedMesh mesh = moved(std::move(meshes), std::move(others), shown);
+    if (format == "obj") return obj_sink(o.common.output, std::move(mesh), files_of_run(o, setting), o.common.notes);
+    if (format == "vat")
+        return vat_sink(o.common.output, shown, std::move(mesh),
+                        {o.run.fps, cached.count, o.loop.seconds.has_value(), true}, o.vat, source, o.common.notes);
+    return moved_cache_sink(o.common.output, format, std::move(mesh), cached, o.common.notes);
+}
+
 // shown: the tree that meshes are made of, the balls with it.
 std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, const Tree& shown, std::size_t bodies,
                                      const std::string& format, std::int64_t first, std::int64_t last,
                                      ShownModel& model) {
     const CacheFrames cached{o.run.fps, first, last - first + 1};
     if (std::unique_ptr<FrameSink> sink = driven(o, setting, shown, format, cached, model.driven)) return sink;
+    if (std::unique_ptr<FrameSink> sink = placed(o, setting, shown, format, cached, model)) return sink;
     RustleMaker rustle = [](const Skin&, bool) { return std::unique_ptr<Rustle>(); };
     if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
     std::optional<OwnMesh> own;
     const bool bound = !model.bound.empty();
     if (bound)
-        own = bound_mesh(
-            std::move(model.bound), shown, setting,
-            [&](const Tree& tree) {
-                std::optional<OwnMesh> made = dressed(tree, o.sides, o.dress, format, plain_leaves(o));
-                return made ? std::move(*made) : dress(tree, Species(), {LeafDetail::kite, 0, o.sides.value_or(8)});
-            },
-            o.common.notes);
+        own = bound_mesh(std::move(model.bound), shown, setting, {}, made_mesh(o, format), o.common.notes);
     else if (is_mesh(format))
         own = dressed(shown, o.sides, o.dress, format, plain_leaves(o));
     if (own && !bound && setting.tree_files.size() > 1)
@@ -104,15 +160,16 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
         if (format == "vat") drawn.clump_leaves = leaves_in_vat;
         Skin skin = own ? skin_of(*own) : build_skin(shown, drawn);
         if (format == "obj")
-            return obj_sink(o.common.output, shown, std::move(skin), own ? &*own : nullptr, rustle,
+            return obj_sink(o.common.output, moved(std::move(skin), std::move(own), shown, rustle),
                             files_of_run(o, setting), o.common.notes);
         if (format == "vat")
-            return vat_sink(o.common.output, shown, std::move(skin), std::move(own), rustle,
+            return vat_sink(o.common.output, shown, moved(std::move(skin), std::move(own), shown, rustle),
                             {o.run.fps, last - first + 1, o.loop.seconds.has_value(), bound}, o.vat,
                             with_command_line(setting.source, o.common), o.common.notes);
         if (format == "usda")
-            return usda_sink(o.common.output, shown, std::move(skin), std::move(own), o.run.fps, o.gltf,
-                             with_command_line(setting.source, o.common), files_of_run(o, setting), o.common.notes);
+            return usda_sink(o.common.output, shown.name,
+                             rigged(shown, std::move(skin), std::move(own), o.gltf, o.common.notes), o.run.fps,
+                             with_command_line(setting.source, o.common), files_of_run(o, setting));
         return cache_sink(o.common.output, format, shown, std::move(skin), rustle, cached, o.common.notes);
     }
     const std::string source = with_command_line(setting.source, o.common);
@@ -170,7 +227,7 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
     const std::size_t balls = is_mesh(format) ? run.balls().size() : 0;
     if (!broken.empty() || balls > 0) shown.own = std::make_unique<const Tree>(run.shown_tree(broken));
     o.gltf.loose = broken.size() + balls;
-    const bool bound = !model.bound.empty();
+    const bool bound = !model.bound.empty() || !model.skinned.empty();
     shown.sink = open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, model);
     if (model.driven && balls > 0)
         o.common.notes.push_back("balls and walkers are not shown beside a model's own mesh");

@@ -18,12 +18,6 @@ bool wants_own(const TreesimOptions& o, const std::string& format) {
     return is_mesh(format) && o.skin.empty() && o.mesh != "made" && o.run.input != "-";
 }
 
-// A model's mesh that its bones move is shown by these.
-bool shows_bones(const std::string& format) {
-    return format == "glb" || format == "obj" || format == "vat" || is_point_cache(format);
-}
-constexpr const char* bones_shown_by = ".glb, frames of .obj, .mdd, .pc2 and NAME_vat/ alone";
-
 // Whether a mesh of it is in Draco's form, which a .glb keeps and no other output can show.
 bool is_packed(const UserModel& model) {
     const auto used = model.document->json.value("extensionsUsed", nlohmann::ordered_json::array());
@@ -70,9 +64,9 @@ bool kept_its_place(const Setting& setting, const Vec3& moved) {
     return (before + moved).norm() < before.norm();
 }
 
-// why: what reading INPUT's model said, with its place.
-[[noreturn]] void refuse_own_mesh(const std::string& why, const TreesimOptions& o) {
-    const std::string name = input_name(o.run.input);
+// why: what reading a file's model said, with its place.
+[[noreturn]] void refuse_own_mesh(const std::string& why, const std::string& file) {
+    const std::string name = input_name(file);
     throw InputError(name + ": its own mesh", (why.starts_with(name + ": ") ? why.substr(name.size() + 2) : why) +
                                                   "; --mesh made shows one that is made from the tree");
 }
@@ -97,85 +91,91 @@ SpeedtreeModel speedtree_model(TreesimOptions& o, const std::string& path, const
     return model;
 }
 
+// The skinned model of a file whose own mesh is wanted, none where it has none that can be shown: a note says so.
+// Throws InputError, as LimitError where memory or time did not suffice.
+std::optional<UserModel> skinned_model(TreesimOptions& o, const std::string& path, const std::string& format) {
+    ImportNotes notes;
+    UserModel own;
+    try {
+        own = read_user_model(path, notes);
+    } catch (const NoSkinnedMesh& error) {
+        o.common.notes.push_back(std::string(error.what()) + ": a mesh made from the tree is shown");
+        return std::nullopt;
+    }
+    if (!has_node_with(own, {"mesh", "skin"})) {
+        if (has_node_with(own, {"mesh"}))
+            o.common.notes.push_back(own.name +
+                                     ": no bones move its mesh (it has no skin): one made from the tree is shown");
+        return std::nullopt;
+    }
+    if (format != "glb" && is_packed(own)) {
+        if (o.mesh == "own") throw InputError(own.name, "is in Draco's form, which is not read");
+        o.common.notes.push_back(own.name + ": its mesh is in Draco's form, which is not read: one made from the "
+                                            "tree is shown");
+        return std::nullopt;
+    }
+    add_notes(own.name, notes, o);
+    return own;
+}
+
+// Of a file that a scene names.
+std::optional<UserModel> skinned_model_of_scene(TreesimOptions& o, const std::string& path, const std::string& format) {
+    try {
+        return skinned_model(o, path, format);
+    } catch (const ImageError&) {
+        throw; // says enough
+    } catch (const InputError& error) {
+        refuse_own_mesh(error.what(), path);
+    }
+}
+
 // Of the files that a scene names.
-std::vector<FileModel> models_of_scene(TreesimOptions& o, const Setting& setting) {
-    std::vector<FileModel> models;
+void add_models_of_scene(ShownModel& model, TreesimOptions& o, const Setting& setting, const std::string& format) {
     for (const std::string& path : setting.converted) {
         std::vector<std::size_t> trees;
         for (std::size_t k = 0; k < setting.ranges.size(); ++k)
             if (tree_file(o.run.input, setting.scene.trees[k]) == path) trees.push_back(k);
         if (trees.empty()) continue;
-        if (!is_speedtree_file(path)) {
-            if (model_kind(MappedInput(path).content()))
-                o.common.notes.push_back(path + ": a scene shows a mesh made from its tree; its own, where it has one "
-                                                "that bones move, is shown where it is INPUT (or --skin) alone");
-            continue;
+        if (is_speedtree_file(path)) {
+            if (has_speedtree_mesh(MappedInput(path).content()))
+                model.bound.push_back({speedtree_model(o, path, setting), std::move(trees)});
+        } else if (model_kind(MappedInput(path).content())) {
+            if (std::optional<UserModel> own = skinned_model_of_scene(o, path, format))
+                model.skinned.push_back({std::move(*own), std::move(trees)});
         }
-        if (!has_speedtree_mesh(MappedInput(path).content())) continue;
-        models.push_back({speedtree_model(o, path, setting), std::move(trees)});
     }
-    return models;
-}
-
-// --mesh own, where there is none.
-[[noreturn]] void refuse_no_mesh(const TreesimOptions& o, const Setting& setting) {
-    for (const std::string& path : setting.converted)
-        if (!setting.tree_files.empty() && model_kind(MappedInput(path).content()))
-            throw UsageError("--mesh own: " + path +
-                             " has a mesh that bones move, which a scene does not show; name the file as INPUT or by "
-                             "--skin, or leave --mesh own out for a mesh that is made from the tree");
-    throw UsageError("--mesh own: " + input_name(o.run.input) + " has no mesh that could be moved");
 }
 
 } // namespace
 
 ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
     ShownModel model;
-    ImportNotes notes;
     if (!o.skin.empty()) {
         if (is_speedtree_file(o.skin)) return model;
-        if (!shows_bones(format))
-            throw UsageError(std::string("--skin: only with ") + bones_shown_by + ", where it is no SpeedTree XML");
+        ImportNotes notes;
         model.driven = read_user_model(o.skin, notes);
         add_notes(model.driven->name, notes, o);
         return model;
     }
-    if (!shows_bones(format) || !wants_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
+    if (!wants_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
     try {
-        UserModel own = read_user_model(o.run.input, notes);
-        if (!has_node_with(own, {"mesh", "skin"})) {
-            if (has_node_with(own, {"mesh"}))
-                o.common.notes.push_back(own.name +
-                                         ": no bones move its mesh (it has no skin): one made from the tree is shown");
-            return model;
-        }
-        if (format != "glb" && is_packed(own)) {
-            if (o.mesh == "own") refuse_own_mesh("is in Draco's form, which is not read", o);
-            o.common.notes.push_back(own.name + ": its mesh is in Draco's form, which is not read: one made from the "
-                                                "tree is shown");
-            return model;
-        }
-        model.driven = std::move(own);
+        model.driven = skinned_model(o, o.run.input, format);
     } catch (const LimitError& error) {
-        refuse_own_mesh(error.what(), o);
+        refuse_own_mesh(error.what(), o.run.input);
     } catch (const ImageError&) {
         throw; // the import looks at no image
-    } catch (const NoSkinnedMesh& error) {
-        o.common.notes.push_back(std::string(error.what()) + ": a mesh made from the tree is shown");
-        return model;
     } catch (const InputError& error) {
         model.failed = error.what();
-        return model;
     }
+    if (!model.driven) return model;
     if (!o.gltf.max_joints.empty())
         throw UsageError("--max-joints: only with --mesh made, as " + input_name(o.run.input) +
                          " has a mesh and bones of its own");
-    add_notes(model.driven->name, notes, o);
     return model;
 }
 
 void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting, const std::string& format) {
-    if (!model.failed.empty()) refuse_own_mesh(model.failed, o);
+    if (!model.failed.empty()) refuse_own_mesh(model.failed, o.run.input);
     if (!o.skin.empty() && !model.driven) {
         model.bound.push_back({speedtree_model(o, o.skin, setting), {0}});
     } else if (!o.skin.empty()) {
@@ -183,21 +183,14 @@ void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting
     } else if (wants_own(o, format) && setting.imported) {
         const bool speedtree = is_speedtree_file(o.run.input) && has_speedtree_mesh(MappedInput(o.run.input).content());
         if (speedtree) model.bound.push_back({speedtree_model(o, o.run.input, setting), {0}});
-        if (!shows_bones(format) && !speedtree && model_kind(MappedInput(o.run.input).content())) {
-            const std::string name = input_name(o.run.input),
-                              of_others = std::string(": a mesh that bones move is shown by ") + bones_shown_by;
-            if (o.mesh == "own")
-                throw UsageError("--mesh own: " + name + of_others +
-                                 "; --mesh made shows one that is made from the tree");
-            o.common.notes.push_back(name + of_others + "; this one is made from the tree");
-        }
     }
-    if (wants_own(o, format) && !setting.tree_files.empty()) model.bound = models_of_scene(o, setting);
+    if (wants_own(o, format) && !setting.tree_files.empty()) add_models_of_scene(model, o, setting, format);
     if (o.run.input == "-" && setting.imported && o.skin.empty() && o.mesh != "made" && is_mesh(format) &&
         setting.imported->format == "SpeedTree raw XML")
         o.common.notes.push_back(
             "<stdin>: the mesh is made from the tree; the file's own is shown where INPUT names it");
-    if (o.mesh == "own" && !model) refuse_no_mesh(o, setting);
+    if (o.mesh == "own" && !model)
+        throw UsageError("--mesh own: " + input_name(o.run.input) + " has no mesh that could be moved");
     if (model) refuse_unused(o);
     if (!o.skin.empty() && setting.ranges.size() != 1)
         throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +

@@ -5,6 +5,8 @@
 #include "lib/model/motion.h"
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 
 namespace bough {
 
@@ -39,6 +41,23 @@ inline Mover mover_of(const Skin& skin, const Tree& tree, std::unique_ptr<Rustle
     };
 }
 
+// A mesh of a run, and what moves it.
+struct MovedMesh {
+    Skin skin;                  // drawn; its joints are bodies
+    std::optional<OwnMesh> own; // what it was made of, or its look alone
+    // What moves a skin of some of its vertices, rising, all where none are named. The skin outlives it. Once.
+    std::function<Mover(const Skin&, std::span<const std::int32_t> vertex)> mover;
+};
+
+// By bodies. rustle: null where nothing rustles. Keeps a reference to the tree.
+inline MovedMesh moved(Skin skin, std::optional<OwnMesh> own, const Tree& tree,
+                       std::function<std::unique_ptr<Rustle>(const Skin&, bool together)> rustle) {
+    return {std::move(skin), std::move(own),
+            [&tree, rustle = std::move(rustle)](const Skin& kept, std::span<const std::int32_t>) {
+                return mover_of(kept, tree, rustle(kept, false));
+            }};
+}
+
 // Of all vertices of a model's own mesh.
 inline Mover mover_of(std::shared_ptr<DrivenMesh> mesh) {
     return [mesh](const MotionFrame& frame, std::vector<Vec3>& position, std::vector<Vec3>& normal) {
@@ -48,6 +67,15 @@ inline Mover mover_of(std::shared_ptr<DrivenMesh> mesh) {
         mesh->positions(0, position);
         mesh->normals(0, normal);
     };
+}
+
+// By a model's own bones.
+inline MovedMesh moved(DrivenMesh driven) {
+    const auto mesh = std::make_shared<DrivenMesh>(std::move(driven));
+    return {mesh->skin_of_bodies(), mesh->look(), [mesh](const Skin& kept, std::span<const std::int32_t> vertex) {
+                if (!vertex.empty()) mesh->keep(vertex, kept.position);
+                return mover_of(mesh);
+            }};
 }
 
 } // namespace bough

@@ -52,16 +52,16 @@ void declare_mesh(OptionList& list, TreesimOptions& o) {
     add_leaves_as(list, o.gltf);
     list.add(
             "--mesh", o.mesh,
-            "own: the mesh that INPUT itself has is shown, with its materials: a SpeedTree XML's, and in all but .usda "
-            "a skinned model's (where it has one, the default); made: one made from the tree")
+            "own: the mesh that INPUT itself has is shown, with its materials: a SpeedTree XML's or a skinned model's, "
+            "of a scene each tree's (where there is one, the default); made: one made from the tree")
         .takes("NAME")
         .one_of({"own", "made"});
     list.add(
             "--skin", o.skin,
             "Show this model (.glb, .gltf, .fbx, .dae) instead of a mesh made from the tree: in a .glb its own meshes, "
-            "skins and materials, with the motion as an animation of its bones; in .obj, .mdd, .pc2 and NAME_vat/ its "
-            "vertices as the bones move them; or, in these and .usda, a SpeedTree XML with mesh. The tree must "
-            "have been made from it, or stand where its bones do")
+            "skins and materials, with the motion as an animation of its bones; in .usda its mesh and its bones; in "
+            ".obj, .mdd, .pc2 and NAME_vat/ its vertices as the bones move them. Or a SpeedTree XML with mesh. The "
+            "tree must have been made from it, or stand where its bones do")
         .takes("FILE")
         .check(file_name());
     list.add("--sides", o.sides, "Corners of the thickest branch's rings in a mesh (8)")
@@ -258,8 +258,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (!o.mesh.empty() && !mesh)
         throw UsageError("--mesh: only with a mesh (.obj, .glb, .mdd, .pc2, .usda, NAME_vat/)");
     if (!o.skin.empty()) {
-        if (!mesh)
-            throw UsageError("--skin: only with a mesh (.glb, .obj, .mdd, .pc2, NAME_vat/; of SpeedTree XML .usda)");
+        if (!mesh) throw UsageError("--skin: only with a mesh (.glb, .obj, .mdd, .pc2, .usda, NAME_vat/)");
         if (!o.mesh.empty()) throw UsageError("--mesh: not with --skin, which says what is shown");
         if (o.sides) throw UsageError("--sides: not with --skin, whose mesh is its own");
         if (!o.gltf.max_joints.empty() && !is_speedtree_file(o.skin))

@@ -12,11 +12,10 @@ namespace {
 
 class VatSink : public FrameSink {
 public:
-    // mover: makes the reduced skin's, and may keep a reference to it.
-    VatSink(const std::string& folder, Skin skin, std::optional<OwnMesh> own, ReducedSkin mesh,
-            const std::function<Mover(const Skin&)>& mover, const VatOptions& options)
-        : skin_(std::move(skin)), own_(std::move(own)), mesh_(std::move(mesh)), mover_(mover(mesh_.skin)),
-          folder_(folder), writer_(folder_, vat_name(folder), mesh_, {&skin_, own_ ? &*own_ : nullptr}, options) {}
+    VatSink(const std::string& folder, MovedMesh shown, ReducedSkin mesh, const VatOptions& options)
+        : skin_(std::move(shown.skin)), own_(std::move(shown.own)), mesh_(std::move(mesh)),
+          mover_(shown.mover(mesh_.skin, mesh_.vertex)), folder_(folder),
+          writer_(folder_, vat_name(folder), mesh_, {&skin_, own_ ? &*own_ : nullptr}, options) {}
     void write(const MotionFrame& frame) override {
         mover_(frame, position_, normal_);
         writer_.write(position_, normal_);
@@ -122,26 +121,12 @@ std::vector<std::string> vat_outputs(const std::string& folder, const VatChoice&
     return files;
 }
 
-std::unique_ptr<FrameSink> vat_sink(const std::string& folder, const Tree& tree, Skin skin, std::optional<OwnMesh> own,
-                                    const RustleMaker& rustle, const VatFrames& frames, const VatChoice& choice,
-                                    const std::string& source, std::vector<std::string>& notes) {
+std::unique_ptr<FrameSink> vat_sink(const std::string& folder, const Tree& tree, MovedMesh shown,
+                                    const VatFrames& frames, const VatChoice& choice, const std::string& source,
+                                    std::vector<std::string>& notes) {
     const VatOptions options = vat_options(folder, frames, choice, source);
-    ReducedSkin mesh = small_enough(folder, skin, tree, frames, choice, notes);
-    const auto mover = [&](const Skin& kept) { return mover_of(kept, tree, rustle(kept, false)); };
-    return std::make_unique<VatSink>(folder, std::move(skin), std::move(own), std::move(mesh), mover, options);
-}
-
-std::unique_ptr<FrameSink> driven_vat_sink(const std::string& folder, const Tree& tree, DrivenMesh driven,
-                                           const VatFrames& frames, const VatChoice& choice, const std::string& source,
-                                           std::vector<std::string>& notes) {
-    const VatOptions options = vat_options(folder, frames, choice, source);
-    Skin skin = driven.skin_of_bodies();
-    ReducedSkin mesh = small_enough(folder, skin, tree, frames, choice, notes);
-    OwnMesh look = driven.look();
-    const auto moved = std::make_shared<DrivenMesh>(std::move(driven));
-    moved->keep(mesh.vertex, mesh.skin.position);
-    const auto mover = [&](const Skin&) { return mover_of(moved); };
-    return std::make_unique<VatSink>(folder, std::move(skin), std::move(look), std::move(mesh), mover, options);
+    ReducedSkin mesh = small_enough(folder, shown.skin, tree, frames, choice, notes);
+    return std::make_unique<VatSink>(folder, std::move(shown), std::move(mesh), options);
 }
 
 } // namespace bough

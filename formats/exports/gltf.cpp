@@ -215,11 +215,27 @@ std::string GltfWriter::shown(GltfFile& file, const Vec3& origin, std::string& e
 }
 
 void GltfWriter::finish() {
+    GltfFile file;
+    const std::string json = finish(file);
+    file.write(output_, json);
+}
+
+std::string GltfWriter::finish_in_memory() {
+    GltfFile file;
+    const std::string json = finish(file);
+    std::string bytes(file.bytes(json), 0);
+    Output to(bytes.data(), bytes.size(), output_.name());
+    file.write(to, json);
+    to.finish();
+    return bytes;
+}
+
+// What the JSON holds beside arrays, which go into the file.
+std::string GltfWriter::finish(GltfFile& file) {
     keys_.thin(options_.key_tolerance, true);
     const Vec3 origin = origin_of(skin_, own_, drawn_);
     // Still air moves nothing: no targets.
     if (std::all_of(weights_.begin(), weights_.end(), [](float w) { return w == 0; })) weights_.clear();
-    GltfFile file;
     std::string extensions;
     int weights_node = mesh_node;
     const std::string elements = shown(file, origin, extensions, weights_node);
@@ -231,7 +247,7 @@ void GltfWriter::finish() {
     const std::string animation =
         gltf_animation(file, keys_, paths_, origin, options_.fps, first_joint, weights_, weights_node);
     if (!animation.empty()) json += ",\n\"animations\":[" + animation + "]";
-    file.write(output_, json);
+    return json;
 }
 
 } // namespace bough

@@ -63,10 +63,13 @@ public:
     void write(const MotionFrame&);
     // All of the file. Once; the caller finishes the Output.
     void finish();
+    // In place of finish(), which writes to the Output: the same bytes.
+    std::string finish_in_memory();
     const JointKeys& keys() const { return keys_; } // thinned once it is finished
 
 private:
     GltfWriter(Output&, const Skin*, const OwnMesh*, const Tree&, const JointGroups&, const GltfOptions&, Rustle*);
+    std::string finish(GltfFile&);
     std::string shown(GltfFile&, const Vec3& origin, std::string& extensions, int& weights_node) const;
 
     Output& output_;

@@ -33,10 +33,19 @@ int GltfFile::add_accessor(int view, std::uint64_t offset, GltfType component, s
     return accessor_count_++;
 }
 
-void GltfFile::write(Output& output, const std::string& rest) {
+std::uint64_t GltfFile::bytes(const std::string& rest) const {
+    return 12 + 8 + json(rest).size() + 8 + bytes_;
+}
+
+std::string GltfFile::json(const std::string& rest) const {
     std::string json = "{" + rest + ",\n\"accessors\":[\n" + accessor_text_ + "],\n\"bufferViews\":[\n" + view_text_ +
                        "],\n\"buffers\":[{\"byteLength\":" + std::to_string(bytes_) + "}]}";
     json.resize((json.size() + 3) / 4 * 4, ' ');
+    return json;
+}
+
+void GltfFile::write(Output& output, const std::string& rest) {
+    const std::string json = this->json(rest);
     const std::uint64_t whole = 12 + 8 + json.size() + 8 + bytes_;
     if (whole > std::numeric_limits<std::uint32_t>::max())
         throw OutputError(output.name(), "would have " + std::to_string(whole) +

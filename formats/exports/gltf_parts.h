@@ -41,8 +41,11 @@ public:
                      const std::string& bounds = "");
     // `rest`: what the JSON holds beside accessors, views and the buffer, without the outer braces.
     void write(Output&, const std::string& rest);
+    std::uint64_t bytes(const std::string& rest) const; // of all of it
 
 private:
+    std::string json(const std::string& rest) const;
+
     struct View {
         std::uint64_t bytes;
         Write write;

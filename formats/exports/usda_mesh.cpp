@@ -1,7 +1,6 @@
 #include "gltf_parts.h"
-#include "influence.h"
-#include "skin_attributes.h"
 #include "usda_parts.h"
+#include <algorithm>
 
 namespace bough {
 namespace {
@@ -16,9 +15,10 @@ void add_vertex_interpolation(Text& text, const std::string& more = "") {
 
 } // namespace
 
-void usda_meshes(Text& text, const std::string& root, const std::vector<std::string>& name, const Skin& skin,
-                 const OwnMesh* own, const std::vector<OwnLook>& look, const JointGroups& groups, const Vec3& origin) {
-    const SkinAttributes attributes = attributes_of(skin, own);
+void usda_meshes(Text& text, const std::string& root, const std::vector<std::string>& name, const RigMesh& mesh,
+                 const std::vector<OwnLook>& look, const Vec3& origin) {
+    const Skin& skin = mesh.skin;
+    const SkinAttributes& attributes = mesh.attributes;
     for (std::size_t m = 0; m < skin.part.size(); ++m) {
         const SkinPart& part = skin.part[m];
         const VertexStretch used = vertices_of(skin, part);
@@ -28,11 +28,12 @@ void usda_meshes(Text& text, const std::string& root, const std::vector<std::str
         };
         // How many joints move a vertex: alike for all in a mesh.
         std::size_t width = 1;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Influence by = influence_of(skin, groups, first + i);
-            for (std::size_t k = width; k < 4; ++k)
-                if (by.weight[k] > 0) width = k + 1;
-        }
+        for (std::size_t v = first; v < first + count; ++v)
+            width = std::max(width, mesh.first_share[v + 1] - mesh.first_share[v]);
+        const auto share = [&](std::size_t i) {
+            const std::size_t v = first + i / width, k = mesh.first_share[v] + i % width;
+            return k < mesh.first_share[v + 1] ? mesh.share[k] : RigMesh::Share{0, 0};
+        };
         text.end_line();
         usda_line(text, 1, "def Mesh \"" + name[m] + "\" (");
         usda_line(text, in_mesh, "prepend apiSchemas = [\"MaterialBindingAPI\", \"SkelBindingAPI\"]");
@@ -77,17 +78,11 @@ void usda_meshes(Text& text, const std::string& root, const std::vector<std::str
         const std::string size = "elementSize = " + std::to_string(width);
         usda_array(
             text, in_mesh, "int[] primvars:skel:jointIndices = ", width * count,
-            [&](Text& to, std::size_t i) {
-                to.add_number(influence_of(skin, groups, first + i / width).joint[i % width]);
-            },
-            " (");
+            [&](Text& to, std::size_t i) { to.add_number(share(i).joint); }, " (");
         add_vertex_interpolation(text, size);
         usda_array(
             text, in_mesh, "float[] primvars:skel:jointWeights = ", width * count,
-            [&](Text& to, std::size_t i) {
-                to.add_number(influence_of(skin, groups, first + i / width).weight[i % width]);
-            },
-            " (");
+            [&](Text& to, std::size_t i) { to.add_number(share(i).weight); }, " (");
         add_vertex_interpolation(text, size);
         usda_line(
             text, in_mesh,

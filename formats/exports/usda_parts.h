@@ -2,16 +2,21 @@
 #pragma once
 #include "formats/text.h"
 #include "usda.h"
+#include <map>
+#include <set>
 
 namespace bough {
 
-// Names of prims: letters, digits and _, each once.
-class PrimNames {
+std::string prim_name(const std::string&); // letters, digits and _
+
+// Names that are each taken once: a second one gets "_2", and so on.
+class FreeNames {
 public:
     std::string add(const std::string& name);
 
 private:
-    std::vector<std::string> taken_;
+    std::set<std::string> taken_;
+    std::map<std::string, int> next_; // of each that was asked for: the number to try next
 };
 
 std::string usda_string(const std::string&); // quoted and escaped
@@ -53,9 +58,9 @@ void usda_array(Text& text, int level, const std::string& head, std::size_t coun
     text.end_line();
 }
 
-// ---- usda_mesh.cpp ---- the parts of a skin; positions less `origin`. root: the path of the SkelRoot. name: of each part.
-void usda_meshes(Text&, const std::string& root, const std::vector<std::string>& name, const Skin&, const OwnMesh*,
-                 const std::vector<OwnLook>&, const JointGroups&, const Vec3& origin);
+// ---- usda_mesh.cpp ---- the parts of a mesh; positions less `origin`. root: the path of the SkelRoot. name: of each part.
+void usda_meshes(Text&, const std::string& root, const std::vector<std::string>& name, const RigMesh&,
+                 const std::vector<OwnLook>&, const Vec3& origin);
 
 // ---- usda_material.cpp ---- the scope "materials" under the root.
 void usda_materials(Text&, const std::string& root, const std::vector<std::string>& name, const std::vector<OwnLook>&);

@@ -39,6 +39,8 @@ DrivenBones::DrivenBones(const UserModel& model, const Tree& tree, const DrivenP
         if (bodies.turn[b] < 0) continue;
         DrivenBone driven;
         driven.node = model.joint[b];
+        driven.name = valid_utf8(
+            model.document->json["nodes"][std::size_t(driven.node)].value("name", "bone_" + std::to_string(b)));
         driven.turn = bodies.turn[b];
         driven.place = bodies.place[b];
         const auto node = std::size_t(driven.node);

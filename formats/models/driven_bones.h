@@ -23,6 +23,7 @@ struct DrivenPlace {
 };
 
 struct DrivenBone {
+    std::string name; // the node's
     std::int32_t node = -1;
     std::int32_t turn = -1, place = -1; // bodies
     Quat turned = Quat::Identity();     // R of G_c

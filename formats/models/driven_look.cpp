@@ -27,6 +27,20 @@ const Json& color_texture(const Json& material) {
     return at_or_empty(at_or_empty(material, "pbrMetallicRoughness"), "baseColorTexture");
 }
 
+MapPlace place_of(const Json& texture) {
+    MapPlace place;
+    place.set = whole_number(texture, "texCoord", "a texture", 0);
+    const Json& moved = at_or_empty(at_or_empty(texture, "extensions"), "KHR_texture_transform");
+    place.set = whole_number(moved, "texCoord", "a texture", place.set);
+    const double turn = moved.value("rotation", 0.0), c = std::cos(turn), s = std::sin(turn);
+    place.turn << c, s, -s, c;
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (moved.contains("scale")) place.turn.col(int(k)) *= moved["scale"].at(k).get<double>();
+        if (moved.contains("offset")) place.at[int(k)] = moved["offset"].at(k).get<double>();
+    }
+    return place;
+}
+
 class Looks {
 public:
     Looks(const GltfDocument& document, OwnMesh& mesh, std::vector<std::string>& notes)
@@ -44,12 +58,21 @@ public:
             const Json& factor = at_or_empty(at_or_empty(material, "pbrMetallicRoughness"), "baseColorFactor");
             for (std::size_t k = 0; k < 3 && factor.is_array(); ++k) color[int(k)] = factor.at(k).get<double>();
             part.color = color.unaryExpr([](double c) { return srgb(c); });
+            const Json& given = at_or_empty(material, "pbrMetallicRoughness");
             Json pbr{{"baseColorFactor", Json::array({color[0], color[1], color[2], 1.0})}};
-            if (const int image = image_of(color_texture(material), part.name); image >= 0)
-                pbr["baseColorTexture"] = {{"index", image}};
+            for (const char* factor_of : {"metallicFactor", "roughnessFactor"})
+                if (given.contains(factor_of)) pbr[factor_of] = given[factor_of].get<double>();
+            const MapPlace place = map_place_of(document_, number);
+            const auto add_map = [&](Json& to, const Json& from, const char* map, const char* what) {
+                const Json& texture = at_or_empty(from, map);
+                if (const int image = image_of(texture, part.name + what, place); image >= 0)
+                    to[map] = {{"index", image}};
+            };
+            add_map(pbr, given, "baseColorTexture", "");
+            add_map(pbr, given, "metallicRoughnessTexture", "_roughness");
             Json look{{"name", part.name}, {"pbrMetallicRoughness", std::move(pbr)}};
-            if (const int image = image_of(at_or_empty(material, "normalTexture"), part.name + "_normal"); image >= 0)
-                look["normalTexture"] = {{"index", image}};
+            add_map(look, material, "normalTexture", "_normal");
+            add_map(look, material, "occlusionTexture", "_occlusion");
             if (material.contains("alphaMode")) look["alphaMode"] = material["alphaMode"].get<std::string>();
             if (material.contains("alphaCutoff")) look["alphaCutoff"] = material["alphaCutoff"].get<double>();
             if (material.contains("doubleSided")) look["doubleSided"] = material["doubleSided"].get<bool>();
@@ -72,7 +95,7 @@ private:
     }
 
     // The mesh's image of a texture that a material names, -1: none that could be written. otherwise: its name, where the file has none.
-    int image_of(const Json& texture, const std::string& otherwise) {
+    int image_of(const Json& texture, const std::string& otherwise, const MapPlace& expected) {
         if (!texture.contains("index")) return -1;
         const Json& of = document_.json.at("textures").at(texture["index"].get<std::size_t>());
         if (!of.contains("source")) { // an extension names one of another kind
@@ -81,7 +104,7 @@ private:
         }
         const auto number = of["source"].get<std::size_t>();
         const auto [known, fresh] = image_.try_emplace(number, -1);
-        if (!fresh) return known->second;
+        if (!fresh) return known->second < 0 || lies_as(expected, texture, otherwise) ? known->second : -1;
         const Json& image = document_.json.at("images").at(number);
         const std::string bytes = bytes_of(image), place = "image " + std::to_string(number);
         const char* const type = image_type(bytes);
@@ -89,10 +112,22 @@ private:
             note(place + (bytes.empty() ? " is not in the file" : " is neither PNG nor JPEG"));
             return -1;
         }
+        if (!lies_as(expected, texture, otherwise)) {
+            image_.erase(known);
+            return -1;
+        }
         known->second = int(mesh_.image.size());
         const std::string name = valid_utf8(image.value("name", std::string()));
         mesh_.image.push_back({name.empty() ? otherwise : name, type, bytes});
         return known->second;
+    }
+
+    // A note says so where it does not.
+    bool lies_as(const MapPlace& expected, const Json& texture, const std::string& name) {
+        const MapPlace place = place_of(texture);
+        const bool same = place.set == expected.set && place.turn == expected.turn && place.at == expected.at;
+        if (!same) note(in_ascii_quotes(name) + " lies otherwise on the mesh than its material's colours");
+        return same;
     }
 
     std::string bytes_of(const Json& image) const {
@@ -121,21 +156,13 @@ private:
 } // namespace
 
 MapPlace map_place_of(const GltfDocument& document, std::int32_t number) {
-    MapPlace place;
-    if (number < 0) return place;
+    if (number < 0) return {};
     const Json& material = document.json["materials"][std::size_t(number)];
-    const Json& color = color_texture(material);
-    const Json& texture = color.empty() ? at_or_empty(material, "normalTexture") : color;
-    place.set = whole_number(texture, "texCoord", "a texture", 0);
-    const Json& moved = at_or_empty(at_or_empty(texture, "extensions"), "KHR_texture_transform");
-    place.set = whole_number(moved, "texCoord", "a texture", place.set);
-    const double turn = moved.value("rotation", 0.0), c = std::cos(turn), s = std::sin(turn);
-    place.turn << c, s, -s, c;
-    for (std::size_t k = 0; k < 2; ++k) {
-        if (moved.contains("scale")) place.turn.col(int(k)) *= moved["scale"].at(k).get<double>();
-        if (moved.contains("offset")) place.at[int(k)] = moved["offset"].at(k).get<double>();
-    }
-    return place;
+    for (const Json* texture :
+         {&color_texture(material), &at_or_empty(material, "normalTexture"),
+          &at_or_empty(at_or_empty(material, "pbrMetallicRoughness"), "metallicRoughnessTexture")})
+        if (!texture->empty()) return place_of(*texture);
+    return place_of(at_or_empty(material, "occlusionTexture"));
 }
 
 void add_looks(const GltfDocument& document, const std::vector<std::int32_t>& materials, OwnMesh& mesh,

@@ -27,7 +27,20 @@ Mat3 cofactors(const Mat3& A) {
 
 DrivenMesh::DrivenMesh(const UserModel& model, const Tree& tree, const DrivenPlace& place,
                        std::vector<std::string>& notes)
-    : bones_(model, tree, place, notes), surface_(surface_of(*model.document, model.name, notes)) {
+    : name_(model.name), bones_(model, tree, place, notes), surface_(surface_of(*model.document, model.name, notes)) {
+    find_ways();
+    turn_mirrored();
+    check_range();
+}
+
+DrivenMesh::DrivenMesh(const DrivenMesh& drawn, const UserModel& model, const Tree& tree, const DrivenPlace& place,
+                       std::vector<std::string>& notes)
+    : name_(model.name), bones_(model, tree, place, notes), surface_(drawn.surface_) { // mirrored alike
+    find_ways();
+    check_range();
+}
+
+void DrivenMesh::find_ways() {
     const GltfNodes& nodes = bones_.nodes();
     for (const DrivenSurface::Matrix& matrix : surface_.matrix) {
         const std::int32_t bone = bones_.bone_over(matrix.node);
@@ -42,8 +55,6 @@ DrivenMesh::DrivenMesh(const UserModel& model, const Tree& tree, const DrivenPla
         way_.push_back({bone, below});
         moved_.push_back(bones_.world_from_file() * nodes.world[std::size_t(matrix.node)] * matrix.bind);
     }
-    turn_mirrored();
-    check_range(model.name);
 }
 
 // A mirrored triangle is seen from its other side: its corners change places.
@@ -52,12 +63,12 @@ void DrivenMesh::turn_mirrored() {
         if (blended(std::size_t(corner[0])).linear().determinant() < 0) std::swap(corner[1], corner[2]);
 }
 
-void DrivenMesh::check_range(const std::string& name) const {
+void DrivenMesh::check_range() const {
     for (std::size_t v = 0; v < vertices(); ++v) {
         const Vec3 at = blended(v) * surface_.position[v].cast<double>();
         if (!(at.array().abs() < double(std::numeric_limits<float>::max())).all()) // maxCoeff() may pass NaN over
-            throw InputError(name, "vertex " + std::to_string(v) + " of its mesh is drawn beyond any float, at " +
-                                       shown(at.x()) + ", " + shown(at.y()) + ", " + shown(at.z()));
+            throw InputError(name_, "vertex " + std::to_string(v) + " of its mesh is drawn beyond any float, at " +
+                                        shown(at.x()) + ", " + shown(at.y()) + ", " + shown(at.z()));
     }
 }
 

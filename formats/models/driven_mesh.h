@@ -18,6 +18,10 @@ public:
     // Takes the model's document for itself: it is decoded, and no other has use of it. Notes: those of DrivenBones and of surface_of.
     DrivenMesh(const UserModel&, const Tree&, const DrivenPlace&, std::vector<std::string>& notes);
 
+    // The same model where another tree moves it, which `drawn` is not: in its drawn pose, all of its vertices. The document's nodes are looked at again.
+    DrivenMesh(const DrivenMesh& drawn, const UserModel&, const Tree&, const DrivenPlace&,
+               std::vector<std::string>& notes);
+
     std::size_t vertices() const { return surface_.position.size(); }
     const OwnMesh& look() const { return surface_.look; } // parts in order, without surfaces
     // Of all vertices as they are drawn: texture coordinates, triangles and parts; no joints. O(vertices).
@@ -36,6 +40,13 @@ public:
     void positions(std::size_t first, std::span<Vec3> to) const;
     void normals(std::size_t first, std::span<Vec3> to) const;
 
+    const std::string& name() const { return name_; } // the model's, in messages
+    // What it is made of (driven_rig.h).
+    const DrivenBones& driven_by() const { return bones_; }
+    const DrivenSurface& surface() const { return surface_; }
+    std::int32_t bone_of(std::size_t matrix) const { return way_[matrix].bone; }      // -1: its node stands still
+    const Eigen::Affine3d& moved(std::size_t matrix) const { return moved_[matrix]; } // M_k(f)
+
 private:
     // Where matrix k's node stands: below a bone, or still.
     struct Way {
@@ -45,9 +56,11 @@ private:
     Eigen::Affine3d blended(std::size_t vertex) const;
     std::int32_t body_of(std::size_t vertex) const;
     Eigen::Vector3f place_for(std::size_t vertex, const Vec3& drawn) const;
+    void find_ways();
     void turn_mirrored();
-    void check_range(const std::string& name) const;
+    void check_range() const;
 
+    std::string name_;
     DrivenBones bones_;
     DrivenSurface surface_;
     std::vector<Way> way_;               // of each of its matrices

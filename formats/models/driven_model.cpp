@@ -126,11 +126,14 @@ void DrivenModel::write(const MotionFrame& frame) {
     keys_->add(turned);
 }
 
-std::string DrivenModel::finish(const std::string& output_name) {
+void DrivenModel::add_motion(Json& animation, std::size_t first_node) {
     keys_->thin(options_.key_tolerance);
     GltfDocument& document = *model_.document;
-    Json samplers = Json::array(), channels = Json::array();
-    const auto add = [&](std::size_t input, std::size_t output, std::int32_t node, const char* path) {
+    for (const char* list : {"channels", "samplers"})
+        if (!animation.contains(list)) animation[list] = Json::array();
+    Json &samplers = animation["samplers"], &channels = animation["channels"];
+    const auto add = [&](std::size_t input, std::size_t output, std::int32_t of, const char* path) {
+        const std::size_t node = std::size_t(of) + first_node;
         channels.push_back(Json{{"sampler", samplers.size()}, {"target", Json{{"node", node}, {"path", path}}}});
         samplers.push_back(Json{{"input", input}, {"output", output}});
     };
@@ -166,7 +169,12 @@ std::string DrivenModel::finish(const std::string& output_name) {
         const std::size_t input = input_of(times);
         add(input, add_floats(document, values, "VEC3", false), bones_.bone()[b].node, "translation");
     }
-    Json motion{{"name", "motion"}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}};
+}
+
+std::string DrivenModel::finish(const std::string& output_name) {
+    GltfDocument& document = *model_.document;
+    Json motion{{"name", "motion"}};
+    add_motion(motion, 0);
     if (!options_.source.empty()) motion["extras"] = Json{{"source", options_.source}};
     Json animations = Json::array({std::move(motion)});
     if (document.json.contains("animations"))

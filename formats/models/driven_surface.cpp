@@ -60,6 +60,10 @@ public:
             out_.part.back().index_count = out_.triangle.size() - out_.part.back().first_index;
             before = &s;
         }
+        if (entries_of(json_, "animations") > 0)
+            notes_.push_back(
+                counted(entries_of(json_, "animations"), "animation of its own is", "animations of its own are") +
+                " not shown: the tree moves it");
         if (morphs_) notes_.push_back("morph targets are not shown: the mesh keeps its own shape under its bones");
         return std::move(out_);
     }
@@ -179,17 +183,19 @@ private:
                       {"skin " + std::to_string(skin) + ": inverseBindMatrices", "MAT4", GltfNumbers::floats});
         for (std::size_t k = 0; k < of.at("joints").size(); ++k) {
             DrivenSurface::Matrix matrix;
+            matrix.set = sets_;
             matrix.node = std::int32_t(checked_index(of["joints"][k], "a joint", entries_of(json_, "nodes")));
             matrix.bind.matrix() = Eigen::Map<const Eigen::Matrix4d>(&binds.at(16 * k + 15) - 15);
             matrix.bind.makeAffine();
             out_.matrix.push_back(matrix);
         }
+        ++sets_;
         return known->second;
     }
 
     std::int32_t matrix_of(std::size_t node) {
         const auto [known, fresh] = hung_.try_emplace(node, std::int32_t(out_.matrix.size()));
-        if (fresh) out_.matrix.push_back({std::int32_t(node), Eigen::Affine3d::Identity()});
+        if (fresh) out_.matrix.push_back({std::int32_t(node), sets_++, Eigen::Affine3d::Identity()});
         return known->second;
     }
 
@@ -228,6 +234,7 @@ private:
     std::vector<std::string>& notes_;
     DrivenSurface out_;
     std::map<std::size_t, std::int32_t> skin_, hung_; // first matrix of a skin, matrix of a node
+    std::int32_t sets_ = 0;                           // of matrices
     std::size_t instanced_ = 0;
     bool morphs_ = false;
 };

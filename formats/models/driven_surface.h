@@ -15,6 +15,7 @@ namespace bough {
 struct DrivenSurface {
     struct Matrix {
         std::int32_t node = 0;
+        std::int32_t set = 0; // alike for a skin's, which move vertices together
         Eigen::Affine3d bind = Eigen::Affine3d::Identity();
     };
     struct Share {
@@ -32,7 +33,7 @@ struct DrivenSurface {
 };
 
 // Of the default scene. Decodes the document's compressed arrays in place. O(bytes of the file + nodes' vertices). Notes: what is not shown
-// (morph targets, instances), images that are no PNG or JPEG.
+// (morph targets, instances, animations), images that are no PNG or JPEG.
 // Throws NoSkinnedMesh where there are no triangles. Throws InputError (place `name`): what check_arrays refuses (gltf_check.h), arrays of other lengths than the vertices, Draco's form, more than
 // 2^31 - 1 vertices.
 DrivenSurface surface_of(GltfDocument&, const std::string& name, std::vector<std::string>& notes);

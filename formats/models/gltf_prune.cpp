@@ -1,100 +1,14 @@
 #include "gltf_prune.h"
+#include "gltf_references.h"
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace bough {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Known: those whose references are followed below, and those that have none to accessors, views or bytes.
-bool is_known(std::string_view name) {
-    constexpr std::array<std::string_view, 4> begins{"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_"};
-    constexpr std::array<std::string_view, 9> whole{
-        "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "KHR_animation_pointer",
-        "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_mesh_quantization",
-        "KHR_node_visibility",        "KHR_xmp_json_ld",         "EXT_lights_image_based"};
-    return std::any_of(begins.begin(), begins.end(), [&](std::string_view b) { return name.starts_with(b); }) ||
-           std::find(whole.begin(), whole.end(), name) != whole.end();
-}
-
-std::string unknown_extension(const Json& json) {
-    if (!json.is_structured()) return "";
-    if (json.is_object() && json.contains("extensions"))
-        for (const auto& [name, content] : json["extensions"].items())
-            if (!is_known(name)) return name;
-    for (const auto& [key, value] : json.items()) {
-        if (key == "extras") continue;
-        if (std::string found = unknown_extension(value); !found.empty()) return found;
-    }
-    return "";
-}
-
-template <class Use> void each_of(Json& json, const char* list, Use&& use) {
-    if (!json.contains(list)) return;
-    for (Json& item : json[list]) use(item);
-}
-
-Json* extension(Json& of, const char* name) {
-    return of.contains("extensions") && of["extensions"].contains(name) ? &of["extensions"][name] : nullptr;
-}
-
-// use(number) for each place that holds the index of an accessor.
-template <class Use> void each_accessor_index(Json& json, Use&& use) {
-    const auto each_value = [&](Json& object) {
-        for (Json& index : object) use(index);
-    };
-    each_of(json, "meshes", [&](Json& mesh) {
-        each_of(mesh, "primitives", [&](Json& primitive) {
-            each_value(primitive.at("attributes"));
-            if (primitive.contains("indices")) use(primitive["indices"]);
-            each_of(primitive, "targets", each_value);
-        });
-    });
-    each_of(json, "skins", [&](Json& skin) {
-        if (skin.contains("inverseBindMatrices")) use(skin["inverseBindMatrices"]);
-    });
-    each_of(json, "animations", [&](Json& animation) {
-        each_of(animation, "samplers", [&](Json& sampler) {
-            use(sampler.at("input"));
-            use(sampler.at("output"));
-        });
-    });
-    each_of(json, "nodes", [&](Json& node) {
-        if (Json* instances = extension(node, "EXT_mesh_gpu_instancing")) each_value(instances->at("attributes"));
-    });
-}
-
-// ... of a view.
-template <class Use> void each_view_index(Json& json, Use&& use) {
-    const auto of = [&](Json& object) {
-        if (object.contains("bufferView")) use(object["bufferView"]);
-    };
-    each_of(json, "accessors", [&](Json& accessor) {
-        of(accessor);
-        if (!accessor.contains("sparse")) return;
-        of(accessor["sparse"].at("indices"));
-        of(accessor["sparse"].at("values"));
-    });
-    each_of(json, "images", of);
-    each_of(json, "meshes", [&](Json& mesh) {
-        each_of(mesh, "primitives", [&](Json& primitive) {
-            if (Json* draco = extension(primitive, "KHR_draco_mesh_compression")) of(*draco);
-        });
-    });
-}
-
-// use(object) for each object that names bytes of buffer 0.
-template <class Use> void each_place(Json& json, Use&& use) {
-    const auto of = [&](Json& object) {
-        if (whole_number(object, "buffer", "a view") == 0) use(object);
-    };
-    each_of(json, "bufferViews", [&](Json& view) {
-        of(view);
-        if (Json* packed = extension(view, "EXT_meshopt_compression")) of(*packed);
-    });
-}
+using gltf_references::each_accessor_index, gltf_references::each_place, gltf_references::each_view_index,
+    gltf_references::extension;
 
 struct Range {
     std::size_t begin, end;
@@ -165,7 +79,7 @@ void cut_bytes(GltfDocument& document, std::vector<Range> gone) {
 std::string prune(GltfDocument& document, const std::vector<std::size_t>& accessors) {
     Json& json = document.json;
     if (accessors.empty()) return "";
-    if (std::string unknown = unknown_extension(json); !unknown.empty()) return unknown;
+    if (std::string unknown = gltf_references::unknown_extension(json); !unknown.empty()) return unknown;
     std::vector<char> gone(json.at("accessors").size(), false);
     const auto accessor_of = [&](const Json& index) { return checked_index(index, "an accessor", gone.size()); };
     for (const std::size_t i : accessors) gone.at(i) = true;

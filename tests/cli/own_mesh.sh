@@ -214,9 +214,6 @@ refused 1 "--leaves-as: only with --mesh made" treesim art/tree.xml --frames 2 -
 refused 1 "--rustle: only with --mesh made" treesim art/tree.xml --wind gusty --frames 2 --rustle -o x.glb
 refused 1 "--mesh: only with a mesh" treesim art/tree.xml --frames 2 --mesh own
 refused 1 "--mesh: not with --skin" treesim own.json --skin art/tree.xml --frames 2 --mesh made -o x.glb
-refused 1 "twig_armature.gltf: a mesh that bones move is shown by .glb, frames of .obj, .mdd, .pc2 and NAME_vat/ alone; --mesh made shows one" treesim "$twig" --frames 2 --mesh own -o x.usda
-expect 0 treesim "$twig" --frames 2 -o bones.usda
-grep -q "alone; this one is made from the tree" err || fail "a made mesh is not told of: $(cat err)"
 refused 1 "has no mesh that could be moved" treesim "$maple" --frames 2 --mesh own -o x.glb
 refused 2 "has no mesh of its own" treesim own.json --skin "$maple" --frames 2 -o x.glb
 treegen --age 12 --bodies 300 -q | treeconvert - -q -o other.json
@@ -242,10 +239,6 @@ done
 sed 's/<PointIndices>[^<]*</<PointIndices></; s/<VertexIndices>[^<]*</<VertexIndices></' art/tree.xml >art/bare.xml
 refused 2 "bare.xml: has no mesh of its own (no triangles in its objects), expected one to be moved; --mesh made shows one" treesim art/bare.xml --frames 2 -o x.glb
 expect 0 treesim art/bare.xml --frames 2 --mesh made -o bare.glb
-cp "$twig" "$(dirname "$twig")/twig_bark.bin" .
-echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig_armature.gltf"}]}' >skinned.json
-refused 1 "twig_armature.gltf has a mesh that bones move, which a scene does not show; name the file as INPUT or by --skin" treesim skinned.json --frames 2 --mesh own -o x.glb
-expect 0 treesim skinned.json --frames 2 -o skinned.glb
 mkdir -p folder/bark_normal.tga
 cp art/tree.xml folder
 expect 0 treesim folder/tree.xml --frames 2 -o folder.glb

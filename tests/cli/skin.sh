@@ -36,7 +36,6 @@ echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "twig.json"}, {
 refused 1 "expected one" treesim two.json --frames 5 --skin "$twig" -o two.glb
 
 refused 1 "--skin: only with a mesh" "${run[@]}" --skin "$twig" -o x.jsonl
-refused 1 "--skin: only with .glb, frames of .obj, .mdd, .pc2 and NAME_vat/ alone" "${run[@]}" --skin "$twig" -o x.usda
 refused 1 "--sides: not with --skin" "${run[@]}" --skin "$twig" --sides 8 -o x.glb
 refused 1 "--max-joints: not with --skin" "${run[@]}" --skin "$twig" --max-joints 8 -o x.glb
 cp a.glb own.glb

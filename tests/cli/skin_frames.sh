@@ -230,17 +230,23 @@ for to in cherry_%d.obj again.glb; do
 done
 expect 0 treesim cherry.glb --frames 1 -o cherry.pc2
 ! grep -q "own mesh, material by material" err || fail "a cache of a made mesh is said to be of the file's: $(cat err)"
-rm cherry.glb again.glb cherry.pc2 cherry.mtl cherry_*
-
-# A scene that names the model says that it shows ours, in any form.
-echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "art/leafy.gltf"}]}' >named.json
-for to in x_%d.obj x.glb; do
-    expect 0 treesim named.json --frames 1 -o $to
-    grep -q "art/leafy.gltf: a scene shows a mesh made from its tree" err || fail "$to: $(cat err)"
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "cherry.glb"}, {"file": "art/leafy.gltf", "position": [20, 0, 0]}]}' >both.json
+for to in cherry_%d.obj again.glb; do
+    expect 0 treesim both.json --frames 1 -o $to
+    grep -q "bones lie beside the tree.*: a mesh made from the tree is shown" err || fail "$to of a scene: $(cat err)"
+    refused 2 "bones lie beside the tree" treesim both.json --mesh own --frames 1 -o $to
 done
-expect 0 treesim named.json --mesh made --frames 1 -o x.glb
-! grep -q "a scene shows" err || fail "said of a mesh that was asked for: $(cat err)"
-rm x.glb x.mtl x_*
+grep -q "spring_leaf" cherry_0.obj || fail "the scene's other model is not shown"
+rm -r cherry.glb again.glb cherry.pc2 cherry.mtl cherry_*
+
+# A scene that names the model shows it, in any form.
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "art/leafy.gltf", "position": [30, 2, 5], "yaw": 40}], "wind": "storm"}' >named.json
+expect 0 treesim named.json "${soft[@]}" --frames 16 -o x_%d.obj
+expect 0 treesim named.json "${soft[@]}" --frames 16 --key-tolerance 0 -o x.glb
+python3 compare.py x.glb x_%d.obj 0,4,15 >said 2>&1 || fail "a scene that names the model: $(cat said)"
+expect 0 treesim named.json --mesh made --frames 1 -o x_%d.obj
+! grep -q "spring_leaf" x_0.obj || fail "--mesh made of a scene"
+rm -r x.glb x.mtl x_*
 
 # Ours where it is asked for; refused: what is out of range, with its place, and nothing is written.
 expect 0 treesim art/leafy.gltf --mesh made --frames 1 -o made_%d.obj

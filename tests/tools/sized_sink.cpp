@@ -65,7 +65,7 @@ TEST_CASE("What is told of a real output is what is written in the end") {
     CAPTURE(format);
     std::unique_ptr<FrameSink> sink;
     if (format == "usda") {
-        sink = usda_sink(file, tree, skin, std::nullopt, 30, GltfChoice(), "", {}, notes);
+        sink = usda_sink(file, tree.name, rigged(tree, skin, std::nullopt, GltfChoice(), notes), 30, "", {});
     } else if (format == "mdd" || format == "pc2") {
         Skin one = skin;
         one.position.resize(1), one.normal.resize(1), one.joint.resize(1), one.weight.resize(1);

@@ -110,8 +110,15 @@ WrittenUsda written_usda(const Tree& tree, const std::vector<skin_checks::SkinPo
     options.fps = 24;
     options.generator = "bough \"1\"";
     w.at = parse(test::written([&](Output& output) {
-        UsdaWriter writer(output, w.skin, nullptr, look, w.tree, groups, options);
-        for (std::size_t f = 0; f < poses.size(); ++f) writer.write(as_frame(poses[f], f, double(f) * step));
+        Rig rig = rig_of(w.skin, nullptr, w.tree, groups);
+        const std::optional<Vec3> root = join_roots(rig);
+        CHECK(std::count(rig.joints.parent.begin(), rig.joints.parent.end(), -1) == 1);
+        UsdaWriter writer(output, w.tree.name, rig, look, options);
+        for (std::size_t f = 0; f < poses.size(); ++f) {
+            RigPose pose = pose_of(as_frame(poses[f], f, double(f) * step), groups);
+            if (root) join_roots(pose, *root);
+            writer.write(pose);
+        }
         writer.finish();
     }));
     return w;
@@ -183,7 +190,11 @@ double off(const WrittenUsda& w, int frame, const std::vector<Vec3>& wanted) {
 } // namespace
 
 TEST_CASE("joints, weights and time samples move the meshes as the deformer does") {
-    for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(150, 3)}) {
+    Tree two; // of two roots
+    append(two, make_tree::branched(), Vec3(1, 0, 2), 0.3);
+    append(two, make_tree::branched(), Vec3(-4, 0, 0), -1);
+    two.name = "two";
+    for (const Tree& tree : {make_tree::branched(), make_tree::random_tree(150, 3), two}) {
         std::vector<skin_checks::SkinPose> poses;
         for (unsigned f = 0; f < 4; ++f) poses.push_back(bent(tree, 0.2 * f, f));
         for (const Vec3& step : {Vec3(0, 0, 0), Vec3(0.1, 0, -0.2)}) {
