@@ -64,6 +64,7 @@ public:
             notes_.push_back(
                 counted(entries_of(json_, "animations"), "animation of its own is", "animations of its own are") +
                 " not shown: the tree moves it");
+        if (colors_) notes_.push_back("colours of vertices are not shown");
         if (morphs_) notes_.push_back("morph targets are not shown: the mesh keeps its own shape under its bones");
         return std::move(out_);
     }
@@ -112,6 +113,7 @@ private:
         const Json& from = json_["meshes"][s.mesh]["primitives"][s.primitive];
         const Json& attributes = from["attributes"];
         const std::string place = primitive_place(s.mesh, s.primitive);
+        colors_ = colors_ || attributes.contains("COLOR_0");
         morphs_ = morphs_ || !from.value("targets", Json::array()).empty();
         std::vector<Vec3> point = points_of(document_, from, place);
         const std::size_t n = point.size();
@@ -236,7 +238,7 @@ private:
     std::map<std::size_t, std::int32_t> skin_, hung_; // first matrix of a skin, matrix of a node
     std::int32_t sets_ = 0;                           // of matrices
     std::size_t instanced_ = 0;
-    bool morphs_ = false;
+    bool colors_ = false, morphs_ = false;
 };
 
 } // namespace

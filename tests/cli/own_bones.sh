@@ -43,6 +43,7 @@ leaf["meshes"].append({"primitives": [{"attributes": {"POSITION": leaf["meshes"]
 leaf["nodes"] += [{"mesh": 1, "scale": [0.1, 0.2, 0.1], "translation": [0, 0.3, 0]}, {"name": "pot", "mesh": 1, "translation": [-1, 0, 0], "scale": [0.3, 0.1, 0.3]}]
 leaf["nodes"][5].setdefault("children", []).append(n)
 leaf["scenes"][0]["nodes"].append(n + 1)
+leaf["meshes"][1]["primitives"][0]["attributes"]["COLOR_0"] = leaf["meshes"][1]["primitives"][0]["attributes"]["POSITION"]
 leaf["asset"]["copyright"] = "of the leaf"
 json.dump(leaf, open("models/leaf.gltf", "w"))
 P
@@ -55,6 +56,8 @@ for model in twig bent leaf; do
     expect 0 treesim models/$model.gltf --wind storm "${soft[@]}" -o ${model}_%d.obj
     plays usda $model.usda $model 1e-5
 done
+expect 0 treesim models/leaf.gltf --frames 1 -o leaf.pc2
+grep -q "leaf.gltf: colours of vertices are not shown" err || fail "colours are not told of: $(cat err)"
 [[ $(grep -c "uniform token\[\] joints = .*\"trunk\", \"trunk/trunk_001\"" twig.usda) -eq 2 ]] || fail "joints are not the model's bones: $(grep joints twig.usda)"
 grep -q "_bound" bent.usda && fail "one skin needs two joints of a bone"
 grep -q '/still"' leaf.usda || fail "nothing holds the pot"
