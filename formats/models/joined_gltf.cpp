@@ -61,9 +61,9 @@ Json placing_node(const GltfStand& stand, Json children) {
 // Known: extensions whose references to other lists are moved below, and those that have none.
 bool may_be_moved(std::string_view name) {
     constexpr std::array<std::string_view, 4> begins{"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_"};
-    constexpr std::array<std::string_view, 6> whole{"EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
-                                                    "KHR_draco_mesh_compression", "KHR_lights_punctual",
-                                                    "KHR_mesh_quantization",      "KHR_node_visibility"};
+    constexpr std::array<std::string_view, 7> whole{
+        "FB_ngon_encoding",    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+        "KHR_lights_punctual", "KHR_mesh_quantization",   "KHR_node_visibility"};
     return std::any_of(begins.begin(), begins.end(), [&](std::string_view b) { return name.starts_with(b); }) ||
            std::find(whole.begin(), whole.end(), name) != whole.end();
 }

@@ -185,6 +185,18 @@ expect 0 treesim packed.json "${soft[@]}" -o packed_%d.obj
 expect 0 treesim packed.json "${soft[@]}" -o packed.usda
 plays usda packed.usda packed 1e-5
 
+# A user's own, of Blender as FBX and .glb. (Keys of a .glb are left out where a bone leaves its place by less than 1e-5 of the bones' size.)
+if [[ -n ${BOUGH_CASES_DIR:-} ]]; then
+    cp "$BOUGH_CASES_DIR"/sapling/sapling_quaking_aspen_s0_skin.{fbx,glb} models
+    aspen=models/sapling_quaking_aspen_s0_skin
+    scene "{\"file\": \"$aspen.fbx\"}, {\"file\": \"$aspen.glb\", \"position\": [9, 0, 1]}, {\"file\": \"$aspen.fbx\", \"position\": [-9, 1, 2], \"yaw\": 70}" >aspens.json
+    expect 0 treesim aspens.json --frames 2 --fps $fps --settle 0 -o aspens_%d.obj
+    expect 0 treesim aspens.json --frames 2 --fps $fps --settle 0 --key-tolerance 0 -o aspens.glb
+    plays glb aspens.glb aspens 5e-4 0.01
+else
+    echo "notice: BOUGH_CASES_DIR is not set, no model of another program's is put into a scene"
+fi
+
 # Refused, or made and told of.
 refused 1 "--max-joints: only with --mesh made, as all of the scene's trees show bones of their own" treesim models.json --frames 2 --max-joints 9 -o x.glb
 refused 1 "--sides: only with --mesh made" treesim models.json --frames 2 --sides 9 -o x.usda
