@@ -71,7 +71,7 @@ bool may_be_moved(std::string_view name) {
 // Moves what a document's lists name of each other by the lengths of those that they are put behind.
 class Mover {
 public:
-    Mover(GltfDocument& to, GltfDocument& more) : to_(to), from_(more), json_(more.json) {
+    Mover(GltfDocument& to, GltfDocument& more) : to_(to), json_(more.json) {
         to_.binary.resize((to_.binary.size() + 3) / 4 * 4);
     }
 
@@ -144,7 +144,7 @@ private:
         }
     }
 
-    GltfDocument &to_, &from_;
+    GltfDocument& to_;
     Json& json_;
 };
 
