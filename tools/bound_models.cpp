@@ -1,5 +1,6 @@
 #include "bound_models.h"
 #include "lib/model/split.h"
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -27,6 +28,29 @@ std::string with_images(const std::string& material, std::size_t by) {
     Json json = Json::parse(material);
     move(json);
     return json.dump();
+}
+
+// What has no mesh yet: trees that look alike together, and with the first of them what stands behind all trees. looks: empty where INPUT is the tree.
+std::vector<std::pair<TreeLook, Bodies>> by_look(const std::vector<char>& bound, const std::vector<TreeRange>& ranges,
+                                                 const std::vector<TreeLook>& looks) {
+    std::vector<std::pair<TreeLook, Bodies>> groups;
+    std::map<TreeLook, std::size_t> known;
+    const auto take = [&](const TreeLook& look, std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            if (bound[i]) continue;
+            const auto [group, added] = known.try_emplace(look, groups.size());
+            if (added) groups.emplace_back(look, Bodies());
+            groups[group->second].second.push_back(std::int32_t(i));
+        }
+    };
+    std::size_t behind = 0;
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+        const std::size_t end = ranges[k].first_body + ranges[k].bodies;
+        take(looks.empty() ? TreeLook() : looks[k], ranges[k].first_body, end);
+        behind = std::max(behind, end);
+    }
+    take(groups.empty() ? TreeLook() : TreeLook(groups.front().first), behind, bound.size());
+    return groups;
 }
 
 } // namespace
@@ -76,13 +100,13 @@ OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setti
         }
         notes.insert(notes.end(), said.begin(), said.end());
     }
-    Bodies rest;
-    for (std::size_t i = 0; i < bound.size(); ++i)
-        if (!bound[i]) rest.push_back(std::int32_t(i));
-    if (rest.empty()) return mesh;
-    OwnMesh others = made(part_of(shown, rest));
-    const SharedParts at = share(mesh, others);
-    add_parts(mesh, std::move(others), at, rest);
+    for (auto& [look, bodies] : by_look(bound, ranges, setting.looks)) {
+        Tree rest = part_of(shown, bodies);
+        if (!setting.looks.empty()) rest.name = look.name, rest.color = look.color;
+        OwnMesh others = made(rest);
+        const SharedParts at = share(mesh, others);
+        add_parts(mesh, std::move(others), at, bodies);
+    }
     return mesh;
 }
 

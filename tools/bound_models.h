@@ -13,8 +13,8 @@ struct FileModel {
     std::vector<std::size_t> trees; // of the scene that are of the file; of a tree that is alone: 0
 };
 
-// Each tree shows its file's mesh where the scene puts it. What is none of theirs (other trees, balls) is a tree by itself, which `made` gives a mesh; bodies
-// that are shown `elsewhere` get none. Trees of one
+// Each tree shows its file's mesh where the scene puts it. What is none of theirs (other trees, balls) are trees by themselves, those that look alike together, which
+// `made` gives meshes; bodies that are shown `elsewhere` get none. Trees of one
 // file share materials, images and shapes. shown: all of the run's trees, and balls behind them. O(vertices, times pieces of a branch). Throws as bound_to does.
 OwnMesh bound_mesh(std::vector<FileModel>, const Tree& shown, const Setting&, const Bodies& elsewhere,
                    const std::function<OwnMesh(const Tree&)>& made, std::vector<std::string>& notes);

@@ -6,9 +6,9 @@
 namespace bough {
 namespace {
 
-std::optional<Species> species_of(const Tree& tree, const DressChoice& o) {
+std::optional<Species> species_of(const std::string& name, const DressChoice& o) {
     if (o.look == "none") return std::nullopt;
-    std::optional<Species> species = find_species(o.look.empty() ? tree.name : o.look);
+    std::optional<Species> species = find_species(o.look.empty() ? name : o.look);
     if (species || o.look.empty()) return species && !species->leaf.none() ? species : std::nullopt;
     if (o.look.find_first_of("./") == std::string::npos)
         throw UsageError("--look is '" + o.look + "', neither none, a species (treegen --list-species) nor a file");
@@ -56,12 +56,29 @@ void refuse_contradictions(const DressChoice& o, const std::string& format, bool
         throw UsageError("--leaf-detail card: only with .glb, .usda, NAME_vat/, whose textures cut the leaves out");
 }
 
+namespace {
+
+std::string detail_of(const DressChoice& o, const std::string& format) {
+    if (!o.leaf_detail.empty()) return o.leaf_detail;
+    return has_textures(format) && o.textures != "none" ? "card" : "kite";
+}
+
+} // namespace
+
+bool dresses(const DressChoice& o, const std::string& format, const char* plain) {
+    return !plain && (detail_of(o, format) != "kite" || (has_textures(format) && o.textures != "none"));
+}
+
+bool has_look(const std::string& name, const DressChoice& o) {
+    return species_of(name, o).has_value();
+}
+
 std::optional<OwnMesh> dressed(const Tree& tree, std::optional<int> sides, const DressChoice& o,
                                const std::string& format, const char* plain) {
-    if (plain) return std::nullopt;
+    if (!dresses(o, format, plain)) return std::nullopt;
     const bool glb = has_textures(format);
     DressOptions options;
-    const std::string detail = !o.leaf_detail.empty() ? o.leaf_detail : glb && o.textures != "none" ? "card" : "kite";
+    const std::string detail = detail_of(o, format);
     if (sides) options.sides = *sides;
     if (!sides && (!glb || format == "vat"))
         options.sides = SkinOptions().sides; // as treeconvert --mesh and point caches have it
@@ -71,8 +88,7 @@ std::optional<OwnMesh> dressed(const Tree& tree, std::optional<int> sides, const
     }
     options.textures = !glb || o.textures == "none" ? 0 : o.textures.empty() ? 512 : std::stoi(o.textures);
     options.detail = detail == "card" ? LeafDetail::card : detail == "mesh" ? LeafDetail::mesh : LeafDetail::kite;
-    if (options.detail == LeafDetail::kite && options.textures == 0) return std::nullopt;
-    const std::optional<Species> species = species_of(tree, o);
+    const std::optional<Species> species = species_of(tree.name, o);
     if (!species) {
         if (o.given() && o.look != "none")
             throw UsageError(std::string(o.given()) + ": the tree is called '" + tree.name +

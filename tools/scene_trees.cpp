@@ -25,6 +25,7 @@ public:
             notes_.insert(notes_.end(), read.notes.begin(), read.notes.end());
             if (read.imported) converted_.push_back(path);
             known = read_.emplace(file, with_material(std::move(read.tree), material_, path)).first;
+            looks_[file] = {known->second.name, known->second.color};
         }
         if (--left > 0) return known->second;
         Tree tree = std::move(known->second);
@@ -33,12 +34,18 @@ public:
     }
     const std::vector<std::string>& notes() const { return notes_; }
     const std::vector<std::string>& converted() const { return converted_; }
+    std::vector<TreeLook> looks(const Scene& scene) const {
+        std::vector<TreeLook> looks;
+        for (const Placement& place : scene.trees) looks.push_back(looks_.at(place.file));
+        return looks;
+    }
 
 private:
     std::string scene_file_;
     const MaterialChange& material_;
     std::map<std::string, std::size_t> wanted_;
     std::map<std::string, Tree> read_;
+    std::map<std::string, TreeLook> looks_;      // of trees that were read
     std::vector<std::string> notes_, converted_; // of files that were converted
 };
 
@@ -79,7 +86,7 @@ TreesRead read_trees(Assembly& assembly, const std::string& scene_file, const st
             throw UsageError("--shard " + shard + ": " + error.what());
         }
     }
-    return {files->notes(), files->converted()};
+    return {files->notes(), files->converted(), files->looks(assembly.scene)};
 }
 
 } // namespace bough

@@ -93,6 +93,7 @@ Setting read_setting(const RunOptions& o) {
         TreesRead read = read_trees(setting, o.input, o.shard, document.material);
         setting.notes = std::move(read.notes);
         setting.converted = std::move(read.converted);
+        setting.looks = std::move(read.looks);
     } else {
         if (!o.shard.empty()) throw UsageError("--shard: only with a scene, whose trees it parts");
         if (!setting.scene.trees.empty())

@@ -4,6 +4,7 @@
 #include "formats/imports/import.h"
 #include "lib/simulation/assembly.h"
 #include "run_options.h"
+#include "scene_trees.h"
 
 namespace bough {
 
@@ -12,6 +13,7 @@ struct Setting : Assembly {
     std::vector<std::string> tree_files{}; // of a scene: where its trees are read from, each once, of other parts too
     std::vector<std::string> notes{};      // on trees that were converted (converted.h)
     std::vector<std::string> converted{};  // those: files, INPUT among them
+    std::vector<TreeLook> looks{};         // of a scene: of each of its trees
     std::optional<ImportNotes> imported{}; // what was found of INPUT, where it was converted
 };
 // Reads a tree of any kind (converted.h), or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (assembly.h). Throws UsageError,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <iostream>
 #include <numbers>
+#include <set>
 
 namespace bough {
 namespace {
@@ -78,9 +79,19 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
 // What makes the mesh of a tree that has none of its own, beside others that have.
 std::function<OwnMesh(const Tree&)> made_mesh(const TreesimOptions& o, const std::string& format) {
     return [&o, &format](const Tree& tree) {
-        std::optional<OwnMesh> made = dressed(tree, o.sides, o.dress, format, plain_leaves(o));
+        const bool known = o.dress.look == "none" || has_look(tree.name, o.dress);
+        std::optional<OwnMesh> made;
+        if (known) made = dressed(tree, o.sides, o.dress, format, plain_leaves(o));
         return made ? std::move(*made) : dress(tree, Species(), {LeafDetail::kite, 0, o.sides.value_or(8)});
     };
+}
+
+// Whether the scene's trees are of several looks, one of which is known; a vertex animation texture has vertices for one.
+bool looks_differ(const TreesimOptions& o, const Setting& setting, const std::string& format) {
+    if (!o.dress.look.empty() || format == "vat" || !dresses(o.dress, format, plain_leaves(o))) return false;
+    const std::set<TreeLook> looks(setting.looks.begin(), setting.looks.end());
+    return looks.size() > 1 &&
+           std::any_of(looks.begin(), looks.end(), [&](const TreeLook& look) { return has_look(look.name, o.dress); });
 }
 
 // Of a scene some of whose files are skinned models. Null where none of them can be moved by its tree: notes say so, and the others remain to be shown.
@@ -145,14 +156,14 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     if (o.rustle) rustle = rustle_maker(setting, shown, o.run.fps);
     std::optional<OwnMesh> own;
     const bool bound = !model.bound.empty();
-    if (bound)
+    const bool apart = !bound && is_mesh(format) && looks_differ(o, setting, format);
+    if (bound || apart)
         own = bound_mesh(std::move(model.bound), shown, setting, {}, made_mesh(o, format), o.common.notes);
     else if (is_mesh(format))
         own = dressed(shown, o.sides, o.dress, format, plain_leaves(o));
-    if (own && !bound && setting.tree_files.size() > 1)
-        o.common.notes.push_back("the trees of " + std::to_string(setting.tree_files.size()) + " files all look as " +
-                                 (o.dress.look.empty() ? "the first one's species, " + shown.name : o.dress.look) +
-                                 " does (--look)");
+    if (own && format == "vat" && o.dress.look.empty() && !bound && setting.tree_files.size() > 1)
+        o.common.notes.push_back("the trees of " + std::to_string(setting.tree_files.size()) +
+                                 " files all look as the first one's species, " + shown.name + ", does (--look)");
     if (is_point_cache(format) && own)
         return own_cache_sink(o.common.output, format, shown, std::move(*own), cached, o.common.notes);
     if (is_mesh(format) && format != "glb") {

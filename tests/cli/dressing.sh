@@ -72,3 +72,30 @@ refused 1 "not with --textures none" treesim birch.json --frames 2 -o no.glb --l
 refused 1 "not with --leaves-as instances" treesim birch.json --frames 2 -o no.glb --leaf-detail mesh --leaves-as instances
 refused 1 "not with --rustle" treesim birch.json --frames 2 -o no.glb --leaf-detail mesh --rustle
 absent no.glb no_0.obj
+
+# Each tree of a scene looks as its file calls it: pictures and colours are those of the tree alone.
+for species in birch oak; do
+    treegen --species $species --age 6 --bodies 300 --leaves -q | treeconvert - -q -o $species.json
+    expect 0 treesim $species.json --frames 1 --textures 256 -o $species.glb
+done
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "oak.json"}, {"file": "birch.json", "position": [9, 0, 0]},
+    {"file": "oak.json", "position": [0, 0, 9]}]}' >two.json
+expect 0 treesim two.json --frames 1 --textures 256 -o two.glb
+expect 0 treesim two.json --frames 1 --look oak --textures 256 -o like.glb
+python3 - <<'END' || fail "a scene of an oak and a birch"
+import json
+
+
+def pictures(name):
+    data = open(name, "rb").read()
+    end = 20 + int.from_bytes(data[12:16], "little")
+    g, rest = json.loads(data[20:end]), data[end + 8:]
+    views = [g["bufferViews"][image["bufferView"]] for image in g["images"]]
+    return [rest[v.get("byteOffset", 0):v.get("byteOffset", 0) + v["byteLength"]] for v in views]
+
+
+oak, birch, two, like = (pictures(name + ".glb") for name in ("oak", "birch", "two", "like"))
+assert len(oak) == 3 and not set(oak) & set(birch), "an oak's pictures are a birch's"
+assert two == oak + birch, (len(two), len(oak), len(birch))
+assert like == oak, "--look is not all trees' look"
+END
