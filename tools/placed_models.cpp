@@ -3,6 +3,7 @@
 #include "formats/plain_text.h"
 #include "lib/model/split.h"
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -63,19 +64,27 @@ public:
     }
     // Of another file's tree: the same names of each tree.
     void give(OwnMesh& mesh, bool next_file) {
-        if (next_file) {
-            taken_.insert(given_.begin(), given_.end());
-            given_.clear();
-        }
-        for (OwnPart& part : mesh.part) {
-            const std::string name = part.name;
-            for (int k = 2; taken_.contains(part.name); ++k) part.name = name + "_" + std::to_string(k);
-            given_.insert(part.name);
-        }
+        if (next_file) choose(mesh);
+        for (OwnPart& part : mesh.part) part.name = given_.at(part.name);
     }
 
 private:
-    std::set<std::string> taken_, given_; // by other files; by this one
+    void choose(const OwnMesh& mesh) {
+        given_.clear();
+        for (const OwnPart& part : mesh.part) given_[part.name] = "";
+        const std::set<std::string> before = taken_; // by other files
+        for (auto& [name, given] : given_)
+            if (!before.contains(name)) taken_.insert(given = name);
+        for (auto& [name, given] : given_) {
+            if (!given.empty() || name.empty()) continue;
+            int k = 2;
+            while (taken_.contains(given = name + "_" + std::to_string(k))) ++k;
+            taken_.insert(given);
+        }
+    }
+
+    std::set<std::string> taken_;
+    std::map<std::string, std::string> given_; // of the last file's names
 };
 
 // Puts the parts of each model behind those of `to`: trees of one file share materials and images.

@@ -13,9 +13,13 @@
 namespace bough {
 namespace {
 
-// Whether INPUT's own mesh is wanted, if it has one.
+// Whether files' own meshes are wanted, where they have some.
 bool wants_own(const TreesimOptions& o, const std::string& format) {
-    return is_mesh(format) && o.skin.empty() && o.mesh != "made" && o.run.input != "-";
+    return is_mesh(format) && o.skin.empty() && o.mesh != "made";
+}
+// INPUT's own, which stdin is not read twice for.
+bool wants_inputs_own(const TreesimOptions& o, const std::string& format) {
+    return wants_own(o, format) && o.run.input != "-";
 }
 
 // Whether a mesh of it is in Draco's form, which a .glb keeps and no other output can show.
@@ -125,7 +129,9 @@ std::optional<UserModel> skinned_model_of_scene(TreesimOptions& o, const std::st
     } catch (const ImageError&) {
         throw; // says enough
     } catch (const InputError& error) {
-        refuse_own_mesh(error.what(), path);
+        if (o.mesh == "own") refuse_own_mesh(error.what(), path);
+        o.common.notes.push_back(std::string(error.what()) + ": a mesh made from the tree is shown");
+        return std::nullopt;
     }
 }
 
@@ -157,7 +163,7 @@ ShownModel model_before_threads(TreesimOptions& o, const std::string& format) {
         add_notes(model.driven->name, notes, o);
         return model;
     }
-    if (!wants_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
+    if (!wants_inputs_own(o, format) || !model_kind(MappedInput(o.run.input).content())) return model;
     try {
         model.driven = skinned_model(o, o.run.input, format);
     } catch (const LimitError& error) {
@@ -180,7 +186,7 @@ void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting
         model.bound.push_back({speedtree_model(o, o.skin, setting), {0}});
     } else if (!o.skin.empty()) {
         if (setting.ranges.size() == 1 && kept_its_place(setting, model.driven->moved)) model.driven->moved.setZero();
-    } else if (wants_own(o, format) && setting.imported) {
+    } else if (wants_inputs_own(o, format) && setting.imported) {
         const bool speedtree = is_speedtree_file(o.run.input) && has_speedtree_mesh(MappedInput(o.run.input).content());
         if (speedtree) model.bound.push_back({speedtree_model(o, o.run.input, setting), {0}});
     }

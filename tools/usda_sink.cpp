@@ -1,6 +1,7 @@
 #include "baked_sinks.h"
 #include "exits.h"
 #include "formats/exports/usda.h"
+#include "lib/base/counted.h"
 #include "made_with.h"
 #include <filesystem>
 
@@ -14,8 +15,8 @@ public:
         : file_(file), output_(file), shown_(std::move(shown)), root_(join_roots(shown_.rig)),
           looks_(looks_of(shown_.look, file)), writer_(output_, name, shown_.rig, looks_.part, options) {
         if (file == "-" && !looks_.image.empty())
-            throw UsageError("-o is '-': the mesh has " + std::to_string(looks_.image.size()) +
-                             " images, which stand beside a file; --textures none does without those of a species");
+            throw UsageError("-o is '-': the mesh has " + counted(looks_.image.size(), "image", "images") +
+                             ", which stand beside a file: expected one; --textures none leaves out a species' images");
         std::vector<std::string> files;
         for (const ImageFile& image : looks_.image) files.push_back(place_of(image));
         refuse_overwriting_by_images(read, files);

@@ -1,5 +1,6 @@
 #include "driven_forest.h"
 #include "formats/plain_text.h"
+#include "gltf_complete.h"
 #include "joined_gltf.h"
 #include <numeric>
 
@@ -30,6 +31,14 @@ void put_first(Json& animations, std::size_t from, bool there_is_one) {
 DrivenForest::DrivenForest(UserModel model, const std::vector<DrivenStand>& stands, DrivenOptions options,
                            std::vector<std::string>& notes)
     : model_(std::move(model)), options_(std::move(options)) {
+    try { // before the frames
+        add_missing_scene(model_.document->json);
+        require_joinable(*model_.document, model_.name);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw InputError(model_.name, "is no glTF 2.0: " + valid_utf8(error.what()));
+    }
     std::vector<std::string> again; // the same of each tree
     for (const DrivenStand& stand : stands) {
         options_.place = stand.place;

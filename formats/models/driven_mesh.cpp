@@ -36,6 +36,7 @@ DrivenMesh::DrivenMesh(const UserModel& model, const Tree& tree, const DrivenPla
 DrivenMesh::DrivenMesh(const DrivenMesh& drawn, const UserModel& model, const Tree& tree, const DrivenPlace& place,
                        std::vector<std::string>& notes)
     : name_(model.name), bones_(model, tree, place, notes), surface_(drawn.surface_) { // mirrored alike
+    surface_.look.image.clear();
     find_ways();
     check_range();
 }

@@ -54,6 +54,7 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
         d.to_parent = at < 0 ? parent : Eigen::Affine3d(nodes.world[std::size_t(at)].inverse() * parent);
         const Quat from_above = at < 0 ? Quat(Quat::Identity()) : Quat(nodes.turned[std::size_t(at)].conjugate());
         d.offset = from_above * parent_turned;
+        d.flipped = nodes.flipped[node];
         if (std::abs(d.to_parent.linear().determinant()) < 1e-300)
             throw InputError(model_.name, "has a bone below a node scaled to nothing");
         above.push_back(d.above);
@@ -63,8 +64,8 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
     keys_ = std::make_unique<JointKeys>(above, drawn);
     if (unequal > 0)
         notes.push_back(model_.name + ": " +
-                        counted(unequal, "bone hangs on a node scaled unequally: its rotation is only near",
-                                "bones hang on nodes scaled unequally: their rotations are only near"));
+                        counted(unequal, "bone hangs on a node scaled unequally: its rotation is only near (.usda and OBJ have it right)",
+                                "bones hang on nodes scaled unequally: their rotations are only near (.usda and OBJ have them right)"));
 }
 
 void DrivenModel::clear_matrix(std::size_t bone) {
@@ -149,8 +150,10 @@ void DrivenModel::add_motion(Json& animation, std::size_t first_node) {
         Eigen::Vector4f before = Eigen::Vector4f::Zero();
         for (std::size_t f = 0; f < keys_->frames(); ++f) {
             if (!keys_->has_key(b, f)) continue;
-            Eigen::Vector4f q =
-                (d.offset.conjugate() * keys_->key(b, f).cast<double>()).normalized().coeffs().cast<float>();
+            Eigen::Vector4f q = (d.offset.conjugate() * keys_->key(b, f).cast<double>() * d.flipped.conjugate())
+                                    .normalized()
+                                    .coeffs()
+                                    .cast<float>();
             if (q.dot(before) < 0) q = -q; // neighbours less than half a turn apart, as 4-vectors
             before = q;
             times.push_back(time_of(f, options_.fps));

@@ -42,6 +42,7 @@ private:
         std::int32_t above = -1; // driven bone whose motion the parent node has, -1: stands still
         Eigen::Affine3d to_parent = Eigen::Affine3d::Identity(); // G_above^-1 G_p, without one above: G_p
         Quat offset = Quat::Identity();                          // rotation of the parent node from the bone above
+        Quat flipped = Quat::Identity();                         // GltfNodes::flipped, which the node's scale keeps
         Vec3 translation = Vec3::Zero();                         // the node's own, drawn
         double off = 0;                                          // [m] by which it leaves it
         std::vector<Eigen::Vector3f> path;

@@ -21,8 +21,9 @@ template <int n> Eigen::Matrix<double, n, 1> numbers(const Json& node, const cha
     return result;
 }
 
-void read_place(const Json& node, Eigen::Affine3d& local, Quat& turned, double& unequal) {
+void read_place(const Json& node, Eigen::Affine3d& local, Quat& turned, Quat& flipped, double& unequal) {
     Vec3 scale = Vec3::Ones();
+    flipped = Quat::Identity();
     local = Eigen::Affine3d::Identity();
     turned = Quat::Identity();
     if (node.contains("matrix")) {
@@ -39,6 +40,10 @@ void read_place(const Json& node, Eigen::Affine3d& local, Quat& turned, double& 
         if (node.contains("scale")) scale = numbers<3>(node, "scale");
         if (node.contains("translation")) local.translation() = numbers<3>(node, "translation");
         local.linear() = turned.toRotationMatrix() * scale.asDiagonal();
+        // Negative scales are half a turn, or half a turn and the mirror of all three axes, which goes with any rotation.
+        const Vec3 sign = scale.unaryExpr([](double s) { return s < 0 ? -1.0 : 1.0; });
+        flipped = Quat(Mat3((sign.prod() * sign).asDiagonal()));
+        turned = turned * flipped;
     }
     scale = scale.cwiseAbs();
     unequal = scale.minCoeff() > 0 ? scale.maxCoeff() / scale.minCoeff() - 1 : 1;
@@ -76,9 +81,10 @@ GltfNodes nodes_of(const Json& json, const std::string& name) {
         result.local.resize(n);
         result.world.resize(n);
         result.turned.resize(n);
+        result.flipped.resize(n);
         result.unequal.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
-            read_place(nodes[i], result.local[i], result.turned[i], result.unequal[i]);
+            read_place(nodes[i], result.local[i], result.turned[i], result.flipped[i], result.unequal[i]);
             if (!nodes[i].contains("children")) continue;
             for (const Json& child : nodes[i]["children"]) {
                 std::int32_t& parent = result.parent[checked_index(child, "a child of node " + std::to_string(i), n)];

@@ -178,6 +178,15 @@ void add_top(Json& to, Json& more, const std::string& name) {
 
 } // namespace
 
+void require_joinable(const GltfDocument& document, const std::string& name) {
+    for (const Json& extension : document.json.value("extensionsUsed", Json::array()))
+        if (!may_be_moved(extension.get<std::string>()))
+            throw InputError(
+                name, "uses " + in_ascii_quotes(extension.get<std::string>()) +
+                          ", which cannot be put into a scene's .glb; the file as INPUT can, and -o NAME.usda or "
+                          "NAME_%d.obj show the scene");
+}
+
 void draw_at(GltfDocument& document, const std::vector<GltfStand>& stands) {
     Json& json = document.json;
     const Json top = scene_of(json).value("nodes", Json::array());
@@ -217,12 +226,7 @@ void draw_at(GltfDocument& document, const std::vector<GltfStand>& stands) {
 }
 
 void join(GltfDocument& to, GltfDocument&& more, const std::string& name) {
-    for (const Json& extension : more.json.value("extensionsUsed", Json::array()))
-        if (!may_be_moved(extension.get<std::string>()))
-            throw InputError(
-                name, "uses " + in_ascii_quotes(extension.get<std::string>()) +
-                          ", which cannot be put into one .glb with other trees; it can be alone, as INPUT, and -o "
-                          "NAME.usda or NAME_%d.obj show both");
+    require_joinable(more, name);
     Mover(to, more).move();
     Json& here = to.json;
     for (const char* list : {"accessors", "bufferViews", "meshes", "materials", "textures", "images", "samplers",

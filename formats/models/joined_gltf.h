@@ -20,8 +20,11 @@ struct GltfStand {
 // their joints place them. O(stands * JSON of nodes, skins and animations). Throws std::out_of_range, Json exceptions.
 void draw_at(GltfDocument&, const std::vector<GltfStand>&);
 
+// Throws InputError (place `name`) for an extension that may name what joining moves, and is not known. Json exceptions.
+void require_joinable(const GltfDocument&, const std::string& name);
+
 // Puts `more` behind what `to` holds; its default scene becomes part of the other's. Its copyright is added to the other's, and its extras are kept by its name.
-// O(JSON + bytes of more). Throws InputError (place `name`) for an extension that may name what is moved here, and is not known; std::out_of_range, Json exceptions.
+// O(JSON + bytes of more). Throws as require_joinable does; std::out_of_range.
 void join(GltfDocument& to, GltfDocument&& more, const std::string& name);
 
 // A document that draws nothing. generator, source: of its asset; source is left out when empty.

@@ -153,6 +153,9 @@ void check_growth(const GrowthParameters& p) {
     within("least_radius", p.least_radius, 0, 10);
     within("most_slender", p.most_slender, 0, 1e6);
     within("leading_shoot", p.leading_shoot, 0, 0.5);
+    if (p.leading_shoot > 0 && p.levels < 2)
+        throw std::invalid_argument(
+            "leading_shoot: is there with levels 1, of which the trunk is the last, expected 2 to 4");
     if (p.crown_top != -1) {
         within("crown_top", p.crown_top, 0.01, 1);
         if (p.shape == 3 || p.shape == 6 || p.shape == 8)

@@ -34,6 +34,21 @@ painted(twig, "bark.png")
 json.dump(twig, open("models/twig.gltf", "w"))
 bent = copy.deepcopy(twig)
 side = bent["nodes"][5]
+mirrored = copy.deepcopy(twig)
+next(node for node in mirrored["nodes"] if node.get("name") == "trunk")["scale"] = [-1, 1, 1]
+json.dump(mirrored, open("models/mirrored.gltf", "w"))
+listed = copy.deepcopy(twig)
+del listed["scene"], listed["scenes"]
+named = copy.deepcopy(listed["materials"][0])
+named["name"] = "bark_2"
+named["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 2}
+listed["materials"].append(named)
+listed["images"].append({"uri": "leaf.png"})
+listed["textures"].append({"source": 2})
+other = copy.deepcopy(listed["meshes"][0]["primitives"][0])
+other["material"] = 1
+listed["meshes"][0]["primitives"].append(other)
+json.dump(listed, open("models/listed.gltf", "w"))
 side["rotation"] = [0, 0, math.sin(0.05), math.cos(0.05)]
 json.dump(bent, open("models/bent.gltf", "w"))
 leaf = copy.deepcopy(model)
@@ -56,6 +71,9 @@ for model in twig bent leaf; do
     expect 0 treesim models/$model.gltf --wind storm "${soft[@]}" -o ${model}_%d.obj
     plays usda $model.usda $model 1e-5
 done
+expect 0 treesim models/mirrored.gltf --wind storm "${soft[@]}" -o mirrored_%d.obj
+expect 0 treesim models/mirrored.gltf --wind storm "${soft[@]}" --key-tolerance 0 -o mirrored.glb
+plays glb mirrored.glb mirrored 1e-5
 expect 0 treesim models/leaf.gltf --frames 1 -o leaf.pc2
 grep -q "leaf.gltf: colours of vertices are not shown" err || fail "colours are not told of: $(cat err)"
 [[ $(grep -c "uniform token\[\] joints = .*\"trunk\", \"trunk/trunk_001\"" twig.usda) -eq 2 ]] || fail "joints are not the model's bones: $(grep joints twig.usda)"
@@ -69,7 +87,7 @@ expect 0 treeconvert models/twig.gltf -q -o twig.json
 expect 0 treesim twig.json --skin models/twig.gltf --wind storm "${soft[@]}" -o skin.usda
 plays usda skin.usda twig 1e-5
 expect 0 treesim models/twig.gltf --mesh own --frames 2 -o own.usda
-refused 1 "images, which stand beside a file" treesim models/twig.gltf --frames 2 --format usda
+refused 1 "images, which stand beside a file: expected one" treesim models/twig.gltf --frames 2 --format usda
 
 # A scene: one file three times over two places, another file, a SpeedTree XML with its mesh, one without, a ball.
 cp "$top/data/fixtures/meshed_tree.xml" models/maple.xml
@@ -165,6 +183,13 @@ assert most < 3e-6, most
 assert moved > 0.01, moved
 P
 
+# A file without a list of scenes, and with a name for a material that another file's would have got; from stdin.
+scene '{"file": "models/twig.gltf"}, {"file": "models/listed.gltf", "position": [3, 0, 0]}' >names.json
+treesim - "${soft[@]}" -q -o names_%d.obj <names.json || fail "a scene from stdin"
+[[ $(grep -c "^newmtl" names.mtl) -eq 3 && $(grep "^newmtl" names.mtl | sort -u | wc -l) -eq 3 ]] || fail "materials of names.mtl: $(grep newmtl names.mtl)"
+expect 0 treesim names.json "${soft[@]}" --key-tolerance 0 -o names.glb
+plays glb names.glb names 1e-5
+
 # Held joints; a scene whose only tree is turned.
 scene "$others, $models" >still.json
 expect 0 treesim still.json --set simulate.last_level=0 "${firm[@]}" -o held_%d.obj
@@ -216,7 +241,7 @@ model.pop("extensionsUsed")
 json.dump(model, open("models/skinless.gltf", "w"))
 P
 scene '{"file": "models/odd.gltf"}, {"file": "models/twig.gltf", "position": [3, 0, 0]}' >odd.json
-refused 2 'odd.gltf: uses "ACME_bones", which cannot be put into one .glb with other trees' treesim odd.json --frames 2 -o x.glb
+refused 2 'odd.gltf: uses "ACME_bones", which cannot be put into a scene'"'s .glb" treesim odd.json --seconds 100000 -o x.glb
 expect 0 treesim odd.json --frames 2 -o odd.usda
 scene '{"file": "models/skinless.gltf"}' >skinless.json
 expect 0 treesim skinless.json --frames 2 -o skinless.glb
