@@ -63,9 +63,12 @@ void DrivenModel::find_nodes(std::vector<std::string>& notes) {
     }
     keys_ = std::make_unique<JointKeys>(above, drawn);
     if (unequal > 0)
-        notes.push_back(model_.name + ": " +
-                        counted(unequal, "bone hangs on a node scaled unequally: its rotation is only near (.usda and OBJ have it right)",
-                                "bones hang on nodes scaled unequally: their rotations are only near (.usda and OBJ have them right)"));
+        notes.push_back(
+            model_.name + ": " +
+            counted(
+                unequal,
+                "bone hangs on a node scaled unequally: its rotation is only near (.usda and OBJ have it right)",
+                "bones hang on nodes scaled unequally: their rotations are only near (.usda and OBJ have them right)"));
 }
 
 void DrivenModel::clear_matrix(std::size_t bone) {
