@@ -1,7 +1,7 @@
 #include "bound_models.h"
+#include "formats/models/gltf_references.h"
 #include "lib/model/split.h"
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace bough {
@@ -16,21 +16,12 @@ Eigen::Affine3d place_of(const Scene& scene, std::size_t tree) {
 
 // A glTF material whose images are `by` further on.
 std::string with_images(const std::string& material, std::size_t by) {
-    using Json = nlohmann::ordered_json;
-    const std::function<void(Json&)> move = [&](Json& of) {
-        for (auto& [key, value] : of.items()) {
-            if (!value.is_object()) continue;
-            if (key.ends_with("Texture") && value.contains("index"))
-                value["index"] = value["index"].get<std::size_t>() + by;
-            move(value);
-        }
-    };
-    Json json = Json::parse(material);
-    move(json);
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(material);
+    gltf_references::each_texture_index(json, [by](auto& index) { index = index.template get<std::size_t>() + by; });
     return json.dump();
 }
 
-// What has no mesh yet: trees that look alike together, and with the first of them what stands behind all trees. looks: empty where INPUT is the tree.
+// What has no mesh yet: trees that look alike together, and with the first of them what stands behind all trees. looks: none, and all look alike.
 std::vector<std::pair<TreeLook, Bodies>> by_look(const std::vector<char>& bound, const std::vector<TreeRange>& ranges,
                                                  const std::vector<TreeLook>& looks) {
     std::vector<std::pair<TreeLook, Bodies>> groups;
@@ -76,14 +67,14 @@ void add_parts(OwnMesh& to, OwnMesh&& more, const SharedParts& at, const Bodies&
     }
 }
 
-OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setting& setting, const Bodies& elsewhere,
+OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setting& setting, const OtherTrees& other,
                    const std::function<OwnMesh(const Tree&)>& made, std::vector<std::string>& notes) {
     const std::vector<TreeRange>& ranges = setting.whole ? setting.whole->places.whole : setting.ranges;
     if (!models.empty() && ranges.size() == 1 && ranges.front().bodies == shown.size_bodies())
         return bound_to(std::move(models.front().model), shown, place_of(setting.scene, 0), notes);
     OwnMesh mesh;
     std::vector<char> bound(shown.size_bodies(), false);
-    for (const std::int32_t i : elsewhere) bound[std::size_t(i)] = true;
+    for (const std::int32_t i : other.elsewhere) bound[std::size_t(i)] = true;
     for (FileModel& file : models) {
         std::optional<SharedParts> at;
         std::vector<std::string> said;
@@ -100,9 +91,9 @@ OwnMesh bound_mesh(std::vector<FileModel> models, const Tree& shown, const Setti
         }
         notes.insert(notes.end(), said.begin(), said.end());
     }
-    for (auto& [look, bodies] : by_look(bound, ranges, setting.looks)) {
+    for (auto& [look, bodies] : by_look(bound, ranges, other.looks)) {
         Tree rest = part_of(shown, bodies);
-        if (!setting.looks.empty()) rest.name = look.name, rest.color = look.color;
+        if (!other.looks.empty()) rest.name = look.name, rest.color = look.color;
         OwnMesh others = made(rest);
         const SharedParts at = share(mesh, others);
         add_parts(mesh, std::move(others), at, bodies);

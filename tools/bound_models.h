@@ -13,10 +13,16 @@ struct FileModel {
     std::vector<std::size_t> trees; // of the scene that are of the file; of a tree that is alone: 0
 };
 
-// Each tree shows its file's mesh where the scene puts it. What is none of theirs (other trees, balls) are trees by themselves, those that look alike together, which
-// `made` gives meshes; bodies that are shown `elsewhere` get none. Trees of one
-// file share materials, images and shapes. shown: all of the run's trees, and balls behind them. O(vertices, times pieces of a branch). Throws as bound_to does.
-OwnMesh bound_mesh(std::vector<FileModel>, const Tree& shown, const Setting&, const Bodies& elsewhere,
+// What shows no file's mesh.
+struct OtherTrees {
+    Bodies elsewhere;            // rising; of these the mesh is made elsewhere
+    std::vector<TreeLook> looks; // of each tree of the scene; none: all look as `shown` does
+};
+
+// Each tree shows its file's mesh where the scene puts it. To what is none of theirs (other trees, balls) `made` gives meshes, to trees that look alike
+// together. Trees of one file share materials, images and shapes. shown: all of the run's trees, and balls behind them. O(vertices, times pieces of a branch).
+// Throws as bound_to does.
+OwnMesh bound_mesh(std::vector<FileModel>, const Tree& shown, const Setting&, const OtherTrees&,
                    const std::function<OwnMesh(const Tree&)>& made, std::vector<std::string>& notes);
 
 // Where a mesh's shapes and materials stand in the one that it is put into.

@@ -15,6 +15,11 @@ std::optional<Species> species_of(const std::string& name, const DressChoice& o)
     return read_species(read_input(o.look), input_name(o.look));
 }
 
+std::string detail_of(const DressChoice& o, const std::string& format) {
+    if (!o.leaf_detail.empty()) return o.leaf_detail;
+    return has_textures(format) && o.textures != "none" ? "card" : "kite";
+}
+
 } // namespace
 
 void add_dress_options(OptionList& list, DressChoice& o) {
@@ -55,15 +60,6 @@ void refuse_contradictions(const DressChoice& o, const std::string& format, bool
     if (o.leaf_detail == "card")
         throw UsageError("--leaf-detail card: only with .glb, .usda, NAME_vat/, whose textures cut the leaves out");
 }
-
-namespace {
-
-std::string detail_of(const DressChoice& o, const std::string& format) {
-    if (!o.leaf_detail.empty()) return o.leaf_detail;
-    return has_textures(format) && o.textures != "none" ? "card" : "kite";
-}
-
-} // namespace
 
 bool dresses(const DressChoice& o, const std::string& format, const char* plain) {
     return !plain && (detail_of(o, format) != "kite" || (has_textures(format) && o.textures != "none"));

@@ -32,9 +32,10 @@ public:
         : pattern_(pattern), notes_(notes), skin_(std::move(mesh.skin)), mover_(mesh.mover(skin_, {})),
           mtl_(std::filesystem::path(sequence_mtl(pattern)).filename().string()) {
         const OwnMaps maps = mesh.own ? maps_of(*mesh.own, mtl_) : OwnMaps{};
-        take_images(maps, read);
+        refuse_overwriting_by_images(read, places_of(maps.image));
         mtl_waiting_.emplace(sequence_mtl(pattern));
         write_mtl(*mtl_waiting_, skin_, maps.part);
+        own_ = std::move(mesh.own); // with the images' bytes
     }
     void write(const MotionFrame& frame) override {
         mover_(frame, position_, normal_);
@@ -62,30 +63,29 @@ public:
     std::uint64_t bytes() const override { return bytes_; }
 
 private:
-    // They go into a folder of their own beside the .mtl, which is made.
-    void take_images(const OwnMaps& maps, const std::vector<NamedFile>& read) {
+    // In a folder of their own beside the .mtl, which is made.
+    std::vector<std::string> places_of(const std::vector<ImageFile>& images) const {
         const std::filesystem::path folder = std::filesystem::path(sequence_mtl(pattern_)).parent_path();
         std::vector<std::string> files;
-        for (const ImageFile& image : maps.image) {
-            files.push_back((folder / image.name).string());
-            images_waiting_.push_back({files.back(), *image.bytes});
-        }
-        refuse_overwriting_by_images(read, files);
+        for (const ImageFile& image : images) files.push_back((folder / image.name).string());
+        return files;
     }
     // Without a frame there are none either.
     void finish_materials() {
         if (!mtl_waiting_) return;
-        for (const auto& [file, bytes] : images_waiting_) {
-            const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+        const std::vector<ImageFile> images = own_ ? maps_of(*own_, mtl_).image : std::vector<ImageFile>();
+        const std::vector<std::string> files = places_of(images);
+        for (std::size_t k = 0; k < files.size(); ++k) {
+            const std::filesystem::path folder = std::filesystem::path(files[k]).parent_path();
             std::error_code error;
             std::filesystem::create_directories(folder, error);
             if (error) throw OutputError(folder.string(), "cannot be made: " + error.message());
-            Output output(file);
-            output.write(bytes);
+            Output output(files[k]);
+            output.write(*images[k].bytes);
             output.finish();
             bytes_ += output.bytes();
         }
-        images_waiting_ = {};
+        own_.reset();
         mtl_waiting_->finish();
         mtl_waiting_.reset();
     }
@@ -96,7 +96,7 @@ private:
     Mover mover_;
     std::string mtl_;
     // For the first frame:
-    std::vector<std::pair<std::string, std::string>> images_waiting_; // file, bytes
+    std::optional<OwnMesh> own_;
     std::optional<Output> mtl_waiting_;
     std::vector<Vec3> position_, normal_;
     std::int64_t written_ = 0, last_ = -1;

@@ -76,22 +76,35 @@ std::unique_ptr<FrameSink> driven(TreesimOptions& o, const Setting& setting, con
     }
 }
 
-// What makes the mesh of a tree that has none of its own, beside others that have.
-std::function<OwnMesh(const Tree&)> made_mesh(const TreesimOptions& o, const std::string& format) {
-    return [&o, &format](const Tree& tree) {
-        const bool known = o.dress.look == "none" || has_look(tree.name, o.dress);
+// How each of the scene's trees looks; nothing where all look alike: as --look says, or as the first, since a vertex animation texture has vertices
+// for one.
+std::vector<TreeLook> looks_apart(const TreesimOptions& o, const Setting& setting, const std::string& format) {
+    return o.dress.look.empty() && format != "vat" ? setting.looks : std::vector<TreeLook>();
+}
+
+bool one_is_known(const std::vector<TreeLook>& looks, const DressChoice& o) {
+    return std::any_of(looks.begin(), looks.end(), [&](const TreeLook& look) { return has_look(look.name, o); });
+}
+
+// What makes the mesh of trees that have none of their own. Beside others whose look is known, one of none is told of.
+std::function<OwnMesh(const Tree&)> made_mesh(TreesimOptions& o, const Setting& setting, const std::string& format) {
+    const bool others = one_is_known(looks_apart(o, setting, format), o.dress);
+    return [&o, &format, others](const Tree& tree) {
         std::optional<OwnMesh> made;
-        if (known) made = dressed(tree, o.sides, o.dress, format, plain_leaves(o));
+        if (!others || has_look(tree.name, o.dress))
+            made = dressed(tree, o.sides, o.dress, format, plain_leaves(o));
+        else if (const char* const given = o.dress.given())
+            o.common.notes.push_back(std::string(given) + ": not of the tree that is called '" + tree.name +
+                                     "', which is no species whose leaves are known: its leaves are kites");
         return made ? std::move(*made) : dress(tree, Species(), {LeafDetail::kite, 0, o.sides.value_or(8)});
     };
 }
 
-// Whether the scene's trees are of several looks, one of which is known; a vertex animation texture has vertices for one.
+// Whether the scene's trees are of several looks, one of which is known.
 bool looks_differ(const TreesimOptions& o, const Setting& setting, const std::string& format) {
-    if (!o.dress.look.empty() || format == "vat" || !dresses(o.dress, format, plain_leaves(o))) return false;
-    const std::set<TreeLook> looks(setting.looks.begin(), setting.looks.end());
-    return looks.size() > 1 &&
-           std::any_of(looks.begin(), looks.end(), [&](const TreeLook& look) { return has_look(look.name, o.dress); });
+    const std::vector<TreeLook> looks = looks_apart(o, setting, format);
+    return std::set<TreeLook>(looks.begin(), looks.end()).size() > 1 && dresses(o.dress, format, plain_leaves(o)) &&
+           one_is_known(looks, o.dress);
 }
 
 // Of a scene some of whose files are skinned models. Null where none of them can be moved by its tree: notes say so, and the others remain to be shown.
@@ -125,9 +138,10 @@ std::unique_ptr<FrameSink> placed(TreesimOptions& o, const Setting& setting, con
     }
     if (forests.empty() && meshes.empty()) return nullptr;
     std::sort(elsewhere.begin(), elsewhere.end());
-    OtherMesh others = other_mesh(
-        bound_mesh(std::exchange(model.bound, {}), shown, setting, elsewhere, made_mesh(o, format), o.common.notes),
-        elsewhere, shown.size_bodies());
+    OtherMesh others = other_mesh(bound_mesh(std::exchange(model.bound, {}), shown, setting,
+                                             {elsewhere, looks_apart(o, setting, format)},
+                                             made_mesh(o, setting, format), o.common.notes),
+                                  elsewhere, shown.size_bodies());
     if (others.bodies.empty() && !o.gltf.max_joints.empty())
         throw UsageError("--max-joints: only with --mesh made, as all of the scene's trees show bones of their own");
     if (format == "glb")
@@ -158,7 +172,8 @@ std::unique_ptr<FrameSink> open_sink(TreesimOptions& o, const Setting& setting, 
     const bool bound = !model.bound.empty();
     const bool apart = !bound && is_mesh(format) && looks_differ(o, setting, format);
     if (bound || apart)
-        own = bound_mesh(std::move(model.bound), shown, setting, {}, made_mesh(o, format), o.common.notes);
+        own = bound_mesh(std::move(model.bound), shown, setting, {{}, looks_apart(o, setting, format)},
+                         made_mesh(o, setting, format), o.common.notes);
     else if (is_mesh(format))
         own = dressed(shown, o.sides, o.dress, format, plain_leaves(o));
     if (own && format == "vat" && o.dress.look.empty() && !bound && setting.tree_files.size() > 1)

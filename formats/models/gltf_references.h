@@ -1,4 +1,4 @@
-// gltf_references.h: the places of a glTF document that name others of its lists by their index (private to this folder).
+// gltf_references.h: the places of a glTF document that name others of its lists by their index (private to this folder, and to tools' meshes).
 #pragma once
 #include "gltf_document.h"
 
@@ -61,6 +61,15 @@ template <class Use> void each_view_index(Json& json, Use&& use) {
             if (Json* draco = extension(primitive, "KHR_draco_mesh_compression")) of(*draco);
         });
     });
+}
+
+// use(number) for each place of a material that holds the index of a texture.
+template <class Use> void each_texture_index(Json& material, Use&& use) {
+    for (auto& [key, value] : material.items()) {
+        if (!value.is_object() || key == "extras") continue;
+        if (key.ends_with("Texture") && value.contains("index")) use(value["index"]);
+        each_texture_index(value, use);
+    }
 }
 
 // use(object) for each object that names bytes of buffer 0.

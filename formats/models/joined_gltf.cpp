@@ -133,15 +133,9 @@ private:
             for (Json& other : texture["extensions"])
                 if (other.is_object()) move_if(other, "source", before("images"));
         });
-        refs::each_of(json_, "materials", [this](Json& material) { move_textures(material); });
-    }
-
-    void move_textures(Json& of) {
-        for (auto& [key, value] : of.items()) {
-            if (!value.is_object() || key == "extras") continue;
-            if (key.ends_with("Texture")) move_if(value, "index", before("textures"));
-            move_textures(value);
-        }
+        refs::each_of(json_, "materials", [this](Json& material) {
+            refs::each_texture_index(material, [this](Json& index) { move_by(index, before("textures")); });
+        });
     }
 
     GltfDocument& to_;

@@ -99,3 +99,15 @@ assert len(oak) == 3 and not set(oak) & set(birch), "an oak's pictures are a bir
 assert two == oak + birch, (len(two), len(oak), len(birch))
 assert like == oak, "--look is not all trees' look"
 END
+# One of no known look among them is told of, and keeps kites; where none is known the option is refused. --look may be a pipe: it is read once.
+sed 's/"name": "birch"/"name": "shrub"/' birch.json >shrub.json
+sed 's/birch.json/shrub.json/' two.json >shrubs.json
+expect 0 treesim shrubs.json --frames 1 --textures 256 -o shrubs.glb
+grep -q "not of the tree that is called 'shrub', which is no species whose leaves are known" err || fail "nothing is said of the shrub: $(cat err)"
+[[ $(python3 shown.py shrubs.glb) == *"256x256 mask:leaf" ]] || fail "shrubs.glb: $(python3 shown.py shrubs.glb)"
+cp "$top/data/fixtures/meshed_tree.xml" own.xml
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "own.xml"}, {"file": "oak.json", "position": [9, 0, 0]}, {"file": "birch.json", "position": [0, 0, 9]}]}' >owned.json
+expect 0 treesim owned.json --frames 1 --look <(cat "$top/data/species/oak.json") --textures 256 -o owned.glb
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "own.xml"}, {"file": "shrub.json", "position": [9, 0, 0]}]}' >unknown.json
+refused 1 "no species whose leaves are known" treesim unknown.json --frames 1 --leaf-detail mesh -o no.glb
+absent no.glb

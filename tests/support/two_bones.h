@@ -153,6 +153,22 @@ struct TwoBones {
     }
 };
 
+// The tree put elsewhere, turned, and the model's mesh that it moves.
+struct Placed {
+    const Vec3 foot{5, 1, -2};
+    const double yaw = 0.9;
+    const Mat3 turned = Eigen::AngleAxisd(yaw, Vec3::UnitY()).toRotationMatrix();
+    Tree tree;
+    std::vector<std::string> lines; // what was noted
+    std::optional<DrivenMesh> mesh;
+
+    Placed(TwoBones& model, const Tree& alone) {
+        append(tree, alone, foot, yaw);
+        ImportNotes notes;
+        mesh.emplace(read_user_model(model.file.saved(), notes), tree, DrivenPlace{foot, yaw}, lines);
+    }
+};
+
 // All turned by Q about the tree's foot, and before that all above 1 m about the joint there by R; seen from a world in which the tree is
 // placed.
 inline MotionFrame bent_frame(const Tree& tree, const Mat3& R, const Mat3& Q, const Mat3& placed, const Vec3& foot) {

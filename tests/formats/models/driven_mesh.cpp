@@ -11,14 +11,11 @@ using namespace bough::test::two_bones;
 TEST_CASE("a skinned mesh goes where the sum of its bones' matrices puts it, what hangs on a node with the node") {
     TwoBones model;
     const Tree alone = model.tree();
-    const Vec3 foot(5, 1, -2);
-    const double yaw = 0.9;
-    const Mat3 placed = Eigen::AngleAxisd(yaw, Vec3::UnitY()).toRotationMatrix();
-    Tree tree;
-    append(tree, alone, foot, yaw);
-    ImportNotes notes;
-    std::vector<std::string> lines;
-    DrivenMesh mesh(read_user_model(model.file.saved(), notes), tree, {foot, yaw}, lines);
+    Placed at(model, alone);
+    DrivenMesh& mesh = *at.mesh;
+    const Tree& tree = at.tree;
+    const Mat3& placed = at.turned;
+    const Vec3& foot = at.foot;
     REQUIRE(mesh.vertices() == 29);
     for (const bool moved : {false, true}) {
         const Mat3 R = moved ? around_z(0.7) : Mat3(Mat3::Identity());

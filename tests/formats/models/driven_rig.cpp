@@ -43,14 +43,11 @@ RigOff rig_off(const Rig& rig, const RigPose& pose, const DrivenMesh& mesh) {
 
 // In the drawn pose, and bent; with the rig that was made.
 Rig checked_rig(TwoBones& model, const Tree& alone) {
-    const Vec3 foot(5, 1, -2);
-    const double yaw = 0.9;
-    const Mat3 placed = Eigen::AngleAxisd(yaw, Vec3::UnitY()).toRotationMatrix();
-    Tree tree;
-    append(tree, alone, foot, yaw);
-    ImportNotes notes;
-    std::vector<std::string> lines;
-    DrivenMesh mesh(read_user_model(model.file.saved(), notes), tree, {foot, yaw}, lines);
+    Placed at(model, alone);
+    DrivenMesh& mesh = *at.mesh;
+    const Tree& tree = at.tree;
+    const Mat3& placed = at.turned;
+    const Vec3& foot = at.foot;
     DrivenRig bones(mesh);
     RigOff off = rig_off(bones.rig, bones.rig.joints.drawn, mesh);
     CHECK(off.place < 1e-5);

@@ -4,6 +4,7 @@
 #include "lib/laws/added_motion.h"
 #include "lib/study/rigid_error.h"
 #include "lib/study/solvers.h"
+#include "tests/support/held_joints.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/paper_trees.h"
 #include "tests/support/reduced.h"
@@ -12,6 +13,7 @@
 #include <numbers>
 
 using namespace bough;
+using held_joints::run_both;
 using reduced::all_of;
 using simulate::steady;
 
@@ -27,29 +29,6 @@ Held hold(Tree tree, const Simulate& by, Scene scene = {}) {
     Held held{std::move(tree), {}};
     held.count = hold_rigid(held.tree, all_of(held.tree), scene);
     return held;
-}
-
-// RMS and worst distance of tips between the whole tree and what is held of it.
-RigidError run_both(const Tree& held, const Scene& scene, int frames) {
-    Tree whole = held;
-    whole.rigid.clear();
-    const Reduced r = reduce(held, all_of(held), scene);
-    const double dt = 1.0 / 60;
-    const Plan<double> whole_plan =
-        make_plan<double>(whole, all_of(whole), scene, {}, dt, Solver::coupled, Scheme::p12, fast::best_target());
-    const Plan<double> plan = make_plan<double>(r.tree, r.ranges, scene_on(r, held, scene), {}, dt, Solver::coupled);
-    State<double> there = make_state(whole_plan), here = make_state(plan);
-    RigidComparison comparison(whole);
-    std::vector<Vector3<float>> a, b;
-    for (int k = 0; k < frames; ++k) {
-        advance(whole_plan, there);
-        present(whole_plan, there);
-        advance(plan, here);
-        comparison.tips_of(there, a);
-        comparison.tips_of(r, plan, here, b);
-        comparison.compare(a, b);
-    }
-    return comparison.result();
 }
 
 } // namespace

@@ -4,11 +4,13 @@
 #include "lib/plan/hold.h"
 #include "lib/study/rigid_error.h"
 #include "lib/study/solvers.h"
+#include "tests/support/held_joints.h"
 #include "tests/support/paper_trees.h"
 #include "tests/support/reduced.h"
 #include <catch2/catch.hpp>
 
 using namespace bough;
+using held_joints::run_both;
 using reduced::all_of;
 
 namespace {
@@ -24,29 +26,6 @@ Attachment rope_at(std::int64_t body) {
 
 std::size_t last_end(const Tree& tree) {
     return std::size_t(tree.size_bodies() - 1);
-}
-
-// The worst distance [m] of tips between the whole tree and what is held of it.
-double worst_of(const Tree& held, const Scene& scene, int frames) {
-    Tree whole = held;
-    whole.rigid.clear();
-    const Reduced r = reduce(held, all_of(held), scene);
-    const double dt = 1.0 / 60;
-    const Plan<double> whole_plan =
-        make_plan<double>(whole, all_of(whole), scene, {}, dt, Solver::coupled, Scheme::p12, fast::best_target());
-    const Plan<double> plan = make_plan<double>(r.tree, r.ranges, scene_on(r, held, scene), {}, dt, Solver::coupled);
-    State<double> there = make_state(whole_plan), here = make_state(plan);
-    RigidComparison comparison(whole);
-    std::vector<Vector3<float>> a, b;
-    for (int k = 0; k < frames; ++k) {
-        advance(whole_plan, there);
-        present(whole_plan, there);
-        advance(plan, here);
-        comparison.tips_of(there, a);
-        comparison.tips_of(r, plan, here, b);
-        comparison.compare(a, b);
-    }
-    return comparison.result().worst;
 }
 
 } // namespace
@@ -84,7 +63,7 @@ TEST_CASE("holding by error holds no more than it says of a tree that a rope hol
         INFO("error " << error << ": " << text_of(count));
         REQUIRE((count.moving > 0 && count.error > 0));
         scene.simulate.reset(); // is applied
-        const double worst = worst_of(tree, scene, 600);
+        const double worst = run_both(tree, scene, 600).worst;
         CHECK(worst < error);
         CHECK(worst > 0);
     }
