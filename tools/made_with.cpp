@@ -13,7 +13,8 @@ const char* compiler_flags() {
     return BOUGH_FLAGS;
 }
 const char* simd_target() {
-    return fast::target_name(fast::best_target());
+    const std::optional<fast::Target> best = fast::best_target();
+    return best ? fast::target_name(*best) : "off";
 }
 
 } // namespace bough

@@ -1,5 +1,6 @@
 #include "run_options.h"
 #include "exits.h"
+#include "made_with.h"
 #include "reader_options.h"
 #include "set_option.h"
 #include <array>
@@ -149,8 +150,8 @@ std::optional<fast::Target> chosen_simd(const RunOptions& o) {
     if (o.simd == "auto") return fast::best_target();
     const std::optional<fast::Target> target = fast::target_named(o.simd);
     if (!target || !fast::available(*target))
-        throw UsageError("--simd " + o.simd + ": this machine or build does not have it; the best here is " +
-                         fast::target_name(fast::best_target()));
+        throw UsageError("--simd " + o.simd + ": this machine or build does not have it; auto is " + simd_target() +
+                         " here");
     return target;
 }
 

@@ -25,7 +25,11 @@ double median(std::vector<double> values) {
 
 // By which target's limits a run is held.
 fast::Target target_of(const RunOptions& way) {
-    return chosen_simd(way).value_or(fast::Target::baseline); // what the plain step is compiled for
+    if (const auto simd = chosen_simd(way)) return *simd;
+    if (fast::available(fast::Target::baseline)) return fast::Target::baseline; // what the plain step is compiled for
+    if (const auto best = fast::best_target()) return *best;
+    throw UsageError(
+        "--simd off: of this build's SIMD code, with which the machine's limits are measured, none runs here");
 }
 
 class Measurement {

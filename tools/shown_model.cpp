@@ -39,11 +39,12 @@ void add_notes(const std::string& name, const ImportNotes& notes, TreesimOptions
     for (const std::string& line : notes.lines) o.common.notes.push_back(name + ": " + line);
 }
 
-void refuse_unused(const TreesimOptions& o) {
+// all: every tree shows the mesh of a file.
+void refuse_unused(const TreesimOptions& o, bool all) {
     const std::string made = o.skin.empty()
                                  ? "only with --mesh made, as " + input_name(o.run.input) + " shows a file's own mesh"
                                  : "not with --skin, whose mesh is its own";
-    if (o.sides) throw UsageError("--sides: " + made);
+    if (o.sides && all) throw UsageError("--sides: " + made);
     if (o.rustle) throw UsageError("--rustle: " + made);
     if (!o.gltf.leaves_as.empty()) throw UsageError("--leaves-as: " + made);
 }
@@ -197,7 +198,10 @@ void complete_model(ShownModel& model, TreesimOptions& o, const Setting& setting
             "<stdin>: the mesh is made from the tree; the file's own is shown where INPUT names it");
     if (o.mesh == "own" && !model)
         throw UsageError("--mesh own: " + input_name(o.run.input) + " has no mesh that could be moved");
-    if (model) refuse_unused(o);
+    std::size_t shows = model.driven ? setting.ranges.size() : 0;
+    for (const FileModel& file : model.bound) shows += file.trees.size();
+    for (const SkinnedFile& file : model.skinned) shows += file.trees.size();
+    if (model) refuse_unused(o, shows >= setting.ranges.size());
     if (!o.skin.empty() && setting.ranges.size() != 1)
         throw UsageError("--skin: the scene has " + std::to_string(setting.ranges.size()) +
                          " trees, expected one, which the model is of");

@@ -3,6 +3,7 @@
 #include "gltf_document.h"
 #include "gltf_uri.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -54,12 +55,14 @@ public:
             const Json& material = document_.json["materials"][std::size_t(number)];
             part.name = free_name(material.value("name", part.name));
             part.material = std::int32_t(mesh_.material.size());
-            Vec3 color = Vec3::Ones();
-            const Json& factor = at_or_empty(at_or_empty(material, "pbrMetallicRoughness"), "baseColorFactor");
-            for (std::size_t k = 0; k < 3 && factor.is_array(); ++k) color[int(k)] = factor.at(k).get<double>();
-            part.color = color.unaryExpr([](double c) { return srgb(c); });
             const Json& given = at_or_empty(material, "pbrMetallicRoughness");
+            std::array<double, 4> color{1, 1, 1, 1};
+            const Json& factor = at_or_empty(given, "baseColorFactor");
+            for (std::size_t k = 0; k < 4 && factor.is_array(); ++k) color[k] = factor.at(k).get<double>();
+            part.color = {srgb(color[0]), srgb(color[1]), srgb(color[2])};
             Json pbr{{"baseColorFactor", Json::array({color[0], color[1], color[2], 1.0})}};
+            if (color[3] < 1 && material.value("alphaMode", "OPAQUE") != "OPAQUE")
+                notes_.push_back(in_ascii_quotes(part.name) + " is see-through all over: it is shown opaque");
             for (const char* factor_of : {"metallicFactor", "roughnessFactor"})
                 if (given.contains(factor_of)) pbr[factor_of] = given[factor_of].get<double>();
             const MapPlace place = map_place_of(document_, number);
@@ -76,6 +79,9 @@ public:
             if (material.contains("alphaMode")) look["alphaMode"] = material["alphaMode"].get<std::string>();
             if (material.contains("alphaCutoff")) look["alphaCutoff"] = material["alphaCutoff"].get<double>();
             if (material.contains("doubleSided")) look["doubleSided"] = material["doubleSided"].get<bool>();
+            const Json& light = at_or_empty(material, "emissiveFactor");
+            if (std::any_of(light.begin(), light.end(), [](const Json& of) { return of.get<double>() > 0; }))
+                notes_.push_back(in_ascii_quotes(part.name) + " emits light, which is not shown");
             mesh_.material.push_back(look.dump(-1, ' ', false, Json::error_handler_t::replace));
         } else {
             part.name = free_name(part.name);

@@ -22,7 +22,7 @@ struct MapPlace {
 MapPlace map_place_of(const GltfDocument&, std::int32_t material);
 
 // Gives `mesh` a part, without surfaces, for each of these materials of a checked document (gltf_check.h), in order; -1 is one that is grey.
-// Parts share images. Notes: images of other kinds than PNG and JPEG, such as the document has not got, and maps that are left out. O(bytes of the images).
+// Parts share images. Notes: images of other kinds than PNG and JPEG, such as the document has not got, maps that are left out, emission, and opacity without an image. O(bytes of the images).
 // Throws std::out_of_range and Json exceptions for what is no glTF.
 void add_looks(const GltfDocument&, const std::vector<std::int32_t>& materials, OwnMesh& mesh,
                std::vector<std::string>& notes);

@@ -65,6 +65,8 @@ public:
                 counted(entries_of(json_, "animations"), "animation of its own is", "animations of its own are") +
                 " not shown: the tree moves it");
         if (colors_) notes_.push_back("colours of vertices are not shown");
+        if (more_sets_)
+            notes_.push_back("of several sets of texture coordinates that of each material's colours is shown alone");
         if (morphs_) notes_.push_back("morph targets are not shown: the mesh keeps its own shape under its bones");
         return std::move(out_);
     }
@@ -114,6 +116,9 @@ private:
         const Json& attributes = from["attributes"];
         const std::string place = primitive_place(s.mesh, s.primitive);
         colors_ = colors_ || attributes.contains("COLOR_0");
+        const std::string set = "TEXCOORD_" + std::to_string(map.set);
+        for (const auto& [name, accessor] : attributes.items())
+            more_sets_ = more_sets_ || (name.starts_with("TEXCOORD_") && name != set);
         morphs_ = morphs_ || !from.value("targets", Json::array()).empty();
         std::vector<Vec3> point = points_of(document_, from, place);
         const std::size_t n = point.size();
@@ -125,7 +130,6 @@ private:
                 numbers(attributes["NORMAL"], place + ": NORMAL", "VEC3", GltfNumbers::any, 3, n);
             for (std::size_t v = 0; v < n; ++v) normal[v] = {given[3 * v], given[3 * v + 1], given[3 * v + 2]};
         }
-        const std::string set = "TEXCOORD_" + std::to_string(map.set);
         std::vector<double> uv(2 * n, 0);
         if (attributes.contains(set)) uv = numbers(attributes[set], place + ": " + set, "VEC2", GltfNumbers::any, 2, n);
         std::vector<std::int32_t> taken(n, -1);
@@ -238,7 +242,7 @@ private:
     std::map<std::size_t, std::int32_t> skin_, hung_; // first matrix of a skin, matrix of a node
     std::int32_t sets_ = 0;                           // of matrices
     std::size_t instanced_ = 0;
-    bool colors_ = false, morphs_ = false;
+    bool colors_ = false, more_sets_ = false, morphs_ = false;
 };
 
 } // namespace

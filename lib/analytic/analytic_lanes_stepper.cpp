@@ -99,10 +99,11 @@ void AnalyticLanesStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::ve
 
 template <class T>
 std::unique_ptr<Stepper<T>> analytic_stepper(const Scene& scene, std::optional<Target> simd, double sleep) {
-    const char* const plainly = !simd                                         ? "not asked for"
-                                : scene.joint_limit                           ? "/joint_limit"
-                                : !scene.root_motion.empty()                  ? "/root_motion"
-                                : !scene.attachments.empty()                  ? "/attachments"
+    const char* const plainly = !simd && !best_target()      ? "none of this build's SIMD code runs on this machine"
+                                : !simd                      ? "not asked for"
+                                : scene.joint_limit          ? "/joint_limit"
+                                : !scene.root_motion.empty() ? "/root_motion"
+                                : !scene.attachments.empty() ? "/attachments"
                                 : scene.fictitious && lags(*scene.fictitious) ? "/fictitious"
                                                                               : "";
     if (*plainly == 0) return std::make_unique<AnalyticLanesStepper<T>>(*simd, sleep);

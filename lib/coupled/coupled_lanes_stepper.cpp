@@ -132,7 +132,8 @@ void CoupledLanesStepper<T>::change(const Plan<T>& plan, State<T>& state, const 
 template <class T>
 std::unique_ptr<Stepper<T>> coupled_stepper(const Scene& scene, Scheme scheme, std::optional<Target> simd,
                                             double sleep) {
-    const std::string plainly = !simd                    ? "not asked for"
+    const std::string plainly = !simd && !best_target()  ? "none of this build's SIMD code runs on this machine"
+                                : !simd                  ? "not asked for"
                                 : scene.joint_limit      ? "/joint_limit"
                                 : scheme_of(scheme).real ? std::string("scheme ") + scheme_of(scheme).name
                                                          : "";

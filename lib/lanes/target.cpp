@@ -34,22 +34,27 @@ bool available(Target target) {
         return false;
 #endif
     case Target::baseline:
-        break;
+#ifdef BOUGH_HAS_BASELINE
+        return true;
+#else
+        return false;
+#endif
     }
-    return true;
+    return true; // counted
 }
 
-Target best_target() {
-    Target best = Target::baseline;
+std::optional<Target> best_target() {
+    std::optional<Target> best;
     for (Target target : all_targets)
         if (available(target)) best = target;
     return best;
 }
 
 void require(Target target) {
-    if (!available(target))
-        throw std::invalid_argument(std::string("SIMD target ") + target_name(target) + " is not there, the best is " +
-                                    target_name(best_target()));
+    if (available(target)) return;
+    const std::optional<Target> best = best_target();
+    throw std::invalid_argument(std::string("SIMD target ") + target_name(target) + " is not there, the best is " +
+                                (best ? target_name(*best) : "none"));
 }
 
 } // namespace bough::fast

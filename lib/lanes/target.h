@@ -17,8 +17,8 @@ constexpr Target counted_target = Target(all_targets.size());
 
 // True if it is compiled in and this machine has it.
 bool available(Target);
-// Returns the widest available target.
-Target best_target();
+// Returns the widest available target, nullopt where this machine has none of those that are compiled in.
+std::optional<Target> best_target();
 // Throws std::invalid_argument for a target that is not available.
 void require(Target);
 // Returns nullopt for another name.

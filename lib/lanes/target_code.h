@@ -6,7 +6,18 @@
 #pragma once
 #include "operations.h"
 #include "target.h"
+#include <stdexcept>
 
+#ifdef BOUGH_HAS_BASELINE
+#define BOUGH_IN_BASELINE(...)                                                                                         \
+    namespace baseline {                                                                                               \
+    __VA_ARGS__                                                                                                        \
+    }
+#define BOUGH_OR_BASELINE(target, ...) (target) == ::bough::fast::Target::baseline ? baseline::__VA_ARGS__:
+#else
+#define BOUGH_IN_BASELINE(...)
+#define BOUGH_OR_BASELINE(target, ...)
+#endif
 #ifdef BOUGH_HAS_AVX2
 #define BOUGH_IN_AVX2(...)                                                                                             \
     namespace avx2 {                                                                                                   \
@@ -38,19 +49,20 @@
 #define BOUGH_OR_COUNTED(target, ...)
 #endif
 
+#define BOUGH_NO_TARGET throw std::logic_error("a SIMD target that require() lets pass is not there")
+
 #define BOUGH_IN_TARGETS_MACHINE(...)                                                                                  \
-    namespace baseline {                                                                                               \
-    __VA_ARGS__                                                                                                        \
-    }                                                                                                                  \
+    BOUGH_IN_BASELINE(__VA_ARGS__)                                                                                     \
     BOUGH_IN_AVX2(__VA_ARGS__)                                                                                         \
     BOUGH_IN_AVX512(__VA_ARGS__)
 #define BOUGH_OF_TARGET_MACHINE(target, ...)                                                                           \
-    (::bough::fast::require(target),                                                                                   \
-     BOUGH_OR_AVX512(target, __VA_ARGS__) BOUGH_OR_AVX2(target, __VA_ARGS__) baseline::__VA_ARGS__)
+    (::bough::fast::require(target), BOUGH_OR_AVX512(target, __VA_ARGS__) BOUGH_OR_AVX2(target, __VA_ARGS__)           \
+                                         BOUGH_OR_BASELINE(target, __VA_ARGS__) BOUGH_NO_TARGET)
 
 #define BOUGH_IN_TARGETS(...)                                                                                          \
     BOUGH_IN_TARGETS_MACHINE(__VA_ARGS__)                                                                              \
     BOUGH_IN_COUNTED(__VA_ARGS__)
 #define BOUGH_OF_TARGET(target, ...)                                                                                   \
-    (::bough::fast::require(target), BOUGH_OR_COUNTED(target, __VA_ARGS__) BOUGH_OR_AVX512(target, __VA_ARGS__)        \
-                                         BOUGH_OR_AVX2(target, __VA_ARGS__) baseline::__VA_ARGS__)
+    (::bough::fast::require(target),                                                                                   \
+     BOUGH_OR_COUNTED(target, __VA_ARGS__) BOUGH_OR_AVX512(target, __VA_ARGS__) BOUGH_OR_AVX2(target, __VA_ARGS__)     \
+         BOUGH_OR_BASELINE(target, __VA_ARGS__) BOUGH_NO_TARGET)

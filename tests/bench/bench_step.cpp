@@ -19,8 +19,7 @@ enum class Path { lanes, plain };
 template <class T> void steps(benchmark::State& benchmark, const Tree& tree, Solver solver, Path path) {
     Scene scene;
     scene.wind = *wind_preset("gusty");
-    const std::optional<fast::Target> simd =
-        path == Path::lanes ? std::optional(fast::best_target()) : std::optional<fast::Target>();
+    const std::optional<fast::Target> simd = path == Path::lanes ? fast::best_target() : std::optional<fast::Target>();
     const Plan<T> plan =
         make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, 1.0 / 30, solver, Scheme::p12, simd);
     State<T> state = make_state(plan);

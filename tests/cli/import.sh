@@ -1,5 +1,5 @@
 # Files of other programs, from file to moving tree: each of the cases that are not ours is read, converted and simulated
-# for 2 s (sanitized: one in six, for 0.2 s) in a gusty wind with finite results, or refused with exit 2 in one line; so are, unsanitized, its first half and itself with
+# for 1 s (sanitized: one in five, for 0.2 s) in a gusty wind with finite results, or refused with exit 2 in one line; so are, unsanitized, its first half and itself with
 # bytes changed at random. Nothing crashes, takes more than 1 GB or longer than its time.
 source "$(dirname "$0")/common.sh"
 
@@ -135,7 +135,7 @@ readable+='|invalid/Neuron(-flat|_zero_length_segments)\.swc$|models/testline\.o
 readable+='|sapling/.*\.(fbx|gltf|glb|dae)$|models/(animation_with_skeleton\.fbx|simple_skin\.gltf)$)'
 # Address space: the tools map some libraries, 1.5 GB leaves them what they take without a file and 1 GB. (A sanitizer maps terabytes.)
 space=1572864
-seconds=2
+seconds=1
 [[ -z $sanitizers ]] || space=unlimited seconds=0.2
 limited() {
     local seconds=$1
@@ -160,7 +160,7 @@ for name in "${cases[@]}"; do
     [[ $code -eq 0 && ! -s err ]] || fail "exit $code of treeconvert $name, expected 0 or 2: $(head -c 300 err)"
     [[ $name =~ $readable ]] || fail "$name was read, expected a refusal"
     code=0
-    limited 120 treesim tree.json -q --seconds "$seconds" --wind gusty --no-output --report hash >out 2>err </dev/null || code=$?
+    limited 120 treesim tree.json -q --seconds "$seconds" --settle 0 --wind gusty --no-output --report hash >out 2>err </dev/null || code=$?
     if [[ $code -eq 2 ]]; then # neurons, metres long, and branches drawn for pictures: no wood carries them
         one_line "too soft to carry its weight" treesim
         echo "notice: $name is read, but its wood is too soft to stand"

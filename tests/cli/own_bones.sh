@@ -59,6 +59,12 @@ leaf["nodes"] += [{"mesh": 1, "scale": [0.1, 0.2, 0.1], "translation": [0, 0.3, 
 leaf["nodes"][5].setdefault("children", []).append(n)
 leaf["scenes"][0]["nodes"].append(n + 1)
 leaf["meshes"][1]["primitives"][0]["attributes"]["COLOR_0"] = leaf["meshes"][1]["primitives"][0]["attributes"]["POSITION"]
+leaf["accessors"].append({**leaf["accessors"][leaf["meshes"][0]["primitives"][0]["attributes"]["POSITION"]], "type": "VEC2"})
+for bound in "min", "max":
+    leaf["accessors"][-1].pop(bound, None)
+leaf["meshes"][1]["primitives"][0]["attributes"]["TEXCOORD_1"] = len(leaf["accessors"]) - 1
+leaf["materials"][0].update({"emissiveFactor": [0, 0, 0.5], "alphaMode": "BLEND"})
+leaf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [1, 1, 1, 0.5]
 leaf["asset"]["copyright"] = "of the leaf"
 json.dump(leaf, open("models/leaf.gltf", "w"))
 P
@@ -75,7 +81,9 @@ expect 0 treesim models/mirrored.gltf --wind storm "${soft[@]}" -o mirrored_%d.o
 expect 0 treesim models/mirrored.gltf --wind storm "${soft[@]}" --key-tolerance 0 -o mirrored.glb
 plays glb mirrored.glb mirrored 1e-5
 expect 0 treesim models/leaf.gltf --frames 1 -o leaf.pc2
-grep -q "leaf.gltf: colours of vertices are not shown" err || fail "colours are not told of: $(cat err)"
+for lost in "colours of vertices are not shown" "of several sets of texture coordinates" '"bark" emits light, which is not shown' '"bark" is see-through all over'; do
+    grep -q "leaf.gltf: $lost" err || fail "not told of: $lost: $(cat err)"
+done
 [[ $(grep -c "uniform token\[\] joints = .*\"trunk\", \"trunk/trunk_001\"" twig.usda) -eq 2 ]] || fail "joints are not the model's bones: $(grep joints twig.usda)"
 grep -q "_bound" bent.usda && fail "one skin needs two joints of a bone"
 grep -q '/still"' leaf.usda || fail "nothing holds the pot"
@@ -225,6 +233,8 @@ fi
 # Refused, or made and told of.
 refused 1 "--max-joints: only with --mesh made, as all of the scene's trees show bones of their own" treesim models.json --frames 2 --max-joints 9 -o x.glb
 refused 1 "--sides: only with --mesh made" treesim models.json --frames 2 --sides 9 -o x.usda
+expect 0 treesim all.json --set stiffness_scale=0.05 --frames 1 --sides 5 -o coarse_%d.obj # of the tree that has no mesh
+[[ $(grep -c '^v ' coarse_0.obj) -lt $(grep -c '^v ' all_0.obj) ]] || fail "--sides 5 changes nothing"
 expect 0 treesim models.json --mesh made --frames 2 -o made.glb
 grep -aq "trunk.001" made.glb && fail "--mesh made shows the model"
 expect 0 treesim models.json --mesh own --frames 2 -o own.glb

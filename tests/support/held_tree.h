@@ -47,7 +47,7 @@ template <class T> struct Held {
     Held(const Tree& tree, const Scene& scene, bool lanes, double dt = 1.0 / 30, Scheme scheme = Scheme::p12,
          Solver solver = Solver::coupled)
         : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, {}, dt, solver, scheme,
-                            lanes ? std::optional(fast::best_target()) : std::nullopt)),
+                            lanes ? fast::best_target() : std::nullopt)),
           state(make_state(plan)) {}
     void step() {
         advance(plan, state);

@@ -212,18 +212,16 @@ TEST_CASE("Each species stays where it was drawn") {
     // An equilibrium that is not stable doubles its rounding errors many times in ten seconds.
     for (const Species& species : all_species()) {
         Splines splines = whole(species, true);
-        for (const std::int64_t bodies : {300, 2000}) {
-            INFO(species.name << " " << bodies);
-            ask_for_bodies(splines, bodies);
-            const Tree tree = segment(splines, species.growth.wood, {});
-            simulate::PlainRun<double> run(tree, Scene());
-            const std::vector<Vec3> drawn = run.state.x_w;
-            run.steps(300);
-            double moved = 0;
-            for (std::size_t i = 0; i < tree.size_bodies(); ++i)
-                moved = std::max(moved, (run.state.x_w[i] - drawn[i]).norm());
-            CHECK(moved < 1e-10);
-        }
+        INFO(species.name);
+        ask_for_bodies(splines, 1000);
+        const Tree tree = segment(splines, species.growth.wood, {});
+        simulate::PlainRun<double> run(tree, Scene());
+        const std::vector<Vec3> drawn = run.state.x_w;
+        run.steps(300);
+        double moved = 0;
+        for (std::size_t i = 0; i < tree.size_bodies(); ++i)
+            moved = std::max(moved, (run.state.x_w[i] - drawn[i]).norm());
+        CHECK(moved < 1e-10);
     }
 }
 

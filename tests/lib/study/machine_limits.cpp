@@ -83,7 +83,7 @@ TEMPLATE_TEST_CASE("the multiply-adds are all done", "", float, double) {
 
 TEST_CASE("limits are measured for any number of threads, and a small array") {
     for (const int threads : {1, 2, 3}) {
-        const MachineLimits limits = measure_limits(best_target(), threads, 1 << 20);
+        const MachineLimits limits = measure_limits(best_target().value(), threads, 1 << 20);
         for (const double figure : {limits.read, limits.write, limits.copy, limits.peak_float, limits.peak_double})
             CHECK((std::isfinite(figure) && figure > 0));
     }

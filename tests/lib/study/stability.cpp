@@ -33,7 +33,7 @@ TEST_CASE("every promised cell holds, float and double") {
         setup.simd = simd;
         return setup;
     };
-    const fast::Target simd = fast::best_target();
+    const fast::Target simd = fast::best_target().value();
     for (const StabilitySetup& setup :
          {on(make_tree::branched(), std::nullopt), on(make_tree::branched(), simd),
           on(make_tree::chain(20, 4, 0.03, 0.003), simd), on(make_tree::random_tree(60, 3), simd)}) {
