@@ -10,7 +10,7 @@
 namespace bough {
 namespace {
 
-constexpr std::size_t joints_default = 1000; // some viewers fail beyond about 1100
+constexpr std::size_t joints_default = 1000; // some viewers fail beyond 1020
 constexpr std::size_t joints_most = 65536;   // what JOINTS_0 can number
 constexpr double tolerance_default = 0.1;    // [deg]
 

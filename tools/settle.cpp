@@ -15,7 +15,10 @@ std::int64_t frames_before(const TreesimOptions& o, const Setting& setting) {
     else if (o.resume.empty() && !o.loop.seconds && setting.scene.pose != Pose::rest && !setting.scene.fracture)
         seconds = settling_time(setting);
     const double frames = o.settle ? std::round(seconds * o.run.fps) : std::ceil(seconds * o.run.fps);
-    if (!(frames * o.run.substeps < 1e15)) throw UsageError("--settle: more frames than can be counted");
+    constexpr double most = 1e9; // steps of Simulation::begin_before
+    if (!(frames * o.run.substeps <= most))
+        throw UsageError(formatted("--settle: is %g s, expected at most %g: that many steps", seconds,
+                                   std::floor(most / o.run.fps / o.run.substeps)));
     return std::int64_t(frames);
 }
 

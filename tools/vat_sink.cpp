@@ -39,7 +39,7 @@ private:
 [[noreturn]] void refuse_vertices(const std::string& folder, std::size_t vertices, const VatChoice& choice,
                                   bool of_file) {
     const std::string fewer =
-        of_file ? "; --mesh made --sides 3 (without --skin) shows one that is made from the tree, of fewer"
+        of_file ? "; --mesh made --sides 3 (and no --skin) shows one that is made from the tree, of fewer"
                 : "; treeconvert --max-bodies makes fewer, with leaves in clumps; --sides 3 gives wood fewer corners";
     if (!choice.vertices)
         throw UsageError("-o is '" + folder + "': the mesh has " + std::to_string(vertices) +

@@ -96,6 +96,10 @@ class Wind(ctypes.Structure):
     def __setattr__(self, name, value):
         if name not in _WIND_FIELDS and name != "_velocity":
             raise AttributeError(f"Wind: has no {name}, expected {', '.join(_WIND_FIELDS)}")
+        if name == "seed":
+            value = _whole(value, name, 0, 2**64 - 1)
+        elif name not in ("velocity", "_velocity"):
+            value = _number(value, name)
         super().__setattr__(name, value)
 
     @property
@@ -205,8 +209,8 @@ __version__ = _c.bough_version().decode()
 
 
 # What messages call by its name in C and C++, as it is called here.
-_NAMES = ((r"(?:settings\.|SimulationOptions::)(\w+) (asks for it|is not set)", r"Simulation(\1=True) \2"),
-          (r"SimulationOptions::sleep", "Simulation(sleep=...)"), (r"bough_scene_(add|put) ", r"Scene.\1() "), (r"bough_watch_error\(\)", "watch_error()"),
+_NAMES = ((r"settings\.(\w+) (asks for it|is not set)", r"Simulation(\1=True) \2"),
+          (r"settings\.sleep", "Simulation(sleep=...)"), (r"bough_scene_(add|put) ", r"Scene.\1() "), (r"bough_watch_error\(\)", "watch_error()"),
           (r"^from: ", "origin: "))
 
 
@@ -253,9 +257,12 @@ def _number(value, name):
 
 def _text(value, name="name"):
     try:
-        return None if value is None else os.fsencode(value)
+        text = None if value is None else os.fsencode(value)
     except TypeError:
-        raise UsageError(f"{name}: is {value!r}, expected a name") from None
+        text = b"\0"
+    if text is not None and b"\0" in text:
+        raise UsageError(f"{name}: is {value!r}, expected a name")
+    return text
 
 
 class _Handle:
@@ -264,6 +271,17 @@ class _Handle:
     def __init__(self, handle):
         self._handle = handle
         weakref.finalize(self, _c.bough_free, handle).atexit = False  # the process frees all; others may look at an array until then
+
+    # Who copies would free the same handle twice, and number by number one of another process.
+    def __reduce_ex__(self, protocol):
+        raise TypeError(f"{type(self).__name__}: is neither copied nor pickled{self._instead}")
+
+    _instead = ""
+
+    def __setattr__(self, name, value):
+        if hasattr(type(self), "set_" + name):
+            raise AttributeError(f"{type(self).__name__}: {name} is changed by set_{name}()")
+        super().__setattr__(name, value)
 
     def _view(self, address, shape, dtype):
         """Memory of this object as an array that keeps it alive."""
@@ -288,8 +306,6 @@ def _made(function, *arguments):
 
 def _content(source):
     """Bytes and a name of a file's name, bytes, or what has read()."""
-    if isinstance(source, (bytes, bytearray, memoryview)):
-        return bytes(source), None
     if hasattr(source, "read"):
         data, name = source.read(), getattr(source, "name", None)
         data = data.encode() if isinstance(data, str) else data
@@ -297,11 +313,14 @@ def _content(source):
             raise UsageError(f"source: its read() gives {type(data).__name__}, expected bytes")
         return data, name if isinstance(name, (str, bytes)) else None  # of a file without one a number
     if not isinstance(source, (str, os.PathLike)):
-        raise UsageError(f"source: is {type(source).__name__}, expected a file's name, bytes, or what has read()")
+        try:
+            return bytes(memoryview(source)), None
+        except TypeError:
+            raise UsageError(f"source: is {type(source).__name__}, expected a file's name, bytes, or what has read()") from None
     try:
         return pathlib.Path(source).read_bytes(), source
     except OSError as error:
-        raise InputError(f"{source}: {error.strerror}") from error
+        raise InputError(f"{source or repr(source)}: {error.strerror}") from error
     except ValueError as error:  # a NUL in it
         raise InputError(f"{source!r}: {error}") from error
 
@@ -382,15 +401,26 @@ def _counted(count, one, many):
     return f"{count} {one if count == 1 else many}"
 
 
-class Splines(_Handle):
+class _NeverChanges(_Handle):
+    """A copy is itself."""
+
+    def __copy__(self):
+        return self
+
+    def __deepcopy__(self, known):
+        return self
+
+
+class Splines(_NeverChanges):
     """A tree's branches as curves. From grow() or read_splines(), which leaves in notes what the file is, and what of it was guessed or put right."""
     notes = ()
 
 
-class Tree(_Handle, _HasBodies):
+class Tree(_NeverChanges, _HasBodies):
     """A tree as rigid bodies on joints; never changes. From convert() or read_tree(), which leaves in notes what another program's file is, and what of it
     was guessed or put right. len(tree): its bodies."""
     notes = ()
+    _instead = ": to_bytes() is what read_tree() reads"
 
     def __len__(self):
         return self._body_arrays().count
@@ -405,6 +435,8 @@ class Tree(_Handle, _HasBodies):
 
     def save(self, file):
         """Writes to_bytes() to a file, whose name ends in .safetensors by custom."""
+        if not isinstance(file, (str, os.PathLike)):
+            raise UsageError(f"file: is {type(file).__name__}, expected a file's name")
         try:
             pathlib.Path(file).write_bytes(self.to_bytes())
         except OSError as error:
@@ -578,6 +610,8 @@ def _written(function, handle):
 
 class Simulation(_Handle, _HasBodies):
     """One run of a scene. len(run): bodies that positions has."""
+
+    _instead = ": Simulation(scene, before=run) is another one that goes on; save() is what restore() takes"
 
     def __init__(self, scene, step=1 / 30, precision="double", method="coupled", sleep=0, threads=0, velocities=False, torques=False, stresses=False,
                  pulls=False, grounds=False, portable=False, before=None):

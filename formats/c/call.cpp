@@ -1,6 +1,7 @@
 #include "call.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
+#include <charconv>
 #include <cstring>
 #include <new>
 
@@ -15,11 +16,18 @@ void put(const char* message) noexcept {
     last_message[length] = 0;
 }
 
+// A setting is called as bough_c.h calls it, not as the library's door does.
+std::string with_names_of_c(std::string message) {
+    const std::string own = "SimulationOptions::", of_c = "settings.";
+    for (std::size_t at = 0; (at = message.find(own, at)) != std::string::npos;) message.replace(at, own.size(), of_c);
+    return message;
+}
+
 // As the tools print it: in one line of valid UTF-8, whatever bytes of a document it repeats.
 bough_result keep(bough_result result, const char* message) noexcept {
     put(message);
     try {
-        put(valid_utf8(in_words(last_message)).c_str());
+        put(valid_utf8(in_words(with_names_of_c(last_message))).c_str());
     } catch (const std::bad_alloc&) { // as it is
     }
     for (char& c : last_message) c = c == '\n' ? ' ' : c;
@@ -27,6 +35,11 @@ bough_result keep(bough_result result, const char* message) noexcept {
 }
 
 } // namespace
+
+std::string text_of(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
 
 bough_result caught() noexcept {
     try {

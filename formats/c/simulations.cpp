@@ -4,6 +4,7 @@
 #include "wind.h"
 #include "write.h"
 #include <algorithm>
+#include <cstring>
 
 using namespace bough;
 using namespace bough::c;
@@ -14,8 +15,8 @@ SimulationOptions options_of(const bough_settings& s) {
     const auto fail = [](const char* field, const std::string& value, const char* expected) {
         throw WrongCall(std::string(field) + ": is " + value + ", expected " + expected);
     };
-    if (!(s.step > 0) || !std::isfinite(s.step)) fail("step", std::to_string(s.step), "seconds, above 0");
-    if (!(s.sleep >= 0)) fail("sleep", std::to_string(s.sleep), "rad/s, 0 or more");
+    if (!(s.step > 0) || !std::isfinite(s.step)) fail("step", text_of(s.step), "seconds, above 0");
+    if (!(s.sleep >= 0)) fail("sleep", text_of(s.sleep), "rad/s, 0 or more");
     if (s.threads < 0) fail("threads", std::to_string(s.threads), "0 or more");
     if (s.precision != BOUGH_FLOAT && s.precision != BOUGH_DOUBLE)
         fail("precision", std::to_string(s.precision), "BOUGH_FLOAT or BOUGH_DOUBLE");
@@ -125,10 +126,10 @@ bough_result bough_simulate(const bough_scene* scene, const bough_settings* sett
 }
 
 bough_result bough_settle(bough_simulation* simulation, double seconds) {
-    return call([&] {
+    return call_of_running([&] {
         const Use<SimulationObject> use(simulation);
         if (!(seconds >= 0 && seconds <= Simulation::most_settled))
-            throw WrongCall("seconds: is " + std::to_string(seconds) + ", expected 0 to " +
+            throw WrongCall("seconds: is " + text_of(seconds) + ", expected 0 to " +
                             std::to_string(int(Simulation::most_settled)));
         if (use->simulation.steps() != 0) throw WrongCall("simulation: has been stepped, expected one at its start");
         const StepReport made = use->simulation.settle(seconds);
@@ -171,7 +172,10 @@ bough_result bough_step(bough_simulation* simulation, bough_report* report) {
 bough_result bough_read(bough_simulation* simulation, bough_field field, bough_array* array) {
     return call([&] {
         const Use<SimulationObject> use(simulation);
-        required(array, "array") = read(use->simulation, std::int32_t(field)); // which may be none of them
+        std::int32_t number; // which may be none of them: no enum is read
+        static_assert(sizeof field == sizeof number);
+        std::memcpy(&number, &field, sizeof number);
+        required(array, "array") = read(use->simulation, number);
     });
 }
 

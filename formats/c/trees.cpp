@@ -28,7 +28,7 @@ const Material& wood_of(const Splines& splines, const char* asked) {
 SegmentOptions options_of(const bough_conversion& c) {
     const auto at_least = [](const char* field, double value, double low, const char* expected) {
         if (!(value >= low) || !std::isfinite(value))
-            throw WrongCall(std::string(field) + ": is " + std::to_string(value) + ", expected " + expected);
+            throw WrongCall(std::string(field) + ": is " + text_of(value) + ", expected " + expected);
     };
     at_least("segment_length", c.segment_length, 0, "metres, 0 or more");
     at_least("max_bend", c.max_bend, 1e-3, "radians, 0.001 or more");

@@ -63,6 +63,10 @@ void check_joints(const GltfDocument& document, const Json& attributes, std::siz
         const std::vector<double> joint = values_of(document, attributes[joints], of_joints),
                                   weight = values_of(document, attributes[weights], of_weights);
         check_finite(weight, its_weights, "vertex", 4);
+        for (std::size_t i = 0; i < weight.size(); ++i)
+            if (weight[i] < 0)
+                throw std::out_of_range(its_weights + ": vertex " + std::to_string(i / 4) +
+                                        " has a weight below 0, expected 0 or more");
         for (std::size_t i = 0; i < joint.size(); ++i)
             if (weight[i] > 0 && joint[i] > highest.joint) highest = {joint[i], i / 4, its_joints};
     }
@@ -102,6 +106,8 @@ HighestJoint check_mesh(const GltfDocument& document, std::size_t mesh, bool qua
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         const std::string place = primitive_place(mesh, p);
         const Json& attributes = primitives[p].at("attributes");
+        if (const std::size_t mode = whole_number(primitives[p], "mode", place, 4); mode > 6)
+            throw std::out_of_range(place + ": mode is " + std::to_string(mode) + ", expected 0 to 6");
         if (!attributes.contains("POSITION")) continue;
         const std::size_t vertices =
             count_of(document, attributes["POSITION"],

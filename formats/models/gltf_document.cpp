@@ -219,8 +219,10 @@ void embed_images(GltfDocument& document, const std::string& name, const std::st
             why = error.what();
         }
         const char* const type = image_type(bytes);
-        const std::string file = lower_case(uri);
-        if (!type && !bytes.empty() && (file.ends_with(".png") || file.ends_with(".jpg") || file.ends_with(".jpeg")))
+        const std::string file = lower_case(uri), stated = image.value("mimeType", std::string());
+        if (!type && !bytes.empty() &&
+            (stated == "image/png" || stated == "image/jpeg" || file.ends_with(".png") || file.ends_with(".jpg") ||
+             file.ends_with(".jpeg")))
             throw ImageError(name, "image " + bough::in_ascii_quotes(uri) +
                                        " is no image that can be read, expected PNG or JPEG");
         if (!type) {

@@ -144,6 +144,9 @@ std::int64_t cut_curve(const Curves& curves, std::size_t c, const CutRule& rule,
 }
 
 std::int64_t count_pieces(const Curves& curves, const CutRule& rule, std::int64_t limit) {
+    double least = 0; // so many come to be whatever turns
+    for (std::size_t c = 0; c < curves.size(); ++c) least += 0.99 * (wanted_pieces(curves, c, rule).pieces - 1);
+    if (least > double(limit)) return limit + 1;
     std::vector<double> cuts;
     std::int64_t pieces = 0;
     for (std::size_t c = 0; c < curves.size() && pieces <= limit; ++c)

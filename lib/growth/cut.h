@@ -27,7 +27,7 @@ struct CutRule {
 // that would exceed `limit`, returns limit + 1 without cutting. O(points + pieces).
 std::int64_t cut_curve(const Curves&, std::size_t c, const CutRule&, std::int64_t limit, std::vector<double>& cuts);
 
-// Pieces of all curves, or limit + 1 if there are more. O(points + pieces).
+// Pieces of all curves, or limit + 1 if there are more: at once where as many as are wanted would be. O(points + pieces).
 std::int64_t count_pieces(const Curves&, const CutRule&, std::int64_t limit);
 
 } // namespace bough

@@ -66,6 +66,18 @@ expect 0 "$picture" --size 120x160 meshed.png meshed.glb
 refused 2 "index.glb: mesh 0, primitive 0: its indices name vertex" "$picture" none.png index.glb
 refused 2 "has no animation" "$picture" none.gif half.glb
 refused 2 "no vertices" "$picture" none.png broken.glb
+# f3d ends by itself at so many joints: it is not begun.
+python3 - <<'P'
+import json, struct
+data = open("meshed.glb", "rb").read()
+size = struct.unpack_from("<I", data, 12)[0]
+model = json.loads(data[20:20 + size])
+model["skins"][0]["joints"] += [model["skins"][0]["joints"][0]] * 1100
+text = json.dumps(model).encode()
+text += b" " * (-len(text) % 4)
+open("jointed.glb", "wb").write(data[:8] + struct.pack("<III", 20 + len(text) + len(data) - 20 - size, len(text), 0x4E4F534A) + text + data[20 + size:])
+P
+refused 2 "joints, of which f3d draws 1020 at most" "$picture" none.png jointed.glb
 head -c 40 maple.glb >cut.glb
 refused 2 "is no glTF 2.0" "$picture" none.png cut.glb
 refused 1 "does not end in" "$picture" none.tif maple.glb

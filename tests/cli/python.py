@@ -1,9 +1,11 @@
 """bough.py against the tools' documents, read here with json, against geometry, and against itself where it must not differ. Run by python.sh in a folder
 that has birch.json (a tree), park.json (a scene of it), birch.jsonl (its motion), park.hash, birch.state. Prints nothing where all is well."""
+import copy
 import gc
 import json
 import math
 import pathlib
+import pickle
 import tempfile
 import threading
 import types
@@ -332,6 +334,31 @@ raises(bough.UsageError, "pull: Simulation(pulls=True) is not set", lambda: of(t
 raises(bough.UsageError, "origin: is 'a', expected three numbers", lambda: of(tree).pick("a", [0, 0, 1]))
 raises(bough.UsageError, "origin: is not finite", lambda: of(tree).pick([0, math.nan, 0], [0, 0, 1]))
 raises(bough.UsageError, "species: is 5, expected a name", lambda: bough.grow(5))
+raises(bough.UsageError, "species: is 'apple\\x00x', expected a name", lambda: bough.grow("apple\0x"))
+raises(bough.UsageError, "file: is int, expected a file's name", lambda: tree.save(5))
+raises(bough.InputError, "'': Is a directory", lambda: bough.read_tree(""))
+for wrong, value in ("seed", -1), ("seed", 2**70), ("turbulence", "a"):
+    raises(bough.UsageError, f"{wrong}: is ", lambda: setattr(bough.wind_preset("gusty"), wrong, value))
+again = of(tree)
+again.restore(np.frombuffer(of(tree).save(), np.uint8))
+
+# Who copies gets the same tree, whose memory lasts as long; of what changes there is no copy.
+lasting = copy.deepcopy({"tree": bough.read_tree("birch.json")})["tree"].masses
+gc.collect()
+assert np.array_equal(lasting, tree.masses) and copy.copy(tree) is tree
+for unlike in (again, bough.Scene(), tree):
+    for way in (pickle.dumps,) if unlike is tree else (copy.copy, copy.deepcopy, pickle.dumps):
+        try:
+            way(unlike)
+            raise AssertionError(f"{way} takes a {type(unlike).__name__}")
+        except TypeError as error:
+            assert "is neither copied nor pickled" in str(error), error
+for thing, name in (again, "wind"), (again, "gravity"), (bough.Scene(), "wind"):
+    try:
+        setattr(thing, name, "storm")
+        raise AssertionError(f"{name} = is taken")
+    except AttributeError as error:
+        assert f"{name} is changed by set_{name}()" in str(error), error
 raises(bough.UsageError, "material: is 5, expected a name", lambda: bough.convert(bough.grow("palm", bodies=50), material=5))
 raises(bough.UsageError, "file: is bytes, expected a file's name", lambda: bough.read_scene(b"{}"))
 raises(bough.UsageError, "source: is int, expected a file's name, bytes", lambda: bough.read_tree(5))

@@ -63,6 +63,7 @@ expect 0 treesim breaks.json --frames 2 --no-output
 expect 0 treesim breaks.json --frames 1 --settle 3 -o before.jsonl
 ! grep -q broke before.jsonl || fail "something broke before frame 0"
 refused 1 "--settle" treesim tree.json --wind gusty --settle -1
+refused 1 "--settle: is 1e+09 s, expected at most" treesim tree.json --wind gusty --settle 1e9
 refused 1 "--settle" treesim tree.json --wind gusty --settle long
 
 # Beside the run: what holding joints costs, and the step's error, are of the same motion.

@@ -313,7 +313,11 @@ TEST_CASE("numbers out of range are refused with the number") {
     for (const double seconds : {not_a_number, infinity, -1.0, 1e12}) // the last would run for a lifetime
         refused(bough_settle(h.simulation, seconds), BOUGH_USAGE, "seconds: is ");
     refused(bough_settle(h.simulation, 600.1), BOUGH_USAGE, "expected 0 to 600");
+    CHECK(bough_settle(h.simulation, 0.1) == BOUGH_OK);
+    refused(bough_settle(h.simulation, 0.1), BOUGH_USAGE, "the run has begun");
     bough_array a;
+    const volatile int beyond = -1; // as C programs may pass it
+    refused(bough_read(h.simulation, bough_field(beyond), &a), BOUGH_USAGE, "field: is -1, expected");
     refused(bough_read(h.simulation, bough_field(8), &a), BOUGH_USAGE, "field: is 8");
     refused(bough_read(h.simulation, BOUGH_VELOCITY, &a), BOUGH_USAGE, "settings.velocities");
     refused(bough_read(h.simulation, BOUGH_ANGULAR_VELOCITY, &a), BOUGH_USAGE, "settings.velocities");

@@ -47,6 +47,8 @@ TEST_CASE("weights are four floats, or bytes and shorts that stand for them") {
     refuses(weighted(5121, "33 CC 00 00", false), place + "\"VEC4\" of unsigned bytes" + expected);
     refuses(weighted(5120, "19 66 00 00", true), place + "\"VEC4\" of normalized bytes" + expected);
     refuses([](Json& j) { accessor(j, weights)["type"] = "VEC2"; }, place + "\"VEC2\" of floats" + expected);
+    refuses(weighted(5126, "CDCC4CBE CDCC4C3F 00000000 00000000", false),
+            "mesh 0, primitive 0: WEIGHTS_0: vertex 0 has a weight below 0, expected 0 or more");
 }
 
 TEST_CASE("joints and weights come together, one for each vertex") {
@@ -128,6 +130,7 @@ TEST_CASE("indices are whole and name vertices that are there") {
     // 1 000 000, and the largest there is: all their digits.
     refuses(lines(1, "0000000040420F00"), "mesh 0, primitive 0: a line names vertex 1000000, expected 0 to 3");
     refuses(lines(0, "FFFFFFFF"), "mesh 0, primitive 0: a point names vertex 4294967295, expected 0 to 3");
+    refuses(lines(77, "00000000"), "mesh 0, primitive 0: mode is 77, expected 0 to 6");
     const ModelScene line = scene_of(changed(lines(1, "0000000003000000")));
     CHECK(line.line.size() == 1);
     const std::string expected = ", expected SCALAR of unsigned bytes, shorts or ints",

@@ -65,6 +65,13 @@ TEST_CASE("no even piece of a smooth curve turns by more than max_bend") {
     }
 }
 
+TEST_CASE("more pieces than an index holds are counted at once") {
+    Splines s;
+    for (int k = 0; k < 1000; ++k) add_branch(s, -1, 0, {{double(k), 0, 0}, {double(k), 3, 0}}, {0.1, 0.1});
+    // A thousand times three million: cut, they would take a minute. No time is asked for, but the test's own limit holds.
+    CHECK_THROWS_WITH(segment(s, wood(), {.segment_length = 1e-6}), Catch::Matchers::Contains("2147483647"));
+}
+
 TEST_CASE("a sharp corner is a joint, and pieces are even on either side of it") {
     Splines s;
     add_branch(s, -1, 0, {{0, 0, 0}, {0, 1, 0}, {2.3, 1, 0}}, {0.05, 0.05, 0.02});

@@ -12,7 +12,7 @@ using namespace bough::live;
 
 namespace {
 
-constexpr std::size_t most_joints = 1000;                      // some viewers fail beyond about 1100
+constexpr std::size_t most_joints = 1000;                      // some viewers fail beyond 1020
 constexpr double key_tolerance = 0.1 * std::numbers::pi / 180; // [rad] as treesim's
 
 MotionFrame frame_of(const Simulation& run, std::size_t bodies, std::int64_t frame, double fps) {
