@@ -62,6 +62,7 @@ void add_parts(OwnMesh& to, OwnMesh&& more, const SharedParts& at, const Bodies&
         for (OwnPlace& place : part.placed) {
             place.shape += std::int32_t(at.shape);
             place.body = bodies[std::size_t(place.body)];
+            if (place.foot >= 0) place.foot = bodies[std::size_t(place.foot)];
         }
         to.part.push_back(std::move(part));
     }

@@ -52,7 +52,10 @@ void number_among(OwnMesh& mesh, const Bodies& bodies) {
     for (OwnPart& part : mesh.part) {
         for (auto& two : part.body)
             for (std::int32_t& body : two) number(body);
-        for (OwnPlace& place : part.placed) number(place.body);
+        for (OwnPlace& place : part.placed) {
+            number(place.body);
+            if (place.foot >= 0) number(place.foot);
+        }
     }
 }
 

@@ -47,19 +47,19 @@ struct TwoGroups {
     float second;
 };
 
-TwoGroups groups_of(const OwnPart& part, const JointGroups& groups, std::size_t v, const OwnPlace* place) {
-    const auto group = [&](std::int32_t body) { return groups.group[std::size_t(body)]; };
-    if (place) return {group(place->body), 0, 0};
-    const std::int32_t a = group(part.body[v][0]), b = group(part.body[v][1]);
-    if (a == b || part.second[v] <= 0) return {a, 0, 0};
-    if (part.second[v] >= 1) return {b, 0, 0};
-    return {a, b, part.second[v]};
+TwoGroups groups_of(const OwnPart& part, const JointGroups& groups, const OwnSurface& from, std::size_t v,
+                    const OwnPlace* place) {
+    const OwnShare share = share_of(part, from, v, place);
+    const std::int32_t a = groups.group[std::size_t(share.first)], b = groups.group[std::size_t(share.second)];
+    if (a == b || share.weight <= 0) return {a, 0, 0};
+    if (share.weight >= 1) return {b, 0, 0};
+    return {a, b, share.weight};
 }
 
 template <class Number>
 void write_own_joints(GltfBytes& to, const OwnMesh& mesh, const OwnPart& part, const JointGroups& groups) {
-    each_vertex(mesh, part, [&](const OwnSurface&, std::size_t v, const OwnPlace* place) {
-        const TwoGroups two = groups_of(part, groups, v, place);
+    each_vertex(mesh, part, [&](const OwnSurface& from, std::size_t v, const OwnPlace* place) {
+        const TwoGroups two = groups_of(part, groups, from, v, place);
         to.add_all(Number(two.first), Number(two.other), Number(0), Number(0));
     });
 }
@@ -147,8 +147,8 @@ std::string primitive(GltfFile& file, const OwnMesh& mesh, const OwnPart& part, 
             add(
                 8, GltfType::u16, "VEC4",
                 [&mesh, &part, &groups](GltfBytes& to) {
-                    each_vertex(mesh, part, [&](const OwnSurface&, std::size_t v, const OwnPlace* place) {
-                        const float share = groups_of(part, groups, v, place).second;
+                    each_vertex(mesh, part, [&](const OwnSurface& from, std::size_t v, const OwnPlace* place) {
+                        const float share = groups_of(part, groups, from, v, place).second;
                         // Of two joints neither is left with nothing.
                         const auto second =
                             std::uint16_t(share > 0 ? std::clamp(std::lround(65535 * share), 1L, 65534L) : 0);

@@ -38,10 +38,9 @@ Skin skin_of(const OwnMesh& mesh) {
                 skin.texture.push_back({0, 0});
             else
                 skin.texture.push_back({from.uv[0][v][0], 1 - from.uv[0][v][1]});
-            const std::int32_t a = place ? place->body : part.body[v][0], b = place ? a : part.body[v][1];
-            const float second = place ? 0 : part.second[v];
-            skin.joint.push_back({a, b, a, a});
-            skin.weight.push_back({1 - second, second, 0, 0});
+            const OwnShare share = share_of(part, from, v, place);
+            skin.joint.push_back({share.first, share.second, share.first, share.first});
+            skin.weight.push_back({1 - share.weight, share.weight, 0, 0});
         });
         const auto add = [&](const OwnSurface& from) {
             for (const auto& [a, b, c] : from.triangle) skin.triangle.push_back({base + a, base + b, base + c});

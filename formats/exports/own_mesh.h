@@ -1,10 +1,11 @@
 // own_mesh.h: a mesh that came with the tree, bound to the tree's bodies: what a .glb shows in place of a skin made of them.
 //
-// Standing vertices are moved by one body or two; what is placed is a shape of its own, drawn wherever it is placed, and moved by one.
+// Standing vertices are moved by one body or two; what is placed is a shape of its own, drawn wherever it is placed, and moved by one, or bent.
 // Places of one shape share its arrays until they are written, so that ten thousand twigs cost little more than one.
 #pragma once
 #include "lib/base/math.h"
 #include "lib/growth/skin.h"
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct OwnPlace {
     std::int32_t shape = 0, body = 0;
     Eigen::Matrix3f turn = Eigen::Matrix3f::Identity(); // and scale
     Eigen::Vector3f place = Eigen::Vector3f::Zero();    // [m] world, drawn
+    // A twig is one body on a joint at its foot, which stands for a rod that bends all along (lib/model/stiffness.h). It is drawn as the rod: at a
+    // share s of its length the way that the body goes is taken by w(s) = (6 s - 4 s^2 + s^3) / 3 over what bears it, the line of a beam under an
+    // even load, so that its end is where the body has it.
+    std::int32_t foot = -1; // the body that bears it; -1: it does not bend
+    float length = 0;       // from the shape's origin to its farthest vertex, in its own frame
 };
 
 struct OwnPart { // of one material
@@ -65,6 +71,17 @@ template <class Take> void each_vertex(const OwnMesh& mesh, const OwnPart& part,
 inline Eigen::Vector3f position_of(const OwnSurface& surface, std::size_t v, const OwnPlace* place) {
     if (!place) return surface.position[v];
     return place->turn * surface.position[v] + place->place;
+}
+// The bodies that move a vertex, and the second one's weight, 0..1; the first has the rest.
+struct OwnShare {
+    std::int32_t first, second;
+    float weight;
+};
+inline OwnShare share_of(const OwnPart& part, const OwnSurface& surface, std::size_t v, const OwnPlace* place) {
+    if (!place) return {part.body[v][0], part.body[v][1], part.second[v]};
+    if (place->foot < 0) return {place->body, place->body, 0};
+    const float s = std::min(surface.position[v].norm() / place->length, 1.f);
+    return {place->body, place->foot, 1 - s * (6 - 4 * s + s * s) / 3};
 }
 // Where the surface has some.
 inline std::array<float, 4> tangent_of(const OwnSurface& surface, std::size_t v, const OwnPlace* place) {

@@ -45,11 +45,11 @@ void OwnMover::fill(std::size_t first, std::span<Vec3> to) const {
     for (Vec3& at : to) {
         while (v >= surface_of(*run).position.size()) ++run, v = 0;
         const Vec3 drawn = position_of(surface_of(*run), v, run->place).cast<double>();
-        const std::int32_t body = run->place ? run->place->body : run->part->body[v][0];
-        const double second = run->place ? 0 : double(run->part->second[v]), rest = 1 - second;
+        const OwnShare share = share_of(*run->part, surface_of(*run), v, run->place);
+        const double second = double(share.weight), rest = 1 - second;
         at = Vec3::Zero();
-        if (second != 0) at += second * moved(run->part->body[v][1], drawn);
-        if (rest != 0) at += rest * moved(body, drawn);
+        if (second != 0) at += second * moved(share.second, drawn);
+        if (rest != 0) at += rest * moved(share.first, drawn);
         ++v;
     }
 }

@@ -267,6 +267,7 @@ private:
                 place.body = wood_.bind(chain, at).stronger();
                 ++borne;
             }
+            bend(place, shapes);
             for (const auto& [material, shape] : shapes) {
                 place.shape = shape;
                 part(material).placed.push_back(place);
@@ -280,6 +281,16 @@ private:
             notes_.push_back(model_.name + ": " +
                              counted(borne, "leaf reference has no leaf body: it moves with the wood that bears it",
                                      "leaf references have no leaf bodies: they move with the wood that bears them"));
+    }
+
+    // A twig, of all its shapes.
+    void bend(OwnPlace& place, const std::vector<std::pair<std::int32_t, std::int32_t>>& shapes) const {
+        const auto body = std::size_t(place.body);
+        if (!is_clump(tree_, body) || tree_.parent[body] < 0) return;
+        for (const auto& [material, shape] : shapes)
+            for (const Eigen::Vector3f& p : mesh_.shape[std::size_t(shape)].position)
+                place.length = std::max(place.length, p.norm());
+        if (place.length > 0) place.foot = tree_.parent[body];
     }
 
     SpeedtreeModel model_;

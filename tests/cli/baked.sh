@@ -34,7 +34,7 @@ refused 1 "--vat-vertices 8192 simplifies it" treesim large.tree.json --wind gus
 absent large_vat
 expect 0 treesim large.tree.json --wind gusty --frames 2 --settle 0 -o large_vat/ --look none --vat-vertices 8000
 grep -q "vertices are left: wood is off by .* leaves are kept" err || fail "nothing is said of what was left out: $(cat err)"
-refused 1 "; --mesh made --sides 3 (without --skin) shows one" treesim "$top/data/fixtures/meshed_tree.xml" --frames 2 -o few_vat/ --vat-vertices 4
+refused 1 "; --mesh made --sides 3 (and no --skin) shows one" treesim "$top/data/fixtures/meshed_tree.xml" --frames 2 -o few_vat/ --vat-vertices 4
 expect 0 treesim large.tree.json --wind gusty --frames 2 --settle 0 -o few_vat/ --look none --vat-vertices 100
 grep -q "the largest .* pieces of wood are kept" err || fail "nothing is said of the wood that was left out: $(cat err)"
 rm -r few_vat
