@@ -171,6 +171,58 @@ export async function curves_and_the_dial_take_keys({ browser, url }) {
     await closePage(page);
 }
 
+// Presses of a real mouse: its clicks go to what has captured the pointer.
+export async function a_key_goes_and_comes_by_two_presses({ browser, url }) {
+    const page = await openPage(browser, addressOf(url, { ...small, curves: { keys: { stiffness: [[0.005, 1], [0.015, 2], [0.03, 1]], damping: [] } } }));
+    await page.evaluate(() => { for (const one of document.querySelectorAll('details')) one.open = true; });
+    const key = page.locator('#curve-stiffness .key').nth(1);
+    await key.scrollIntoViewIfNeeded();
+    const { x, y, width } = await key.boundingBox(), at = [x + width / 2 + 2, y + width / 2 + 2];
+    const now = async () => {
+        await idle(page);
+        return page.evaluate(() => [bough.state.curves.keys.stiffness.length, bough.history.past.length].join());
+    };
+    await page.mouse.click(...at);
+    expect(await now() === '3,0', `a press that moves nothing: keys, steps of the history: ${await now()}`);
+    await page.mouse.dblclick(...at);
+    expect(await now() === '2,1', `pressed twice: ${await now()}`);
+    await page.mouse.dblclick(...at);
+    expect(await now() === '3,2', `pressed twice where none is: ${await now()}`);
+    await page.mouse.move(...at);
+    await page.mouse.down();
+    await page.mouse.move(at[0], at[1] - 20, { steps: 4 });
+    await page.mouse.up();
+    const factor = await page.evaluate(() => bough.state.curves.keys.stiffness[1][1]);
+    expect(await now() === '3,3' && factor > 2, `drawn: ${await now()}, factor ${factor}`);
+    await closePage(page);
+}
+
+export async function a_typed_number_is_undone({ browser, url }) {
+    const page = await openPage(browser, addressOf(url, small));
+    const field = page.locator('input[aria-label="Speed, number"]');
+    await field.click({ clickCount: 3 });
+    await page.keyboard.type('17');
+    await page.keyboard.press('Enter');
+    await page.waitForFunction(() => bough.history.past.length === 1 && bough.state.wind.speed === 17);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => bough.state.wind.speed === 4 && bough.history.past.length === 0, null, { timeout: 10000 });
+    await idle(page);
+    expect(await field.inputValue() === '4', `undone, the field shows ${await field.inputValue()}`);
+    await page.keyboard.press('Control+Shift+Z');
+    await page.waitForFunction(() => bough.state.wind.speed === 17, null, { timeout: 10000 });
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Tab');
+    await idle(page);
+    expect(await page.evaluate(() => bough.history.past.length) === 0, 'Tab makes a step of what was undone');
+    // What is being typed is the field's own to undo.
+    await field.click();
+    await page.keyboard.type('1');
+    const typed = await field.inputValue();
+    await page.keyboard.press('Control+z');
+    expect(typed !== '4' && await field.inputValue() === '4' && await page.evaluate(() => bough.history.future.length) === 1, `"${typed}" is undone to "${await field.inputValue()}"`);
+    await closePage(page);
+}
+
 export async function a_pull_says_its_force({ browser, url }) {
     const page = await openPage(browser, addressOf(url, small));
     await calm(page);

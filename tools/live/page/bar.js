@@ -49,10 +49,10 @@ export class Bar {
         this.forth.disabled = history.future.length === 0;
     }
     key(event) {
-        if (event.target.matches('input[type=text], textarea') || event.altKey) return;
-        const { app } = this;
+        const { app } = this, { target } = event, text = target.matches('input[type=text]');
+        if (event.altKey || (text && !(event.ctrlKey || event.metaKey))) return;
         if (event.ctrlKey || event.metaKey) {
-            if (event.key.toLowerCase() !== 'z') return;
+            if (event.key.toLowerCase() !== 'z' || (text && target.value !== target.defaultValue)) return; // what is being typed is the field's to undo
             event.preventDefault();
             if (event.shiftKey) app.redo();
             else app.undo();
@@ -61,8 +61,8 @@ export class Bar {
         const does = {
             ' ': () => this.toggle(), '.': () => app.single(), r: () => app.restart(), k: () => app.keep(), f: () => app.view.whole(), Escape: () => app.pick(null),
         }[event.key];
-        if (!does || event.target.matches('select')) return; // letters choose in a list
-        if (event.key === ' ' && event.target.matches('button, summary, input[type=checkbox]')) return; // which has it pressed
+        if (!does || target.matches('select')) return; // letters choose in a list
+        if (event.key === ' ' && target.matches('button, summary, input[type=checkbox]')) return; // which has it pressed
         event.preventDefault();
         does();
     }

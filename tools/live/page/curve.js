@@ -17,7 +17,7 @@ export class CurveEditor {
         this.picture = svg('svg', {
             class: 'editor', viewBox: `0 0 ${box.left + box.width + 12} ${box.top + box.height + box.bottom}`, 'aria-label': `${label} over radius`,
         }, this.axis, this.line, this.points);
-        this.picture.addEventListener('dblclick', (event) => this.#add(event));
+        this.picture.addEventListener('dblclick', (event) => this.#twice(event));
         this.picture.addEventListener('pointermove', (event) => this.#drag(event, false));
         for (const end of ['pointerup', 'pointercancel']) this.picture.addEventListener(end, (event) => this.#drag(event, true));
         this.row = element('div', { class: 'curve-row' }, element('div', { class: 'curve-head' },
@@ -42,21 +42,27 @@ export class CurveEditor {
         const share = Math.min(1, Math.max(0, (x - box.left) / box.width)), high = Math.min(1, Math.max(0, 1 - (y - box.top) / box.height));
         return [share * this.thickest, Number((lowest * (highest / lowest) ** high).toPrecision(3))];
     }
+    #place([radius, factor]) { return [this.#x(radius), this.#y(factor)]; }
+    #remove(k) { this.#changed(this.keys.filter((_, i) => i !== k), true); }
     #changed(keys, done) {
         this.keys = keys;
         this.draw();
         this.change(keys.map((key) => [...key]), done);
     }
-    #add(event) {
-        const key = this.#at(event);
+    // On a key, which has not the event itself: the picture has captured its pointer.
+    #twice(event) {
+        const key = this.#at(event), [x, y] = this.#place(key);
+        const far = this.keys.map((own) => Math.hypot(this.#place(own)[0] - x, this.#place(own)[1] - y)), near = far.indexOf(Math.min(...far));
+        if (far[near] < 8) return this.#remove(near);
         if (this.keys.some(([radius]) => Math.abs(radius - key[0]) < 0.02 * this.thickest)) return;
         this.#changed([...this.keys, key].sort((a, b) => a[0] - b[0]), true);
     }
     #drag(event, done) {
-        if (this.held === undefined) return;
-        const k = this.held;
-        if (done) this.held = undefined;
-        this.#move(k, this.#at(event), done);
+        const { held } = this;
+        if (!held) return;
+        if (done) this.held = null;
+        held.drawn ||= Math.hypot(event.clientX - held.x, event.clientY - held.y) > 2; // a press that stays where it is changes nothing
+        if (held.drawn) this.#move(held.k, this.#at(event), done);
     }
     #move(k, [radius, factor], done) { // between the keys beside it
         const keys = this.keys.map((key) => [...key]), gap = 0.01 * this.thickest;
@@ -67,7 +73,7 @@ export class CurveEditor {
         const way = { ArrowLeft: [-0.02, 1], ArrowRight: [0.02, 1], ArrowUp: [0, 1.1], ArrowDown: [0, 1 / 1.1] }[event.key];
         if (!way && event.key !== 'Delete') return;
         event.preventDefault(); // the panel does not scroll
-        if (!way) return this.#changed(this.keys.filter((_, i) => i !== k), true);
+        if (!way) return this.#remove(k);
         const [radius, factor] = this.keys[k];
         this.#move(k, [Math.min(this.thickest, Math.max(0, radius + way[0] * this.thickest)),
             Number(Math.min(highest, Math.max(lowest, factor * way[1])).toPrecision(3))], true);
@@ -89,17 +95,13 @@ export class CurveEditor {
             });
             point.addEventListener('pointerdown', (event) => {
                 this.picture.setPointerCapture(event.pointerId);
-                this.held = k;
+                this.held = { k, x: event.clientX, y: event.clientY };
                 event.preventDefault();
                 point.focus();
             });
             point.addEventListener('focus', () => { this.value.textContent = textOf(this.keys[k]); });
             point.addEventListener('blur', () => { this.value.textContent = ''; });
             point.addEventListener('keydown', (event) => this.#press(event, k));
-            point.addEventListener('dblclick', (event) => {
-                event.stopPropagation();
-                this.#changed(this.keys.filter((_, i) => i !== k), true);
-            });
             return point;
         }));
         this.points.children[focused]?.focus(); // as the one that stood there had it

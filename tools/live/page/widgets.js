@@ -34,7 +34,7 @@ export function slider({ label, unit = '', min, max, digits = 3, log = false, al
     const set = (to) => {
         value = to;
         range.value = Math.round(1000 * Math.min(1, Math.max(0, toWay(Math.max(to, log ? min : -Infinity)))));
-        text.value = shown(to);
+        text.value = text.defaultValue = shown(to); // what it is until another is typed
         text.classList.remove('wrong');
     };
     const taken = (to, done) => {
