@@ -112,6 +112,47 @@ export async function an_address_is_put_in_place_of_another({ browser, url }) {
     await closePage(page);
 }
 
+export async function a_scene_too_long_for_the_address_stays({ browser, url }) {
+    const page = await openPage(browser, addressOf(url, small));
+    await change(page, '(state) => { state.stiffness = 2; }');
+    await page.waitForFunction((url) => location.href !== url, addressOf(url, small));
+    const fitted = await page.evaluate(() => location.hash);
+    for (const factor of [1, 2])
+        await change(page, `(state) => { state.parts = Array.from({ length: 150 }, (_, k) => ({ place: 0, body: k + 1, stiffness: ${factor} + Math.sin(k) ** 2, damping: 1 })); }`);
+    await page.waitForSelector('.message');
+    const said = await page.$$eval('.message', (all) => all.map((one) => one.textContent));
+    expect(said.length === 1 && said[0].includes('too long for an address') && said[0].includes('Scene for treesim'), `it says ${said}`);
+    expect(await page.evaluate(() => location.hash) === fitted, 'the address that fitted is gone');
+    const before = JSON.stringify(await state(page));
+    await page.reload();
+    await page.waitForFunction(() => globalThis.bough?.times.moved, null, { timeout: 60000 });
+    const { parts, stiffness } = await state(page);
+    expect(JSON.stringify(await state(page)) === before, `loaded again it has ${parts.length} subtrees, stiffness ${stiffness}`);
+    await change(page, '(state) => { state.parts = []; state.stiffness = 3; }'); // fits again
+    await page.waitForFunction((fitted) => location.hash !== fitted, fitted);
+    await page.reload();
+    await page.waitForFunction(() => globalThis.bough?.times.moved, null, { timeout: 60000 });
+    expect((await state(page)).stiffness === 3 && (await state(page)).parts.length === 0, 'what fits is not what is loaded');
+    await closePage(page);
+}
+
+export async function gravity_that_is_not_saved_is_told({ browser, url, work }) {
+    const page = await openPage(browser, addressOf(url, small)), said = () => page.$$eval('.message', (all) => all.map((one) => one.firstChild.textContent));
+    await savedScene(page, work);
+    expect((await said()).length === 0, `it says ${await said()}`);
+    await change(page, '(state) => { state.gravity = 25; }');
+    await savedScene(page, work);
+    expect((await said()).some((text) => text.includes('25') && text.includes('9.81')), `a saved scene: it says ${await said()}`);
+    await clear(page);
+    const length = page.locator('input[aria-label="Length, number"]');
+    await length.fill('0.5');
+    await length.press('Enter');
+    await saved(page, '#save-glb', path.join(work, 'gravity.glb'));
+    await page.waitForFunction(() => /MB written/.test(document.getElementById('messages').textContent));
+    expect((await said()).some((text) => text.includes('25') && text.includes('9.81')), `a motion: it says ${await said()}`);
+    await closePage(page);
+}
+
 export async function a_served_file_is_loaded_again({ browser, folder, top }) {
     const server = spawn('python3', [path.join(top, 'tools/live/serve.py'), folder, '0', path.join(top, 'data/fixtures/shrub.mtg')]);
     try {

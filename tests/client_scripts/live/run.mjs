@@ -7,13 +7,14 @@ import * as gestures from './gestures.mjs';
 import * as measures from './measures.mjs';
 import * as opening from './opening.mjs';
 import * as promises from './promises.mjs';
+import * as refusals from './refusals.mjs';
 import * as scenes from './scenes.mjs';
 import * as sizes from './sizes.mjs';
 import * as stress from './stress.mjs';
 
 const { BOUGH_LIVE_URL: url, BOUGH_LIVE_PAGE: folder, BOUGH_TOP: top, BOUGH_WORK: work, BOUGH_TOOLS: tools } = process.env;
 const { calm: _, ...of_basics } = basics;
-const tests = { ...of_basics, ...scenes, ...promises, ...opening, ...gestures, ...files, ...stress, ...sizes, ...measures };
+const tests = { ...of_basics, ...scenes, ...promises, ...opening, ...gestures, ...files, ...refusals, ...stress, ...sizes, ...measures };
 const sets = { one: ['opens_and_moves'], short: ['opens_and_moves', 'pulled_by_mouse'], all: Object.keys(tests) };
 const asked = process.argv.slice(2);
 const names = sets[asked[0] ?? 'all'] ?? asked;

@@ -1,5 +1,6 @@
 // address.js: the scene in the page's address: what differs from the defaults, as JSON, deflated, in base64 that an address bears. A file that was
 // dropped is in it by its name alone, a pose that was kept as the tree it was made of.
+import { check } from './shape.js';
 import { defaults } from './state.js';
 
 const longest = 2000; // characters, which every program passes on
@@ -13,32 +14,39 @@ function difference(state, from) {
     return Object.fromEntries(entries);
 }
 
-export async function addressOf(state) {
+// Puts the scene into the address; whether it fits. Where it does not the address stays as it was, and the tab's history has the scene for when it is
+// loaded again.
+export async function updateAddress(state) {
     const own = difference(state, defaults);
     own.trees = state.trees.map((source) => source.kept ? source.of : source);
     const bytes = await through(new TextEncoder().encode(JSON.stringify(own)), new CompressionStream('deflate-raw'));
     const text = '#s=' + btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
-    return text.length <= longest ? text : null;
+    const fits = text.length <= longest;
+    history.replaceState(fits ? null : { scene: own }, '', fits ? text : location.href);
+    return fits;
 }
 
-const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
-
-// Throws for an address that holds no scene.
-export async function stateOfAddress(hash) {
-    if (!hash.startsWith('#s=')) return null;
-    let own;
+async function sceneIn(hash) {
     try {
         const bytes = Uint8Array.from(atob(hash.slice(3).replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
-        own = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
+        return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
     } catch {
-        throw new Error('The address holds no scene that can be read (it was cut off, or changed)');
+        throw new Error('holds no scene that can be read (it was cut off, or changed)');
     }
-    const unknown = Object.keys(own).filter((key) => !(key in defaults));
-    if (unknown.length > 0) throw new Error(`The address holds "${unknown[0]}", which this page does not know`);
-    const state = { ...structuredClone(defaults), ...own, wind: { ...defaults.wind, ...own.wind } };
-    const whole = Array.isArray(state.trees) && Array.isArray(state.places) && state.places.length > 0 &&
-        state.places.every(({ tree, position }) => state.trees[tree] && Array.isArray(position) && position.every(isNumber)) &&
-        ['gravity', 'stiffness', 'damping', 'strength', 'least', 'levels', 'rate'].every((key) => isNumber(state[key])) && Array.isArray(state.only);
-    if (!whole) throw new Error('The address holds a scene without trees, or with something that is no number');
-    return state;
+}
+
+// Null where there is none. Throws for an address that holds no scene.
+export async function stateOfAddress() {
+    try {
+        const { hash } = location;
+        const own = history.state?.scene ?? (hash.startsWith('#s=') ? await sceneIn(hash) : undefined);
+        if (own === undefined) return null;
+        check(own, { open: {} });
+        const state = { ...structuredClone(defaults), ...own };
+        if (own.wind instanceof Object) state.wind = { ...defaults.wind, ...own.wind };
+        check(state);
+        return state;
+    } catch (error) {
+        throw new Error(`The address: ${error.message}`);
+    }
 }

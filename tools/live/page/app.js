@@ -1,5 +1,5 @@
 // app.js: the page as a whole: its state, how it comes to the Worker, frame after frame.
-import { stateOfAddress } from './address.js';
+import { stateOfAddress, updateAddress } from './address.js';
 import { Bar } from './bar.js';
 import { first, youngMaple } from './builtins.js';
 import { Files } from './files.js';
@@ -7,7 +7,7 @@ import { busy, problem, say, unsay } from './messages.js';
 import { Meters } from './meters.js';
 import { Panel } from './panel.js';
 import { Pointers } from './pointers.js';
-import { saveMotion, saveScene, updateAddress } from './save.js';
+import { saveMotion, saveScene } from './save.js';
 import { copyOf, defaults, fewer, History, subtreeOf, withOtherTrees } from './state.js';
 
 const tooSlow = 12; // ms a step beyond which 60 frames a second have no room
@@ -40,7 +40,7 @@ export class App {
         this.state = await this.#first(given);
         this.good = this.state;
         this.history = new History(this.state);
-        if (!await this.apply(true)) { // what an address or a file says may not run
+        if (!await this.apply(true, this.files.scene ?? 'The address')) { // what an address or a file says may not run
             await this.open(first);
             this.history = new History(this.state);
             this.#stand();
@@ -51,7 +51,7 @@ export class App {
     // What is shown first: what the address holds, with the files that tools/live/live was started with where it names them; else those; else a built-in tree.
     async #first(given) {
         try {
-            const state = await stateOfAddress(location.hash);
+            const state = await stateOfAddress();
             if (state) return await this.#withFiles(state, given);
         } catch (error) {
             problem(`${error.message}. ${given.length > 0 ? 'What the page was started with' : 'A built-in tree'} is shown.`);
@@ -82,8 +82,8 @@ export class App {
     // Another address, put where this one was.
     async #addressed() {
         try {
-            const state = await stateOfAddress(location.hash);
-            if (state && await this.opened(await this.#withFiles(state))) return;
+            const state = await stateOfAddress();
+            if (state && await this.opened(await this.#withFiles(state), { name: 'The address' })) return;
         } catch (error) {
             problem(`${error.message}. The tree stays as it was.`);
         }
@@ -114,12 +114,12 @@ export class App {
         unsay('slow');
         this.slow = 0;
     }
-    // again: another of the same kind, which the user goes on looking at.
-    async opened(state, again = false) {
+    // again: another of the same kind, which the user goes on looking at. name: where it comes from.
+    async opened(state, { again = false, name } = {}) {
         this.state = state;
         this.pick(null);
         if (!again) this.view.orbit.touched = false;
-        const right = await this.apply(true);
+        const right = await this.apply(true, name);
         if (right) this.#remember();
         return right;
     }
@@ -131,7 +131,7 @@ export class App {
         }
     }
     grow(source) {
-        return this.opened(withOtherTrees(this.state, [source], [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }]), true);
+        return this.opened(withOtherTrees(this.state, [source], [{ tree: 0, position: [0, 0, 0], yaw: 0, start: 0 }]), { again: true });
     }
     async undo(redo = false) {
         const state = redo ? this.history.redo() : this.history.undo();
@@ -144,7 +144,10 @@ export class App {
     #stand() {
         this.client.ask('retain', this.history.sources()).then(({ gone }) => gone.forEach((id) => this.files.known.delete(id)));
         this.bar.show(this.history);
-        updateAddress(this.state);
+        updateAddress(this.state).then((fits) => {
+            if (!fits && !this.tooLong) problem('The scene is too long for an address, which has an earlier one. This tab keeps it; "Scene for treesim" saves all of it.');
+            this.tooLong = !fits;
+        });
     }
     redo() { return this.undo(true); }
     restart() { return this.apply(true); }
@@ -162,16 +165,16 @@ export class App {
         }
     }
 
-    // The state to the Worker, the latest one where several come while one is made. Whether it runs.
-    apply(restart) {
-        this.wanted = { restart: restart || Boolean(this.wanted?.restart) };
+    // The state to the Worker, the latest one where several come while one is made. Whether it runs. name: what is refused is of that.
+    apply(restart, name = 'The scene') {
+        this.wanted = { restart: restart || Boolean(this.wanted?.restart), name };
         this.applying ??= this.#applyAll().finally(() => { this.applying = null; });
         return this.applying;
     }
     async #applyAll() {
         let right = true;
         while (this.wanted) {
-            const { restart } = this.wanted, state = copyOf(this.state);
+            const { restart, name } = this.wanted, state = copyOf(this.state);
             this.wanted = null;
             try {
                 const { mesh, bodies, notes, begun, cuttable } = await busy('Growing, cutting, compiling …', () => this.client.ask('apply', { state, restart }));
@@ -186,7 +189,7 @@ export class App {
                 right = true;
             } catch (error) {
                 if (error.inWorker) console.error(error.inWorker);
-                problem(error.message);
+                problem(error.message.replace(/^(scene: |(?=\/|nothing is left))/, `${name}: `));
                 right = false;
                 if (this.wanted) continue;
                 this.state = copyOf(this.good);
@@ -290,7 +293,7 @@ export class App {
         const alone = this.state.trees.length === 1 && (this.state.trees[0].of ?? this.state.trees[0]);
         const actions = [['Move only thicker wood', () => this.change((state) => { state.least = Math.max(2 * state.least, 0.02 * this.thickest); }, true)]];
         if (alone?.species) actions.unshift(['Half the bodies', () => this.grow({ ...alone, bodies: Math.round(alone.bodies / 2) })]);
-        else if (this.cuttable) actions.unshift(['Half the bodies', () => this.opened(fewer(this.state, Math.round(this.bodies / 2)), true)]);
+        else if (this.cuttable) actions.unshift(['Half the bodies', () => this.opened(fewer(this.state, Math.round(this.bodies / 2)), { again: true })]);
         if (this.state.rate > 30) actions.push(['30 steps a second', () => this.change((state) => { state.rate = 30; }, true)]);
         say(`A step of these ${this.bodies.toLocaleString('en')} bodies takes ${ms.toFixed(1)} ms: too long for ${this.state.rate} a second. It moves slower than real.`,
             { key: 'slow', error: true, actions });
@@ -311,12 +314,21 @@ export class App {
         }
     }
     async saveScene() {
-        await busy('Writing the trees …', () => saveScene(this)).catch((error) => problem(error.message));
+        await busy('Writing the trees …', () => saveScene(this)).then(() => this.#tellGravity(), (error) => problem(error.message));
+    }
+    // What is saved begins at rest, under the gravity that the drawn trees bear.
+    #tellGravity() {
+        const { gravity, drawnGravity } = this.state;
+        if (gravity !== drawnGravity) problem(`What is saved has the gravity that the trees were drawn under, ${drawnGravity} m/s², not the ${gravity} that it was changed to.`);
     }
     async saveMotion(seconds, loop) {
         if (this.saving) return say('A motion is being written.');
         this.saving = saveMotion(this, { seconds, loop })
-            .then((bytes) => bytes !== null && say(`${(bytes / 1e6).toFixed(1)} MB written.`)).catch((error) => problem(error.message))
+            .then((bytes) => {
+                if (bytes === null) return;
+                say(`${(bytes / 1e6).toFixed(1)} MB written.`);
+                this.#tellGravity();
+            }).catch((error) => problem(error.message))
             .finally(() => { this.saving = null; });
         return this.saving;
     }

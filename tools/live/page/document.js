@@ -57,7 +57,7 @@ export function sceneDocument(state, gravity = state.drawnGravity) {
     return document;
 }
 
-// A scene document of another's: what the page has controls for becomes theirs, all else stays as it is. treeOf(file): the number of that tree in
+// A scene document of another's, which the library has read: what the page has controls for becomes theirs, all else stays as it is. treeOf(file): the number of that tree in
 // `trees`, which the caller has found. presets: the library's winds that have a name.
 export function stateOfScene(document, trees, treeOf, { defaults, presets }) {
     const { trees: entries = [], gravity = [0, -9.81, 0], wind, stiffness_scale, damping_scale, ...base } = document;
@@ -94,13 +94,8 @@ export function stateOfScene(document, trees, treeOf, { defaults, presets }) {
 function windOf(wind, base, presets) {
     const usual = { speed: 0, direction: 0, rise: 0, turbulence: 0, gustFactor: 1, gustPeriod: 6, seed: 1 };
     if (wind === undefined) return { ...usual, blows: false };
-    if (typeof wind === 'string') {
-        if (!Object.hasOwn(presets, wind)) throw new Error(`/wind: is '${wind}', expected ${Object.keys(presets).join(', ')} or an object`);
-        return { ...usual, ...presets[wind] };
-    }
-    const { velocity = [0, 0, 0], turbulence = 0, gust_factor: gustFactor = 1, gust_period: gustPeriod = 6, seed = 1, ...others } = wind;
-    if (!Array.isArray(velocity) || velocity.length !== 3 || !velocity.every(Number.isFinite))
-        throw new Error(`/wind/velocity: is ${JSON.stringify(velocity)}, expected three numbers`);
+    if (typeof wind === 'string') return { ...usual, ...presets[wind] };
+    const { velocity, turbulence = 0, gust_factor: gustFactor = 1, gust_period: gustPeriod = 6, seed = 1, ...others } = wind;
     if (Object.keys(others).length > 0) base.wind = others;
     const [x, y, z] = velocity, direction = Math.atan2(-z, x) / rad;
     return { speed: Math.hypot(x, z), direction: direction < 0 ? direction + 360 : direction, rise: y, turbulence, gustFactor, gustPeriod, seed };

@@ -1,6 +1,7 @@
 // files.js: files that come in: trees of any program, a scene with its trees; dropped anywhere, or chosen.
 import { builtinState, youngMaple } from './builtins.js';
 import { stateOfScene } from './document.js';
+import { check } from './shape.js';
 import { defaults, withOtherTrees } from './state.js';
 import { filesOfZip, isZip } from './zip.js';
 
@@ -38,7 +39,7 @@ export class Files {
     async open(files) {
         if (files.length === 0) return; // a text was dropped, or none was chosen
         try {
-            await this.app.opened(await this.stateOf(files));
+            await this.app.opened(await this.stateOf(files), { name: this.scene });
         } catch (error) {
             this.app.problem(error.message);
         }
@@ -53,6 +54,7 @@ export class Files {
             else read.push({ name: file.name, bytes });
         }
         const scene = read.map(({ name, bytes }) => sceneOf(name, bytes)).find((found) => found);
+        this.scene = scene?.name; // what the library says of it begins so
         return scene ? this.#stateOfScene(scene, read) : this.#stateOfTrees(read);
     }
     async #source({ name, bytes }) {
@@ -67,10 +69,11 @@ export class Files {
         const places = trees.map((_, k) => ({ tree: k, position: [across * (k - (trees.length - 1) / 2), 0, 0], yaw: 0, start: 0 }));
         return withOtherTrees(this.app.state, trees, places);
     }
-    async #stateOfScene({ name, document }, read) {
+    async #stateOfScene({ name, bytes, document }, read) {
+        await this.app.client.ask('checkScene', { bytes, name });
         const bare = (path) => path.split(/[/\\]/).pop();
         const trees = [], numbers = new Map();
-        for (const { file } of document.trees ?? []) {
+        for (const { file } of document.trees) {
             if (numbers.has(file)) continue;
             const found = read.find((one) => one.name === bare(file));
             if (!found) throw new Error(`${name}: /trees names '${file}', which was not dropped with it; drop the scene and its trees together`);
@@ -80,9 +83,11 @@ export class Files {
         if (trees.length === 0) throw new Error(`${name}: /trees is empty, expected at least one tree`);
         const { rate, precision, ownMesh } = this.app.state; // of which a scene says nothing
         try {
-            return stateOfScene(document, trees, (file) => numbers.get(file), { defaults: { ...defaults, rate, precision, ownMesh }, presets: this.app.presets });
+            const state = stateOfScene(document, trees, (file) => numbers.get(file), { defaults: { ...defaults, rate, precision, ownMesh }, presets: this.app.presets });
+            check(state);
+            return state;
         } catch (error) {
-            throw new Error(`${name}: ${error.message}`);
+            throw new Error(`${name}: ${error.message.replace(/^\/wind\/(speed|rise)/, '/wind/velocity')}`);
         }
     }
     async builtin(name) {
@@ -116,7 +121,7 @@ function sceneOf(name, bytes) {
     if (!/^\s*\{/.test(head) || !head.includes('bough-scene')) return null;
     try {
         const document = JSON.parse(new TextDecoder().decode(bytes));
-        return document.format === 'bough-scene' ? { name, document } : null;
+        return document.format === 'bough-scene' ? { name, bytes, document } : null;
     } catch (error) {
         throw new Error(`${name}: is no JSON: ${error.message}`);
     }

@@ -36,7 +36,7 @@ function worker() {
 
 // The trees that are about to be shown, as far as they are grown: the Worker makes them while the page's own things are made.
 async function firstTrees() {
-    const state = await stateOfAddress(location.hash).catch(() => null);
+    const state = await stateOfAddress().catch(() => null);
     if (!state && new URLSearchParams(location.search).has('open')) return [];
     return (state ?? builtinState(first)).trees.filter(({ species }) => species);
 }

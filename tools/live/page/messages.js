@@ -21,7 +21,18 @@ export function say(said, { error = false, key = said, actions = [], text = null
     return made;
 }
 
-export const problem = (text) => say(text, { error: true });
+// What the library says, in the words of the page: its controls in place of a document's fields and of a tool's options.
+const tree = "a tree: bough's own, SpeedTree XML, glTF, a scan's skeleton (SWC, MTG, OBJ, CSV)";
+const fields = [['/simulate/radius', '"Rigid below"'], ['last_level', '"Moves"'], ['/simulate/subtrees', '"Only this moves"'], ["/rigid", 'its file']];
+export const plain = (text) => text
+    .replace(/nothing is left that moves.*held: (.*)/, (_, held) =>
+        `nothing would move: all of it is held by ${fields.filter(([field]) => held.includes(field)).map(([, name]) => name).join(', ') || 'the scene'}. It stays as it was.`)
+    .replace(/bough-splines or a (tree file of another program|foreign tree)/, tree)
+    .replace(/^attach: body \d+ has broken off/, 'What broke off cannot be held')
+    .replace(/^attach: body \d+ stands still.*/, 'This part is rigid: it cannot be pulled')
+    .replace(/ \([^()]*--[a-z][^()]*\)/g, '');
+
+export const problem = (text) => say(plain(text), { error: true });
 
 // What goes on, until it ends or is given up.
 export function progress(text, giveUp) {

@@ -2,6 +2,7 @@
 import { builtins } from './builtins.js';
 import { CurveEditor } from './curve.js';
 import { Dial } from './dial.js';
+import { plain } from './messages.js';
 import { button, choice, element, section, slider } from './widgets.js';
 
 const grown = { age: 10, bodies: 3000, seed: 1 }; // of a species that is chosen
@@ -206,7 +207,7 @@ export class Panel {
         this.builtin.set(name ?? '');
     }
     showNotes(lines) {
-        this.notes.replaceChildren(...(lines.length === 0 ? [] : [element('ul', {}, ...lines.map((line) => element('li', {}, line)))]));
+        this.notes.replaceChildren(...(lines.length === 0 ? [] : [element('ul', {}, ...lines.map((line) => element('li', {}, plain(line))))]));
     }
 }
 

@@ -1,5 +1,4 @@
-// save.js: what goes out: the scene with its trees for treesim, the motion as .glb, the address.
-import { addressOf } from './address.js';
+// save.js: what goes out: the scene with its trees for treesim, the motion as .glb.
 import { sceneDocument, treeFile } from './document.js';
 import { progress } from './messages.js';
 import { zipOf } from './zip.js';
@@ -56,11 +55,4 @@ export async function saveMotion(app, { seconds, loop }) {
         client?.end();
         sign.end();
     }
-}
-
-// Puts the scene into the address; whether it fits.
-export async function updateAddress(state) {
-    const hash = await addressOf(state);
-    history.replaceState(null, '', hash ?? location.pathname + location.search);
-    return hash !== null;
 }

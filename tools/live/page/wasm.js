@@ -133,6 +133,10 @@ export class Library {
         const [tree, model] = this.words(at, 2);
         return { tree, model, notes: this.names('notes') };
     }
+    // A scene document as it came: what is wrong with it is said as treesim says it.
+    checkScene(bytes, name) {
+        this.release(this.with(bytes, (at, size) => this.with(name, (label) => this.handle('scene', at, size, label))));
+    }
     // A copy of bytes that the library gave, which then has them no more.
     taken(name, ...args) {
         const at = this.module[`_live_${name}`](...args, this.scratch) || this.fail();

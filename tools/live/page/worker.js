@@ -16,6 +16,7 @@ const answers = {
     },
     prepare: ({ trees }) => run.prepare(trees),
     apply: ({ state, restart }) => run.apply(state, restart),
+    checkScene: ({ bytes, name }) => run.library.checkScene(new Uint8Array(bytes), name),
     file: ({ id, name, bytes }) => run.addFile(id, name, bytes),
     frame: (asked) => run.frame(asked),
     pick: ({ ray, aperture }) => run.pick(ray, aperture),
