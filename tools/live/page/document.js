@@ -57,8 +57,8 @@ export function sceneDocument(state, gravity = state.drawnGravity) {
     return document;
 }
 
-// A scene document of another's, which the library has read: what the page has controls for becomes theirs, all else stays as it is. treeOf(file): the number of that tree in
-// `trees`, which the caller has found. presets: the library's winds that have a name.
+// A scene document of another's, which the library has read: what the page has controls for becomes theirs, all else stays as it is. treeOf(file):
+// the number of that tree in `trees`, which the caller has found. presets: the library's winds that have a name.
 export function stateOfScene(document, trees, treeOf, { defaults, presets }) {
     const { trees: entries = [], gravity = [0, -9.81, 0], wind, stiffness_scale, damping_scale, ...base } = document;
     delete base.format;

@@ -73,14 +73,14 @@ export class Files {
         await this.app.client.ask('checkScene', { bytes, name });
         const bare = (path) => path.split(/[/\\]/).pop();
         const trees = [], numbers = new Map();
-        for (const { file } of document.trees) {
+        for (const { file } of document.trees ?? []) {
             if (numbers.has(file)) continue;
             const found = read.find((one) => one.name === bare(file));
             if (!found) throw new Error(`${name}: /trees names '${file}', which was not dropped with it; drop the scene and its trees together`);
             numbers.set(file, trees.length);
             trees.push(await this.#source(found));
         }
-        if (trees.length === 0) throw new Error(`${name}: /trees is empty, expected at least one tree`);
+        if (trees.length === 0) throw new Error(`${name}: /trees: is empty, expected at least one tree`);
         const { rate, precision, ownMesh } = this.app.state; // of which a scene says nothing
         try {
             const state = stateOfScene(document, trees, (file) => numbers.get(file), { defaults: { ...defaults, rate, precision, ownMesh }, presets: this.app.presets });
