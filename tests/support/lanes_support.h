@@ -217,6 +217,11 @@ inline void check_float_drift(const Case& c, int frames) {
     CHECK(lanes_worst < 2 * plain_worst);
 }
 
+// True where AVX2 and AVX-512 can be compared: tests/run compiles the better of them alone.
+inline bool both_wide() {
+    return fast::available(Target::avx2) && fast::available(Target::avx512);
+}
+
 // The wider two targets are compiled from the same source with the same fused operations.
 inline void check_same_bits(const Case& c) {
     LanesRun<> half(c, Target::avx2), full(c, Target::avx512);

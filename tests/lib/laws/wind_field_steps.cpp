@@ -179,7 +179,7 @@ TEST_CASE("two solves a step, and every target, come to the same in it") {
         for (const Case& c : cases(solver)) {
             if (c.tree.size_bodies() > 1000) continue;
             check_targets_agree(c, 1e-3); // in float some body may stand on the other side of a cell's edge for a step
-            if (solver == Solver::coupled && fast::available(Target::avx512)) check_same_bits(c);
+            if (solver == Solver::coupled && both_wide()) check_same_bits(c);
         }
 }
 
