@@ -38,7 +38,7 @@ struct MotionHeader {
     double fps = 30;
     std::int64_t bodies = 0; // of the trees, the balls and walkers
     std::int64_t balls = 0;  // how many of them, the last ones
-    bool events = false;     // frames list what broke, hit and landed
+    bool events = false;     // frames list what broke, hit, landed and leapt
     // For a motion that is part of another: which part, of how many, and the index of its first body in the whole.
     std::int32_t part = 1, parts = 1;
     std::int64_t first_body = 0;
@@ -82,12 +82,12 @@ struct SavedState {
     std::vector<Vec3> theta_dot; // [rad/s]
     // What else a solver carries from step to step. Each solver fills in its own arrays; the others stay empty.
     std::vector<Vec3> theta_change, theta_dot_change; // coupled: [rad], [rad/s] of the last step
-    std::vector<Vec3> scaled_rate;                    // all others: State::scaled_rate; analytic [sqrt(J)]
-    std::vector<Vec3> spin_dot;      // analytic with lagged fictitious terms: State::spin_dot [rad/s^2]
-    double articulated_step = 0;     // [s] State::articulated_step
-    std::vector<double> free_bodies; // saved_world of free/world.h; empty where nothing is free
-    std::vector<double> sleep;       // saved_sleep of coupled/sleep.h; empty where nothing has settled
-    std::vector<double> attachments; // saved_attachments of coupled/attachment.h; empty without
+    std::vector<Vec3> scaled_rate;                    // analytic: AnalyticState::scaled_rate [sqrt(J)]
+    std::vector<Vec3> spin_dot;                       // analytic with lagged fictitious terms [rad/s^2]
+    double articulated_step = 0;                      // articulated: [s] its inner step
+    std::vector<double> free_bodies;                  // saved_world of free/world.h; empty where nothing is free
+    std::vector<double> sleep;                        // saved_sleep of coupled/sleep.h; empty where nothing has settled
+    std::vector<double> attachments;                  // saved_attachments of coupled/attachment_course.h; empty without
     // If the run changed its step: how many steps it had taken by then, and the time [s]. Else empty.
     std::vector<double> step_change;
     std::string source;

@@ -75,8 +75,11 @@ public:
         report.fast_turns = run_.state.flags.fast_turns - before.fast_turns;
         report.guarded = run_.state.flags.energy_guard - before.energy_guard;
         report.limited = run_.state.flags.limited - before.limited;
-        for (const std::string& what : run_.world.events.what)
-            ++(what == "broke" ? report.broke : what == "hit" ? report.hits : report.landed);
+        for (const std::string& what : run_.world.events.what) {
+            report.broke += what == "broke";
+            report.hits += what == "hit";
+            report.landed += what == "landed";
+        }
         if (!report.finite()) broken_ = report;
         return report;
     }

@@ -14,18 +14,18 @@ struct SimulationOptions {
     double step = 1.0 / 30; // [s] length of a step, above 0; set_step() changes it
     Precision precision = Precision::double_;
     Method method = Method::coupled;
-    double sleep =
-        0; // [rad/s] trees that have been slower than this for a while are left out of steps until something moves them; 0: never
-    int threads =
-        0; // the most threads a step takes, the caller's included; 0: one a core of the process. Small work takes fewer ("Threads")
+    // [rad/s] trees that have been slower than this for a while are left out of steps until something moves them; 0: never
+    double sleep = 0;
+    // The most threads a step takes, the caller's included; 0: one a core of the process. Small work takes fewer ("Threads")
+    int threads = 0;
     bool velocities = false; // velocities() and angular_velocities() will be read; else they are empty
     bool torques = false;    // the same for torques()
     bool stresses = false;   // the same for stresses()
     bool pulls = false;      // pull() will be called; without this, the step has no place for it
-    bool grounds =
-        false; // set_ground() will be called. Nothing sleeps then, and the analytic method takes the plain path
-    bool portable =
-        false; // take the plain path, one number at a time: rounding does not depend on the machine's SIMD; several times slower
+    // set_ground() will be called. Nothing sleeps then, and the analytic method takes the plain path
+    bool grounds = false;
+    // Take the plain path, one number at a time: rounding does not depend on the machine's SIMD; several times slower
+    bool portable = false;
 };
 
 // How a tree's ground has moved from where the tree was drawn: a point drawn at X is now at pivot + position + rotation (X - pivot). The pivot is the
@@ -42,7 +42,7 @@ struct StepReport {
     std::uint64_t fast_turns = 0;                // turned by more than a radian
     std::uint64_t guarded = 0;                   // were kept from gaining energy
     std::uint64_t limited = 0;                   // ended at a joint's limit, which the scene asks for
-    std::size_t broke = 0, hits = 0, landed = 0; // events() has them
+    std::size_t broke = 0, hits = 0, landed = 0; // how many of events() are called so
 
     bool finite() const { return non_finite.empty(); }
 };
@@ -59,8 +59,8 @@ struct RunAccount {
     std::string simd;       // what lanes are compiled for: "baseline", "avx2", "avx512"; "none" on the plain path
     std::string awake;      // why nothing sleeps: "not asked for", "/wind/turbulence" ...; "" where trees may
     double sleep = 0;       // [rad/s] below which they do
-    std::vector<StageCalls>
-        stages; // all there are, in the order in which they run (explain() says which the scene needs)
+    // All there are, in the order in which they run (explain() says which the scene needs)
+    std::vector<StageCalls> stages;
     StepFlags flags;
     // What broke off and what flew.
     std::array<std::uint64_t, 4> broke{}; // joints, by Kind of what they carried

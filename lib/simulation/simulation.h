@@ -81,13 +81,13 @@ public:
     std::span<const Vec3> angles() const;  // [rad] rotation vectors of joints in their joint frames; of trees alone
     std::span<const Vec3> rates() const;   // [rad/s] how those change
     std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (option torques)
-    std::span<const double>
-    stresses() const; // [Pa] that bend the wood at each joint (model/bending_stress.h; option stresses)
+    // [Pa] that bend the wood at each joint (model/bending_stress.h; option stresses)
+    std::span<const double> stresses() const;
     // Fills in what `fields` asks for, and the events. O(bodies). Arrays need their options, as above. The caller sets the frame's number and its time,
     // which is time(): walkers are placed by it. Returns "", or
     // "stage state_update, body N" for the first body that is non-finite. Throws SceneError for a field whose option is off.
     std::string fill(const MotionFields& fields, MotionFrame&) const;
-    const MotionEvents& events() const;            // of the last call of step(): what broke, hit, landed
+    const MotionEvents& events() const;            // of the last call of step(): what broke, hit, landed, leapt
     std::span<const std::uint32_t> broken() const; // bodies whose joints broke since the start, in that order
     // The scene's balls, then its walkers as the balls that they are shown as, all as they were at the start. positions() has where they are, behind
     // the trees' bodies.
@@ -130,8 +130,8 @@ public:
     // once. Allocates nothing. Throws SceneError for an attachment that is not there.
     void move_attachment(std::uint64_t attachment, const Vec3& target, int steps = 1);
     void release(std::uint64_t attachment);
-    Vec3
-    attachment_force(std::uint64_t attachment) const; // [N] on the body, at the last step's end; zero before the first
+    // [N] on the body, at the last step's end; zero before the first
+    Vec3 attachment_force(std::uint64_t attachment) const;
 
     // Moves the ground under a tree, with its roots. In `steps` steps from now the ground reaches this place and velocity, on a smooth way from its
     // present place and motion; then it goes on with the motion that it has. With 0 steps the ground is there at once, and the tree stands on it as
@@ -140,8 +140,8 @@ public:
     // tree that is not there or has keys of its own.
     void set_ground(std::size_t tree, const GroundMotion&, int steps = 1);
 
-    std::uint64_t
-    hash() const; // of angles and rates, broken joints and free bodies: what `treesim --report hash` prints
+    // Of angles and rates, broken joints and free bodies: what `treesim --report hash` prints
+    std::uint64_t hash() const;
     // A run that goes on from what save() gave ends as this one, bit by bit. Wind, gravity, wood and grounds are those that the restoring run has by
     // then. restore() throws SceneError for the state of another run, and then changes nothing.
     SavedState save() const;

@@ -131,3 +131,26 @@ TEST_CASE("a walker is shown where it has walked to") {
     CHECK(from(0) > 0.8);
     CHECK(from(5) < 0.4);
 }
+
+TEST_CASE("a report counts a walker's landing, and not its leap") {
+    const Tree tree = make_tree::branched();
+    Scene scene;
+    scene.add(tree);
+    Walker walker;
+    walker.mass = 1e-3;
+    walker.stops.resize(2);
+    walker.stops[0].on.body = 0;
+    walker.stops[1].on.body = 5;
+    walker.stops[1].time = 1;
+    walker.stops[1].leap = true;
+    scene.walkers = {walker};
+    Simulation simulation(scene);
+    std::size_t landed = 0;
+    std::vector<std::string> told;
+    for (int k = 0; k < 33; ++k) {
+        landed += simulation.step().landed;
+        for (const std::string& what : simulation.events().what) told.push_back(what);
+    }
+    CHECK(told == std::vector<std::string>{"leapt", "landed"});
+    CHECK(landed == 1);
+}
