@@ -22,35 +22,35 @@
 namespace bough {
 
 struct GrowOptions {
-    std::int64_t bodies =
-        0; // of the tree that convert() makes of it, within 10 %, foliage included; 0: as many as the species has
+    // Of the tree that convert() makes of it, within 10 %, foliage included; 0: as many as the species has
+    std::int64_t bodies = 0;
     std::uint64_t seed = 0;
     double age = 0; // [years], 0.1 or more; 0: a mature tree
     bool leaves = false, petals = false, fruit = false;
 };
 std::vector<std::string> species_names();
-// A tree of a species that comes with bough. The same as `treegen --species NAME`. Throws SceneError for another name.
+// Grows a tree of a species that comes with bough, as does `treegen --species NAME`. Throws SceneError for another name.
 Splines grow(const std::string& species, const GrowOptions& = {});
-// Rigid bodies of the splines' own wood, by treeconvert's defaults. Throws SceneError for splines without length.
+// Makes rigid bodies of the splines' own wood, by treeconvert's defaults. Throws SceneError for splines without length.
 Tree convert(const Splines&);
 
 Splines read_splines(const std::string& file); // a bough-splines document
 Tree read_tree(const std::string& file);       // a bough-tree document
-Scene read_scene(
-    const std::string& file); // a bough-scene document with its trees in memory, their wood changed as it says
+// Reads a bough-scene document with its trees in memory, their wood changed as it says
+Scene read_scene(const std::string& file);
 void write_splines(const std::string& file, const Splines&);
 void write_tree(const std::string& file, const Tree&);
 SavedState read_state(const std::string& file); // as `treesim --save-state` and write_state write it
 void write_state(const std::string& file, const SavedState&);
 
-// A run's motion as a bough-motion document: .jsonl, .json or .safetensors.
+// Writes a run's motion as a bough-motion document: .jsonl, .json or .safetensors.
 class MotionFile {
 public:
     // Writes no frame yet. fps [1/s]: of the frames that will be written; 0: one a step.
     MotionFile(const std::string& file, const Simulation&, double fps = 0);
     MotionFile(MotionFile&&) noexcept;
     ~MotionFile(); // what is not finished is removed
-    // Its present state as the next frame. Throws SceneError, and writes nothing, for a run of other bodies or fields than the first's.
+    // Writes the run's present state as the next frame. Throws SceneError, and writes nothing, for a run of other bodies or fields than the first's.
     void write(const Simulation&);
     void finish();
 

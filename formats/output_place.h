@@ -10,8 +10,8 @@ namespace bough {
 struct OutputPlace {
     using File = std::pair<std::uint64_t, std::uint64_t>; // device and number
     std::string path; // after links, which are followed also to a file that is not there yet; "-": stdout
-    bool direct =
-        false; // what is there is written to: stdout, a device, a pipe, what another process has open (/dev/fd/3)
+    // What is there is written to: stdout, a device, a pipe, what another process has open (/dev/fd/3)
+    bool direct = false;
     bool exists = false; // something is there already: `file`, with the permissions `mode`
     unsigned mode = 0;
     File file{}, folder{}; // of what is there; of the folder in which it stands (none where it is written to directly)

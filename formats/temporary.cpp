@@ -129,8 +129,8 @@ void remove_if_left(int folder, const char* name) {
 // Once for each folder: a sequence of many files looks through it for the first alone.
 void remove_what_is_left(const std::string& folder) {
     static std::mutex mutex;
-    static std::set<std::tuple<std::string, dev_t, ino_t>>
-        known; // a new folder may have the number of one that is gone
+    // A new folder may have the number of one that is gone
+    static std::set<std::tuple<std::string, dev_t, ino_t>> known;
     const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
     if (!entries) return; // it may be written to all the same
     struct stat status {};

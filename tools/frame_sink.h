@@ -18,21 +18,21 @@ public:
     virtual ~FrameSink() = default;
     virtual void write(const MotionFrame&) = 0; // throws OutputError
     virtual void finish() = 0;                  // everything written so far is a valid output; throws OutputError
-    virtual std::uint64_t bytes() const {
-        return 0;
-    } // of the output so far, what waits for finish() too; 0 where it is not known. By the thread that writes
+    // Returns those of the output so far, what waits for finish() too; 0 where it is not known. Called by the thread that writes.
+    virtual std::uint64_t bytes() const { return 0; }
 };
 
 // `format`: jsonl, json or safetensors.
 std::unique_ptr<FrameSink> motion_sink(const std::string& file, const std::string& format, const MotionHeader&,
                                        const Digits& = {});
 
+struct MovedMesh; // skin_mover.h
+
 // What makes the leaves of a skin's clumps rustle, nothing where they do not; `together` as in rustle.h. Called once, when a sink is made.
 using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool together)>;
 
 // One OBJ a frame, each whole or absent, and one mtl with the mesh's images. Throws UsageError where an image would replace a file of `read`. Keeps a reference to the notes, which name what an earlier, longer run
 // has left behind the last frame.
-struct MovedMesh; // skin_mover.h
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, MovedMesh, const std::vector<NamedFile>& read,
                                     std::vector<std::string>& notes);
 
@@ -51,6 +51,10 @@ std::unique_ptr<FrameSink> own_cache_sink(const std::string& file, const std::st
 // The same of a model's own mesh, moved by its bones.
 std::unique_ptr<FrameSink> driven_cache_sink(const std::string& file, const std::string& format, DrivenMesh,
                                              const CacheFrames&, std::vector<std::string>& notes);
+
+// The same of one whose pieces move in ways of their own.
+std::unique_ptr<FrameSink> moved_cache_sink(const std::string& file, const std::string& format, MovedMesh,
+                                            const CacheFrames&, std::vector<std::string>& notes);
 
 // --max-joints, --leaves-as and --key-tolerance (treesim alone).
 struct GltfChoice {
@@ -80,10 +84,6 @@ std::string leaves_note(const Tree&, const GltfChoice&);
 
 // What merging joints cost, beside the height of what is shown.
 std::string merge_note(const Tree&, const JointGroups&, const MergeError&, double height, bool instances = false);
-
-// The same of one whose pieces move in ways of their own.
-std::unique_ptr<FrameSink> moved_cache_sink(const std::string& file, const std::string& format, MovedMesh,
-                                            const CacheFrames&, std::vector<std::string>& notes);
 
 // One .glb, written by finish(), which also notes what merging joints and leaving out keys cost. Keeps a reference to
 // the tree and the notes.

@@ -52,8 +52,8 @@ public:
     OptionEntry add_flag(const std::string& name, bool& value, const std::string& help);
     OptionEntry add_flag(const std::string& name, std::function<void()> when_given, const std::string& help);
     void add_help(const std::string& version_help); // --help, --help-all and --version
-    void
-    group(const std::string& name); // of what is added from here on; pages show them in the order of Input ... General
+    // Of what is added from here on; pages show them in the order of Input ... General
+    void group(const std::string& name);
     void first(const std::vector<std::string>& names);            // --help shows no others; all unless called
     void renamed(const std::string& old, const std::string& now); // the old name is refused, with what it is called now
     void elsewhere(const std::string& name,

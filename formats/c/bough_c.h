@@ -34,7 +34,7 @@ extern "C" {
 #endif
 
 #define BOUGH_ABI 3 /* of this header */
-/* Of the library that runs: where it is not BOUGH_ABI, this header is not for it. */
+/* Returns that of the library that runs. Where it is not BOUGH_ABI, this header is not for it. */
 int32_t bough_abi(void);
 const char* bough_version(void); /* "0.1.0" */
 
@@ -180,14 +180,15 @@ typedef struct bough_report {
     uint64_t limited;             /* ended at a joint's limit */
     uint64_t broke, hits, landed; /* bough_read_events has them */
 } bough_report;
-/* From now to now + step. report may be NULL. BOUGH_NON_FINITE: the message names stage and body; so do all further steps, which change nothing. */
+/* Takes one step, from now to now + step. report may be NULL. BOUGH_NON_FINITE: the message names stage and body. All further steps then say the same
+ * and change nothing. */
 bough_result bough_step(bough_simulation* simulation, bough_report* report);
-/* Before the first step: the wind has blown for so many seconds already, up to time 0. What shows is then its own sway, not how a tree at rest takes the
- * first blow. Balls, walkers and what may break wait for time 0. BOUGH_USAGE after a step, and for more than 600 s. */
+/* Lets the wind blow for so many seconds before time 0. It is called before the first step. What shows is then the tree's own sway, not how a tree at
+ * rest takes the first blow. Balls, walkers and what may break wait for time 0. BOUGH_USAGE after a step, and for more than 600 s. */
 bough_result bough_settle(bough_simulation* simulation, double seconds);
-/* How long that takes until the start is forgotten, 2 to 20 s; 0 where no wind blows. */
+/* Gives how many seconds that takes until the start is forgotten: 2 to 20, and 0 where no wind blows. */
 bough_result bough_settling_time(bough_simulation* simulation, double* seconds);
-/* [s] of the present state. */
+/* Gives the time of the present state, in seconds. */
 bough_result bough_time(const bough_simulation* simulation, double* seconds);
 
 typedef enum bough_field {

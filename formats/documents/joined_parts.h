@@ -16,7 +16,8 @@ struct MotionPart {
 
 class JoinedMotion {
 public:
-    explicit JoinedMotion(std::vector<MotionPart>);        // one and more
+    // One and more
+    explicit JoinedMotion(std::vector<MotionPart>);
     const MotionHeader& header() const { return header_; } // its source: the parts', each once
     bool next(MotionFrame&);                               // false: there is none left
 

@@ -11,10 +11,10 @@ struct PngForm {
     std::uint32_t width = 0, height = 0;
     int depth = 8;    // bits a channel
     int channels = 3; // 3 RGB, 4 RGBA
-    std::vector<std::uint8_t>
-        colors{}; // of a palette, `channels` bytes each, 256 at most; rows are then numbers of them
-    bool unfiltered =
-        false; // rows as they are, at zlib's best level: for pictures of even colours; else libpng chooses each row's filter
+    // Of a palette, `channels` bytes each, 256 at most; rows are then numbers of them
+    std::vector<std::uint8_t> colors{};
+    // Rows as they are, at zlib's best level: for pictures of even colours; else libpng chooses each row's filter
+    bool unfiltered = false;
 };
 
 class PngFile {

@@ -11,9 +11,9 @@
 namespace bough {
 
 struct ImportOptions {
-    std::optional<double>
-        unit;    // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
-    char up = 0; // 'y' or 'z' for the file's up axis; 0: as above
+    // [m] one unit of the file; absent: the file's own statement, else a guess with its reason
+    std::optional<double> unit;
+    char up = 0;                          // 'y' or 'z' for the file's up axis; 0: as above
     std::optional<double> trunk_diameter; // [m] of the thickest trunk at its base: all radii are multiplied alike
     bool keep_place = false;              // leaves the tree where the file has it, off the ground too (placed_import.h)
     std::string name;                     // how the file is called in messages

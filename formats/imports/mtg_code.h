@@ -17,8 +17,8 @@
 namespace bough::mtg {
 
 struct Vertex {
-    std::int32_t from =
-        -1; // vertex it comes from: for '<' and '+' of its own or a finer scale, for '/' the whole; -1: none
+    // Vertex it comes from: for '<' and '+' of its own or a finer scale, for '/' the whole; -1: none
+    std::int32_t from = -1;
     std::size_t line = 0;
     std::string_view row; // the line, for the last entity of it; else empty
 };

@@ -8,9 +8,8 @@ namespace bough::speedtree {
 namespace {
 
 Mat3 rotation(const Vec3& axis, double degrees) {
-    constexpr double radian = 3.14159265358979323846 / 180;
     if (degrees == 0) return Mat3::Identity();
-    return Eigen::AngleAxisd(degrees * radian, axis.normalized()).toRotationMatrix();
+    return Eigen::AngleAxisd(degrees * degree, axis.normalized()).toRotationMatrix();
 }
 
 // Axes from the directions of length and normal; x completes them to a right-handed frame.

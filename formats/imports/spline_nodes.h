@@ -19,10 +19,10 @@ struct SplineNodes {
 
     // What is lost, counts of branches.
     std::size_t off_axis = 0; // begin off their parent's axis: a piece leads to them
-    std::size_t base_radius =
-        0; // have another radius at their base than at their second point: read back as the second's
-    std::size_t goes_on =
-        0; // leave their parent at its tip, or where it is no thicker: may be read as going on with it
+    // They have another radius at their base than at their second point: read back as the second's
+    std::size_t base_radius = 0;
+    // They leave their parent at its tip, or where it is no thicker: may be read as going on with it
+    std::size_t goes_on = 0;
     std::size_t at_foot = 0; // leave their parent at its foot: read back as trunks, or as growing on what that grows on
     std::size_t trees = 0;   // how many roots
 };

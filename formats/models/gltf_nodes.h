@@ -10,8 +10,8 @@ namespace bough {
 struct GltfNodes {
     std::vector<std::int32_t> parent; // -1: none
     std::vector<Eigen::Affine3d> local, world;
-    std::vector<Quat>
-        turned; // rotations of a node and all above it, without their scales but for what `flipped` has of them
+    // Rotations of a node and all above it, without their scales but for what `flipped` has of them
+    std::vector<Quat> turned;
     std::vector<Quat> flipped;   // of each node's own scale: what its signs turn, all three mirrored or none
     std::vector<double> unequal; // of each node's own scale: largest over least, less 1
 };

@@ -10,8 +10,8 @@ namespace bough {
 
 struct ColladaJoint {
     std::string sid; // by which a skin names it, unique within its armature alone
-    std::optional<Vec3>
-        tip; // from the joint to the bone's end, in the armature's axes: Blender's extra tip_x, tip_y, tip_z
+    // From the joint to the bone's end, in the armature's axes: Blender's extra tip_x, tip_y, tip_z
+    std::optional<Vec3> tip;
 };
 
 // Nodes of type JOINT, by id (name, where there is no id), which is what assimp names them by. Empty for broken XML.

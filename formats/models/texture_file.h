@@ -39,8 +39,8 @@ private:
     std::string existing(const std::string& path);
 
     std::string folder_;
-    std::map<std::string, std::map<std::string, std::set<std::string>>>
-        listed_; // folder -> a name in small letters -> paths
+    // Folder -> a name in small letters -> paths
+    std::map<std::string, std::map<std::string, std::set<std::string>>> listed_;
 };
 
 // What kind of image the file is, by its first bytes, where it is one that games and the web use and that is not read here: "DDS", "KTX", "WebP",

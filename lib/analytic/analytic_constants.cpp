@@ -2,7 +2,7 @@
 #include "../laws/leaf_air.h"
 #include "../model/branch_mode.h"
 #include "../plan/carried.h"
-#include "../plan/reduce.h"
+#include "../plan/reduced.h"
 #include "fictitious.h"
 #include <algorithm>
 

@@ -123,7 +123,7 @@ struct AnalyticJoints : AnalyticChains<T, wind, pulls, gravity, field, Own> {
         return a;
     }
 
-    // Loads all that a step and the check of its energy read, and nothing that only coefficients are made of (J, beta, factors).
+    // Loads all that a step and the check of its energy read, and nothing that only the joint's solve is made of (J, beta, factors).
     template <class X> BOUGH_FORCE JointLoad<X> load(const At<X>& a) const {
         JointLoad<X> in;
         if constexpr (gravity) {

@@ -96,10 +96,6 @@ void pack_analytic(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State<T
     lanes.presented = true;
 }
 
-template <class T> Vector3<T> analytic_theta_dot(const Lanes<T>& lanes, std::size_t slot) {
-    return vector_at(lanes.now, analytic::motion::count, slot, analytic::motion::theta_dot);
-}
-
 template <class T>
 void unpack_analytic(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State<T>& state,
                      AnalyticLanesState<T>& work) {
@@ -110,7 +106,7 @@ void unpack_analytic(const Plan<T>& plan, const AnalyticLanesPlan<T>& own, State
         const Slot<T> row(work.lanes.now, analytic::motion::count, slot);
         state.theta[i] = row.vector(analytic::motion::theta);
         work.scaled_rate[i] = row.vector(analytic::motion::scaled_rate);
-        state.theta_dot[i] = analytic_theta_dot(work.lanes, slot);
+        state.theta_dot[i] = row.vector(analytic::motion::theta_dot);
     }
 }
 
@@ -142,7 +138,6 @@ template <class T> void put_analytic_pad(const Slot<T>& row) {
     template void pack_analytic(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&,        \
                                 const std::vector<Vector3<T>>&);                                                       \
     template void unpack_analytic(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&);     \
-    template Vector3<T> analytic_theta_dot(const Lanes<T>&, std::size_t);                                              \
     template void analytic_lanes_step(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&,  \
                                       StageClock*);
 BOUGH_INSTANTIATE(float)

@@ -23,9 +23,6 @@ void pack_analytic(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, Analy
                    const std::vector<Vector3<T>>& theta);
 template <class T> void unpack_analytic(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&);
 
-// theta_dot of the body in a slot: where coefficients are kept, from the rates of its modes.
-template <class T> Vector3<T> analytic_theta_dot(const Lanes<T>&, std::size_t slot);
-
 // Advances the rows by plan.dt. The arrays in document order are left behind.
 template <class T>
 void analytic_lanes_step(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&,

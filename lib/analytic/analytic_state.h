@@ -30,8 +30,8 @@ template <class T> struct RootLoad {
 
 // The part of the state that is the same whether the step is made plainly or in lanes.
 template <class T> struct AnalyticState : StepperState {
-    std::vector<Vector3<T>>
-        scaled_rate; // [sqrt(J)] L^T times the rates J theta_dot, S = L L^T (spring.h); carried, saved
+    // [sqrt(J)] L^T times the rates J theta_dot, S = L L^T (spring.h); carried, saved
+    std::vector<Vector3<T>> scaled_rate;
 };
 
 // The plain step's part: arrays over bodies.
@@ -56,8 +56,8 @@ template <class T> struct AnalyticWork : Cloned<AnalyticWork<T>, AnalyticState<T
     std::vector<RootLoad<T>> root_load; // of the last step
 
     // fictitious: with AnalyticPlan::fictitious
-    std::vector<Vector3<T>>
-        spin_dot; // [rad/s^2] how the joint's own rate J theta_dot changed at the last step's end, body axes; carried, saved
+    // [rad/s^2] how the joint's own rate J theta_dot changed at the last step's end, body axes; carried, saved
+    std::vector<Vector3<T>> spin_dot;
     std::vector<Vector3<T>> alpha_w, a_w; // [rad/s^2], [m/s^2] of the body, of its own joint, by (9) and (12)
     std::vector<Vector3<T>> fictitious_w; // [N m] about own joint, for the spring
 

@@ -24,7 +24,7 @@ template <class T> Matrix3<T> cross_matrix(const Vector3<T>& r) {
     return m;
 }
 
-// Returns the rotation of |theta| radians about theta (Rodrigues). It takes series below 1e-4 rad, where 1 - cos loses its digits.
+// Returns the rotation of |theta| radians about theta (Rodrigues). It takes series below 1e-2 rad, where 1 - cos loses its digits.
 template <class T> Matrix3<T> rotation_from_vector(const Vector3<T>& theta) {
     const T a2 = theta.squaredNorm();
     const T a = std::sqrt(a2);
@@ -93,5 +93,12 @@ Quat shortest_turn(const Vec3& from, const Vec3& to);
 // Returns a frame whose z axis is `axis` (unit length not needed), turned the least from `near`'s own z axis. Branch bodies take their frames this
 // way along the branch, so that x and y do not spin about it (a twist-free frame).
 Quat least_turn(const Quat& near, const Vec3& axis);
+
+// Returns q / |q| or its opposite, which stands for the same rotation: the one with w >= 0.
+inline Quat positive(const Quat& q) {
+    Quat n = q.normalized();
+    if (n.w() < 0) n.coeffs() *= -1;
+    return n;
+}
 
 } // namespace bough

@@ -2,6 +2,7 @@
 #include "../base/rotation_maps.h"
 #include "attachment_course.h"
 #include "attachment_paths.h"
+#include "midpoint.h"
 #include "pulled_points.h"
 #include "turn_bounds.h"
 #include <algorithm>
@@ -63,9 +64,9 @@ void place_end(const Attachments& a, AttachedEnd& end) {
 template <class T>
 void add_ground(const Plan<T>& plan, const CoupledState<T>& work, const Attached& held, const AttachedEnd& end,
                 double of, Eigen::Matrix<double, 3, 4>& F) {
-    const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, end.body) : -1;
-    if (spline < 0) return;
-    const GroundStep<T>& g = work.ground[std::size_t(spline)];
+    const GroundStep<T>* ground = ground_step_of(plan, work, end.body);
+    if (!ground) return;
+    const GroundStep<T>& g = *ground;
     const Vec3 arm = work.attachments.bodies[end.at].x + end.rho - g.x.template cast<double>();
     const Vec3 a = g.a.template cast<double>() + g.alpha.template cast<double>().cross(arm);
     const Vec3 slope = g.slope_a.template cast<double>() + g.slope_alpha.template cast<double>().cross(arm);

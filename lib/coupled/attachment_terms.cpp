@@ -1,7 +1,5 @@
 #include "../base/math.h"
 #include "attachment.h"
-#include <stdexcept>
-#include <string>
 
 namespace bough {
 namespace {
@@ -71,9 +69,8 @@ template <class S> AttachmentTerms<S> attachment_terms(const AttachmentSums& sum
             .unaryExpr(in_field)
             .eval();
     };
-    using Complex3 = Eigen::Matrix<std::complex<double>, 3, 1>;
     const auto wrench = [&](const Vec3& f, const Vec3& slope, const Vec3& rate, const Vec3(&ground)[4]) {
-        Complex3 sum = f.cast<std::complex<double>>();
+        ComplexVec3 sum = f.cast<std::complex<double>>();
         sum += z_slope * slope.cast<std::complex<double>>() + z1 * rate.cast<std::complex<double>>();
         const std::complex<double> weights[4] = {z2, z1, z2 * z_slope, z1 * z_slope};
         for (int k = 0; k < 4; ++k) sum += weights[k] * ground[k].cast<std::complex<double>>();

@@ -1,14 +1,11 @@
 #include "attachment_ties.h"
+#include "articulated_algebra.h"
 #include "midpoint.h"
 
 namespace bough {
 namespace {
 
 using Complex = std::complex<double>;
-
-ComplexVec3 times(const Vec3& r, const ComplexVec3& v) { // r x v; Eigen's own conjugates
-    return {r.y() * v.z() - r.z() * v.y(), r.z() * v.x() - r.x() * v.z(), r.x() * v.y() - r.y() * v.x()};
-}
 
 struct TieSolve {
     Attachments& a;
@@ -32,12 +29,12 @@ struct TieSolve {
         };
         if (tie.follows) {
             const PulledPoint& f = a.pulled[tie.of];
-            return add(f.at, z2 / 2.0 * times(f.moment, y), z2 * times(f.force, y));
+            return add(f.at, z2 / 2.0 * cross(f.moment, y), z2 * cross(f.force, y));
         }
         const Attached& held = a.all[tie.of];
         const ComplexVec3 F = sigma(held) * y;
-        add(held.at, times(held.rho, F), F);
-        add(held.far->at, -times(held.far->rho, F), -F);
+        add(held.at, cross(held.rho, F), F);
+        add(held.far->at, -cross(held.far->rho, F), -F);
     }
 
     // Of what was pushed.
@@ -51,7 +48,7 @@ struct TieSolve {
             SolvedBody& p = a.solved[std::size_t(b.parent)];
             const ComplexVec3 f = q.F - q.EB.transpose() * q.N;
             p.F += f;
-            p.N += q.N - q.EA.transpose() * q.N + times(b.r, f);
+            p.N += q.N - q.EA.transpose() * q.N + cross(b.r, f);
         }
     }
 
@@ -67,7 +64,7 @@ struct TieSolve {
                 alpha = a.solved[std::size_t(b.parent)].alpha;
                 start = a.solved[std::size_t(b.parent)].a;
             }
-            q.a = start - times(b.r, alpha);
+            q.a = start - cross(b.r, alpha);
             q.alpha = alpha + eu(q) - q.EA * alpha - q.EB * q.a;
         }
     }
@@ -78,7 +75,7 @@ struct TieSolve {
         const Attached& held = a.all[tie.of];
         const auto at = [&](const AttachedEnd& end) {
             const SolvedBody& q = a.solved[end.at];
-            return ComplexVec3(q.a - times(end.rho, q.alpha));
+            return ComplexVec3(q.a - cross(end.rho, q.alpha));
         };
         return sigma(held) * (at(held) - at(*held.far));
     }

@@ -247,8 +247,7 @@ template <class T> struct CoupledIn : CoupledParts<T> {
                     step_in<wind, gravity, false>(q, row, lane, in);
                 tip = false;
             }
-            const Rows<T>& out = q;
-            for (int k = inward::count; k < base.quantities; ++k) out.set(k, W{});
+            for (int k = inward::count; k < base.quantities; ++k) q.set(k, W{});
             base.template scatter<true>(rows.inward_records, &rows.landing[g.first_base + std::size_t(lane)], nothing);
         }
     }

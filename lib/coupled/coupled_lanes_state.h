@@ -9,8 +9,8 @@ namespace bough::fast {
 template <class T> struct CoupledLanesPlan : CoupledPlan<T> { PlannedLanes<T> lanes; };
 // What attachments add to the sweep inward (attachment_lanes.h).
 template <class T> struct AttachedRows {
-    std::vector<std::int32_t>
-        of_row;            // of each row, the place of its record in `terms`, -1: none; empty without attachments
+    // Of each row, the place of its record in `terms`, -1: none; empty without attachments
+    std::vector<std::int32_t> of_row;
     RowVector<T> terms;    // as records inward, but in rows
     RowVector<T> inverses; // with ties alone: CoupledRows::inverses
 

@@ -116,8 +116,8 @@ SweepFlags sweep(const Plan<T>& plan, const CoupledLanesPlan<T>& own, CoupledLan
     const std::vector<Block>& blocks = own.lanes.layout.blocks;
     Lanes<T>& lanes = work.lanes;
     const std::size_t most = largest_block(own.lanes.layout);
-    constexpr std::size_t count =
-        std::size_t(loaded::count) + solved::count; // a row; the top's solutions are in the table
+    // A row; the top's solutions are in the table
+    constexpr std::size_t count = std::size_t(loaded::count) + solved::count;
     share_scratch(own.lanes.layout, lanes, (blocks[0].end_row - blocks[0].first_row) * std::size_t(loaded::count),
                   most * count);
     std::vector<SweepFlags>& flags = lanes.flags;

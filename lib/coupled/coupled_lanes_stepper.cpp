@@ -10,6 +10,7 @@
 #include "coupled_stepper.h"
 #include "coupled_tables.h"
 #include "sleep.h"
+#include <utility>
 
 namespace bough::fast {
 namespace {
@@ -141,15 +142,20 @@ std::unique_ptr<Stepper<T>> coupled_stepper(const Scene& scene, Scheme scheme, s
     return std::make_unique<CoupledStepper<T>>(scheme, plainly);
 }
 
-template <class T> CoupledPlan<T>* coupled_plan(Plan<T>& plan) {
-    if (auto* lanes = dynamic_cast<CoupledLanesStepper<T>*>(&*plan.stepper)) return &lanes->own;
-    if (auto* plain = dynamic_cast<CoupledStepper<T>*>(&*plan.stepper)) return &plain->own;
+template <class T> const CoupledPlan<T>* coupled_plan(const Plan<T>& plan) {
+    if (const auto* lanes = dynamic_cast<const CoupledLanesStepper<T>*>(&*plan.stepper)) return &lanes->own;
+    if (const auto* plain = dynamic_cast<const CoupledStepper<T>*>(&*plan.stepper)) return &plain->own;
     return nullptr;
+}
+
+template <class T> CoupledPlan<T>* coupled_plan(Plan<T>& plan) {
+    return const_cast<CoupledPlan<T>*>(coupled_plan(std::as_const(plan))); // the plan is the caller's to change
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template class CoupledLanesStepper<T>;                                                                             \
     template std::unique_ptr<Stepper<T>> coupled_stepper(const Scene&, Scheme, std::optional<Target>, double);         \
+    template const CoupledPlan<T>* coupled_plan(const Plan<T>&);                                                       \
     template CoupledPlan<T>* coupled_plan(Plan<T>&);
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)

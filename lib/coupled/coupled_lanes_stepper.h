@@ -39,8 +39,6 @@ std::unique_ptr<Stepper<T>> coupled_stepper(const Scene&, Scheme, std::optional<
 
 // Returns the coupled solver's part of a plan, whichever way its steps are made; null for another solver.
 template <class T> CoupledPlan<T>* coupled_plan(Plan<T>&);
-template <class T> const CoupledPlan<T>* coupled_plan(const Plan<T>& plan) {
-    return coupled_plan(const_cast<Plan<T>&>(plan));
-}
+template <class T> const CoupledPlan<T>* coupled_plan(const Plan<T>&);
 
 } // namespace bough::fast

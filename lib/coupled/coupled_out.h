@@ -8,7 +8,6 @@
 // Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1600. Errors none; what turns fast is counted and marked.
 #pragma once
 #include "coupled_parts.h"
-#include "frame_over_ground.h"
 #include <algorithm>
 
 namespace bough::fast {
@@ -22,7 +21,6 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
     using Parts::L;
     using Parts::mark;
     using Parts::now;
-    using Parts::number;
     using Parts::Parts;
     using Parts::rows;
     using Parts::solved_row;

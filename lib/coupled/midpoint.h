@@ -14,7 +14,7 @@
 // ground_course.h: the origin's own motion and the turning about it, large and nearly equal there, leave nothing behind. Quadratic terms take omega
 // as a radian a step at most. The step does not resolve what turns faster, and terms that hold for an instant would throw it out. This is counted
 // (StepFlags::fast_turns).
-// Reads   theta, theta_dot, theta_change, theta_dot_change, coupled_ground. Writes the first part of coupled. O(n). Errors none.
+// Reads   theta, theta_dot, theta_change, theta_dot_change, CoupledState::ground. Writes the first part of coupled. O(n). Errors none.
 #pragma once
 #include "coupled_state.h"
 

@@ -13,7 +13,7 @@
 //   theta_dot_change += h w(c x_v),  theta_change += h w(c x_u),  w = 2 Re for a pair of poles, 1 for a real one.
 // Re s > 0, and K, beta, D are not negative. So Re of s A + s Z is positive where |s|^2 M + K + H is, and elimination without pivoting is safe, here
 // by L D L^T of complex symmetric 3x3 matrices. The template parameter S, std::complex<T> or T (a real pole), is the field of the solve.
-// Reads   coupled, theta_dot, coupled_ground. Adds to theta_change, theta_dot_change. O(n). Errors none.
+// Reads   coupled, theta_dot, CoupledState::ground. Adds to theta_change, theta_dot_change. O(n). Errors none.
 #pragma once
 #include "coupled_state.h"
 #include "scheme.h"

@@ -1,7 +1,5 @@
 #include "sleep.h"
-#include "../laws/wind.h"
 #include "../plan/pushes.h"
-#include "attachment.h"
 #include "attachment_course.h"
 #include "coupled_tables.h"
 #include <algorithm>

@@ -21,7 +21,7 @@
 
 namespace bough::fast {
 
-// Decides whether the plan's scene lets anything sleep, at a rate of `rate` [rad/s]; 0: not asked for. Called after plan_lanes.
+// Decides whether the plan's scene lets anything sleep, at a rate of `rate` [rad/s]; 0: not asked for. Called after lay_out_lanes.
 template <class T> void plan_sleep(const Plan<T>&, CoupledLanesPlan<T>&, double rate);
 
 // Returns for how many steps of dt [s] a block has to be slow.

@@ -6,6 +6,8 @@
 
 namespace bough {
 
+struct Ball; // model/scene.h
+
 // One of the bodies that it is made of, in the axes of the whole, about its centre of mass.
 struct FreePart {
     std::int64_t body = -1;    // of the tree; -1: a ball
@@ -47,7 +49,6 @@ Capsule placed(const FreeMotion&, const FreePart&);
 void finish(FreeBody&);
 
 // Returns the scene's ball, in free air. drag_area is from air_density and C_d = 0.47.
-struct Ball;
 FreeBody free_ball(const Ball&, double air_density);
 
 } // namespace bough

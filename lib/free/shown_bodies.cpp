@@ -17,10 +17,7 @@ template <class T> void place_free_bodies(const World<T>& world, MotionFrame& fr
         for (const FreePart& part : free.parts) {
             const std::size_t i = free.ball() ? bodies + k : std::size_t(part.body);
             if (!frame.position.empty()) frame.position[i] = m.x + m.q * part.joint;
-            if (!frame.rotation.empty()) {
-                frame.rotation[i] = (m.q * part.q).normalized();
-                if (frame.rotation[i].w() < 0) frame.rotation[i].coeffs() *= -1;
-            }
+            if (!frame.rotation.empty()) frame.rotation[i] = positive(m.q * part.q);
             if (!frame.velocity.empty()) frame.velocity[i] = free.velocity_at(Vec3(m.q * part.com));
             if (!frame.angular_velocity.empty()) frame.angular_velocity[i] = m.omega;
         }

@@ -89,7 +89,7 @@ struct Bent {
     Vec3 position, normal;
 };
 Bent bent(const LeafForm& form, const Vec2& flat, double turned, double needle) {
-    const double degree = std::numbers::pi / 180, curl = form.curl * degree, fold = form.fold * degree;
+    const double curl = form.curl * degree, fold = form.fold * degree;
     const Vec2 q(std::cos(needle) * flat.x() + std::sin(needle) * flat.y(),
                  std::cos(needle) * flat.y() - std::sin(needle) * flat.x());
     const double a = curl * q.y(), side = turned;

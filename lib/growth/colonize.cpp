@@ -45,8 +45,8 @@ private:
     std::vector<std::int32_t> head_;             // per node: the first point that pulls at it
     std::vector<std::int32_t> pulled_, reached_; // nodes of this round; points to be taken out
     bool felt_ = false;                          // a point has come within the influence of a node
-    double
-        radius_; // [m] in which a new node looks for points: none left is farther from its nearest node, or influence
+    // [m] in which a new node looks for points: none left is farther from its nearest node, or influence
+    double radius_;
 };
 
 void Colonizer::add(const Vec3& at, std::int32_t parent) {

@@ -11,8 +11,8 @@ namespace {
 
 enum class FoliageDraw : std::uint8_t { foliage, leaves, fruits, start, lean, turn, place };
 
-constexpr double kGolden = 137.5 * kDegree; // from one leaf to the next
-constexpr double kTurnV = 20 * kDegree, kLeanV = 10 * kDegree;
+constexpr double kGolden = 137.5 * degree; // from one leaf to the next
+constexpr double kTurnV = 20 * degree, kLeanV = 10 * degree;
 
 struct OnTwig {
     Vec3 point, along;
@@ -90,7 +90,7 @@ void add_colony_foliage(const ColonizeParameters& p, std::uint64_t seed, bool wi
             const auto k = static_cast<std::uint64_t>(i);
             const double turn =
                 start + kGolden * static_cast<double>(i) + kTurnV * random_sign(key, FoliageDraw::turn, k);
-            const double lean = p.leaf_angle * kDegree + kLeanV * random_sign(key, FoliageDraw::lean, k);
+            const double lean = p.leaf_angle * degree + kLeanV * random_sign(key, FoliageDraw::lean, k);
             add_leaf(p, b, twig.at((static_cast<double>(i) + 0.5) / static_cast<double>(leaves)), turn, lean, s);
         }
         const auto fruits = with_fruit ? whole_number(p.fruits, random_unit(key, FoliageDraw::fruits)) : 0;

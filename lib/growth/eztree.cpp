@@ -169,7 +169,7 @@ Section EzGrower::between(double at, double& share) const {
 }
 
 Vec3 EzGrower::aside(const Section& s, double radial, double angle) const {
-    const Quat lean(std::cos(angle * kDegree / 2), std::sin(angle * kDegree / 2), 0, 0);
+    const Quat lean(std::cos(angle * degree / 2), std::sin(angle * degree / 2), 0, 0);
     const Quat round(std::cos(radial / 2), 0, std::sin(radial / 2), 0);
     return three::to_euler(three::from_euler(s.orientation) * (round * lean));
 }

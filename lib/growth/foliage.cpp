@@ -59,7 +59,7 @@ void add_leaf(const GrowthParameters& p, const GrownStem& grown, double offset, 
 
 void add_flower(const GrowthParameters& p, std::int32_t branch, double at, const Vec3& center, const Vec3& axis,
                 double size, Splines& out) {
-    constexpr double lean = 35 * kDegree; // of a petal off the flower's plane
+    constexpr double lean = 35 * degree; // of a petal off the flower's plane
     // The flower's axis is z of its frame; x of a petal is its width, so that it leans about x.
     const Quat flower = shortest_turn(Vec3::UnitZ(), axis);
     for (int k = 0; k < p.petals; ++k) {
@@ -101,12 +101,11 @@ void grow_leaves(const GrowthParameters& p, const GrownStem& grown, Splines& out
             // Spread about the stem's y, in its x-z plane, after which the whole fan leans by the down angle.
             const double spread = std::abs(l.rotate) * ((i + 0.5) / count - 0.5) + varies;
             add_leaf(p, grown, offset,
-                     frame * about(Vec3::UnitX(), down * kDegree) * about(Vec3::UnitY(), spread * kDegree), length,
-                     out);
+                     frame * about(Vec3::UnitX(), down * degree) * about(Vec3::UnitY(), spread * degree), length, out);
             continue;
         }
         turn = l.rotate >= 0 ? turn + l.rotate + varies : (i % 2 ? -1 : 1) * (180 + l.rotate + varies);
-        add_leaf(p, grown, offset, frame * about(Vec3::UnitZ(), turn * kDegree) * about(Vec3::UnitX(), down * kDegree),
+        add_leaf(p, grown, offset, frame * about(Vec3::UnitZ(), turn * degree) * about(Vec3::UnitX(), down * degree),
                  length, out);
     }
 }

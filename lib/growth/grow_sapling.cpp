@@ -214,7 +214,7 @@ double SaplingGrower::down_angle(const ChildPoint& c, RandomKey key, int level) 
     double v = l.down_angle_v * random_sign(key, Draw::down_angle);
     if (s_.old_down_angle && l.down_angle_v < 0) v = l.down_angle_v * (1 - 2 * (0.2 + 0.8 * up));
     if (!s_.old_down_angle && l.down_angle_v > 0) v = -l.down_angle_v * (1 - up) * (1 - up);
-    return (l.down_angle + v) * kDegree;
+    return (l.down_angle + v) * degree;
 }
 
 // One child of the trunk a place, on the piece that stands where the child is to point, or a random one; turns become
@@ -233,7 +233,7 @@ void SaplingGrower::turn_outward(const SaplingStem& stem, std::vector<ChildPoint
             continue;
         }
         turn = l.rotate < 0 ? -std::copysign(l.rotate, turn) : turn + l.rotate;
-        const double wanted = (turn + l.rotate_v * random_sign(stem.key, Draw::rotate, index + 1)) * kDegree;
+        const double wanted = (turn + l.rotate_v * random_sign(stem.key, Draw::rotate, index + 1)) * degree;
         const auto off = [wanted](const ChildPoint& c) {
             return std::abs(std::remainder(std::atan2(c.position.x(), -c.position.y()) - wanted, kTurn));
         };
@@ -242,7 +242,7 @@ void SaplingGrower::turn_outward(const SaplingStem& stem, std::vector<ChildPoint
         // A third of the child's length, seen from above, further out than where it starts.
         double reach = c.parent_length * l.length * shape_ratio(p_, p_.shape, (1 - c.offset) / (1 - base_size(0)));
         const double up = (1 - c.offset) / (1 - base_size(0));
-        const double down = (l.down_angle - std::max(0.0, l.down_angle_v) * (1 - up) * (1 - up)) * kDegree;
+        const double down = (l.down_angle - std::max(0.0, l.down_angle_v) * (1 - up) * (1 - up)) * degree;
         if (down < std::numbers::pi / 2) reach *= std::sin(down) * std::sin(down);
         const double far = std::hypot(c.position.x(), c.position.y()) + 0.33 * reach;
         turns.push_back(std::atan2(far * std::sin(wanted) - c.position.x(), far * std::cos(wanted) + c.position.y()));
@@ -274,7 +274,7 @@ void SaplingGrower::bear(const SaplingStem& stem, const std::vector<ChildPoint>&
         child.parent_at = c.at;
         child.position = c.position;
         turn = l.rotate < 0 ? -std::copysign(l.rotate, turn) : turn + l.rotate;
-        double around = (turn + l.rotate_v * random_sign(child.key, Draw::rotate)) * kDegree;
+        double around = (turn + l.rotate_v * random_sign(child.key, Draw::rotate)) * degree;
         if (!outward.empty()) around = outward[i];
         const double down = down_angle(c, child.key, level);
         const Vec3 d = about_z(around) * Vec3(0, -std::sin(down), std::cos(down));
@@ -329,14 +329,14 @@ void SaplingGrower::leaves(const SaplingStem& stem, const std::vector<ChildPoint
 void SaplingGrower::leaf(const ChildPoint& c, double turn, double next_turn, double part, RandomKey key) {
     const double rotate = p_.leaf_angles[2], down_v = p_.leaf_angles[1];
     const bool fan = p_.leaves < 0;
-    const Quat tilt = about(Vec3::UnitX(), -s_.leaf_angle * kDegree);
-    Quat blade = level_frame(c.direction) * about(fan ? Vec3::UnitY() : Vec3::UnitZ(), turn * kDegree);
+    const Quat tilt = about(Vec3::UnitX(), -s_.leaf_angle * degree);
+    Quat blade = level_frame(c.direction) * about(fan ? Vec3::UnitY() : Vec3::UnitZ(), turn * degree);
     if (!fan) {
         const double v = down_v > 0 ? -down_v * c.offset : down_v * random_sign(key, Draw::down_angle);
-        blade = blade * about(Vec3::UnitX(), (p_.leaf_angles[0] + v) * kDegree);
-        if (rotate > 0 && s_.level_leaves) blade = blade * about_z((rotate - next_turn) * kDegree);
+        blade = blade * about(Vec3::UnitX(), (p_.leaf_angles[0] + v) * degree);
+        if (rotate > 0 && s_.level_leaves) blade = blade * about_z((rotate - next_turn) * degree);
     }
-    if (rotate < 0) blade = blade * about_z((next_turn < 0 ? 270 : 90) * kDegree);
+    if (rotate < 0) blade = blade * about_z((next_turn < 0 ? 270 : 90) * degree);
     blade = blade * tilt;
     if ((blade * Vec3::UnitY()).z() < 0) blade = blade * about_z(std::numbers::pi);
     const double taper = s_.leaf_scale_taper;

@@ -95,8 +95,8 @@ void SegmentGrower::plant(std::uint64_t seed) {
         if (arbaro_) {
             const double vary = varied(l.rotate, l.rotate_v, key, Draw::rotate);
             turned = l.rotate >= 0 ? turned + vary : (i % 2 ? 1 : -1) * (180 + vary);
-            roll = turned * kDegree;
-            lean = varied(l.down_angle, l.down_angle_v, key, Draw::down_angle) * kDegree;
+            roll = turned * degree;
+            lean = varied(l.down_angle, l.down_angle_v, key, Draw::down_angle) * degree;
             const double far = p_.trunk_spread * random_sign(key, Draw::trunk_place, 1);
             place = far * Vec3(std::sin(round), 0, std::cos(round));
         } else if (count > 1) {
@@ -261,8 +261,8 @@ SegmentStem SegmentGrower::child_of(const SegmentStem& stem, const GrownStem& gr
         child.length = stem.child_length * (stem.length - (arbaro_ ? 0.6 : 0.7) * place.offset);
     set_radius(child);
     const LevelParameters& own = p_.level[std::size_t(child.level)];
-    child.frame = grown.segment_at(place.offset).frame * about_z(place.turn * kDegree) *
-                  about_x(segment_down_angle(p_, stem, own, place.offset, child.key) * kDegree);
+    child.frame = grown.segment_at(place.offset).frame * about_z(place.turn * degree) *
+                  about_x(segment_down_angle(p_, stem, own, place.offset, child.key) * degree);
     return child;
 }
 

@@ -61,7 +61,7 @@ void Grower::plant(std::uint64_t seed) {
                    varied(p_.radius_scale, p_.radius_scale_v, trunk.key, Draw::radius_scale);
     const double roll = varied(l.rotate, l.rotate_v, trunk.key, Draw::rotate);
     const double lean = varied(l.down_angle, l.down_angle_v, trunk.key, Draw::down_angle);
-    trunk.frame = about_x(-std::numbers::pi / 2) * about_z(roll * kDegree) * about_x(lean * kDegree);
+    trunk.frame = about_x(-std::numbers::pi / 2) * about_z(roll * degree) * about_x(lean * degree);
     stack_.push_back(trunk);
     height_ = trunk.length;
 }
@@ -196,13 +196,13 @@ Quat Grower::turned(const Stem& stem, const Quat& frame, int segment) const {
     double bend = l.curve / l.curve_res;
     if (l.curve_back != 0) bend = 2 * (first_half ? l.curve : l.curve_back) / l.curve_res;
     const auto at = static_cast<std::uint64_t>(segment);
-    Quat result = frame * about_x(bend * kDegree + stem.unbend);
+    Quat result = frame * about_x(bend * degree + stem.unbend);
     if (l.curve_v > 0) {
         const double axis = 2 * std::numbers::pi * random_unit(stem.key, Draw::curve_axis, at);
         const double angle = l.curve_v / l.curve_res * random_sign(stem.key, Draw::curve, at);
-        result = result * about(Vec3(std::cos(axis), std::sin(axis), 0), angle * kDegree);
+        result = result * about(Vec3(std::cos(axis), std::sin(axis), 0), angle * degree);
     } else if (l.curve_v < 0) {
-        const double off = -l.curve_v * kDegree;
+        const double off = -l.curve_v * degree;
         result = result * about_x(-off) * about_z(2 * std::numbers::pi / l.curve_res) * about_x(off);
     }
     if (l.attraction_up != 0) {
@@ -230,7 +230,7 @@ Quat Grower::split(const Stem& stem, std::int32_t branch, const Segment& end, in
     const double before = unbend;
     const auto turn = [&](RandomKey key) {
         return std::max(
-            0.0, varied(l.split_angle, l.split_angle_v, key, Draw::split_angle, std::uint64_t(next)) * kDegree - down);
+            0.0, varied(l.split_angle, l.split_angle_v, key, Draw::split_angle, std::uint64_t(next)) * degree - down);
     };
     const double left = l.curve_res - next;
     for (int i = 0; i < clones; ++i) {
@@ -241,7 +241,7 @@ Quat Grower::split(const Stem& stem, std::int32_t branch, const Segment& end, in
         if (next > 1 || l.base_splits <= 0) {
             const double u = random_unit(clone.key, Draw::split_spread);
             const double side = random_unit(clone.key, Draw::split_sign) < 0.5 ? -1 : 1;
-            spread = side * kDegree * (20 + 0.75 * (30 + std::abs(down / kDegree - 90)) * u * u);
+            spread = side * degree * (20 + 0.75 * (30 + std::abs(down / degree - 90)) * u * u);
         }
         const double angle = turn(clone.key);
         clone.unbend = before - angle / left;
@@ -331,9 +331,9 @@ Stem Grower::child_of(const GrownStem& grown, int index, double offset, double t
     const double down = l.down_angle_v < 0 ? l.down_angle + l.down_angle_v * (1 - 2 * up)
                                            : varied(l.down_angle, l.down_angle_v, child.key, Draw::down_angle);
     const Quat& bearer = grown.segment_at(offset).frame;
-    double round = turn * kDegree;
-    if (l.attraction_up <= hangs) round = on_the_lower_side(bearer, round, std::sin(down * kDegree));
-    child.frame = bearer * about_z(round) * about_x(down * kDegree);
+    double round = turn * degree;
+    if (l.attraction_up <= hangs) round = on_the_lower_side(bearer, round, std::sin(down * degree));
+    child.frame = bearer * about_z(round) * about_x(down * degree);
     return child;
 }
 

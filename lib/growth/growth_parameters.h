@@ -48,8 +48,8 @@ struct GrowthParameters {
     double prune_ratio = 0;        // 0..1, how far stems are cut back to the envelope; 0: not pruned
     double prune_width = 0.5;      // > 0 and at most 10, radius of the envelope over the trunk's length
     double prune_width_peak = 0.5; // 0..1 without both, height of the widest place over the crown's
-    double prune_base =
-        -1; // 0..1 without 1, height of the envelope's lower end over the tree's; < 0: base_size of level 0
+    // 0..1 without 1, height of the envelope's lower end over the tree's; < 0: base_size of level 0
+    double prune_base = -1;
     double prune_power_low = 0.5, prune_power_high = 0.5; // 0..10, of the envelope's curve below and above it
     std::array<LevelParameters, 4> level;
     double leaves = 0;    // -1e6..1e6, most leaves of one stem of the last level; negative: a fan (as in the paper)
@@ -68,8 +68,8 @@ struct GrowthParameters {
     double petal_scale = 0.014, petal_scale_x = 0.9;
     double fruits = 0, fruit_radius = 0.03; // 0..1e6, our own: most fruit of one stem of the last level; [m] > 0
     double fruit_stalk = 1;                 // 0.01..1000, our own: length of its stalk over its radius
-    double split_exponent =
-        0; // 0 or 1..4, our own: k parts of a split stem each have k^(-1/this) of its radius; 0: all
+    // 0 or 1..4, our own: k parts of a split stem each have k^(-1/this) of its radius; 0: all
+    double split_exponent = 0;
     // Our own: length of the highest boughs over the longest's, 0.01..1, where `shape` itself says 0.2, 0.5 or 0; -1: as it says.
     double crown_top = -1;
     // Our own: length of the shoot in which the trunk ends over the trunk's, 0 (none)..0.5. It is of the last level, with leaves.

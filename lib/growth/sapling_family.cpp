@@ -77,14 +77,14 @@ std::vector<SaplingPiece> Family::run() {
     first.segment_length = stem_.segment_length * length_factor(stem_.key, 0);
     first.radius_start = stem_.radius_start;
     first.radius_end = stem_.radius_end;
-    first.curve = l_.curve / l_.curve_res * kDegree;
+    first.curve = l_.curve / l_.curve_res * degree;
     first.turned = 2 * std::numbers::pi * random_unit(stem_.key, Draw::rotate);
     pieces_ = {first};
     for (int k = 0; k < l_.curve_res; ++k) {
         const std::size_t count = pieces_.size();
         for (std::size_t i = 0; i < count; ++i) {
             if (k == static_cast<int>(l_.curve_res / 2.0 + 0.5))
-                pieces_[i].curve += 2 * l_.curve_back / l_.curve_res * kDegree;
+                pieces_[i].curve += 2 * l_.curve_back / l_.curve_res * degree;
             grow(i, k);
             if (double(pieces_.size()) > kMostPieces)
                 throw std::invalid_argument("level[" + std::to_string(stem_.level) +
@@ -138,7 +138,7 @@ void Family::grow(std::size_t number, int k) {
     SaplingPiece piece = std::move(pieces_[number]);
     const auto draw = static_cast<std::uint64_t>(k);
     const bool straight = trunk_ && along(l_, k) <= s_.split_height; // the trunk's foot does not curve
-    const double vary = l_.curve_v / l_.curve_res * kDegree * along(l_, k) * piece.sign;
+    const double vary = l_.curve_v / l_.curve_res * degree * along(l_, k) * piece.sign;
     const double curve = (straight ? 0 : piece.curve) + vary * random_unit(piece.key, Draw::curve, draw);
     const double aside = vary * random_unit(piece.key, Draw::curve_axis, draw);
     piece.sign = -piece.sign;
@@ -155,7 +155,7 @@ void Family::grow(std::size_t number, int k) {
     const auto side = [&](Draw name) {
         const double angle = l_.split_angle + l_.split_angle_v * random_sign(piece.key, Draw::split_angle,
                                                                              2 * draw + (name == Draw::split_sign));
-        return (random_unit(piece.key, name, draw) < 0.5 ? -1 : 1) * angle * kDegree;
+        return (random_unit(piece.key, name, draw) < 0.5 ? -1 : 1) * angle * degree;
     };
     double angle = side(Draw::split_sign);
     if (!trunk_) {
@@ -164,7 +164,7 @@ void Family::grow(std::size_t number, int k) {
     }
     const double spread = side(Draw::split_spread);
     const LevelParameters& trunk = p_.level[0];
-    piece.turned += (trunk.rotate + trunk.rotate_v * random_sign(piece.key, Draw::rotate, draw + 1)) * kDegree;
+    piece.turned += (trunk.rotate + trunk.rotate_v * random_sign(piece.key, Draw::rotate, draw + 1)) * degree;
     // Turns of a part that leans by `lean_by`: of the trunk's about the vertical, of others' to the side.
     const auto heading = [&](double lean_by, double around, double apart) {
         const Vec3 d = about_y(aside) * about_x(lean_by + curve) * Vec3::UnitZ();

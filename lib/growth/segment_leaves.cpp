@@ -41,7 +41,7 @@ void fan(const GrowthParameters& p, const SegmentStem& stem, const GrownStem& gr
         const double spread = l.rotate * (part - 0.5) + v * random_sign(key, Draw::rotate);
         const double down = varied(l.down_angle, std::abs(l.down_angle_v), key, Draw::down_angle);
         one_leaf(p, stem, grown, stem.length,
-                 tip * about(Vec3::UnitY(), spread * kDegree) * about(Vec3::UnitX(), down * kDegree), key,
+                 tip * about(Vec3::UnitY(), spread * degree) * about(Vec3::UnitX(), down * degree), key,
                  {true, false, false}, out);
     }
 }
@@ -58,8 +58,8 @@ void grow_segment_leaves(const GrowthParameters& p, const SegmentStem& stem, con
     const std::vector<Insertion> all = segment_places(p, stem, line, l);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const RandomKey key = random_key(stem.key, Draw::leaf, i);
-        const Quat turned = grown.segment_at(all[i].offset).frame * about(Vec3::UnitZ(), all[i].turn * kDegree) *
-                            about(Vec3::UnitX(), segment_down_angle(p, stem, l, all[i].offset, key) * kDegree);
+        const Quat turned = grown.segment_at(all[i].offset).frame * about(Vec3::UnitZ(), all[i].turn * degree) *
+                            about(Vec3::UnitX(), segment_down_angle(p, stem, l, all[i].offset, key) * degree);
         one_leaf(p, stem, grown, all[i].offset, turned, key, items, out);
     }
 }

@@ -61,18 +61,18 @@ double Tracer::curve_at(int segment) const {
 
 Quat Tracer::curved(const Quat& frame, const SegmentStem& stem, int segment) const {
     const double vary = l_.curve_v / l_.curve_res;
-    const double curve = curve_at(segment) * kDegree + stem.unbend;
+    const double curve = curve_at(segment) * degree + stem.unbend;
     if (l_.curve_v < 0) {
-        const double off = -l_.curve_v * kDegree;
+        const double off = -l_.curve_v * degree;
         return frame * about_x(curve - off) * about(Vec3::UnitZ(), 2 * std::numbers::pi / l_.curve_res) * about_x(off);
     }
     const double u = random_sign(stem.key, Draw::curve, at(segment));
     if (!arbaro_) {
         const double bend = l_.bend_v / l_.curve_res * random_sign(stem.key, Draw::bend, at(segment));
-        return frame * about_y(bend * kDegree) * about_x(curve + vary * u * kDegree);
+        return frame * about_y(bend * degree) * about_x(curve + vary * u * degree);
     }
     const double axis = 2 * std::numbers::pi * random_unit(stem.key, Draw::curve_axis, at(segment));
-    const Quat result = frame * about_x(curve) * about(Vec3(std::cos(axis), std::sin(axis), 0), vary * u * kDegree);
+    const Quat result = frame * about_x(curve) * about(Vec3(std::cos(axis), std::sin(axis), 0), vary * u * degree);
     if (l_.attraction_up == 0) return result;
     // Arbaro weighs the paper's pull by the declination's sine, so that it never overshoots the vertical by much.
     const double down = declination(result);
@@ -86,7 +86,7 @@ Quat Tracer::drawn_to_light(const Quat& frame) const {
     if (now_.level <= 1) pull.y() = 0;
     const Vec3 turn = (frame * Vec3::UnitZ()).cross(pull);
     const double size = turn.norm();
-    return size < 1e-12 ? frame : Quat(about(turn / size, 10 * size * kDegree) * frame);
+    return size < 1e-12 ? frame : Quat(about(turn / size, 10 * size * degree) * frame);
 }
 
 bool Tracer::base_split(int next) const {
@@ -123,12 +123,12 @@ void Tracer::add_clone(const SegmentStem& clone, const Vec3& position, int next)
 
 // Returns the stem's own frame after the split, as split_tree_gen() does.
 Quat Tracer::split_arbaro(const Segment& end, int next, int clones) {
-    const double down = declination(end.frame) / kDegree;
+    const double down = declination(end.frame) / degree;
     const SegmentStem before = now_;
     const bool last = now_.level + 1 >= p_.levels; // leaves are not shared out
     const auto turn = [&](std::uint64_t number) {
         const double angle = varied(l_.split_angle, l_.split_angle_v, before.key, Draw::split_angle, number);
-        return std::max(0.0, angle - down) * kDegree;
+        return std::max(0.0, angle - down) * degree;
     };
     for (int i = 0; i < clones; ++i) {
         const std::uint64_t number = at(next) << 32 | std::uint64_t(i + 1);
@@ -142,7 +142,7 @@ Quat Tracer::split_arbaro(const Segment& end, int next, int clones) {
         SegmentStem clone = before;
         const double angle = turn(number);
         clone.unbend -= angle / (l_.curve_res - next);
-        clone.frame = about_y(spread * kDegree) * end.frame * about_x(angle);
+        clone.frame = about_y(spread * degree) * end.frame * about_x(angle);
         if (!last) clone.density /= clones + 1;
         add_clone(clone, end.position, next);
     }
@@ -154,11 +154,11 @@ Quat Tracer::split_arbaro(const Segment& end, int next, int clones) {
 
 Quat Tracer::split_tree_gen(const Segment& end, int next, int clones) {
     const bool base = base_split(next), direct = l_.split_angle < 0;
-    const double down = declination(end.frame) / kDegree;
+    const double down = declination(end.frame) / degree;
     const double drawn = varied(std::abs(l_.split_angle), l_.split_angle_v, now_.key, Draw::split_angle, at(next));
-    const double angle = direct ? 0 : std::max(0.0, drawn - down) * kDegree;
+    const double angle = direct ? 0 : std::max(0.0, drawn - down) * degree;
     const double u = random_unit(now_.key, Draw::split_spread, at(next));
-    const double spread = (direct ? drawn : -(20 + 0.75 * (30 + std::abs(down - 90) * u * u))) * kDegree;
+    const double spread = (direct ? drawn : -(20 + 0.75 * (30 + std::abs(down - 90) * u * u))) * degree;
     now_.unbend = -angle / (l_.curve_res + 1 - next);
     const Quat bent = end.frame * about_x(angle / 2);
     for (int i = 0; i < clones; ++i) {
@@ -166,7 +166,7 @@ Quat Tracer::split_tree_gen(const Segment& end, int next, int clones) {
         if (base && !direct)
             turn = (360.0 * (i + 1) / (clones + 1) +
                     varied(0, l_.split_angle_v, now_.key, Draw::split_sign, std::uint64_t(i))) *
-                   kDegree;
+                   degree;
         SegmentStem clone = now_;
         clone.frame = direct ? Quat(bent * about_y(turn)) : Quat(about_y(turn) * bent);
         add_clone(clone, end.position, next);

@@ -9,8 +9,8 @@ namespace {
 constexpr double point_ratio = 1e-3; // an end ring thinner than this times its neighbour is drawn as a point
 constexpr double nested = 0.8;       // how much of its parent's inner radius a collar may fill: room for bends
 constexpr double flared = 1.18; // the root ring over the branch's own radius there, where the parent is thick enough
-constexpr double collared =
-    2.2; // and the collar, within the parent: between the two the tube comes out of it, wider than it goes on
+// The collar, within the parent: between the two the tube comes out of it, wider than it goes on
+constexpr double collared = 2.2;
 constexpr double flare_length = 1.1; // of the branch's radius: from the root ring to where its own radius begins
 
 struct Ring {

@@ -43,10 +43,6 @@ Species default_species() {
     return s;
 }
 
-double height_at_age(const Species& s, double age) {
-    return s.growth.scale * s.growth.level[0].length * relative_height(s, age);
-}
-
 GrowthParameters at_age(const Species& s, double age) {
     if (!(age >= 0.1 && std::isfinite(age)))
         throw std::invalid_argument("age: is " + shortest_text(age) + ", expected 0.1 years or more");

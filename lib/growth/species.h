@@ -41,9 +41,6 @@ Species default_species();
 // one stem a parent is left out. O(1). Throws std::invalid_argument unless age is finite, and 0.1 or more.
 GrowthParameters at_age(const Species&, double age);
 
-// The tree's height, on average, at this age [m].
-double height_at_age(const Species&, double age);
-
 // What this season leaves of growth's leaves, blossoms and fruit, and its colours.
 GrowthParameters in_season(const Species&, const GrowthParameters&, Season);
 std::vector<Vec3> colors_in_season(const Species&, Season);

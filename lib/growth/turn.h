@@ -1,5 +1,6 @@
 // turn.h: rotations and random variation as growth writes them; private to growth. Angles in radians.
 #pragma once
+#include "../base/angles.h"
 #include "../base/math.h"
 #include "random.h"
 #include <algorithm>
@@ -7,8 +8,6 @@
 #include <numbers>
 
 namespace bough {
-
-constexpr double kDegree = std::numbers::pi / 180; // [rad]
 
 // Rotation about an axis of length 1.
 inline Quat about(const Vec3& axis, double angle) {

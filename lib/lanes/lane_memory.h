@@ -1,4 +1,4 @@
-// lane_memory.h: rows and records (layout.h) as the steps in lanes fill them from outside the sweeps, and the number of the working thread.
+// lane_memory.h: rows and records (layout.h) as the steps in lanes fill them from outside the sweeps.
 #pragma once
 #include "../base/math.h"
 #include "row.h"

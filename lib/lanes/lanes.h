@@ -51,8 +51,8 @@ template <class T> struct PlannedLanes {
 // A state's part.
 template <class T> struct Lanes {
     RowVector<T> now;                          // of the analytic step: motion
-    RowVector<T> table;                        // of the coupled step: CoupledColumns
-    bool odd = false;                          // which of them
+    RowVector<T> table;                        // of the coupled step: motions and solutions (coupled_places.h)
+    bool odd = false;                          // the coupled step: an odd number of steps was taken
     RowVector<T> outward, inward, accelerated; // a record a joint
     std::vector<RowVector<T>> scratch;         // one a thread, and one more for the top
     std::vector<PullOnLane<T>> pulls;
@@ -65,7 +65,7 @@ template <class T> struct Lanes {
         energy_ground;           // EnergyRows; empty until something turns fast
     std::vector<BlockRest> rest; // one a block; empty where nothing may sleep
     double carried_turn = 0;     // [rad] of what sleepers stand on, at most, since the first fell asleep
-    bool presented = true;       // the state's arrays in document order hold what `now` holds
+    bool presented = true;       // the state's arrays in document order hold what `now` or `table` holds
     bool finite = true;          // no theta or theta_dot has become non-finite
 
     // Counts rows, without what threads work in and without the energy guard's.

@@ -16,7 +16,6 @@
 // different.
 #pragma once
 #include "../model/scene.h"
-#include "../model/tree.h"
 #include "lane_memory.h"
 #include "lanes.h"
 #include <unordered_map>

@@ -36,7 +36,7 @@ template <class T> struct PullOnLane {
     std::uint32_t row, lane;
     T point[3];            // [m] body frame
     T force[3], change[3]; // [N] at the step's middle, and (coupled) what it changes by over the step
-    std::size_t source;    // index into Scene::pulls, or no_source: a contact's load
+    std::size_t source;    // index into Scene::pulls, or no_source: one of State::loads
     std::size_t order = 0; // of those on one row
 };
 

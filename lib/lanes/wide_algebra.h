@@ -150,12 +150,6 @@ template <class W> BOUGH_FORCE Symmetric<W> turned(const M3<W>& R, const Symmetr
     const M3<W> rows = transposed(R);
     return {dot(q.x, rows.x), dot(q.x, rows.y), dot(q.x, rows.z), dot(q.y, rows.y), dot(q.y, rows.z), dot(q.z, rows.z)};
 }
-// The symmetric product of a and b. It is its upper half, and takes b's symmetric part where rounding has left another.
-template <class X, class Y> BOUGH_FORCE auto symmetric_product(const Symmetric<X>& a, const M3<Y>& b) {
-    const V3<X> rx{a.xx, a.xy, a.xz}, ry{a.xy, a.yy, a.yz}, rz{a.xz, a.yz, a.zz};
-    using R = decltype(a.xx * b.x.x);
-    return Symmetric<R>{dot(rx, b.x), dot(rx, b.y), dot(rx, b.z), dot(ry, b.y), dot(ry, b.z), dot(rz, b.z)};
-}
 // a^T b where that is symmetric.
 template <class X> BOUGH_FORCE Symmetric<X> symmetric_transposed_product(const M3<X>& a, const M3<X>& b) {
     return {dot(a.x, b.x), dot(a.x, b.y), dot(a.x, b.z), dot(a.y, b.y), dot(a.y, b.z), dot(a.z, b.z)};
@@ -167,10 +161,6 @@ template <class X> BOUGH_FORCE Symmetric<X> operator-(const Symmetric<X>& a, con
 // [r]* m, column by column.
 template <class W, class X> BOUGH_FORCE M3<X> cross_left(const V3<W>& r, const M3<X>& m) {
     return {cross(r, m.x), cross(r, m.y), cross(r, m.z)};
-}
-// [r]* m + ([r]* m)^T.
-template <class X> BOUGH_FORCE Symmetric<X> twice_symmetric(const M3<X>& m) {
-    return {m.x.x + m.x.x, m.y.x + m.x.y, m.z.x + m.x.z, m.y.y + m.y.y, m.z.y + m.y.z, m.z.z + m.z.z};
 }
 template <class X> BOUGH_FORCE Symmetric<X> upper(const M3<X>& m) {
     return {m.x.x, m.y.x, m.z.x, m.y.y, m.z.y, m.z.z};

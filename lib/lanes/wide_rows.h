@@ -21,9 +21,6 @@ template <class T, bool streamed = false> struct Rows {
     BOUGH_FORCE M3<W> matrix(int k) const { return {vector(k), vector(k + 3), vector(k + 6)}; }
     BOUGH_FORCE Complex<W> number(int k) const { return {real(k), real(k + 1)}; }
     BOUGH_FORCE V3<Complex<W>> complex_vector(int k) const { return {number(k), number(k + 2), number(k + 4)}; }
-    BOUGH_FORCE M3<Complex<W>> complex_matrix(int k) const {
-        return {complex_vector(k), complex_vector(k + 6), complex_vector(k + 12)};
-    }
     BOUGH_FORCE Symmetric<Complex<W>> complex_symmetric(int k) const {
         return {number(k), number(k + 2), number(k + 4), number(k + 6), number(k + 8), number(k + 10)};
     }

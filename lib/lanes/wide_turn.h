@@ -67,11 +67,6 @@ template <class X> BOUGH_FORCE V3<X> rate_of(const V3<X>& theta, const X& t2, co
     const V3<X> across = cross(theta, v);
     return v + RealOf<X>(0.5) * across + t2 * cross(theta, across);
 }
-// T^T v.
-template <class X> BOUGH_FORCE V3<X> transposed_rate_of(const V3<X>& theta, const X& t2, const V3<X>& v) {
-    const V3<X> across = cross(theta, v);
-    return v - RealOf<X>(0.5) * across + t2 * cross(theta, across);
-}
 
 } // namespace BOUGH_TARGET
 } // namespace bough::fast

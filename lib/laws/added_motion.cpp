@@ -1,4 +1,5 @@
 #include "added_motion.h"
+#include "../model/drawn_pose.h"
 #include "air_load.h"
 #include "wind.h"
 #include "wind_field.h"

@@ -16,7 +16,6 @@
 // 1.5, 2.0 and 4.1 mm RMS, and by 16, 32 and 149 mm at most, at ends that whip. An estimate from a trial run (study/merge_below.h) holds in that run.
 // Reads a checked tree (joined, stiffness not yet scaled by the scene). O(n), and O(depth) a pull. Errors none.
 #pragma once
-#include "../model/drawn_pose.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
 #include <string>

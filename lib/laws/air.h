@@ -138,7 +138,7 @@ template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, con
 
 // [N m/rad] Returns how the drag of all that a body carries, its own included, resists the body's turning where the drag pulls outward. What hangs in
 // a wind has a stiffness from drag as it has one from gravity, of the same form without its part below zero. P: first moment of kappa rho A [kg],
-// world (Plan::carried_drag). u: the air's velocity past the body, taken as that past all it carries. folds: what it carries is foliage. The result
+// world (CoupledPlan::carried_drag). u: the air's velocity past the body, taken as that past all it carries. folds: what it carries is foliage. The result
 // is symmetric, positive semidefinite.
 template <class T> Matrix3<T> streaming_stiffness(bool folds, const Vector3<T>& P, const Vector3<T>& u) {
     const T size = P.squaredNorm(), speed = u.norm();

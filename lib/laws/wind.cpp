@@ -1,7 +1,6 @@
 #include "wind.h"
 #include "../base/angles.h"
 #include <array>
-#include <numbers>
 
 namespace bough {
 namespace {

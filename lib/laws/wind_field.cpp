@@ -3,7 +3,6 @@
 #include "../base/monotone.h"
 #include "wind.h"
 #include <array>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 

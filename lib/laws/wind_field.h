@@ -83,8 +83,8 @@ Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double 
 
 template <class T> struct WindField {
     FieldShape<T> shape;
-    std::vector<T>
-        velocity; // [m/s] of each clock's cells where the profile is 1: all x, all y, all z; empty: no field at all
+    // [m/s] of each clock's cells where the profile is 1: all x, all y, all z; empty: no field at all
+    std::vector<T> velocity;
     std::vector<T> turn;               // of each clock's rings: cosines, then sines; empty: no swirl
     std::vector<double> ahead, behind; // [rad] A(r) times cosine and sine of 2 pi r / wavelength
 

@@ -9,8 +9,6 @@
 // This leaves out the weight along the branch, which adds m g / (pi r^2), below 1 MPa in trees; twist and shear across; stress grown into the wood;
 // and hollows.
 #pragma once
-#include "../base/math.h"
-#include <cmath>
 #include <numbers>
 
 namespace bough {
@@ -18,11 +16,6 @@ namespace bough {
 // [m^3] Returns W of a round section of this radius [m].
 inline double section_modulus(double radius) {
     return std::numbers::pi * radius * radius * radius / 4;
-}
-
-// [Pa] Returns the stress under a joint's torque [N m, joint frame]. radius [m]: above 0.
-inline double bending_stress(const Vec3& torque_j, double radius) {
-    return std::hypot(torque_j.x(), torque_j.y()) / section_modulus(radius);
 }
 
 } // namespace bough

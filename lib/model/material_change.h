@@ -18,8 +18,8 @@ struct MaterialChange {
     std::optional<double> shear_modulus;  // [Pa] G
     std::optional<double> density;        // [kg/m^3]
     std::optional<double> damping_ratio;  // [1]
-    std::optional<double>
-        root_stiffness; // [N m/rad] of a spring between the ground and each trunk (root_stiffness.h), after the others
+    // [N m/rad] of a spring between the ground and each trunk (root_stiffness.h), after the others
+    std::optional<double> root_stiffness;
 
     bool wood() const { return youngs_modulus || shear_modulus || density || damping_ratio; }
     bool any() const { return wood() || root_stiffness; }

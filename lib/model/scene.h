@@ -56,8 +56,8 @@ struct WindGrid {
     std::vector<Vec3> velocity; // [m/s] mean at the reference height; empty: the wind's own in each
     std::vector<std::int32_t> octaves{0};
     std::vector<double> persistence{0.5}; // [1] amplitude of an octave over that of the one below
-    std::vector<double> phase{
-        0};                 // [rad] of the first octave at time 0; all of a cell's octaves are as far ahead in time
+    // [rad] of the first octave at time 0; all of a cell's octaves are as far ahead in time
+    std::vector<double> phase{0};
     double frequency = 0.2; // [Hz] of the first octave
 
     bool operator==(const WindGrid&) const = default;
@@ -96,8 +96,8 @@ struct Wind {
     std::optional<WindGrid> grid;
     std::optional<WindSwirl> swirl;
     std::optional<WindShelter> shelter;
-    std::optional<double>
-        period; // [s] after which all of it repeats: each frequency is the nearest multiple of 1 / period, at least one
+    // [s] after which all of it repeats: each frequency is the nearest multiple of 1 / period, at least one
+    std::optional<double> period;
     // [s] How far turbulence and gusts are ahead of time, for a wind that was changed in a run (go_on of laws/wind.h). No document holds these.
     double turbulence_ahead = 0, gust_ahead = 0;
 
@@ -123,8 +123,8 @@ struct Attachment {
     Selector on;                  // by level: one for each of its bodies
     std::optional<Selector> with; // the other body; not by level
     std::optional<Vec3> target;   // [m] world, at rest; absent, and without keys: where the point is at the run's start
-    std::vector<double>
-        time; // [s] rising: keys of a target that moves through them as RootMotion does; none, or at least two
+    // [s] rising: keys of a target that moves through them as RootMotion does; none, or at least two
+    std::vector<double> time;
     std::vector<Vec3> position; // [m] world, one per time
     double stiffness = 0;       // [N/m] 0 or more
     double damping = 0;         // [N s/m] 0 or more
@@ -216,8 +216,8 @@ struct Fracture {
     static constexpr double never = std::numeric_limits<double>::infinity();
     double branch = never, leaf = never, petal = never,
            fruit = never; // [N m] by the kind of the body that the joint carries
-    double strength =
-        never; // [Pa] bending stress that wood stands: a branch's joint of radius r breaks at strength pi r^3 / 4 too
+    // [Pa] bending stress that wood stands: a branch's joint of radius r breaks at strength pi r^3 / 4 too
+    double strength = never;
     double spread = 0; // [1] each joint's threshold is times e^(spread z), z of a standard normal distribution by seed
     std::uint64_t seed = 1;
     struct Joint { // thresholds of single bodies, which come before the others

@@ -41,8 +41,8 @@ struct Splines {
     // What a picture shows; empty, or sRGB 0..1 of bark, leaf, petal and fruit.
     std::vector<Vec3> color;
 
-    std::int64_t bodies =
-        0; // how many bodies segment() makes of it unless told otherwise (segment.h); 0: as many as come
+    // How many bodies segment() makes of it unless told otherwise (segment.h); 0: as many as come
+    std::int64_t bodies = 0;
 
     std::string material; // the wood preset (wood.h) that goes with it, "" if nothing is known
     std::string name;     // what the tree is called, e.g. the species or the file

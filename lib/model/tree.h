@@ -24,10 +24,10 @@ struct Tree {
     std::vector<Vec3> com;            // [m] centre of mass, body frame
     std::vector<Mat3> inertia;        // [kg m^2] about the centre of mass, body axes; symmetric, not negative
     std::vector<Vec3> joint_position; // [m] own joint in the parent's body frame (world for roots): d_j^p of (10)
-    std::vector<Quat>
-        joint_rotation; // parent's body frame (world for roots) from joint frame, drawn pose: R_j^p of (7)
-    std::vector<Vec3>
-        stiffness; // [N m/rad] K about the joint frame's x, y, z: bend, bend, twist (leaf: flap, sway, twist)
+    // Parent's body frame (world for roots) from joint frame, drawn pose: R_j^p of (7)
+    std::vector<Quat> joint_rotation;
+    // [N m/rad] K about the joint frame's x, y, z: bend, bend, twist (leaf: flap, sway, twist)
+    std::vector<Vec3> stiffness;
     std::vector<double> damping; // [s] beta of (5), the stiffness-proportional Rayleigh coefficient
     std::vector<Vec3> size;      // [m] branch: length, base radius, tip radius; leaf, petal: length, width, thickness;
                                  //     fruit: joint to centre, radius, radius
@@ -38,14 +38,14 @@ struct Tree {
     // Each of these may be empty: none.
     std::vector<std::uint8_t> rigid; // 1: the body moves as its parent does, its joint holds the drawn pose (reduce.h)
     std::vector<double> load; // [kg] what of the mass lies on the drawn tree and is not carried in its equilibrium
-    std::vector<std::int32_t>
-        leaf_count; // how many leaves a leaf or petal body stands for; 1 for other kinds. From 2 on: a clump
+    // How many leaves a leaf or petal body stands for; 1 for other kinds. From 2 on: a clump
+    std::vector<std::int32_t> leaf_count;
     std::vector<double> leaf_length,
         leaf_width; // [m] of each leaf of a clump whose size says how far they spread (resolve.h); 0: the size is that of a
                     // blade of all their area
-    std::vector<double>
-        leaf_facing; // [1] 0..1, of a clump: (3 <(n.y)^2> - 1) / 2, the mean over its leaves, n their normals, y
-                     // its own: 0 facing all ways, 1 all along y (air.h); not read of other bodies
+    // [1] 0..1, of a clump: (3 <(n.y)^2> - 1) / 2, the mean over its leaves, n their normals, y its own: 0 facing all ways, 1 all along y (air.h);
+    // not read of other bodies
+    std::vector<double> leaf_facing;
     std::vector<double> drag; // [1] the air takes hold of so many times the area of its size; empty: 1 each
 
     std::string name;        // what the tree is called

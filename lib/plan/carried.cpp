@@ -1,7 +1,7 @@
 #include "carried.h"
 #include "../laws/air.h"
 #include "../laws/leaf_air.h"
-#include "reduce.h"
+#include "reduced.h"
 
 namespace bough {
 

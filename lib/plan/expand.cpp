@@ -21,12 +21,6 @@ template <class A, class Value> void expand(A& array, std::size_t bodies, Value&
     for (std::size_t i = bodies; i-- > 0;) array[i] = value(i);
 }
 
-Quat positive(const Quat& q) {
-    Quat n = q.normalized();
-    if (n.w() < 0) n.coeffs() *= -1;
-    return n;
-}
-
 } // namespace
 
 template <class T>

@@ -1,6 +1,7 @@
 #include "hold.h"
 #include "../laws/added_motion.h"
-#include "reduce.h"
+#include "../model/drawn_pose.h"
+#include "reduced.h"
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>

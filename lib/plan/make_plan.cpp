@@ -1,4 +1,5 @@
 #include "make_plan.h"
+#include "../base/angles.h"
 #include "../base/shortest_text.h"
 #include "../laws/leaf_air.h"
 #include "../laws/wind_field.h"
@@ -6,7 +7,7 @@
 #include "carried.h"
 #include "plan_reach.h"
 #include "pose.h"
-#include "reduce.h"
+#include "reduced.h"
 #include "shelter.h"
 #include <algorithm>
 #include <limits>
@@ -85,7 +86,6 @@ template <class T> void give_back_bodies(Plan<T>& plan) {
 }
 
 template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
-    constexpr double degree = 3.14159265358979323846 / 180;
     const JointLimit& limit = *plan.scene.joint_limit;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Kind kind = tree.kind[i];

@@ -8,7 +8,7 @@
 #include "../model/tree.h"
 #include "stepper.h"
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace bough {
@@ -52,8 +52,8 @@ template <class T> struct Plan {
     bool gravity = false, wind = false, forces = false, torque = false;
     bool velocity = false, velocity_wished = false; // of each body: kept, and asked for by the caller
     bool root_motion = false, joint_limit = false;
-    bool contact = false;                                   // free bodies may push the trees
-    bool loads = false;                                     // State::loads may hold some: of contacts, of walkers
+    bool contact = false; // free bodies may push the trees
+    bool loads = false;   // State::loads may hold some: of contacts, of walkers, the caller's
     bool pushes() const { return loads || !pulls.empty(); } // on single points
     bool pose = true; // false: with lanes and not wished for; of the arrays over bodies below only theta_start is there
     Copied<Stepper<T>> stepper; // how steps are made

@@ -1,7 +1,7 @@
 #include "reduce_air.h"
 #include "../base/cholesky.h"
-#include "../laws/added_motion.h"
 #include "../laws/air.h"
+#include "../model/drawn_pose.h"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 #include "settling.h"
 #include "../laws/air.h"
 #include "../laws/leaf_air.h"
-#include "../laws/wind.h"
+#include "../laws/wind_field.h"
 #include "pose.h"
-#include "reduce.h"
+#include "reduced.h"
 #include "sag.h"
 #include <algorithm>
 #include <cmath>

@@ -25,9 +25,9 @@ enum class Stage : std::uint8_t {
     free_flight,
     contacts,
     fracture,
-    walkers
+    walkers // the last
 };
-constexpr std::size_t stage_count = 18;
+constexpr std::size_t stage_count = std::size_t(Stage::walkers) + 1;
 const char* stage_name(Stage);
 
 // The seconds per stage. A step fills them in when it is given a clock; without one it reads no time.

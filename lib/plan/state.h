@@ -10,7 +10,7 @@
 
 namespace bough {
 
-// A contact's force on a body for one step.
+// A force on a body for one step: of a contact, of a walker, or the caller's.
 template <class T> struct Load {
     std::size_t body;
     Vector3<T> point_b; // [m] body frame
@@ -32,7 +32,7 @@ template <class T> struct State {
     // wind_field
     WindTable<T> wind;
 
-    std::vector<Load<T>> loads; // of the step to come; with Plan::contact
+    std::vector<Load<T>> loads; // of the step to come; with Plan::loads
 
     // root motion, one each for the plan's splines
     std::vector<Ground> ground; // present

@@ -8,8 +8,8 @@ namespace bough {
 struct StepFlags {
     std::uint64_t buckling = 0;       // a joint's stiffness with gravity was negative
     std::uint64_t bounded_lambda = 0; // lambda, the rate at which such a joint falls, was bounded
-    std::uint64_t half_turns =
-        0; // a joint turned past half a turn, and its rotation vector went on from the other side
+    // A joint turned past half a turn, and its rotation vector went on from the other side
+    std::uint64_t half_turns = 0;
     std::uint64_t energy_guard = 0; // a large turn had gained energy, which was taken back
     std::uint64_t limited = 0;      // a joint ended on its limit, which the scene asks for
     std::uint64_t fast_turns = 0;   // a body turned by more than a radian; the implicit steps bound that

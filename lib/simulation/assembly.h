@@ -20,8 +20,8 @@ struct Part {
     bool foliage = false, faces = false; // likewise
     double settling = 0;                 // [s] of the whole (settling_time)
     std::uint64_t whole = 0;             // of all trees and the whole scene, as fingerprint()
-    bool moved =
-        false; // the ground of some tree moves, of this part or another: what a still ground allows is left out
+    // The ground of some tree moves, of this part or another: what a still ground allows is left out
+    bool moved = false;
 };
 
 // The whole from which a run with held joints was reduced.

@@ -8,7 +8,6 @@
 #include "../coupled/attachment_lanes.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_places.h"
-#include "../coupled/coupled_stepper.h"
 #include "../lanes/plan_lanes.h"
 #include "../laws/wind_field.h"
 #include <string_view>

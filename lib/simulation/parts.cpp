@@ -120,58 +120,74 @@ std::vector<std::size_t> cuts(const std::vector<TreeSize>& sizes) {
     return before;
 }
 
+namespace {
+
+// Throws SceneError for a selector of the scene's `place` whose body any tree may have: a part has not all of them.
+void refuse_search(const Selector& on, const std::string& place) {
+    if (on.by == Selector::By::nearest || on.by == Selector::By::level)
+        throw SceneError("not with the scene's " + place +
+                         ", which looks for its body in all trees; name it by body or branch");
+}
+
+// Of a scene's trees, those of one part.
+struct PartTrees {
+    std::size_t first, end;
+    bool has(std::int32_t tree) const { return std::size_t(tree) >= first && std::size_t(tree) < end; }
+    void renumber(std::int32_t& tree) const { tree -= std::int32_t(first); }
+};
+
+void cut_pulls(Scene& scene, const PartTrees& trees) {
+    std::size_t k = 0;
+    std::erase_if(scene.pulls, [&](Pull& pull) {
+        refuse_search(pull.on, "/pulls/" + std::to_string(k++) + "/on");
+        if (!trees.has(pull.on.tree)) return true;
+        trees.renumber(pull.on.tree);
+        return false;
+    });
+}
+
+void cut_attachments(Scene& scene, const PartTrees& trees) {
+    std::size_t k = 0;
+    std::erase_if(scene.attachments, [&](Attachment& held) {
+        const std::string place = "/attachments/" + std::to_string(k++);
+        refuse_search(held.on, place + "/on");
+        if (held.with && (held.with->by == Selector::By::nearest || held.with->tree != held.on.tree))
+            throw SceneError("not with the scene's " + place + "/with, which goes from tree to tree");
+        if (!trees.has(held.on.tree)) return true;
+        trees.renumber(held.on.tree);
+        if (held.with) trees.renumber(held.with->tree);
+        return false;
+    });
+}
+
+void cut_curves(Wood& wood, const PartTrees& trees) {
+    std::size_t k = 0;
+    std::erase_if(wood.curves, [&](WoodCurve& curve) {
+        const std::string place = "/wood/curves/" + std::to_string(k++) + "/on";
+        if (!curve.on) return false;
+        refuse_search(*curve.on, place);
+        if (!trees.has(curve.on->tree)) return true;
+        trees.renumber(curve.on->tree);
+        return false;
+    });
+}
+
+} // namespace
+
 Scene scene_of_part(const Scene& scene, std::size_t first, std::size_t end) {
     if (const char* together = free_part(scene))
         throw SceneError(std::string("not with the scene's ") + together + ", which goes from tree to tree");
     if (scene.wind && scene.wind->shelter)
         throw SceneError("not with the scene's /wind/shelter, by which trees act on each other");
     if (scene.simulate) throw SceneError("not with the scene's /simulate, which joins bodies anew");
-    const auto within = [&](std::int32_t tree) { return std::size_t(tree) >= first && std::size_t(tree) < end; };
+    const PartTrees trees{first, end};
     Scene part = scene;
     part.trees.assign(scene.trees.begin() + std::ptrdiff_t(first), scene.trees.begin() + std::ptrdiff_t(end));
-    part.pulls.clear();
-    for (std::size_t k = 0; k < scene.pulls.size(); ++k) {
-        Pull pull = scene.pulls[k];
-        if (pull.on.by == Selector::By::nearest || pull.on.by == Selector::By::level)
-            throw SceneError("not with the scene's /pulls/" + std::to_string(k) +
-                             "/on, which looks for its body in all trees; name it by body or branch");
-        if (!within(pull.on.tree)) continue;
-        pull.on.tree -= std::int32_t(first);
-        part.pulls.push_back(std::move(pull));
-    }
-    part.attachments.clear();
-    for (std::size_t k = 0; k < scene.attachments.size(); ++k) {
-        Attachment held = scene.attachments[k];
-        if (held.on.by == Selector::By::nearest || held.on.by == Selector::By::level)
-            throw SceneError("not with the scene's /attachments/" + std::to_string(k) +
-                             "/on, which looks for its body in all trees; name it by body or branch");
-        if (held.with && (held.with->by == Selector::By::nearest || held.with->tree != held.on.tree))
-            throw SceneError("not with the scene's /attachments/" + std::to_string(k) +
-                             "/with, which goes from tree to tree");
-        if (!within(held.on.tree)) continue;
-        held.on.tree -= std::int32_t(first);
-        if (held.with) held.with->tree -= std::int32_t(first);
-        part.attachments.push_back(std::move(held));
-    }
-    if (part.wood) {
-        std::size_t k = 0;
-        std::erase_if(part.wood->curves, [&](WoodCurve& curve) {
-            const std::string at = "/wood/curves/" + std::to_string(k++) + "/on";
-            if (!curve.on) return false;
-            if (curve.on->by == Selector::By::nearest || curve.on->by == Selector::By::level)
-                throw SceneError("not with the scene's " + at +
-                                 ", which looks for its body in all trees; name it by body or branch");
-            if (!within(curve.on->tree)) return true;
-            curve.on->tree -= std::int32_t(first);
-            return false;
-        });
-    }
-    part.root_motion.clear();
-    for (RootMotion motion : scene.root_motion) {
-        if (!within(motion.tree)) continue;
-        motion.tree -= std::int32_t(first);
-        part.root_motion.push_back(std::move(motion));
-    }
+    cut_pulls(part, trees);
+    cut_attachments(part, trees);
+    if (part.wood) cut_curves(*part.wood, trees);
+    std::erase_if(part.root_motion, [&](const RootMotion& motion) { return !trees.has(motion.tree); });
+    for (RootMotion& motion : part.root_motion) trees.renumber(motion.tree);
     return part;
 }
 

@@ -104,10 +104,8 @@ std::optional<std::size_t> fill_frame(const Plan<T>& plan, const State<T>& state
         if (!std::isfinite(out.stress[i])) broken = i;
     if (!fields.pose) return broken;
     out.rotation.resize(state.R_wb.size());
-    for (std::size_t i = 0; i < state.R_wb.size(); ++i) {
-        out.rotation[i] = Quat(Mat3(state.R_wb[i].template cast<double>())).normalized();
-        if (out.rotation[i].w() < 0) out.rotation[i].coeffs() *= -1;
-    }
+    for (std::size_t i = 0; i < state.R_wb.size(); ++i)
+        out.rotation[i] = positive(Quat(Mat3(state.R_wb[i].template cast<double>())));
     return broken;
 }
 

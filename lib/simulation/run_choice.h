@@ -22,8 +22,8 @@ struct RunChoice {
     StepperMaker steppers{}; // empty: by options.method, portable and sleep
     bool poses = true;       // Wishes::pose
     bool saves = true;       // save() and restore() are called
-    bool keeps_trees =
-        true; // else, where nothing is free, the assembly's tree keeps only what make_plan says, which saves memory
+    // Else, where nothing is free, the assembly's tree keeps only what make_plan says, which saves memory
+    bool keeps_trees = true;
 };
 
 // The assembly stays the caller's and the run's. Throws SceneError.

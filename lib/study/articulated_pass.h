@@ -34,8 +34,8 @@ struct ArticulatedPass {
     std::vector<ArticulatedBody> body;
     WindTable<double> wind;
     std::vector<Ground> ground; // of each spline of root motion
-    std::span<const Vec3>
-        attached_at; // [m] of Plan::attachments: where each point is at the run's start (from the other body's)
+    // [m] of Plan::attachments: where each point is at the run's start (from the other body's)
+    std::span<const Vec3> attached_at;
     std::span<const Vec3> carried_drag; // of all bodies (carried.h), for implicit steps alone; empty: without its bound
     std::uint64_t fast = 0; // angular velocities that were bounded in quadratic terms, since the counter was read
 };

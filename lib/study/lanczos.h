@@ -33,9 +33,10 @@ public:
     const double* numbers(Eigen::Index k) const { return basis_.col(k).data(); }
 
 private:
-    Eigen::VectorXd take_out(Eigen::Index columns); // what of the first columns is in next_, which loses it
-    void start(Eigen::Index column);                // a vector of chance, orthogonal to those before it
-    void turn(const Eigen::MatrixXd& to);           // columns after those kept become their sums
+    // Returns what of the first columns is in next_, which loses it.
+    Eigen::VectorXd take_out(Eigen::Index columns);
+    void start(Eigen::Index column);      // a vector of chance, orthogonal to those before it
+    void turn(const Eigen::MatrixXd& to); // columns after those kept become their sums
 
     Eigen::Index rows_, kept_ = 0;
     Operate operate_;

@@ -53,8 +53,8 @@ void copy(float* to, const float* from, std::size_t n) {
     end_of_stores();
 }
 
-constexpr int chains =
-    12; // a multiply-add takes 4 to 5 steps of the clock, and two can begin in each; 16 registers must hold them
+// A multiply-add takes 4 to 5 steps of the clock, and two can begin in each; 16 registers must hold them
+constexpr int chains = 12;
 
 template <class T> double multiply_add(T a, T b, std::uint64_t times) {
     Wide<T> x[chains];

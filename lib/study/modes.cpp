@@ -1,7 +1,7 @@
 #include "modes.h"
 #include "../laws/air_load.h"
 #include "../laws/wind.h"
-#include "../plan/reduce.h"
+#include "../plan/reduced.h"
 #include "lanczos.h"
 #include <Eigen/Eigenvalues>
 #include <algorithm>

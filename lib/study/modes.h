@@ -19,8 +19,8 @@ struct NaturalMode {
     double damping = 0;   // [1] zeta
     double wood = 0;      // [1] of which the wood's
     Vec3 effective_mass;  // [kg] along x, y, z
-    std::vector<double>
-        share; // [1] of the kinetic energy, a number for each level of branches and one for what hangs on them (leaves, fruit)
+    // [1] of the kinetic energy, a number for each level of branches and one for what hangs on them (leaves, fruit)
+    std::vector<double> share;
     std::vector<Vec3> turn;   // [rad, world] of each joint, the farthest end moving by 1 m
     std::size_t farthest = 0; // whose far end that is
 };

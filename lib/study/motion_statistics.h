@@ -25,8 +25,8 @@ struct TopMotion {
 };
 
 struct LeafMotion {
-    Vec3 spread =
-        Vec3::Constant(NAN);      // [rad] standard deviation of theta about x, y, z: flap, sway, twist; RMS over leaves
+    // [rad] standard deviation of theta about x, y, z: flap, sway, twist; RMS over leaves
+    Vec3 spread = Vec3::Constant(NAN);
     double turn = NAN;            // [rad] mean angle between a leaf's directions in successive frames
     double fast = NAN;            // [1] share of leaves and frames in which that is above 30 degrees
     std::vector<double> spectrum; // [1] band k: k to k + 1 Hz; mean over leaves

@@ -1,5 +1,6 @@
 #include "rigid_error.h"
 #include "../laws/added_motion.h"
+#include "../model/drawn_pose.h"
 #include "../simulation/any_run.h"
 #include "trajectory.h"
 #include <algorithm>

@@ -73,9 +73,9 @@ private:
     // The factors of K; with `lift`, of blocks made positive definite. Returns the first body whose block is not, or -1.
     std::int64_t factor(const Tree&, bool lift);
     void go_over(const Tree&);
-    std::vector<Vec3>
-    softest(std::size_t body) const;           // 0.05 rad of its joint along soft_axis_, what it carries giving way
-    std::vector<Vec3> carried_moments() const; // H
+    // 0.05 rad of its joint along soft_axis_, what it carries giving way
+    std::vector<Vec3> softest(std::size_t body) const;
+    std::vector<Vec3> carried_moments() const;       // H
     std::vector<Vec3> unbalanced(const Tree&) const; // [N m] on each joint, world: what of gravity its spring leaves
     double energy(const Tree&) const;                // [J]
     // Dual of a to that of y: of torques on joints; of momenta of bodies, which it changes.

@@ -37,8 +37,8 @@ inline Scene for_solver(Scene scene, Solver solver) {
 struct SolverChoice {
     Solver solver = Solver::analytic;
     Scheme scheme = Scheme::p12; // of coupled
-    std::optional<fast::Target> simd =
-        std::nullopt;        // lanes, where they hold all that the scene has; none: the plain path
+    // Lanes, where they hold all that the scene has; none: the plain path
+    std::optional<fast::Target> simd = std::nullopt;
     double sleep = 0;        // [rad/s] coupled/sleep.h; 0: never
     double tolerance = 1e-8; // [rad] allowed in a step of articulated_reference (extrapolation.h)
 };

@@ -39,8 +39,8 @@ struct PointError {
 
 struct ErrorRun {
     std::string solver, precision;
-    std::string
-        scheme; // coupled: scheme.h's names; analytic: inertia-branch or inertia-paper. A solver's default comes first in the report
+    // Coupled: scheme.h's names; analytic: inertia-branch or inertia-paper. A solver's default comes first in the report
+    std::string scheme;
     double steps_per_frame = 1;                // 1/4 ... 64; below 1 it is frames of that many times the length
     bool finite = false;                       // the whole run; the errors are NAN where it is not
     double seconds_per_simulated_second = NAN; // [s/s] run time of the steps alone

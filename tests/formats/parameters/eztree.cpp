@@ -13,7 +13,7 @@ using namespace bough;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double degree = std::numbers::pi / 180;
 
 EzTreeParameters read(const std::string& content) {
     std::vector<std::string> notes;
@@ -95,7 +95,7 @@ TEST_CASE("A straight deciduous tree, by hand") {
         CHECK(s.radius[static_cast<std::size_t>(s.first_point[b + 1]) - 1] == Approx(0.001));
         const Vec3 way = last(s, b) - first(s, b);
         CHECK(way.norm() == Approx(3));
-        CHECK(std::acos(way.normalized().y()) == Approx(60 * kDegree));
+        CHECK(std::acos(way.normalized().y()) == Approx(60 * degree));
         turns.push_back(std::atan2(way.x(), way.z()));
     }
     for (std::size_t k = 1; k < 4; ++k)
@@ -109,7 +109,7 @@ TEST_CASE("A straight deciduous tree, by hand") {
         CHECK((s.leaf_position[i] - on).norm() < 1e-12);
         const Vec3 z = s.leaf_rotation[i] * Vec3::UnitZ();
         CHECK(std::acos(std::min(1.0, z.dot((last(s, b) - first(s, b)).normalized()))) ==
-              Approx(s.leaf_at[i] == 1 ? 0 : 10 * kDegree).margin(1e-6));
+              Approx(s.leaf_at[i] == 1 ? 0 : 10 * degree).margin(1e-6));
     }
 }
 
