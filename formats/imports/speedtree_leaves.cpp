@@ -1,4 +1,5 @@
 #include "speedtree_leaves.h"
+#include "lib/base/angles.h"
 #include "lib/base/counted.h"
 #include <algorithm>
 #include <array>

@@ -21,6 +21,7 @@
 // denormals. After a fork() the child starts helpers of its own (not from a block). When the library is unloaded, or the program ends, helpers end
 // with the block they are at.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 
 namespace bough {

@@ -1,4 +1,5 @@
 #include "blade.h"
+#include "../base/angles.h"
 #include <cmath>
 #include <numbers>
 

@@ -8,6 +8,7 @@
 // other bounds. tests/lib/free/leaf_flight.cpp holds it against (23) and (24) written out.
 #pragma once
 #include "../model/scene.h"
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

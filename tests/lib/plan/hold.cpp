@@ -2,6 +2,7 @@
 #include "lib/plan/hold.h"
 #include "lib/lanes/target.h"
 #include "lib/laws/added_motion.h"
+#include "lib/model/drawn_pose.h"
 #include "lib/study/rigid_error.h"
 #include "lib/study/solvers.h"
 #include "tests/support/held_joints.h"
