@@ -1,6 +1,7 @@
 #include "output_place.h"
 #include "temporary.h"
 #include <cerrno>
+#include <fcntl.h>
 #include <filesystem>
 #include <sys/stat.h>
 #include <system_error>
@@ -85,11 +86,36 @@ bool same_output(const OutputPlace& one, const OutputPlace& other) {
     return one.exists && other.exists && one.file == other.file;
 }
 
+namespace {
+
+// 0, or why the system will not put another file in its place though the folder may be written to: EBUSY where something is mounted on it, EPERM where
+// it is another user's in a folder whose files are their owners' alone (/tmp).
+int kept_by_system([[maybe_unused]] const OutputPlace& place) {
+#ifdef __linux__
+    const std::string folder = folder_of_place(place.path);
+    struct statx file {
+    }, around{};
+    constexpr unsigned asked = STATX_UID | STATX_MODE | STATX_MNT_ID;
+    if (::statx(AT_FDCWD, place.path.c_str(), 0, asked, &file) != 0 ||
+        ::statx(AT_FDCWD, folder.c_str(), 0, asked, &around) != 0)
+        return 0;
+    if ((file.stx_mask & around.stx_mask & STATX_MNT_ID) && file.stx_mnt_id != around.stx_mnt_id) return EBUSY;
+    const uid_t user = ::geteuid();
+    const bool kept = (around.stx_mode & S_ISVTX) && user != 0 && file.stx_uid != user && around.stx_uid != user;
+    return kept ? EPERM : 0;
+#else
+    return 0;
+#endif
+}
+
+} // namespace
+
 void require_output(const std::string& path) {
     const OutputPlace place = output_place(path);
     if (place.direct && place.path == "-") return;
     if (place.exists && ::access(place.path.c_str(), W_OK) != 0) fail(path, "cannot be written", errno);
     if (place.direct) return;
+    if (const int why = place.exists ? kept_by_system(place) : 0) fail(path, "cannot be replaced", why);
     try {
         const Temporary tried(place.path, place.mode);
     } catch (const std::system_error& error) {

@@ -84,12 +84,16 @@ void refuse_overwriting_the_model(const std::vector<NamedFile>& written) {
 
 void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std::vector<std::string>& images) {
     for (const std::string& image : images) {
-        const Written written{"", {}, {output_place(image)}};
+        const std::string folder = std::filesystem::path(image).parent_path().string();
+        std::error_code none;
+        const bool made = folder.empty() || std::filesystem::is_directory(folder, none);
+        const Written written{"", {}, {output_place(made ? image : folder)}};
         for (const NamedFile& other : named)
             if (!other.file.empty() &&
                 (other.file == "-" ? replaces(written, "-") : holds(written, output_place(other.file))))
                 throw UsageError("-o: an image beside it would be '" + image + "', the file of " + other.option +
                                  "; expected another name");
+        require_output(made ? image : folder);
     }
 }
 

@@ -315,7 +315,7 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
     if (format == "vat") require_output_folder(o.common.output);
     std::error_code none;
     if (format == "vat" && !std::filesystem::exists(without_slash(o.common.output), none))
-        written = {{"--save-state", o.save_state}};
+        written = {{"-o", without_slash(o.common.output)}, {"--save-state", o.save_state}};
     written.push_back({"--save-tree", o.save_tree});
     require_outputs(written);
 }

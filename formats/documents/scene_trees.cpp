@@ -75,6 +75,8 @@ ordered_json value_of(const Walker& walker) {
 
 std::string tree_file(const std::string& scene_file, const Placement& place) {
     const std::filesystem::path folder = scene_file == "-" ? "." : std::filesystem::path(scene_file).parent_path();
+    if (place.file.find('\0') != std::string::npos)
+        throw InputError(input_name(scene_file) + ": /trees", "names a file by a text with a NUL in it");
     std::string path = (folder / place.file).string();
     if (path == "-") path = "./-"; // stdin is the user's to name, not a file's
     if (!within_reach(path, folder.string()))

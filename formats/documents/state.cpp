@@ -91,6 +91,9 @@ void check_state(const SavedState& state, const std::string& name) {
                          ", expected 1 to the number of /parts");
     if (!(state.fps > 0)) fail("fps", "is not above 0, expected frames a second");
     if (state.substeps < 1) fail("substeps", "is " + std::to_string(state.substeps) + ", expected 1 or more");
+    if (double(state.frame) * state.substeps > 9e15)
+        fail("frame", "is " + std::to_string(state.frame) + ", of " + std::to_string(state.substeps) +
+                          " steps each, expected at most 9e15 steps");
     if (state.precision != "float" && state.precision != "double")
         fail("precision", "is \"" + state.precision.substr(0, 20) + "\", expected \"float\" or \"double\"");
     check_carried(state, name);

@@ -1,4 +1,5 @@
 #include "own_mesh.h"
+#include "formats/free_memory.h"
 #include <limits>
 #include <stdexcept>
 
@@ -21,6 +22,11 @@ Skin skin_of(const OwnMesh& mesh) {
     for (const OwnPart& part : mesh.part) vertices += vertices_of(mesh, part), triangles += triangles_of(mesh, part);
     if (vertices > std::size_t(std::numeric_limits<std::int32_t>::max()))
         throw std::length_error("a mesh of " + std::to_string(vertices) + " vertices, more than an index holds");
+    constexpr std::size_t vertex_bytes = 90;
+    if (const std::size_t left = free_memory().value_or(SIZE_MAX); left / vertex_bytes < vertices)
+        throw std::length_error("a mesh of " + std::to_string(vertices) + " vertices takes " +
+                                std::to_string(vertices * vertex_bytes >> 20) + " MB, and " +
+                                std::to_string(left >> 20) + " MB are free");
     Skin skin;
     skin.position.reserve(vertices);
     skin.normal.reserve(vertices);

@@ -56,7 +56,7 @@ std::size_t vertices_of(const OwnMesh&, const OwnPart&);
 std::size_t triangles_of(const OwnMesh&, const OwnPart&);
 
 // All of it as a skin, for writers of meshes frame by frame: the first set of UV, v counted from the bottom up. O(vertices), 90 bytes each.
-// Throws std::length_error beyond 2^31 - 1 vertices.
+// Throws std::length_error beyond 2^31 - 1 vertices, and for more than free memory holds.
 Skin skin_of(const OwnMesh&);
 
 // take(surface, vertex, place or null) for each vertex of a part, in the order in which they are written.

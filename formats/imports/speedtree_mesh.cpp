@@ -12,7 +12,7 @@ class MeshReader {
 public:
     MeshReader(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
                const Eigen::Affine3d& world, const Eigen::AlignedBox3d& within)
-        : elements_(content, name), world_(world), within_(within) {
+        : elements_(content, name), lines_(content), world_(world), within_(within) {
         for (std::size_t b = 0; b < bones.size(); ++b) bones_.emplace(bones[b].id, std::int32_t(b));
     }
 
@@ -40,7 +40,7 @@ private:
         for (const pugi::xml_node& map : node.children("Map")) {
             Map read;
             read.name = map.attribute("Name").value();
-            read.line = f.line(map);
+            read.line = lines_.line_of(f.offset(map));
             for (const pugi::xml_attribute& attribute : map.attributes())
                 if (read.file.empty() && lower_case(attribute.name()).starts_with("file"))
                     read.file = trimmed(attribute.value());
@@ -169,6 +169,7 @@ private:
     }
 
     const Elements elements_;
+    LineCounter lines_;
     const Eigen::Affine3d world_;
     const Eigen::AlignedBox3d within_;
     IndexOf bones_, materials_;

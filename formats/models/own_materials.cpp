@@ -45,11 +45,10 @@ public:
 
     void add(const MeshMaterial& material) {
         Json pbr, json{{"name", material.name}};
-        bool masked = false;
         const Map* const color = color_map(material);
         const Map* const opacity = map_of(material, {"opacity", "alpha"});
-        const int base = base_image(color, opacity, masked);
-        Vec3 factor = base >= 0 && color && texture(color) ? Vec3(Vec3::Ones()) : color_of(material);
+        const auto [base, masked] = base_image(color, opacity);
+        const Vec3 factor = base >= 0 && color && !path_of(*color).empty() ? Vec3(Vec3::Ones()) : color_of(material);
         pbr["baseColorFactor"] = {linear(factor[0]), linear(factor[1]), linear(factor[2]), 1.0};
         if (base >= 0) pbr["baseColorTexture"] = {{"index", base}};
         pbr["metallicFactor"] = 0.0;
@@ -93,22 +92,33 @@ public:
     }
 
 private:
+    // Where the map's image is, "" where there is none. Names that lead to one file have one path, so that it is embedded once.
+    const std::string& path_of(const Map& map) {
+        const auto [found, added] = path_.try_emplace(map.file);
+        if (!added || map.file.empty()) return found->second;
+        TexturePlaces looked;
+        const std::string path = textures_.find(map.file, looked);
+        if (path.empty()) {
+            missing_.emplace_back(map.file, std::move(looked));
+            return found->second;
+        }
+        const std::string read = readable(map.file, path);
+        std::error_code none;
+        if (!read.empty()) found->second = std::filesystem::canonical(read, none).string();
+        if (none) found->second = read;
+        read_.try_emplace(found->second, read);
+        return found->second;
+    }
+
     // Null: not found, or none is named.
     const Texture* texture(const Map* map) {
         if (!map || map->file.empty()) return nullptr;
         used_.insert(map);
-        if (const auto found = texture_.find(map->file); found != texture_.end()) return &found->second;
-        if (!not_found_.insert(map->file).second) return nullptr;
-        TexturePlaces looked;
-        const std::string path = textures_.find(map->file, looked);
-        if (path.empty()) {
-            missing_.emplace_back(map->file, std::move(looked));
-            return nullptr;
-        }
-        const std::string read = readable(map->file, path);
-        if (read.empty()) return nullptr;
-        not_found_.erase(map->file);
-        return &texture_.emplace(map->file, read_texture(read, file_line(name_, map->line))).first->second;
+        const std::string& path = path_of(*map);
+        if (path.empty()) return nullptr;
+        const auto found = texture_.find(path);
+        if (found != texture_.end()) return &found->second;
+        return &texture_.emplace(path, read_texture(read_.at(path), file_line(name_, map->line))).first->second;
     }
 
     // The path itself; of an image of a kind that is not read, that of one of the same name beside it that may be, "" where there is none. A note
@@ -147,25 +157,39 @@ private:
     }
 
     int plain_image(const Map* map) {
-        if (const int index = map ? known(map->file) : -1; index >= 0) {
+        if (!map) return -1;
+        const std::string key = path_of(*map);
+        if (const int index = known(key); index >= 0) {
             used_.insert(map);
             return index;
         }
         const Texture* const found = texture(map);
         if (!found) return -1;
         const std::string name = image_name(map->file);
-        if (!found->type.empty()) return add_image(map->file, name, found->type, found->bytes);
-        return add_image(map->file, name, "image/png",
+        if (!found->type.empty()) return add_image(key, name, found->type, found->bytes);
+        return add_image(key, name, "image/png",
                          png_of(found->pixels.width, found->pixels.height, 4, found->pixels.rgba));
     }
 
-    int base_image(const Map* color, const Map* opacity, bool& masked) {
+    // The image of a material's colour and its mask; materials that share both share it, and its files are decoded once.
+    struct Base {
+        int image = -1;
+        bool masked = false;
+    };
+    Base base_image(const Map* color, const Map* opacity) {
+        const auto key = std::pair(color ? path_of(*color) : "", opacity ? path_of(*opacity) : "");
+        const auto [found, added] = base_.try_emplace(key);
+        if (added) found->second.image = made_base(color, opacity, found->second.masked);
+        for (const Map* map : {color, opacity})
+            if (map && !map->file.empty()) used_.insert(map);
+        return found->second;
+    }
+    int made_base(const Map* color, const Map* opacity, bool& masked) {
         const Texture* const base = texture(color);
         const Texture* const mask = texture(opacity);
         masked = mask || (base && base->pixels.transparent());
         if (!mask || (base == mask && base->pixels.transparent() && !flip_opacity_)) return plain_image(color);
-        const std::string key = (base ? color->file : "") + "\n" + opacity->file;
-        if (const int index = known(key); index >= 0) return index;
+        const std::string key = (base ? path_of(*color) : "") + "\n" + path_of(*opacity);
         const Pixels& from = base ? base->pixels : mask->pixels;
         const int channel = mask->pixels.transparent() ? 3 : 0;
         std::vector<std::uint8_t> rgba = base ? from.rgba : std::vector<std::uint8_t>(from.rgba.size(), 255);
@@ -181,10 +205,14 @@ private:
 
     // `inverted`: the map is gloss, not roughness.
     int gloss_image(const Map* map, bool inverted) {
+        if (!map || map->file.empty()) return -1;
+        const std::string key = path_of(*map) + (inverted ? "\ngloss" : "\nroughness");
+        if (const int index = known(key); index >= 0) {
+            used_.insert(map);
+            return index;
+        }
         const Texture* const found = texture(map);
         if (!found) return -1;
-        const std::string key = map->file + (inverted ? "\ngloss" : "\nroughness");
-        if (const int index = known(key); index >= 0) return index;
         const Pixels& from = found->pixels;
         std::vector<std::uint8_t> rgb(from.rgba.size() / 4 * 3, 0);
         for (std::size_t k = 0; k < rgb.size() / 3; ++k)
@@ -198,9 +226,11 @@ private:
     const bool flip_opacity_;
     OwnMesh& mesh_;
     ImportNotes& notes_;
-    std::map<std::string, Texture> texture_;
+    std::map<std::string, std::string> path_; // of the names that maps have
+    std::map<std::string, std::string> read_; // of a path, as a map leads to it: what messages show
+    std::map<std::string, Texture> texture_;  // by paths, as all below
     std::map<std::string, int> image_;
-    std::set<std::string> not_found_;
+    std::map<std::pair<std::string, std::string>, Base> base_;
     std::vector<std::pair<std::string, TexturePlaces>> missing_;
     std::set<std::string> noted_;     // files of kinds that are not read
     std::vector<std::string> unread_; // notes of them

@@ -67,6 +67,12 @@ image tree.glb leaf >leaf.txt
 [[ $(head -1 leaf.txt) == "0,100,20,255 10,100,20,255 "* && $(sed -n 3p leaf.txt) == "0,120,20,0 "* ]] || fail "colour and opacity in one: $(cat leaf.txt)"
 [[ $(json tree.glb 'g["materials"][1]["alphaMode"], g["materials"][1]["alphaCutoff"], g["materials"][1]["doubleSided"]') == "('MASK', 0.5, True)" ]] || fail "the leaf's material: $(json tree.glb 'g["materials"][1]')"
 [[ $(json tree.glb 'g["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"], "normalTexture" in g["materials"][0]') == "(0.75, False)" ]] || fail "the bark's material"
+# One image under other spellings is embedded once.
+sed 's,File="leaf.png",File="./textures/.././leaf.png",' art/tree.xml >art/spelled.xml
+sed -i 's,<Map Name="Normal" File="[^"]*"/>,<Map Name="Normal" File="./leaf.png"/><Map Name="AO" File="textures/../leaf.png"/>,' art/spelled.xml
+expect 0 treesim art/spelled.xml --frames 2 -o spelled.glb
+[[ $(json spelled.glb 'len(g["images"]), g["materials"][0]["normalTexture"] == g["materials"][0]["occlusionTexture"]') == "(3, True)" ]] ||
+    fail "one image, spelled three ways: $(json spelled.glb 'g["images"], g["materials"][0]')"
 # The top of the image, v = 0 in glTF, is where TexcoordV is 1.
 [[ $(json tree.glb 'g["animations"][0]["name"], len(g["meshes"][0]["primitives"])') == "('motion', 2)" ]] || fail "one animated mesh of two materials"
 

@@ -16,6 +16,12 @@ END
     fail "two trees are not twice one"
 sed 's,trees/oak,trees/elm,' place/scene.json >place/lost.json
 refused 2 "trees/elm.json" treesim place/lost.json
+# Small files that ask for more bodies than there are numbers are refused before the trees stand.
+treegen --bodies 100000 --seed 1 -q | treeconvert - -q -o place/trees/large.safetensors
+python3 -c 'import json; print(json.dumps({"format": "bough-scene", "version": 1, "trees": [{"file": "trees/large.safetensors"}] * 30000}))' >place/forest.json
+refused 2 "bodies, expected at most 2147483647" treesim place/forest.json --frames 2 --no-output
+sed 's,trees/oak,trees/oak.json\\u0000,' place/scene.json >place/nul.json
+refused 2 "place/nul.json: /trees: names a file by a text with a NUL in it" treesim place/nul.json --frames 2 --no-output
 sed 's,"trees",/"trees",' place/scene.json >place/broken.json
 refused 2 "place/broken.json" treesim place/broken.json
 

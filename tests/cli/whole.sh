@@ -46,7 +46,29 @@ refused 4 "missing/f_0000.obj: cannot be" "${long[@]}" -o missing/f_%04d.obj
 refused 4 "there: cannot be written: Is a directory" "${long[@]}" --no-output --save-state there
 refused 4 "missing/r.json: cannot be" treeprofile stages tree.json --seconds 1e6 --report missing/r.json
 refused 4 "missing/x.json: cannot be" treegen --bodies 20000000 -o missing/x.json
+refused 1 "the same file as -o" "${long[@]}" -o oak_vat/ --save-state oak_vat
 absent
+# So is what the system will not let go of: a file on which another is mounted, another user's in a folder such as /tmp.
+: >under.json
+if mount --bind tree.json under.json 2>/dev/null; then
+    code=0
+    "${long[@]}" -o under.json 2>err || code=$?
+    umount under.json
+    [[ $code -eq 4 ]] && grep -q "under.json: cannot be replaced" err || fail "a mount point: exit $code, $(cat err)"
+fi
+other=(setpriv --reuid 65534 --regid 65534 --clear-groups "$(type -P treesim)")
+if [[ $EUID -eq 0 ]] && "${other[@]}" --version >/dev/null 2>&1; then
+    shared=$(mktemp -d /tmp/bough-test-XXXXXX)
+    chmod 1777 "$shared"
+    cp tree.json "$shared/in.json"
+    : >"$shared/out.json"
+    chmod 666 "$shared"/*.json
+    code=0
+    "${other[@]}" "$shared/in.json" --seconds 1e9 -o "$shared/out.json" 2>err || code=$?
+    [[ $code -eq 4 ]] && grep -q "out.json: cannot be replaced" err || fail "another's file in a shared folder: exit $code, $(cat err)"
+    rm -r "$shared"
+fi
+rm -f under.json
 
 # Whatever ends a run, no unfinished file stays: killed, quit, out of processor time, interrupted twice.
 if [[ -d /dev/shm && -w /dev/shm ]]; then folders="$work/killed $(mktemp -d /dev/shm/bough-test-XXXXXX)"; else folders=$work/killed; fi

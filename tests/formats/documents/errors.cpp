@@ -305,6 +305,18 @@ TEST_CASE("a saved state has what its solver carries, whole, and nothing of anot
           "s: /scaled_rate: is there, but solver \"coupled\" has none");
     CHECK_THAT(error("coupled", scheme + change + ", \"theta_dot_change\": [1, 2]"), Contains("/theta_dot_change"));
     CHECK(error("a\\nb", change + rate).find('\n') == std::string::npos);
+    const auto at = [](const std::string& frame, const std::string& substeps) {
+        return error_of([&] {
+            read_state("{\"format\": \"bough-state\", \"version\": 1, \"frame\": " + frame +
+                           ", \"fps\": 30, \"substeps\": " + substeps +
+                           ", \"precision\": \"double\", \"fingerprint\": \"00c0ffee00c0ffee\", \"theta\": [1, 2, 3], "
+                           "\"theta_dot\": [4, 5, 6], \"solver\": \"analytic\", \"scaled_rate\": [1, 2, 3]}",
+                       "s");
+        });
+    };
+    CHECK(at("9000000000000000", "1").empty());
+    CHECK_THAT(at("9223372036854775807", "1"), Contains("s: /frame: is 9223372036854775807"));
+    CHECK_THAT(at("9000000000000", "1000000"), Contains("expected at most 9e15 steps"));
 }
 
 TEST_CASE("cut or with any byte changed, a document is read as it stands or refused") {
