@@ -28,7 +28,8 @@ std::int64_t age(const FileVersion& version) {
 FileVersion file_version(int file) {
     struct stat known {};
     if (::fstat(file, &known) != 0) return {};
-    return {known.st_size, known.st_mtim.tv_sec, known.st_mtim.tv_nsec};
+    return {known.st_size, known.st_mtim.tv_sec, known.st_mtim.tv_nsec, std::uint64_t(known.st_dev),
+            std::uint64_t(known.st_ino)};
 }
 
 FileVersion settled_version(int file) {

@@ -4,9 +4,10 @@
 
 namespace bough {
 
-// As the file was written last: its length and the time, as far as the file system tells it.
+// Which file it is, and as it was written last: its length and the time, as far as the file system tells it.
 struct FileVersion {
     std::int64_t size = 0, seconds = 0, nanoseconds = 0;
+    std::uint64_t device = 0, number = 0;
     bool operator==(const FileVersion&) const = default;
 };
 FileVersion file_version(int file); // an open descriptor

@@ -1,4 +1,5 @@
 #include "mapped.h"
+#include "held_inputs.h"
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -12,6 +13,12 @@ MappedInput::MappedInput(const std::string& path) : name_(input_name(path)) {
     file_ = regular ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : -1;
     if (file_ >= 0 && ::fstat(file_, &known) == 0 && S_ISREG(known.st_mode) && known.st_size > 0) {
         opened_ = settled_version(file_);
+        try {
+            require_held(path, opened_);
+        } catch (...) {
+            ::close(file_);
+            throw;
+        }
         void* pages = ::mmap(nullptr, std::size_t(opened_.size), PROT_READ, MAP_PRIVATE, file_, 0);
         if (pages != MAP_FAILED) {
             pages_ = static_cast<const char*>(pages);

@@ -1,5 +1,6 @@
 #include "open.h"
 #include "free_memory.h"
+#include "held_inputs.h"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -99,9 +100,11 @@ void require_unchanged(int fd, const FileVersion& opened, const std::string& nam
         throw InputError(name, "was written to while it was read, expected a finished file");
 }
 
-std::string read_all(int fd, const struct stat& status, const std::string& name) {
+std::string read_all(int fd, const struct stat& status, const std::string& path) {
+    const std::string name = input_name(path);
     if (!S_ISREG(status.st_mode)) return read_all(fd, 65536, true, name);
     const FileVersion opened = settled_version(fd);
+    if (path != "-") require_held(path, opened);
     std::string content = read_all(fd, opened.size > 0 ? std::size_t(opened.size) : 65536, false, name);
     require_unchanged(fd, opened, name);
     return content;
@@ -137,7 +140,7 @@ std::size_t binary_header(int fd, std::uint64_t size, const std::string& name) {
 std::string read_input(const std::string& path) {
     const std::string name = input_name(path);
     const Descriptor file = open_descriptor(path);
-    return read_all(file.fd, status_of(file.fd, name), name);
+    return read_all(file.fd, status_of(file.fd, name), path);
 }
 
 Input::Input(const std::string& path) : name_(input_name(path)) {
@@ -148,6 +151,7 @@ Input::Input(const std::string& path) : name_(input_name(path)) {
     const bool regular = file.owned && S_ISREG(status.st_mode);
     if (regular) opened_ = settled_version(file.fd);
     if (regular) size_ = std::uint64_t(opened_.size);
+    if (regular) require_held(path, opened_);
     if (const std::size_t header = regular ? binary_header(file.fd, size_, name_) : 0) {
         content_.resize(header);
         read_at(file.fd, 0, header, content_.data(), name_);
@@ -155,7 +159,7 @@ Input::Input(const std::string& path) : name_(input_name(path)) {
         file_ = std::exchange(file.fd, -1);
         return;
     }
-    content_ = read_all(file.fd, status, name_);
+    content_ = read_all(file.fd, status, path);
     size_ = content_.size();
 }
 

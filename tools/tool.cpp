@@ -1,5 +1,6 @@
 #include "tool.h"
 #include "file_names.h"
+#include "formats/held_inputs.h"
 #include "formats/in_shell.h"
 #include "formats/nearest_name.h"
 #include "formats/plain_text.h"
@@ -53,6 +54,7 @@ void prepare_process(const ToolInfo& info) {
     hold_standard_streams();
     std::setlocale(LC_ALL, "C");
     catch_signals(info.name);
+    hold_inputs();
 }
 
 std::string joined(const std::string& name, int argc, char** argv) {

@@ -1,5 +1,6 @@
 #include "watch.h"
 #include "file_names.h"
+#include "formats/held_inputs.h"
 #include "formats/plain_text.h"
 #include "signals.h"
 #include <chrono>
@@ -57,6 +58,7 @@ void watch(const TreesimOptions& o, const std::function<std::int64_t()>& run) {
     interrupt_at_boundary();
     Files files{o.run.input};
     for (;;) {
+        hold_inputs();
         try {
             files = files_read(o.run);
             if (!o.skin.empty()) files.push_back(o.skin);
@@ -75,6 +77,7 @@ void watch(const TreesimOptions& o, const std::function<std::int64_t()>& run) {
         std::string line;
         bool failed = false;
         try {
+            hold_inputs();
             line = made(o, run(), start);
         } catch (const Interrupted&) {
             throw;

@@ -1,0 +1,58 @@
+// held_inputs.h: a path that is opened twice for one result leads to one file.
+#include "formats/held_inputs.h"
+#include "formats/mapped.h"
+#include "formats/open.h"
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace bough;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Holding {
+    fs::path folder = fs::temp_directory_path() / ("bough_held_" + std::to_string(::getpid()));
+    Holding() {
+        fs::create_directory(folder);
+        hold_inputs();
+    }
+    ~Holding() {
+        hold_inputs(false);
+        fs::remove_all(folder);
+    }
+    std::string file(const char* name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+        return (folder / name).string();
+    }
+};
+
+} // namespace
+
+TEST_CASE("an input that is another file, or written anew, when it is opened again is refused, however it is opened") {
+    const Holding holding;
+    const std::string a = holding.file("a", "one"), b = holding.file("b", "two");
+    CHECK(read_input(a) == "one");
+    CHECK(Input(a).content() == "one");
+    CHECK(MappedInput(a).content() == "one");
+    fs::rename(b, a);
+    CHECK_THROWS_WITH(read_input(a), Catch::Contains("a: was replaced while it was read"));
+    CHECK_THROWS_AS(Input(a), InputError);
+    CHECK_THROWS_AS(MappedInput(a), InputError);
+    hold_inputs();
+    CHECK(MappedInput(a).content() == "two");
+    holding.file("a", "six");
+    CHECK_THROWS_AS(read_input(a), InputError);
+    hold_inputs(false);
+    CHECK(read_input(a) == "six");
+    holding.file("a", "ten");
+    CHECK(read_input(a) == "ten");
+}
+
+TEST_CASE("a pipe, which is no file, is read as it comes") {
+    const Holding holding;
+    const std::string never = "/dev/null";
+    CHECK(read_input(never).empty());
+    CHECK(read_input(never).empty());
+}
