@@ -30,6 +30,32 @@ struct.pack_into({5123: "<H", 5125: "<I"}[accessor["componentType"]], data, at, 
 open("index.glb", "wb").write(data)
 P
 refused 2 "index.glb: mesh 0, primitive 0: its indices name vertex 65535, expected 0 to " "$pose" at 0 index.glb x.glb
+# A node below itself is walked for ever. A file beside is not reached, which f3d would open wherever it is.
+python3 - <<'P'
+import json, struct
+corners = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+def put(name, high=1, **more):
+    model = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+             "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3, "bufferView": 0, "min": [0, 0, 0], "max": [high, high, 0]}],
+             "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36}], **more}
+    text = json.dumps(model).encode()
+    text += b" " * (-len(text) % 4)
+    open(name, "wb").write(struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + 36, len(text), 0x4E4F534A) + text + struct.pack("<II", 36, 0x004E4942) + corners)
+put("cycle.glb", nodes=[{"mesh": 0, "children": [0]}])
+put("loose.glb", scenes=[], nodes=[{"mesh": 0, "children": [1]}, {"mesh": 0}])
+put("buffer.glb", buffers=[{"byteLength": 36, "uri": "../../secret.bin"}])
+put("image.glb", images=[{"uri": "secret.png"}])
+put("within.glb", images=[{"uri": "data:image/png;base64,AAAA"}])
+put("endless.glb", high=1e300)
+put("list.glb", nodes=[[]])
+P
+refused 2 "cycle.glb: node 0 is reached twice, expected a tree of nodes" "$pose" box cycle.glb
+refused 2 "cycle.glb: node 0 is reached twice, expected a tree of nodes" "$pose" at 0 cycle.glb x.glb
+expect 0 "$pose" box loose.glb
+refused 2 "buffer.glb: buffer 0 is in the file '../../secret.bin', expected all in the .glb" "$pose" at 0 buffer.glb x.glb
+refused 2 "image.glb: image 0 is in the file 'secret.png', expected all in the .glb" "$pose" at 0 image.glb x.glb
+expect 0 "$pose" at 0 within.glb x.glb
+refused 2 "list.glb: is no glTF 2.0" "$pose" box list.glb
 # A video wants ffmpeg: without it, it is said what to install.
 mkdir -p without
 for program in bash awk tr head dirname f3d Xvfb mogrify python3; do
@@ -81,4 +107,38 @@ refused 2 "joints, of which f3d draws 1020 at most" "$picture" none.png jointed.
 head -c 40 maple.glb >cut.glb
 refused 2 "is no glTF 2.0" "$picture" none.png cut.glb
 refused 1 "does not end in" "$picture" none.tif maple.glb
+# What f3d says in colours comes without them.
+refused 4 "endless.glb: f3d failed: " "$picture" none.png endless.glb
+! grep -q '[[:cntrl:]]' err || fail "control characters of f3d's: $(cat -v err)"
+
+# What an OBJ names and its mtl is in the OBJ's folder or below. (A link to it was put where its name led from the scratch folder.)
+mkdir -p model/a/b/c/in model/victim victim scratch
+echo theirs | tee model/victim/kept.txt >model/a/b/kept.mtl
+echo mine >victim/kept.txt
+ln -s ../../../../victim/kept.txt model/a/b/c/link.png
+convert -size 8x8 xc:red model/a/b/c/in/red.png
+named() { # MTL, TEXTURE: what the model and its materials name
+    printf 'mtllib %s\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n' "$1" >model/a/b/c/m.obj
+    printf 'newmtl m\nKd 1 1 1\nmap_Kd %s\n' "$2" >model/a/b/c/m.mtl
+}
+export TMPDIR=$PWD/scratch
+for texture in ../../../victim/kept.txt in/../../kept.mtl "$PWD/victim/kept.txt" link.png; do
+    named m.mtl "$texture"
+    refused 2 "names '$texture', which leads out of the folder of the file that names it" "$picture" none.png model/a/b/c/m.obj
+done
+for materials in ../kept.mtl "$PWD/victim/kept.txt" link.png; do
+    named "$materials" in/red.png
+    refused 2 "names '$materials', which leads out of the folder of the file that names it" "$picture" none.png model/a/b/c/m.obj
+done
+[[ $(cat victim/kept.txt) == mine && ! -L victim/kept.txt ]] || fail "a model's texture took the place of a file"
+
+# What the user has beside OUT stays, and nothing else does.
+named m.mtl in/red.png
+mkdir beside
+echo mine >beside/red.png.part
+expect 0 "$picture" --size 40x40 beside/red.png model/a/b/c/m.obj
+[[ $(convert beside/red.png -format '%[fx:minima.g<0.1 && maxima.r>0.8]' info:) == 1 ]] || fail "the texture is not drawn"
+[[ $(ls -A beside) == $'red.png\nred.png.part' && $(cat beside/red.png.part) == mine && -z $(ls -A scratch) ]] || fail "beside OUT: $(ls -A beside scratch)"
+[[ $(stat -c %a beside/red.png) == "$(stat -c %a beside/red.png.part)" ]] || fail "OUT is $(stat -c %A beside/red.png)"
+refused 4 "cannot be written" "$picture" --size 40x40 gone/red.png model/a/b/c/m.obj
 absent none.gif none.png none.mp4
