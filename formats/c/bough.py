@@ -31,6 +31,8 @@ import functools
 import os
 import pathlib
 import re
+import secrets
+import stat
 import weakref
 
 import numpy as np
@@ -318,11 +320,35 @@ def _content(source):
         except TypeError:
             raise UsageError(f"source: is {type(source).__name__}, expected a file's name, bytes, or what has read()") from None
     try:
-        return pathlib.Path(source).read_bytes(), source
+        with pathlib.Path(source).open("rb") as file:
+            if stat.S_IFMT(os.fstat(file.fileno()).st_mode) in (stat.S_IFCHR, stat.S_IFBLK):
+                raise InputError(f"{source}: is a device, expected a file")
+            return file.read(), source
     except OSError as error:
         raise InputError(f"{source or repr(source)}: {error.strerror}") from error
     except ValueError as error:  # a NUL in it
         raise InputError(f"{source!r}: {error}") from error
+
+
+def _save(file, content):
+    """All of it under that name, or what was there before. A link stays, as does a pipe or device, which gets the bytes."""
+    known = os.stat(file) if os.path.exists(file) else None
+    if known and not stat.S_ISREG(known.st_mode):
+        pathlib.Path(file).write_bytes(content)
+        return
+    path = pathlib.Path(os.path.realpath(file))
+    if known:
+        path.open("r+b").close()  # refused where the file itself may not be written to
+    beside = path.with_name(f".bough-{secrets.token_hex(8)}")
+    try:
+        with beside.open("xb") as made:
+            if known:
+                os.fchmod(made.fileno(), stat.S_IMODE(known.st_mode))
+            made.write(content)
+        os.replace(beside, path)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
 
 
 class _HasBodies:
@@ -438,7 +464,7 @@ class Tree(_NeverChanges, _HasBodies):
         if not isinstance(file, (str, os.PathLike)):
             raise UsageError(f"file: is {type(file).__name__}, expected a file's name")
         try:
-            pathlib.Path(file).write_bytes(self.to_bytes())
+            _save(file, self.to_bytes())
         except OSError as error:
             raise OutputError(f"{file}: {error.strerror}") from error
 
@@ -576,6 +602,8 @@ def read_scene(file, outside=False):
         if name not in known:
             if not outside and not (folder / name).resolve().is_relative_to(folder.resolve()):
                 raise InputError(f"{file}: /trees: names '{name}', which leads out of the folder of the file that names it; outside=True lets it")
+            if (folder / name).exists() and not (folder / name).is_file() and not (folder / name).is_dir():
+                raise InputError(f"{file}: /trees: names '{name}', which is no regular file, expected one: what a file names is not read from a pipe or device")
             known[name] = read_tree(folder / name)
         scene.put(place, known[name])
     return scene

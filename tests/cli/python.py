@@ -1,11 +1,15 @@
 """bough.py against the tools' documents, read here with json, against geometry, and against itself where it must not differ. Run by python.sh in a folder
 that has birch.json (a tree), park.json (a scene of it), birch.jsonl (its motion), park.hash, birch.state. Prints nothing where all is well."""
+import contextlib
 import copy
 import gc
 import json
 import math
+import os
 import pathlib
 import pickle
+import resource
+import signal
 import tempfile
 import threading
 import types
@@ -321,6 +325,43 @@ pathlib.Path("below").mkdir()
 pathlib.Path("below/scene.json").write_text('{"format": "bough-scene", "version": 1, "trees": [{"file": "../birch.json"}]}')
 raises(bough.InputError, "names '../birch.json', which leads out of the folder", lambda: bough.read_scene("below/scene.json"))
 assert bough.read_scene("below/scene.json", outside=True).files == ["../birch.json"]
+# What would be waited for or read without end is not begun. (Before, a pipe hung and a device took all the memory.)
+@contextlib.contextmanager
+def at_most(kind, amount):
+    before = resource.getrlimit(kind)
+    resource.setrlimit(kind, (amount, before[1]))
+    yield
+    resource.setrlimit(kind, before)
+
+
+os.mkfifo("below/pipe")
+pathlib.Path("below/piped.json").write_text('{"format": "bough-scene", "version": 1, "trees": [{"file": "pipe"}]}')
+signal.alarm(20)
+raises(bough.InputError, "below/piped.json: /trees: names 'pipe', which is no regular file, expected one: what a file names is not read from a pipe or device",
+       lambda: bough.read_scene("below/piped.json"))
+signal.alarm(0)
+with at_most(resource.RLIMIT_AS, 4 << 30):
+    raises(bough.InputError, "/dev/zero: is a device, expected a file", lambda: bough.read_tree("/dev/zero"))
+
+# A file is saved whole, or stays as it was, with its permissions; a link stays one; a pipe gets the bytes.
+os.chmod("saved.safetensors", 0o640)
+kept = pathlib.Path("saved.safetensors").read_bytes()
+os.symlink("saved.safetensors", "link.safetensors")
+here = sorted(os.listdir())
+small = bough.convert(bough.grow("palm", bodies=50))
+with at_most(resource.RLIMIT_FSIZE, 1000):
+    raises(bough.OutputError, "saved.safetensors: File too large", lambda: small.save("saved.safetensors"))
+assert pathlib.Path("saved.safetensors").read_bytes() == kept and sorted(os.listdir()) == here
+small.save("link.safetensors")
+assert os.path.islink("link.safetensors") and pathlib.Path("saved.safetensors").read_bytes() == small.to_bytes() != kept
+assert os.stat("saved.safetensors").st_mode & 0o777 == 0o640 and sorted(os.listdir()) == here
+got = []
+reader = threading.Thread(target=lambda: got.append(pathlib.Path("below/pipe").read_bytes()))
+reader.start()
+small.save("below/pipe")
+reader.join()
+assert got == [small.to_bytes()]
+tree.save("saved.safetensors")
 raises(bough.UsageError, "has no tree; Scene.add() gives it one", lambda: bough.Simulation(bough.Scene()))
 raises(bough.UsageError, "wind: is 'gale'", lambda: bough.Scene(wind="gale"))
 raises(bough.UsageError, "position: has shape (2,)", lambda: bough.Scene().add(tree, (0, 0)))
