@@ -59,10 +59,40 @@ hexadecimal=$(printf '%04X' "$port")
 bound=$(awk -v port=":$hexadecimal" '$4 == "0A" && substr($2, length($2) - 4) == port { print $2 }' /proc/net/tcp /proc/net/tcp6)
 [[ $bound == "0100007F:$hexadecimal" ]] || fail "bound to '$bound'"
 
+# A file goes out in blocks: the server's memory holds none of them whole.
+head -c 3000000 /dev/urandom >"my tree.json"
+ask "GET /open/0" | tail -c 3000000 | cmp -s - "my tree.json" || fail "3 MB come otherwise"
+: >"my tree.json"
+gives "GET /open/0" 'Content-Length: 0'
+truncate -s 300000000 "my tree.json"
+gives "HEAD /open/0" 'Content-Length: 300000000'
+python3 - "$port" <<'PY'
+import socket, sys
+with socket.create_connection(("127.0.0.1", int(sys.argv[1])), timeout=20) as to:
+    to.sendall(f"GET /open/0 HTTP/1.1\r\nHost: 127.0.0.1:{sys.argv[1]}\r\n\r\n".encode())
+    to.recv(1)
+    assert len(to.recv(1000)) > 1  # and it goes away, of which nothing is said
+PY
+most=$(awk '$1 == "VmHWM:" { print $2 }' "/proc/$server/status")
+[[ $most -lt 100000 ]] || fail "the server took $most kB for a file of 300 MB"
+
+# A file in whose place a pipe has come is not waited for.
+rm "my tree.json"
+mkfifo "my tree.json"
+ask "GET /open/0" >answer || true
+grep -q '^HTTP/1.0 500 is no regular file' answer || fail "a pipe: '$(head -n 1 answer)'"
+rm "my tree.json"
+
 # A file that has grown beyond what a page takes.
 truncate -s 600000000 "my tree.json"
 refuses "GET /open/0" 500
 kill "$server"
+wait "$server" 2>/dev/null || true
+[[ ! -s err ]] || fail "the server says: $(head -c 500 err)"
+export PATH=$top/tools/live:$PATH
+for number in 08 65536 99999999999999999999 -1 ''; do
+    refused 1 "--port: is '$number', expected 0 to 65535" live --port "$number"
+done
 truncate -s 600000000 large.json
 code=0
 python3 "$top/tools/live/serve.py" page 0 large.json >out 2>err || code=$?

@@ -6,8 +6,11 @@ beyond LARGEST. Prints the address.
 """
 
 import http.server
+import io
 import json
+import os
 import pathlib
+import stat
 import sys
 import urllib.parse
 
@@ -58,26 +61,33 @@ def handler_of(names, listing):
                 return self.send_error(403, "this server answers as 127.0.0.1 alone")
             path = urllib.parse.unquote(urllib.parse.urlsplit(self.path).path)
             if path == "/open.json" and listing is not None:
-                content, kind = listing, TYPES[".json"]
-            elif path in names:
-                try:
-                    with open(names[path], "rb") as file:
-                        content = file.read(LARGEST + 1)
-                except OSError as error:
-                    return self.send_error(500, error.strerror)
-                if len(content) > LARGEST:
-                    return self.send_error(500, f"has more than {LARGEST} bytes")
-                kind = TYPES.get(names[path].suffix, "application/octet-stream")
-            else:
+                return self.send(io.BytesIO(listing), len(listing), TYPES[".json"], body)
+            if path not in names:
                 return self.send_error(404)
+            try:
+                file = open(names[path], "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK))  # a pipe would be waited for
+            except OSError as error:
+                return self.send_error(500, error.strerror)
+            with file:
+                status = os.fstat(file.fileno())
+                if not stat.S_ISREG(status.st_mode):
+                    return self.send_error(500, "is no regular file")
+                if status.st_size > LARGEST:
+                    return self.send_error(500, f"has more than {LARGEST} bytes")
+                self.send(file, status.st_size, TYPES.get(names[path].suffix, "application/octet-stream"), body)
+
+        def send(self, file, size, kind, body):
             self.send_response(200)
             self.send_header("Content-Type", kind)
-            self.send_header("Content-Length", str(len(content)))
+            self.send_header("Content-Length", str(size))
             self.send_header("Cache-Control", "no-cache")
             self.send_header("X-Content-Type-Options", "nosniff")
             self.end_headers()
-            if body:
-                self.wfile.write(content)
+            if body and size > 0:
+                try:
+                    self.connection.sendfile(file, count=size)
+                except OSError:  # who asked has gone, or takes nothing
+                    self.close_connection = True
 
         def log_message(self, *_):
             pass
