@@ -1,5 +1,6 @@
 #include "attach.h"
 #include "formats/release.h"
+#include "lib/base/parallel.h"
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -12,7 +13,8 @@ constexpr double tree_length = 0.25;  // of the longest piece there: shorter one
 constexpr double own_tree_gap = 0.5;  // of its length: what is as far away from all others is no part of them
 constexpr double touching_gap = 1e-3; // of the height: nearer than that is a joint
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::ptrdiff_t run = 64; // pieces that one thread asks for in a row
+constexpr std::size_t run = 64;    // pieces that one thread asks for in a row
+constexpr double search_ns = 2000; // of one of them
 
 struct Choice {
     std::int32_t end = -1;
@@ -78,15 +80,14 @@ private:
     // What stands together in a file often grows on one branch, or on the next, so that within a run each piece looks there
     // first. Runs are the same for any number of threads.
     void choose_places() {
-        const auto pieces = std::ptrdiff_t(pieces_.size());
-#pragma omp parallel for schedule(dynamic, 1) if (pieces > run)
-        for (std::ptrdiff_t first = 0; first < pieces; first += run) {
+        const std::size_t pieces = pieces_.size();
+        parallel_blocks((pieces + run - 1) / run, search_ns * double(run), [&](std::size_t k, int) {
             Likely likely;
-            for (std::ptrdiff_t p = first; p < std::min(first + run, pieces); ++p) {
-                const Choice& choice = choice_[std::size_t(p)] = best_of(std::size_t(p), std::int32_t(p), likely.all());
+            for (std::size_t p = k * run; p < std::min((k + 1) * run, pieces); ++p) {
+                const Choice& choice = choice_[p] = best_of(p, std::int32_t(p), likely.all());
                 set_likely(choice.place.segment, likely);
             }
-        }
+        });
     }
 
     static constexpr std::int32_t window = 8; // segments to either side
@@ -152,9 +153,7 @@ private:
         return best;
     }
 
-    bool on_ground(std::int32_t point) const {
-        return up(point) <= ground_ + ground_band * height_;
-    }
+    bool on_ground(std::int32_t point) const { return up(point) <= ground_ + ground_band * height_; }
 
     // Whether a piece begins on the ground and touches no other above it, or is far from all others.
     bool own_tree(std::size_t p) const {
@@ -210,9 +209,7 @@ private:
         }
         if (circles.empty()) return false;
         search_->regroup(group);
-        const auto count = std::ptrdiff_t(circles.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > run)
-        for (std::ptrdiff_t c = 0; c < count; ++c) open_circle(circles[std::size_t(c)], group);
+        parallel_for(circles.size(), 2 * search_ns, [&](std::size_t c) { open_circle(circles[c], group); });
         return true;
     }
 

@@ -30,8 +30,8 @@ struct JoinedPiece {
 // piece on the ground begins at its thickest end in the lower half, or, without radii, its lowest.
 // All others are joined by the end, and to the place, that cost least (nearest_segment.h); circles are opened where that
 // adds least (Edmonds' rule). `up` is 'y' or 'z'. O((segments + ends) log segments), times log pieces for circles.
-// Takes the segments out of `pieces`, which a large file has no memory to hold twice. Searches run on OpenMP's threads;
-// how many changes nothing.
+// Takes the segments out of `pieces`, which a large file has no memory to hold twice. Searches run on several threads
+// (lib/base/parallel.h); how many changes nothing.
 std::vector<JoinedPiece> attach_pieces(Pieces& pieces, char up);
 
 // The same in two steps, for who wants to search before it is known which end each piece begins with. `pieces` must

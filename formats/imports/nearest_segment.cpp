@@ -1,4 +1,5 @@
 #include "nearest_segment.h"
+#include "lib/base/parallel.h"
 #include "on_polyline.h"
 #include "segment_order.h"
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 constexpr std::size_t most_beside = 256; // bases passed over for one end
 constexpr double rounding = 1e-6;        // relative, of a difference of floats, and more
 constexpr std::int32_t no_box = std::numeric_limits<std::int32_t>::max();
-[[maybe_unused]] constexpr std::ptrdiff_t few_for_threads = 10000; // without OpenMP there is one
+constexpr double node_ns = 50;  // of four boxes
 constexpr double too_thin = 10; // cost for each unit of radius that the place is thinner than what begins there
 
 double cost_of(double distance, double radius) {
@@ -45,12 +46,10 @@ SegmentSearch::SegmentSearch(const std::vector<Vec3>& point, const std::vector<d
     }
     for (std::size_t level = 0; level < levels_.size(); ++level) {
         std::vector<Node>& nodes = levels_[level];
-        const auto count = std::ptrdiff_t(nodes.size());
-#pragma omp parallel for schedule(static) if (count > few_for_threads)
-        for (std::ptrdiff_t k = 0; k < count; ++k)
+        parallel_for(nodes.size(), node_ns, [&](std::size_t k) {
             for (std::size_t at = 0; at < wide; ++at) {
-                const std::size_t part = std::size_t(k) * wide + at;
-                Node& node = nodes[std::size_t(k)];
+                const std::size_t part = k * wide + at;
+                Node& node = nodes[k];
                 if (level == 0)
                     set_box(node, at, part);
                 else if (part < levels_[level - 1].size())
@@ -58,6 +57,7 @@ SegmentSearch::SegmentSearch(const std::vector<Vec3>& point, const std::vector<d
                 else
                     node.first[at] = no_box;
             }
+        });
     }
     regroup(std::vector<std::int32_t>(group_));
 }
@@ -116,17 +116,16 @@ std::int32_t SegmentSearch::common_group(const Node& node) {
 void SegmentSearch::regroup(const std::vector<std::int32_t>& group) {
     group_ = group;
     for (std::size_t level = 0; level < levels_.size(); ++level) {
-        const auto count = std::ptrdiff_t(levels_[level].size());
-#pragma omp parallel for schedule(static) if (count > few_for_threads)
-        for (std::ptrdiff_t k = 0; k < count; ++k)
+        parallel_for(levels_[level].size(), node_ns, [&](std::size_t k) {
             for (std::size_t at = 0; at < wide; ++at) {
-                const std::size_t part = std::size_t(k) * wide + at;
-                Node& node = levels_[level][std::size_t(k)];
+                const std::size_t part = k * wide + at;
+                Node& node = levels_[level][k];
                 if (level == 0)
                     set_group(node, at, part);
                 else if (node.first[at] != no_box)
                     node.group[at] = common_group(levels_[level - 1][part]);
             }
+        });
     }
 }
 

@@ -1,11 +1,12 @@
 #include "segment_order.h"
+#include "lib/base/parallel.h"
 #include "radix_order.h"
 #include <algorithm>
 
 namespace bough {
 namespace {
 
-[[maybe_unused]] constexpr std::ptrdiff_t few_to_key = 10000; // for one thread; unused without OpenMP
+constexpr double key_ns = 20;           // of one segment
 constexpr std::int32_t size_class = 15; // powers of two: very long ones would blow up the boxes of small ones
 
 // Every third bit of 63 from the 21 of v.
@@ -82,17 +83,15 @@ void sort_by_place(const std::vector<Vec3>& point, const std::vector<double>& ra
     // One number to sort by: the size class, counted from the largest, above 18 bits of each axis; of large pieces the
     // rank above it. Equal ones stay in order.
     std::vector<std::uint64_t> key(segments.size());
-    const auto count = std::ptrdiff_t(segments.size());
-#pragma omp parallel for schedule(static) if (count > few_to_key)
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const LineSegment& s = segments[std::size_t(i)];
+    parallel_for(segments.size(), key_ns, [&](std::size_t i) {
+        const LineSegment& s = segments[i];
         const auto size = std::uint64_t(std::min((largest - exponent(s, point, radius)) / size_class, 63));
         const Vec3 middle = middle_of(s, point);
         const auto large = std::uint64_t(rank[s.piece]);
-        key[std::size_t(i)] =
-            large == 0 ? size << 54 | box.morton(middle, 18)
-                       : std::uint64_t(1) << 62 | (large - 1) << 47 | size << 41 | box.morton(middle, 19) >> (57 - 41);
-    }
+        key[i] = large == 0
+                     ? size << 54 | box.morton(middle, 18)
+                     : std::uint64_t(1) << 62 | (large - 1) << 47 | size << 41 | box.morton(middle, 19) >> (57 - 41);
+    });
     const std::vector<std::uint32_t> order = radix_order(std::move(key));
     std::vector<LineSegment> sorted;
     const auto ranks = std::size_t(rank.empty() ? 0 : *std::max_element(rank.begin(), rank.end()));

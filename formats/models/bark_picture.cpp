@@ -1,3 +1,4 @@
+#include "lib/base/parallel.h"
 #include "picture.h"
 #include "picture_noise.h"
 #include <array>
@@ -177,11 +178,12 @@ Picture normals(const ReliefField& field, const BarkForm& form, int block) {
 
 BarkPictures bark_pictures(const BarkForm& form, const Vec3& bark, int size) {
     ReliefField field{size, std::vector<Relief>(std::size_t(size) * std::size_t(size))};
-#pragma omp parallel for
-    for (int y = 0; y < size; ++y)
+    constexpr double pixel_ns = 500;
+    parallel_for(std::size_t(size), pixel_ns * size, [&](std::size_t y) {
         for (int x = 0; x < size; ++x)
-            field.pixel[std::size_t(y) * std::size_t(size) + std::size_t(x)] =
-                relief(form, (x + 0.5) / size, 1 - (y + 0.5) / size);
+            field.pixel[y * std::size_t(size) + std::size_t(x)] =
+                relief(form, (x + 0.5) / size, 1 - (double(y) + 0.5) / size);
+    });
     return {colors(field, form, bark), normals(field, form, size > 256 ? 2 : 1)};
 }
 

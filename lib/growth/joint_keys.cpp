@@ -1,4 +1,5 @@
 #include "joint_keys.h"
+#include "../base/parallel.h"
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -205,9 +206,9 @@ void JointKeys::thin(double tolerance, bool shorts) {
     }
     if (shorts && tolerance >= 8 * short_turning) shorts_.resize(joints());
     for (const std::vector<std::int32_t>& level : by_depth(parent_)) {
-        const std::int64_t count = std::int64_t(level.size());
-#pragma omp parallel for schedule(dynamic, 8) if (count > 16)
-        for (std::int64_t k = 0; k < count; ++k) thin_joint(std::size_t(level[std::size_t(k)]), tolerance);
+        constexpr double frame_ns = 100;
+        parallel_for(level.size(), frame_ns * double(frames_),
+                     [&](std::size_t k) { thin_joint(std::size_t(level[k]), tolerance); });
     }
 }
 
