@@ -1,9 +1,7 @@
 #include "frame_queue.h"
+#include "threads.h"
 #include <cassert>
 #include <csignal>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace bough {
 
@@ -36,9 +34,7 @@ void FrameQueue::write(const MotionFrame& frame) {
 }
 
 void FrameQueue::run() {
-#ifdef _OPENMP
-    omp_set_num_threads(1);
-#endif
+    use_threads(1);
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [this] { return closed_ || written_ < pushed_; });

@@ -4,6 +4,6 @@
 
 namespace bough {
 
-void use_threads(int); // from now on, in loops of the calling thread: a step's (parallel.h) and OpenMP's
+void use_threads(int); // from now on, in loops of the calling thread: of parallel.h, and of OpenMP, which Eigen has
 
 } // namespace bough

@@ -7,7 +7,7 @@
  * `bytes` are the whole file, and may be anything: what is broken is an error, never more. What they are is told by them; `name` stands in messages, and
  * its ending tells what a damaged file was to be. `folder` is where a .gltf file's buffers are looked for, there and below, links followed; empty or NULL: nothing is
  * opened. Nothing is printed. Lengths are in metres afterwards, y is up, the tree's foot at the origin; what had to be guessed is a note.
- * Cost: about O(size), on as many threads as OpenMP gives; memory 4 MB and 1000 bytes for each byte of the file at most. Any thread may call. */
+ * Cost: about O(size), on as many threads as there are cores; memory 4 MB and 1000 bytes for each byte of the file at most. Any thread may call. */
 #ifndef BOUGH_IMPORTS_H
 #define BOUGH_IMPORTS_H
 

@@ -1,15 +1,13 @@
 // The search for the nearest wood against one that asks every segment, in other words: the header's.
 #include "formats/imports/attach.h"
 #include "formats/imports/radix_order.h"
+#include "lib/base/parallel.h"
 #include "tests/support/sanitized.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
 #include <span>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 using namespace bough;
 
@@ -193,14 +191,9 @@ TEST_CASE("an order by digits is the stable order by comparison") {
 TEST_CASE("pieces are joined alike by any number of threads, and whatever places are looked at first") {
     const Wood w = random_wood(5, sanitized ? 1000 : 5000);
     std::vector<std::vector<double>> results;
-#ifdef _OPENMP
-    const int before = omp_get_max_threads();
-#endif
     for (const auto& [threads, curves] : cases<std::pair<int, bool>>(
              2, {{1, false}, {2, true}, {2, false}, {3, false}, {8, false}, {1, true}, {8, true}})) {
-#ifdef _OPENMP
-        omp_set_num_threads(threads);
-#endif
+        const ThreadLimit limit(threads);
         Pieces pieces{w.point, w.radius, w.segment, {}, {}, w.base, curves};
         for (std::int32_t c = 0; c < std::int32_t(w.base.size()); ++c) {
             pieces.first.push_back(pieces.end.size());
@@ -211,8 +204,5 @@ TEST_CASE("pieces are joined alike by any number of threads, and whatever places
         for (const JoinedPiece& a : attach_pieces(pieces, 'y'))
             result.insert(result.end(), {double(a.end), double(a.parent), double(a.a), double(a.b), a.t, a.gap});
     }
-#ifdef _OPENMP
-    omp_set_num_threads(before);
-#endif
     for (const std::vector<double>& result : results) CHECK(result == results.front());
 }

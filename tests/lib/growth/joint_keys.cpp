@@ -1,9 +1,8 @@
 #include "lib/growth/joint_keys.h"
+#include "lib/base/parallel.h"
 #include "tests/support/make_tree.h"
 #include <catch2/catch.hpp>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include <optional>
 
 using namespace bough;
 using make_tree::degree;
@@ -205,15 +204,14 @@ TEST_CASE("one frame, no frame, no motion at all") {
     CHECK(keys_of(motion, 0).count() == 0);
 }
 
-#ifdef _OPENMP
 TEST_CASE("keys do not depend on the number of threads") {
     const Motion motion = swinging(400, 40, 4, 0.4);
-    const int before = omp_get_max_threads();
-    omp_set_num_threads(1);
+    std::optional<ThreadLimit> limit(1);
     const JointKeys one = keys_of(motion, 0.2 * degree), shorts = keys_of(motion, 0.2 * degree, true);
     CHECK(one.count() < 400 * 40);
     for (const int threads : {2, 3, 8}) {
-        omp_set_num_threads(threads);
+        limit.reset();
+        limit.emplace(threads);
         const JointKeys many = keys_of(motion, 0.2 * degree), also = keys_of(motion, 0.2 * degree, true);
         for (std::size_t j = 0; j < one.joints(); ++j) CHECK(shorts.short_keys(j) == also.short_keys(j));
         std::size_t differing = 0;
@@ -227,6 +225,4 @@ TEST_CASE("keys do not depend on the number of threads") {
         }
         CHECK(differing == 0);
     }
-    omp_set_num_threads(before);
 }
-#endif
