@@ -2,7 +2,6 @@
 #include "lib/base/parallel.h"
 #include "tests/support/make_tree.h"
 #include <catch2/catch.hpp>
-#include <optional>
 
 using namespace bough;
 using make_tree::degree;
@@ -206,12 +205,11 @@ TEST_CASE("one frame, no frame, no motion at all") {
 
 TEST_CASE("keys do not depend on the number of threads") {
     const Motion motion = swinging(400, 40, 4, 0.4);
-    std::optional<ThreadLimit> limit(1);
+    const ThreadLimit alone(1);
     const JointKeys one = keys_of(motion, 0.2 * degree), shorts = keys_of(motion, 0.2 * degree, true);
     CHECK(one.count() < 400 * 40);
     for (const int threads : {2, 3, 8}) {
-        limit.reset();
-        limit.emplace(threads);
+        const ThreadLimit limit(threads);
         const JointKeys many = keys_of(motion, 0.2 * degree), also = keys_of(motion, 0.2 * degree, true);
         for (std::size_t j = 0; j < one.joints(); ++j) CHECK(shorts.short_keys(j) == also.short_keys(j));
         std::size_t differing = 0;
