@@ -151,8 +151,8 @@ Input::Input(const std::string& path) : name_(input_name(path)) {
     const bool regular = file.owned && S_ISREG(status.st_mode);
     if (regular) opened_ = settled_version(file.fd);
     if (regular) size_ = std::uint64_t(opened_.size);
-    if (regular) require_held(path, opened_);
     if (const std::size_t header = regular ? binary_header(file.fd, size_, name_) : 0) {
+        require_held(path, opened_);
         content_.resize(header);
         read_at(file.fd, 0, header, content_.data(), name_);
         require_unchanged(file.fd, opened_, name_);

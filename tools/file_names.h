@@ -19,7 +19,7 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
 void refuse_overwriting_the_model(const std::vector<NamedFile>& written);
 
 // The same of the images that are written into a folder beside the output of -o. `named`: what is read (- is stdin), and the other
-// outputs that are files.
+// outputs that are files. Throws OutputError where an image, or its folder, cannot be written.
 void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std::vector<std::string>& images);
 
 // Before the work: throws UsageError where two outputs are one file, and OutputError where one cannot be written, as in a folder that is not

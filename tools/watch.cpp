@@ -77,7 +77,7 @@ void watch(const TreesimOptions& o, const std::function<std::int64_t()>& run) {
         std::string line;
         bool failed = false;
         try {
-            hold_inputs();
+            hold_inputs(); // what changed since the files were looked up is the run's to read
             line = made(o, run(), start);
         } catch (const Interrupted&) {
             throw;

@@ -1,7 +1,6 @@
 #include "call.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
-#include <charconv>
 #include <cstring>
 #include <new>
 
@@ -35,11 +34,6 @@ bough_result keep(bough_result result, const char* message) noexcept {
 }
 
 } // namespace
-
-std::string text_of(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 bough_result caught() noexcept {
     try {

@@ -44,8 +44,6 @@ template <class T> T& required(T* pointer, const char* argument) {
     return *pointer;
 }
 
-std::string text_of(double); // the shortest that reads back the same
-
 inline const double* required_vector(const double* v, const char* argument) {
     required(v, argument);
     for (int k = 0; k < 3; ++k)

@@ -1,5 +1,6 @@
 #include "formats/documents/motion.h"
 #include "handle.h"
+#include "lib/base/shortest_text.h"
 #include "lib/simulation/pick.h"
 #include "wind.h"
 #include "write.h"
@@ -15,8 +16,8 @@ SimulationOptions options_of(const bough_settings& s) {
     const auto fail = [](const char* field, const std::string& value, const char* expected) {
         throw WrongCall(std::string(field) + ": is " + value + ", expected " + expected);
     };
-    if (!(s.step > 0) || !std::isfinite(s.step)) fail("step", text_of(s.step), "seconds, above 0");
-    if (!(s.sleep >= 0)) fail("sleep", text_of(s.sleep), "rad/s, 0 or more");
+    if (!(s.step > 0) || !std::isfinite(s.step)) fail("step", shortest_text(s.step), "seconds, above 0");
+    if (!(s.sleep >= 0)) fail("sleep", shortest_text(s.sleep), "rad/s, 0 or more");
     if (s.threads < 0) fail("threads", std::to_string(s.threads), "0 or more");
     if (s.precision != BOUGH_FLOAT && s.precision != BOUGH_DOUBLE)
         fail("precision", std::to_string(s.precision), "BOUGH_FLOAT or BOUGH_DOUBLE");
@@ -129,7 +130,7 @@ bough_result bough_settle(bough_simulation* simulation, double seconds) {
     return call_of_running([&] {
         const Use<SimulationObject> use(simulation);
         if (!(seconds >= 0 && seconds <= Simulation::most_settled))
-            throw WrongCall("seconds: is " + text_of(seconds) + ", expected 0 to " +
+            throw WrongCall("seconds: is " + shortest_text(seconds) + ", expected 0 to " +
                             std::to_string(int(Simulation::most_settled)));
         if (use->simulation.steps() != 0) throw WrongCall("simulation: has been stepped, expected one at its start");
         const StepReport made = use->simulation.settle(seconds);

@@ -95,6 +95,7 @@ private:
     // Where the map's image is, "" where there is none. Names that lead to one file have one path, so that it is embedded once.
     const std::string& path_of(const Map& map) {
         const auto [found, added] = path_.try_emplace(map.file);
+        used_.insert(&map);
         if (!added || map.file.empty()) return found->second;
         TexturePlaces looked;
         const std::string path = textures_.find(map.file, looked);
@@ -112,8 +113,7 @@ private:
 
     // Null: not found, or none is named.
     const Texture* texture(const Map* map) {
-        if (!map || map->file.empty()) return nullptr;
-        used_.insert(map);
+        if (!map) return nullptr;
         const std::string& path = path_of(*map);
         if (path.empty()) return nullptr;
         const auto found = texture_.find(path);
@@ -159,10 +159,7 @@ private:
     int plain_image(const Map* map) {
         if (!map) return -1;
         const std::string key = path_of(*map);
-        if (const int index = known(key); index >= 0) {
-            used_.insert(map);
-            return index;
-        }
+        if (const int index = known(key); index >= 0) return index;
         const Texture* const found = texture(map);
         if (!found) return -1;
         const std::string name = image_name(map->file);
@@ -180,8 +177,6 @@ private:
         const auto key = std::pair(color ? path_of(*color) : "", opacity ? path_of(*opacity) : "");
         const auto [found, added] = base_.try_emplace(key);
         if (added) found->second.image = made_base(color, opacity, found->second.masked);
-        for (const Map* map : {color, opacity})
-            if (map && !map->file.empty()) used_.insert(map);
         return found->second;
     }
     int made_base(const Map* color, const Map* opacity, bool& masked) {
@@ -205,12 +200,9 @@ private:
 
     // `inverted`: the map is gloss, not roughness.
     int gloss_image(const Map* map, bool inverted) {
-        if (!map || map->file.empty()) return -1;
+        if (!map || path_of(*map).empty()) return -1;
         const std::string key = path_of(*map) + (inverted ? "\ngloss" : "\nroughness");
-        if (const int index = known(key); index >= 0) {
-            used_.insert(map);
-            return index;
-        }
+        if (const int index = known(key); index >= 0) return index;
         const Texture* const found = texture(map);
         if (!found) return -1;
         const Pixels& from = found->pixels;

@@ -4,8 +4,7 @@
 namespace bough {
 
 template <class T> Vec3 tip_position(const Plan<T>& plan, const State<T>& state, const Tree& tree, std::size_t body) {
-    const Vec3 x =
-        state.x_w[body].template cast<double>() + state.R_wb[body].template cast<double>().col(2) * tree.size[body][0];
+    const Vec3 x = end_position(state, tree, body);
     const Ground* ground = plan.root_motion ? ground_of(plan, state, body) : nullptr;
     return ground ? Vec3(ground->R.transpose() * (x - ground->x)) : x;
 }

@@ -10,6 +10,7 @@
 #include "../plan/change.h"
 #include "../plan/expand.h"
 #include "../plan/posed_tree.h"
+#include "../plan/tip_position.h"
 #include "driven_ground.h"
 #include "explanation.h"
 #include "fingerprint.h"
@@ -44,10 +45,6 @@ StepChoice choice_of(const SimulationOptions& o) {
     if (!o.portable) choice.simd = fast::best_target();
     choice.sleep = o.sleep;
     return choice;
-}
-
-template <class T> Vec3 end_of(const State<T>& state, const Tree& tree, std::size_t i) {
-    return state.x_w[i].template cast<double>() + state.R_wb[i].template cast<double>().col(2) * tree.size[i][0];
 }
 
 template <class T> class RunOf final : public AnyRun {
@@ -148,7 +145,7 @@ public:
     void ends(const std::vector<std::size_t>& bodies, std::vector<Vec3>& to) override {
         present(run_.plan, run_.state);
         to.resize(bodies.size());
-        for (std::size_t k = 0; k < bodies.size(); ++k) to[k] = end_of(run_.state, assembly_->tree, bodies[k]);
+        for (std::size_t k = 0; k < bodies.size(); ++k) to[k] = end_position(run_.state, assembly_->tree, bodies[k]);
     }
     void shown_ends(const std::vector<std::size_t>& bodies, std::vector<Vec3>& to) override {
         if (!assembly_->whole) return ends(bodies, to);
