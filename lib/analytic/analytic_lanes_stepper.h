@@ -11,6 +11,7 @@ public:
     void refuse(const Scene&) const override;
     void take_constants(const Plan<T>&, const Tree&) override;
     void lay_out(const Plan<T>&, const std::vector<TreeRange>&) override;
+    void explain(const Plan<T>&, PlanAccount&) const override;
     void allocate(const Plan<T>&, State<T>&) const override;
     void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
@@ -21,6 +22,7 @@ public:
     const std::vector<Vector3<T>>& inertia_factor() const override { return own.inertia_factor; }
     void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies, const std::vector<CarriedMoment>&) override;
     const PlannedLanes<T>* lanes() const override { return &own.lanes; }
+    PlannedLanes<T>* lanes() override { return &own.lanes; }
 
     AnalyticLanesPlan<T> own;
 };

@@ -72,6 +72,23 @@ template <class T> struct AnalyticWork : Cloned<AnalyticWork<T>, AnalyticState<T
 // The part of a scene that an array of AnalyticWork is for.
 enum class AnalyticNeed : std::uint8_t { always, forces, air, lagged, held };
 
+// Does the scene have it?
+template <class T> bool needed(const Plan<T>& plan, bool lagged, AnalyticNeed need) {
+    switch (need) {
+    case AnalyticNeed::forces:
+        return plan.forces;
+    case AnalyticNeed::air:
+        return plan.wind;
+    case AnalyticNeed::lagged:
+        return lagged;
+    case AnalyticNeed::held:
+        return !plan.attachments.empty();
+    case AnalyticNeed::always:
+        break;
+    }
+    return true;
+}
+
 // Calls visit(name, array, need) for every array over bodies, in the order in which they are written.
 template <class WorkType, class Visit> void visit_arrays(WorkType& w, Visit&& visit) {
     using Need = AnalyticNeed;

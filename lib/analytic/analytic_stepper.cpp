@@ -75,12 +75,7 @@ template <class T> void AnalyticStepper<T>::allocate(const Plan<T>& plan, State<
     auto work = std::make_unique<AnalyticWork<T>>();
     work->scaled_rate.assign(plan.bodies, Vector3<T>::Zero());
     visit_arrays(*work, [&](const char*, auto& array, AnalyticNeed need) {
-        const bool on = need == AnalyticNeed::forces   ? plan.forces
-                        : need == AnalyticNeed::air    ? plan.wind
-                        : need == AnalyticNeed::lagged ? own.fictitious
-                        : need == AnalyticNeed::held   ? !plan.attachments.empty()
-                                                       : true;
-        if (on) array.assign(plan.bodies, zero<std::decay_t<decltype(array[0])>>());
+        if (needed(plan, own.fictitious, need)) array.assign(plan.bodies, zero<std::decay_t<decltype(array[0])>>());
     });
     work->root_load.resize(plan.splines.size());
     if (!plan.attachments.empty()) work->held = planned_held(plan);

@@ -14,6 +14,7 @@ public:
     AnalyticStepper(const Scene&, std::string plainly);
     void refuse(const Scene& scene) const override { refuse_with_analytic(scene); }
     void take_constants(const Plan<T>& plan, const Tree& tree) override { take_analytic_constants(plan, tree, own); }
+    void explain(const Plan<T>&, PlanAccount&) const override;
     void allocate(const Plan<T>&, State<T>&) const override;
     void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;

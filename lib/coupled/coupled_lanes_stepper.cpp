@@ -149,7 +149,9 @@ template <class T> const CoupledPlan<T>* coupled_plan(const Plan<T>& plan) {
 }
 
 template <class T> CoupledPlan<T>* coupled_plan(Plan<T>& plan) {
-    return const_cast<CoupledPlan<T>*>(coupled_plan(std::as_const(plan))); // the plan is the caller's to change
+    if (auto* lanes = dynamic_cast<CoupledLanesStepper<T>*>(&*plan.stepper)) return &lanes->own;
+    if (auto* plain = dynamic_cast<CoupledStepper<T>*>(&*plan.stepper)) return &plain->own;
+    return nullptr;
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

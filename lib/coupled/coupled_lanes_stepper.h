@@ -12,6 +12,7 @@ public:
     void refuse(const Scene& scene) const override { refuse_with_coupled(scene); }
     void take_constants(const Plan<T>&, const Tree&) override;
     void lay_out(const Plan<T>&, const std::vector<TreeRange>&) override;
+    void explain(const Plan<T>&, PlanAccount&) const override;
     void allocate(const Plan<T>&, State<T>&) const override;
     void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
@@ -25,6 +26,7 @@ public:
     void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies,
               const std::vector<CarriedMoment>& carried) override;
     const PlannedLanes<T>* lanes() const override { return &own.lanes; }
+    PlannedLanes<T>* lanes() override { return &own.lanes; }
 
     CoupledLanesPlan<T> own;
 

@@ -14,6 +14,7 @@ public:
     CoupledStepper(Scheme, std::string plainly);
     void refuse(const Scene& scene) const override { refuse_with_coupled(scene); }
     void take_constants(const Plan<T>&, const Tree&) override;
+    void explain(const Plan<T>&, PlanAccount&) const override;
     void allocate(const Plan<T>&, State<T>&) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
     std::vector<CarriedArray<T>> carried(State<T>&) const override;

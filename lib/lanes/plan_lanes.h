@@ -14,7 +14,7 @@ template <class T> const PlannedLanes<T>* planned_lanes(const Plan<T>& plan) {
     return plan.stepper->lanes();
 }
 template <class T> PlannedLanes<T>* planned_lanes(Plan<T>& plan) {
-    return const_cast<PlannedLanes<T>*>(plan.stepper->lanes());
+    return plan.stepper->lanes();
 }
 
 } // namespace bough::fast

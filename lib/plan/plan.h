@@ -73,11 +73,11 @@ template <class T> struct Plan {
     std::vector<Vector3<T>> theta_limit; // [rad] joint_limit.h; infinite: none
     std::vector<T> stress_of_moment;     // [1/m^3] of wood 1 / section_modulus(), of all else 0; with Wishes::stress
 
-    // Root motion (root_term.h): one curve for each entry of Scene::root_motion, and the trees that it moves, rising.
+    // Root motion: one curve for each entry of Scene::root_motion, and the trees that it moves, rising.
     std::vector<RootSpline> splines;
     std::vector<MovedTree> moved;
 
-    // Wind (drag.h, external_forces.h).
+    // Wind.
     std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)
     std::vector<T> facing;    // [1] of clumps (Tree::leaf_facing), else 0; empty: 0 of all
     std::vector<Kind> kind;

@@ -22,6 +22,7 @@ template <class T> struct State;
 namespace fast {
 template <class T> struct PlannedLanes;
 }
+struct PlanAccount;
 
 // A solver's part of a state.
 class StepperState {
@@ -71,7 +72,6 @@ struct StepperKind {
     // Each step in lanes places the points that are pulled or held. It does so by constants of bodies in document order, which are kept where poses
     // are.
     bool places_points = false;
-    std::size_t pass_bytes = 0; // [B] a body that articulated passes keep beside the carried arrays
 };
 
 // What the caller has changed between two steps.
@@ -95,14 +95,19 @@ public:
     virtual std::unique_ptr<Stepper> clone() const = 0;
     const StepperKind& kind() const { return kind_; }
     bool in_lanes() const { return kind_.plainly.empty(); }
-    bool carries_moments() const { return carries_moments_; }              // drop() is told of them
-    virtual const fast::PlannedLanes<T>* lanes() const { return nullptr; } // how bodies stand in them; null: plainly
+    bool carries_moments() const { return carries_moments_; } // drop() is told of them
+    // How bodies stand in lanes; null: plainly.
+    virtual const fast::PlannedLanes<T>* lanes() const { return nullptr; }
+    virtual fast::PlannedLanes<T>* lanes() { return nullptr; }
 
     // These are called while a plan is made, in this order.
     virtual void refuse(const Scene&) const {} // throws std::domain_error for what it cannot hold
     virtual void take_constants(const Plan<T>&,
                                 const Tree&) = 0; // the tree is whole yet; the plan has the scene and c_mass
     virtual void lay_out(const Plan<T>&, const std::vector<TreeRange>&) {} // the plan has all of its bodies
+
+    // Says which of its stages run and which of its own arrays states hold, and why (explain.h).
+    virtual void explain(const Plan<T>&, PlanAccount&) const = 0;
 
     // Makes the solver's part of a state whose other arrays are there.
     virtual void allocate(const Plan<T>&, State<T>&) const = 0;

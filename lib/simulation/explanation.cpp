@@ -3,7 +3,7 @@
 #include "../lanes/lane_tables.h"
 #include "../lanes/plan_lanes.h"
 #include "../lanes/shared_constants.h"
-#include "explain.h"
+#include "../plan/explain.h"
 #include <cmath>
 #include <sstream>
 
@@ -47,8 +47,7 @@ template <class T> std::string explanation(const Plan<T>& plan, const std::vecto
              << " bytes: " << array.reason << "\n";
         (array.on ? used : left) += array.bytes;
     }
-    text << "constants of bodies in document order "
-         << (plan.pose ? "on: every scene" : "left out: in lanes; no poses, velocities, torques, stresses asked for")
+    text << "constants of bodies in document order " << (plan.pose ? "on: " : "left out: ") << pose_reason(plan)
          << "\n";
     text << "constants of stresses "
          << (plan.stress_of_moment.empty() ? "left out: no output field stress" : "on: output field stress") << "\n";

@@ -1,5 +1,6 @@
 #include "articulated_stepper.h"
 #include "../plan/carried.h"
+#include "../plan/explain.h"
 #include "../plan/ground.h"
 #include "../plan/spring_torque.h"
 #include "../plan/state_update.h"
@@ -42,6 +43,10 @@ void articulated(const Plan<double>& plan, const ArticulatedPlan& own, State<dou
     }
 }
 
+std::size_t passes(const ArticulatedPlan& own) {
+    return own.method == ArticulatedMethod::extrapolation ? std::size_t(extrapolation_rows) : 1;
+}
+
 // Where the points of the plan's attachments are at the run's start, as seen from what they are attached to.
 std::vector<Vec3> attached_at(const Plan<double>& plan) {
     std::vector<Vec3> at;
@@ -67,12 +72,8 @@ std::vector<Vec3> attached_at(const Plan<double>& plan) {
 } // namespace
 
 ArticulatedStepper::ArticulatedStepper(ArticulatedMethod method, const char* name, std::string plainly)
-    : Cloned<ArticulatedStepper, PlainStepper<double>, Stepper<double>>(StepperKind{
-          .name = name,
-          .plainly = std::move(plainly),
-          .stage = Stage::articulated,
-          .pass_bytes = sizeof(ArticulatedBody) *
-                        (method == ArticulatedMethod::extrapolation ? std::size_t(extrapolation_rows) : 1)}) {
+    : Cloned<ArticulatedStepper, PlainStepper<double>, Stepper<double>>(
+          StepperKind{.name = name, .plainly = std::move(plainly), .stage = Stage::articulated}) {
     own.method = method;
 }
 
@@ -93,11 +94,18 @@ void ArticulatedStepper::take_constants(const Plan<double>& plan, const Tree& tr
     if (plan.wind && own.method == ArticulatedMethod::implicit_euler) own.carried_drag = carried_drag(plan, tree);
 }
 
+void ArticulatedStepper::explain(const Plan<double>& plan, PlanAccount& account) const {
+    const std::string solver = std::string("solver ") + kind().name;
+    account.stage(Stage::articulated, true, solver);
+    account.array("scaled_rate", plan.bodies * sizeof(Vec3), true, "every scene");
+    account.array("articulated", plan.bodies * passes(own) * sizeof(ArticulatedBody), true, solver);
+}
+
 void ArticulatedStepper::allocate(const Plan<double>& plan, State<double>& state) const {
     auto work = std::make_unique<ArticulatedState>();
     work->rate.assign(plan.bodies, Vec3::Zero());
     work->attached_at = attached_at(plan);
-    work->pass.resize(own.method == ArticulatedMethod::extrapolation ? std::size_t(extrapolation_rows) : 1);
+    work->pass.resize(passes(own));
     for (ArticulatedPass& pass : work->pass) {
         pass.body.resize(plan.bodies);
         pass.ground.resize(plan.splines.size());

@@ -15,6 +15,7 @@ public:
     ArticulatedStepper(ArticulatedMethod, const char* name, std::string plainly);
     void refuse(const Scene&) const override; // joint limits, what is free, lagged terms
     void take_constants(const Plan<double>&, const Tree&) override;
+    void explain(const Plan<double>&, PlanAccount&) const override;
     void allocate(const Plan<double>&, State<double>&) const override;
     void advance(const Plan<double>&, State<double>&, StageClock*) const override;
     std::vector<CarriedArray<double>> carried(State<double>&) const override;

@@ -9,7 +9,7 @@
 #include "lib/coupled/coupled_stepper.h"
 #include "lib/coupled/sleep.h"
 #include "lib/lanes/plan_lanes.h"
-#include "lib/simulation/explain.h"
+#include "lib/plan/explain.h"
 #include "lib/study/articulated_stepper.h"
 #include "lib/study/solvers.h"
 

@@ -212,6 +212,7 @@ TEST_CASE(
         tree.joint_position[0] = Vec3(0.7, 0.2, -0.4); // off the point that the ground turns about
         for (const Named& named : scenes())
             for (const Scheme scheme : extrapolating) {
+                if (!leaves && scheme != Scheme::p12) continue; // in leaf there is all that is here
                 Bench bench(tree, named, scheme);
                 const dense::Vector truth = dense::take(step_of(tree, named, bench), scheme);
                 solve(bench);

@@ -87,17 +87,17 @@ TEST_CASE("The paper's four species and four more are there") {
         CHECK(std::count(names.begin(), names.end(), name) == 1);
 }
 
-TEST_CASE("Each species has the number of bodies asked for, with and without leaves") {
-    for (const Species& species : all_species())
-        for (const bool leaves : {false, true}) {
-            Splines s = whole(species, leaves);
-            for (const std::int64_t bodies : cases<std::int64_t>(1, {100, 5000})) {
-                INFO(species.name << " " << bodies << (leaves ? " with leaves" : ""));
-                ask_for_bodies(s, bodies);
-                CHECK(std::abs(double(count_bodies(s, {})) / double(bodies) - 1) <= 0.1);
-                CHECK_FALSE(check(s).has_value());
-            }
+// (In leaf: resolve.cpp.)
+TEST_CASE("Each species has the number of bodies asked for") {
+    for (const Species& species : all_species()) {
+        Splines s = whole(species, false);
+        for (const std::int64_t bodies : cases<std::int64_t>(1, {100, 5000})) {
+            INFO(species.name << " " << bodies);
+            ask_for_bodies(s, bodies);
+            CHECK(std::abs(double(count_bodies(s, {})) / double(bodies) - 1) <= 0.1);
+            CHECK_FALSE(check(s).has_value());
         }
+    }
 }
 
 TEST_CASE("An odd number of bodies is met") {
