@@ -94,8 +94,7 @@ class Glb:
         view, kind, width = self.json["bufferViews"][accessor["bufferView"]], self.kinds[accessor["componentType"]], self.widths[accessor["type"]]
         start, item = view.get("byteOffset", 0) + accessor.get("byteOffset", 0), np.dtype(kind).itemsize * width
         stride = view.get("byteStride", item)
-        rows = [np.frombuffer(self.binary, kind, width, start + k * stride) for k in range(accessor["count"])]
-        values = np.array(rows)
+        values = np.ndarray((accessor["count"], width), kind, self.binary, start, (stride, np.dtype(kind).itemsize))
         return np.maximum(values / float(np.iinfo(kind).max), -1) if accessor.get("normalized") else values
 
     def keyed(self, sampler, time, turns):
@@ -154,17 +153,27 @@ class Glb:
 
 
 def farthest(these, those):
-    """Of these from the nearest of those: looked for in cells."""
-    cell = max(np.ptp(those, axis=0).max(), 1e-9) / 100
-    cells = {}
-    for i, key in enumerate(map(tuple, np.floor(those / cell).astype(int))):
-        cells.setdefault(key, []).append(i)
-    most = 0.0
-    for p in np.unique(these, axis=0):
-        x, y, z = np.floor(p / cell).astype(int)
-        near = [i for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1) for i in cells.get((x + a, y + b, z + c), [])]
-        most = max(most, np.linalg.norm(those[near] - p, axis=1).min() if near else np.inf)
-    return most
+    """Of these from the nearest of those, up to a 300th of their size; infinite beyond. Those are looked for in cells, three in a row at a time."""
+    these, those = np.unique(these, axis=0), np.unique(those, axis=0)
+    cell = max(np.ptp(those, axis=0).max(), 1e-9) / 300
+    low = np.minimum(these.min(axis=0), those.min(axis=0)) - 2 * cell
+
+    def keys(points, across=0, up=0, along=0):
+        x, y, z = np.floor((points - low) / cell).astype(np.int64).T
+        return ((x + across) << 40) + ((y + up) << 20) + z + along
+
+    of = keys(those)
+    order = np.argsort(of, kind="stable")
+    those, of = those[order], of[order]
+    nearest = np.full(len(these), np.inf)
+    for across in (-1, 0, 1):
+        for up in (-1, 0, 1):
+            at = np.searchsorted(of, keys(these, across, up, -1), "left")
+            end = np.searchsorted(of, keys(these, across, up, 1), "right")
+            while (some := np.flatnonzero(at < end)).size:
+                nearest[some] = np.minimum(nearest[some], np.linalg.norm(those[at[some]] - these[some], axis=1))
+                at[some] += 1
+    return nearest.max()
 
 
 def main():
