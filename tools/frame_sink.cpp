@@ -53,12 +53,8 @@ public:
         last_ = frame.frame;
     }
     void finish() override {
-        std::vector<SequenceFile> older = sequence_files(pattern_);
-        std::erase_if(older, [this](const SequenceFile& file) { return file.frame <= last_; });
-        if (!older.empty())
-            notes_.push_back(pattern_ + ": " + counted(older.size(), "frame", "frames") +
-                             " of an earlier run stay behind the last one: " + older.front().name +
-                             (older.size() > 1 ? " to " + older.back().name : ""));
+        if (std::string note = left_behind(pattern_, last_, "frame", "frames"); !note.empty())
+            notes_.push_back(std::move(note));
     }
     std::uint64_t bytes() const override { return bytes_; }
 

@@ -5,6 +5,7 @@
 #include "formats/documents/splines.h"
 #include "formats/documents/tree.h"
 #include "formats/exports/obj.h"
+#include "formats/exports/sequence.h"
 #include "formats/imports/any_tree.h"
 #include "formats/imports/placed_import.h"
 #include "formats/plain_text.h"
@@ -316,6 +317,11 @@ void write_each(const std::vector<Tree>& trees, Options& o) {
             throw OutputError(o.common.output, "stopped after " + std::to_string(k) + " of " +
                                                    std::to_string(trees.size()) + " trees: " + error.what());
         }
+    }
+    for (const std::string* pattern : {&o.common.output, &o.mesh, &o.wind_groups}) {
+        if (pattern->empty()) continue;
+        std::string note = left_behind(*pattern, std::int64_t(trees.size()) - 1, "tree", "trees");
+        if (!note.empty()) o.common.notes.push_back(std::move(note));
     }
 }
 

@@ -1,4 +1,5 @@
 #include "sequence.h"
+#include "lib/base/counted.h"
 #include <algorithm>
 #include <cassert>
 #include <charconv>
@@ -80,6 +81,15 @@ std::vector<SequenceFile> sequence_files(const std::string& pattern) {
             files.push_back({*frame, sequence_name(pattern, *frame)});
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
     return files;
+}
+
+std::string left_behind(const std::string& pattern, std::int64_t last, const char* one, const char* several) {
+    std::vector<SequenceFile> older = sequence_files(pattern);
+    std::erase_if(older, [last](const SequenceFile& file) { return file.frame <= last; });
+    if (older.empty()) return "";
+    return pattern + ": " + counted(older.size(), one, several) +
+           " of an earlier run stay behind the last one: " + older.front().name +
+           (older.size() > 1 ? " to " + older.back().name : "");
 }
 
 std::string sequence_mtl(const std::string& pattern) {

@@ -23,4 +23,8 @@ struct SequenceFile {
 };
 std::vector<SequenceFile> sequence_files(const std::string& pattern);
 
+// Which of them an earlier run left with numbers above `last`: "t_%d.json: 2 trees of an earlier run stay behind the last one: t_3.json to t_4.json";
+// empty: none. `one` and `several` name what a file holds. O(files in the folder).
+std::string left_behind(const std::string& pattern, std::int64_t last, const char* one, const char* several);
+
 } // namespace bough

@@ -111,6 +111,13 @@ refused 4 "missing/x.json" treeconvert splines.json -o y.json --mesh x.glb --win
 absent x.json y.json x.glb
 expect 0 treeconvert "$top/data/fixtures/two_trunks_spines.xml" -q --split -o t_%d.json --mesh t_%d.glb --wind-groups w_%d.json
 [[ -s w_0.json && -s w_1.json ]] || fail "no groups a trunk: $(ls)"
+cp t_0.json t_2.json
+cp t_0.json t_3.json
+cp t_0.json t_03.json # of another pattern
+expect 0 treeconvert "$top/data/fixtures/two_trunks_spines.xml" --split -o t_%d.json --mesh t_%d.glb
+grep -q 't_%d.json: 2 trees of an earlier run stay behind the last one: t_2.json to t_3.json$' err || fail "older trunks are not told of: $(cat err)"
+grep -q 't_%d.glb: ' err && fail "meshes are told of: $(cat err)"
+rm t_2.json t_3.json t_03.json
 
 # Skeletons: by the name or --format; what they lose is said; nothing is guessed when they come back as high a tree.
 high() { treeconvert "$1" --strict -q -o /dev/null --stats 2>&1 | sed -n 's/^height *\([0-9.]*\).*/\1/p' | tail -n 1; }
