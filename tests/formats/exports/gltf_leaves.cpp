@@ -102,7 +102,7 @@ GltfOptions instances() {
 } // namespace
 
 TEST_CASE("instances stand where the skin's leaves do, drawn and moved with what bears them") {
-    for (const Tree& tree : {branched(), with_petals(branched()), with_petals(random_tree(300, 2))}) {
+    for (const Tree& tree : {branched(), with_petals(branched()), with_petals(random_tree(80, 2))}) {
         for (const bool x_along : {false, true}) {
             GltfOptions options = instances();
             options.x_along = x_along;

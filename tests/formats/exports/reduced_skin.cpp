@@ -65,7 +65,7 @@ TEST_CASE("fewer vertices: wood's are some of its own, leaves are whole, and kee
 
 TEST_CASE(
     "of more pieces than vertices are wished those that are near become one, but not where the tree would be lost") {
-    const Skin skin = build_skin(make_tree::random_tree(800, 5), {8, false});
+    const Skin skin = build_skin(make_tree::random_tree(300, 5), {8, false});
     Vec3 low = Vec3::Constant(INFINITY), high = -low;
     for (const Vec3& p : skin.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const double size = (high - low).maxCoeff();

@@ -212,9 +212,8 @@ TEST_CASE("The mesh of a SpeedTree file comes through whole") {
 }
 
 TEST_CASE("The meshes of SpeedTree's own files come through whole, and V grows from the bottom of an image up") {
-    for (const auto& [name, unit] : {std::pair("speedtree/SimpleTree_01_groups_m.xml", 1.0),
-                                     {"speedtree/SimpleTree_01_spines_cm.xml", 0.01},
-                                     {"speedtree/SimpleTree_03_merged_cm.xml", 0.01}}) {
+    for (const auto& [name, unit] :
+         {std::pair("speedtree/SimpleTree_01_groups_m.xml", 1.0), {"speedtree/SimpleTree_03_merged_cm.xml", 0.01}}) {
         const std::optional<std::string> content = foreign_case(name);
         if (!content) return;
         const Shown shown = shown_of(*content);
