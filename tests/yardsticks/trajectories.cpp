@@ -95,16 +95,15 @@ TEST_CASE("The branched tree of 21 bodies falls as with the engines' acceleratio
     compare(paper_trees::branched(2e8, 1e-4), gravity_switched_on(), 60, 100);
 }
 
-TEST_CASE("The chain of 20 rods falls as with the engines' accelerations, E = 2e9, one second", "[long]") {
+TEST_CASE("The chain of 20 rods falls as with the engines' accelerations, E = 2e9, one second") {
     compare(paper_trees::chain(2e9, 1e-5), gravity_switched_on(), 30, 240);
 }
 
-TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e9, one second", "[long]") {
+TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e9, one second") {
     compare(paper_trees::branched(2e9, 1e-5), gravity_switched_on(), 30, 300, 1e-9);
 }
 
-TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e10, a quarter of a second",
-          "[long]") {
+TEST_CASE("The branched tree of 21 bodies falls as with the engines' accelerations, E = 2e10, a quarter of a second") {
     compare(paper_trees::branched(2e10, 1e-5), gravity_switched_on(), 8, 1000, 1e-10);
 }
 
