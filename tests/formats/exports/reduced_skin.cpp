@@ -65,7 +65,7 @@ TEST_CASE("fewer vertices: wood's are some of its own, leaves are whole, and kee
 
 TEST_CASE(
     "of more pieces than vertices are wished those that are near become one, but not where the tree would be lost") {
-    const Skin skin = build_skin(make_tree::random_tree(300, 5), {8, false});
+    const Skin skin = build_skin(make_tree::random_tree(800, 5), {8, false});
     Vec3 low = Vec3::Constant(INFINITY), high = -low;
     for (const Vec3& p : skin.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const double size = (high - low).maxCoeff();
@@ -75,11 +75,12 @@ TEST_CASE(
     CHECK(some.vertex.size() <= least * 3 / 4);
     CHECK(some.vertex.size() > least / 2);
     CHECK(some.error <= 0.02 * size);
-    double farthest = 0; // of the tree's vertices from those that are left
-    for (const Vec3& p : skin.position) {
+    double farthest = 0; // of every fifth of the tree's vertices (a ring has eight) from those that are left
+    for (std::size_t v = 0; v < skin.position.size(); v += 5) {
+        const Vec3& p = skin.position[v];
         double nearest = INFINITY;
-        for (const std::int32_t v : some.vertex)
-            nearest = std::min(nearest, (skin.position[std::size_t(v)] - p).norm());
+        for (const std::int32_t left : some.vertex)
+            nearest = std::min(nearest, (skin.position[std::size_t(left)] - p).norm());
         farthest = std::max(farthest, nearest);
     }
     CHECK(farthest <= 0.15 * size);
