@@ -91,8 +91,9 @@ Splines read_import(std::string_view content, const std::string& file, ImportNot
 void make_carry(Splines& splines, const Material& material, std::vector<std::string>& notes) {
     if (const std::size_t thicker = thicken_to_carry(splines, material, foreign_sag))
         notes.push_back("--radii carry: " + std::to_string(thicker) + " of " +
-                        counted(splines.branches(), "branch", "branches") + " made thicker, as " + material.name +
-                        " must be to carry them");
+                        counted(splines.branches(), "branch", "branches") +
+                        " made thicker, to sag little and stand four times over in " + material.name +
+                        " (also where they would stand)");
 }
 
 bool is_speedtree_file(const std::string& path) {

@@ -29,7 +29,7 @@ Splines read_import(std::string_view content, const std::string& file, ImportNot
 // Whether a file is SpeedTree XML, by its head; false for stdin.
 bool is_speedtree_file(const std::string& path);
 
-// --radii carry: branches as thick as wood of this material must be to carry them (growth/carry.h), with a note of how many were not.
+// --radii carry: branches thick enough to sag little and stand four times over in this wood (growth/carry.h), with a note of how many were not.
 void make_carry(Splines&, const Material&, std::vector<std::string>& notes);
 
 } // namespace bough

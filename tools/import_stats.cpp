@@ -1,6 +1,7 @@
 #include "import_stats.h"
 #include "lib/base/counted.h"
 #include "lib/model/polyline.h"
+#include "lib/study/modes.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +11,9 @@
 
 namespace bough {
 namespace {
+
+constexpr double leans_any_way =
+    1e-3; // [Hz] below, a round stem that has gone over turns about the upright: rounding alone
 
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -59,6 +63,28 @@ std::string import_statistics(const Splines& s, const ImportNotes& notes) {
              << " m\n";
     }
     for (const std::string& line : notes.lines) text << "note        " << line << "\n";
+    return text.str();
+}
+
+std::string sway_text(const Tree& tree) {
+    std::ostringstream text;
+    try {
+        const SmallMotion small(tree, Vec3(0, -9.81, 0), Pose::drawn);
+        const Sway x = sway_along(small, Vec3::UnitX()), z = sway_along(small, Vec3::UnitZ());
+        const double lowest = std::min(x.lowest, z.lowest);
+        std::string buckles;
+        if (!small.buckled().empty())
+            buckles = "branch " + std::to_string(tree.branch[small.buckled().front()]) +
+                      " buckles under what it carries, and leans " + (lowest < leans_any_way ? "any way; " : "over; ") +
+                      buckling_remedy;
+        if (lowest < leans_any_way) return "none: " + (buckles.empty() ? "nothing holds it upright" : buckles);
+        text << x.frequency << " and " << z.frequency << " Hz along x and z, " << std::lround(100 * x.share)
+             << " % and " << std::lround(100 * z.share) << " % of the bend under a steady push; lowest mode " << lowest
+             << " Hz (treeprofile modes)";
+        if (!buckles.empty()) text << "; " << buckles;
+    } catch (const std::domain_error& error) {
+        text << "none: " << error.what();
+    }
     return text.str();
 }
 

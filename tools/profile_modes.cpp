@@ -174,6 +174,8 @@ void work(ModesCommand& o) {
     if (setting.scene.wind && varies_over_ground(*setting.scene.wind))
         throw UsageError(std::string("modes: a wind with ") + parts_over_ground(*setting.scene.wind).front() +
                          " has no one mean that could damp a tree");
+    if (!setting.scene.attachments.empty())
+        o.common.notes.push_back("modes: the scene's /attachments hold nothing here");
     interrupt_at_boundary();
     ModeOptions options;
     options.count = o.modes;

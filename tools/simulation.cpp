@@ -1,8 +1,11 @@
 #include "simulation.h"
 #include "exits.h"
 #include "formats/open.h"
+#include "lib/base/shortest_text.h"
 #include "lib/simulation/run_choice.h"
 #include "lib/study/timed_steps.h"
+#include <limits>
+#include <utility>
 
 namespace bough {
 namespace {
@@ -20,6 +23,22 @@ namespace {
     if (run.account().solver == solver_name(Solver::articulated_explicit))
         advice = "; explicit Euler needs far smaller steps (--substeps), or take --solver articulated-implicit";
     throw PromiseError("the simulation became non-finite in frame " + std::to_string(frame) + ": " + place + advice);
+}
+
+// Throws PromiseError for a number that no float, which most outputs hold, can say: written, it would be infinite.
+void require_floats(const MotionFrame& frame) {
+    constexpr double most = std::numeric_limits<float>::max();
+    for (const auto& [name, values] : {std::pair("position", &frame.position),
+                                       {"velocity", &frame.velocity},
+                                       {"angular velocity", &frame.angular_velocity},
+                                       {"torque", &frame.torque}})
+        for (std::size_t i = 0; i < values->size(); ++i) {
+            const double largest = (*values)[i].cwiseAbs().maxCoeff();
+            if (!(largest <= most))
+                throw PromiseError("frame " + std::to_string(frame.frame) + ": the " + name + " of body " +
+                                   std::to_string(i) + " comes to " + four_digits(largest) +
+                                   ", expected at most 3.4e38, as a float can say");
+        }
 }
 
 } // namespace
@@ -62,6 +81,7 @@ void fill_frame(Simulation& simulation, std::int64_t frame, double fps, const Mo
     out.time = double(frame) / fps;
     if (const std::string place = simulation.fill(fields, out); !place.empty())
         fail_non_finite(simulation, frame, place);
+    require_floats(out);
 }
 
 } // namespace bough

@@ -18,7 +18,6 @@
 #include "lib/model/drawn_pose.h"
 #include "lib/model/root_stiffness.h"
 #include "lib/model/split.h"
-#include "lib/study/modes.h"
 #include "merge_trial.h"
 #include "run_options.h"
 #include "tool.h"
@@ -79,7 +78,8 @@ void declare(OptionList& list, Options& o) {
         .takes("K")
         .check(positive_number());
     list.add("--radii", o.radii,
-             "file (default), as the input says; or carry: thicker where wood of --material must be to carry the tree")
+             "file (default), as the input says; or carry: thick enough that wood of --material sags little and stands "
+             "four times over")
         .takes("carry|file")
         .one_of({"carry", "file"});
     list.group("Mesh");
@@ -196,24 +196,6 @@ SegmentOptions segment_options(const Options& o) {
     if (o.max_bend) options.max_bend = *o.max_bend * 3.14159265358979323846 / 180;
     if (o.max_bodies) options.max_bodies = *o.max_bodies;
     return options;
-}
-
-// As it stands drawn, under its weight.
-std::string sway_text(const Tree& tree) {
-    std::ostringstream text;
-    try {
-        const SmallMotion small(tree, Vec3(0, -9.81, 0), Pose::drawn);
-        const Sway x = sway_along(small, Vec3::UnitX()), z = sway_along(small, Vec3::UnitZ());
-        text << x.frequency << " and " << z.frequency << " Hz along x and z, " << std::lround(100 * x.share)
-             << " % and " << std::lround(100 * z.share) << " % of the bend under a steady push; lowest mode "
-             << std::min(x.lowest, z.lowest) << " Hz (treeprofile modes)";
-        if (!small.buckled().empty())
-            text << "; branch " << tree.branch[small.buckled().front()]
-                 << " buckles under what it carries, and leans over; " << buckling_remedy;
-    } catch (const std::domain_error& error) {
-        text << "none: " << error.what();
-    }
-    return text.str();
 }
 
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report, const Material& wood) {

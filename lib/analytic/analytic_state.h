@@ -73,7 +73,7 @@ template <class T> struct AnalyticWork : Cloned<AnalyticWork<T>, AnalyticState<T
 enum class AnalyticNeed : std::uint8_t { always, forces, air, lagged, held };
 
 // Does the scene have it?
-template <class T> bool needed(const Plan<T>& plan, bool lagged, AnalyticNeed need) {
+template <class T> bool needs_array(const Plan<T>& plan, bool lagged, AnalyticNeed need) {
     switch (need) {
     case AnalyticNeed::forces:
         return plan.forces;

@@ -75,7 +75,8 @@ template <class T> void AnalyticStepper<T>::allocate(const Plan<T>& plan, State<
     auto work = std::make_unique<AnalyticWork<T>>();
     work->scaled_rate.assign(plan.bodies, Vector3<T>::Zero());
     visit_arrays(*work, [&](const char*, auto& array, AnalyticNeed need) {
-        if (needed(plan, own.fictitious, need)) array.assign(plan.bodies, zero<std::decay_t<decltype(array[0])>>());
+        if (needs_array(plan, own.fictitious, need))
+            array.assign(plan.bodies, zero<std::decay_t<decltype(array[0])>>());
     });
     work->root_load.resize(plan.splines.size());
     if (!plan.attachments.empty()) work->held = planned_held(plan);

@@ -28,7 +28,7 @@ template <class T> std::string why(const Plan<T>& plan, bool lagged, AnalyticNee
 
 template <class T> void AnalyticStepper<T>::explain(const Plan<T>& plan, PlanAccount& account) const {
     const auto part = [&](Stage stage, AnalyticNeed need) {
-        account.stage(stage, needed(plan, own.fictitious, need), why(plan, own.fictitious, need));
+        account.stage(stage, needs_array(plan, own.fictitious, need), why(plan, own.fictitious, need));
     };
     account.stage(Stage::wind_field, plan.wind, wind_reason(plan));
     part(Stage::external_forces, AnalyticNeed::forces);
@@ -44,24 +44,28 @@ template <class T> void AnalyticStepper<T>::explain(const Plan<T>& plan, PlanAcc
     account.array("scaled_rate", plan.bodies * sizeof(Vector3<T>), true, "every scene");
     const AnalyticWork<T> none;
     visit_arrays(none, [&](const char* name, const auto& array, AnalyticNeed need) {
-        account.array(name, plan.bodies * sizeof(array[0]), needed(plan, own.fictitious, need),
+        account.array(name, plan.bodies * sizeof(array[0]), needs_array(plan, own.fictitious, need),
                       why(plan, own.fictitious, need));
     });
-    const bool held = needed(plan, own.fictitious, AnalyticNeed::held);
+    const bool held = needs_array(plan, own.fictitious, AnalyticNeed::held);
     account.array("held", held ? planned_held(plan).bytes() : 0, held, why(plan, own.fictitious, AnalyticNeed::held));
 }
 
 template <class T> void fast::AnalyticLanesStepper<T>::explain(const Plan<T>& plan, PlanAccount& account) const {
     explain_lanes(plan, own.lanes, {Stage::composite, Stage::spring}, account);
-    account.stage(Stage::external_forces, false, plan.forces ? "in lanes" : forces_reason(plan));
-    account.stage(Stage::drag, false, plan.wind ? "in lanes" : "no wind");
+    account.stage(Stage::external_forces, false, plan.forces ? in_lanes : forces_reason(plan));
+    account.stage(Stage::drag, false, plan.wind ? in_lanes : "no wind");
+    // Scenes with these are stepped plainly (analytic_stepper).
+    account.stage(Stage::root_motion, false, "no root motion");
+    account.stage(Stage::fictitious, false, "no lagged fictitious terms");
+    account.stage(Stage::attachments, false, "no attachments");
     account.array("scaled_rate", plan.bodies * sizeof(Vector3<T>), plan.pose, pose_reason(plan));
     constexpr std::size_t L = Row<T>::lanes;
     const Layout& layout = own.lanes.layout;
     const std::size_t numbers =
         record(analytic::outward_count(plan.field), L) + record(analytic::inward_count(plan.wind, plan.pushes()), L);
-    account.array("lanes.now", layout.rows * analytic::motion::count * sizeof(Row<T>), true, in_lanes_reason);
-    account.array("lanes.outward, inward", layout.joints * numbers / L * sizeof(Row<T>), true, in_lanes_reason);
+    account.array("lanes.now", layout.rows * analytic::motion::count * sizeof(Row<T>), true, in_lanes);
+    account.array("lanes.outward, inward", layout.joints * numbers / L * sizeof(Row<T>), true, in_lanes);
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

@@ -63,9 +63,8 @@ template <class T> void fast::CoupledLanesStepper<T>::explain(const Plan<T>& pla
         return count * std::size_t(quantities) * sizeof(Row<T>);
     };
     account.array("lanes.table", rows(layout.rows, coupled_columns(waits(layout), scheme_of(own.scheme).poles)), true,
-                  in_lanes_reason);
-    account.array("lanes.outward, inward, accelerated", rows(layout.joints, records_of_joint<T>()), true,
-                  in_lanes_reason);
+                  in_lanes);
+    account.array("lanes.outward, inward, accelerated", rows(layout.joints, records_of_joint<T>()), true, in_lanes);
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

@@ -6,7 +6,7 @@
 
 namespace bough::fast {
 
-constexpr const char* in_lanes_reason = "the fast path"; // of an array
+constexpr const char* in_lanes = "in lanes"; // a stage's reason, and an array's
 
 // stages: of the plain step, which the lanes have in them.
 template <class T>

@@ -22,7 +22,8 @@ template <class T> void explain_poses(const Plan<T>& plan, PlanAccount& account)
                   : lanes    ? "when poses are read" + moved_roots(plan)
                              : update_reason(plan));
     const char* const read = pose_reason(plan);
-    const std::string velocity = !plan.velocity                           ? "no wind, no output field velocity"
+    const std::string velocity = !plan.velocity
+                                     ? (plan.wind ? "no output field velocity" : "no wind, no output field velocity")
                                  : !plan.stepper->kind().reads_velocities ? "output field velocity"
                                  : plan.wind                              ? "/wind (drag)"
                                                                           : "/fictitious";
@@ -84,7 +85,7 @@ template <class T> std::string forces_reason(const Plan<T>& plan) {
     const auto add = [&](bool on, const char* part) {
         if (on) text += (text.empty() ? "" : ", ") + std::string(part);
     };
-    add(plan.wind, plan.facing.empty() ? "/wind" : "/wind (clumps' leaves face one way: leaf_facing)");
+    add(plan.wind, "/wind");
     add(plan.wind && plan.leaf.on, "/leaves");
     add(!plan.pulls.empty() || !plan.followers.empty(), "/pulls");
     add(plan.contact && !plan.scene.balls.empty(), "/balls");
@@ -109,8 +110,7 @@ template <class T> bool callers_forces(const Plan<T>& plan) {
 template <class T> PlanAccount explain(const Plan<T>& plan) {
     const StepperKind& kind = plan.stepper->kind();
     PlanAccount account;
-    for (std::size_t k = 0; k < stage_count; ++k)
-        account.stages.push_back({Stage(k), false, std::string("solver ") + kind.name});
+    for (std::size_t k = 0; k < stage_count; ++k) account.stage(Stage(k), false, std::string("solver ") + kind.name);
     account.stage(Stage::lanes, false, "plain path: " + kind.plainly);
     explain_poses(plan, account);
     explain_free(plan, account);

@@ -21,7 +21,7 @@ struct PlannedArray {
 };
 
 struct PlanAccount {
-    std::vector<PlannedStage> stages; // all, in the order in which they run
+    std::vector<PlannedStage> stages = std::vector<PlannedStage>(stage_count); // all, in the order in which they run
     std::vector<PlannedArray> arrays; // of the state: what this way of making steps holds in some scene
 
     void stage(Stage stage, bool on, std::string reason) {
@@ -32,7 +32,7 @@ struct PlanAccount {
     }
 };
 
-// A stage that the stepper says nothing of is left out for its solver's sake.
+// What the stepper says nothing of is left out for its solver's sake. It says its own last: what poses need stands by then.
 template <class T> PlanAccount explain(const Plan<T>&);
 
 // These are reasons, for Stepper::explain().

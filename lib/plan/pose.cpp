@@ -19,7 +19,8 @@ std::string what_would_carry(const Tree& tree, std::size_t i, const Vec3& tau) {
     if (i < tree.kind.size() && tree.kind[i] != Kind::branch) // of what only settles the kind is not known
         return bears + "a stiffer one would carry it: leaf_modulus of a --material FILE";
     return bears + "wood " + digits(std::pow(std::max(1.0, tau.norm() / (sag * K)), 0.25)) +
-           " times as thick would carry it: treeconvert --radii carry makes it so";
+           " times as thick would carry it: treeconvert --radii carry makes it so" +
+           (tree.parent[i] < 0 ? ", or, where --root-stiffness was given, a stiffer root" : "");
 }
 
 // theta with K theta = J^T tau, the moment given in the body's frame, J the body rates' Jacobian at theta. The slope of

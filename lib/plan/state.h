@@ -45,8 +45,8 @@ template <class T> struct State {
     std::array<std::uint64_t, stage_count> calls{}; // how often each stage ran
     StepFlags flags;
 
-    // Returns the memory of all arrays over bodies, the solver's too, and of the points that the analytic solver holds. It leaves out the coupled
-    // solver's points, what the threads of a step in lanes work in, and the energy guard's memory once something has turned fast.
+    // Returns the memory of all arrays over bodies, the solver's too, and of the points that are held and pulled. It leaves out what the threads of
+    // a step in lanes work in, and the energy guard's memory once something has turned fast.
     std::size_t bytes() const;
 };
 

@@ -2,6 +2,7 @@
 #include "../base/hash_text.h"
 #include "../base/parallel.h"
 #include "../base/rotation_maps.h"
+#include "../base/shortest_text.h"
 #include "../coupled/attachment.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
@@ -24,7 +25,7 @@ namespace {
 
 // value: an enum's, which a caller's cast may have made of any number.
 [[noreturn]] void refuse_option(const char* name, int value, const char* expected) {
-    throw SceneError(std::string(name) + " is " + std::to_string(value) + ", expected " + expected);
+    throw SceneError(std::string(name) + " is " + shortest_text(value) + ", expected " + expected);
 }
 
 SimulationOptions checked(const SimulationOptions& o) {
@@ -33,8 +34,9 @@ SimulationOptions checked(const SimulationOptions& o) {
     if (o.method != Method::coupled && o.method != Method::analytic)
         refuse_option("method", int(o.method), "Method::coupled or Method::analytic");
     if (!(o.step > 0) || !std::isfinite(o.step))
-        throw SceneError("step is " + std::to_string(o.step) + " s, expected more than 0");
-    if (!(o.sleep >= 0)) throw SceneError("sleep is " + std::to_string(o.sleep) + " rad/s, expected 0 or more");
+        throw SceneError("step is " + shortest_text(o.step) + " s, expected more than 0");
+    if (!(o.sleep >= 0 && std::isfinite(o.sleep)))
+        throw SceneError("sleep is " + shortest_text(o.sleep) + " rad/s, expected 0 or more");
     if (o.threads < 0) throw SceneError("threads is " + std::to_string(o.threads) + ", expected 0 or more");
     return o;
 }

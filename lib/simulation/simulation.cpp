@@ -86,6 +86,7 @@ const AnyRun& run_of(const Simulation& simulation) {
 }
 
 StepReport Simulation::step(int times) {
+    if (times < 0) throw SceneError("step: is " + std::to_string(times) + " steps, expected 0 or more");
     return run_->step(times);
 }
 StepReport Simulation::settle(double seconds) {

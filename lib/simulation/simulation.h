@@ -14,7 +14,7 @@
 // return the same report; what is read is then the state that this step left, in which numbers may be non-finite. A simulation keeps all that it
 // needs: the scene and its trees may be destroyed.
 // Threads. One thread at a time uses a simulation. Several simulations may run side by side; they share helper threads. Results do not depend on the
-// number of threads. A step takes as many threads as its work pays for: one below about 2 000 bodies, then one more for each thousand or so, up to
+// number of threads. A step takes as many threads as its work pays for: one below a thousand bodies or two, then one more for each thousand or so, up to
 // the limit. A step does not wait for a helper whose core is busy, so more threads than free cores cost next to nothing. This needs no settings, and
 // a program's own OpenMP, signals and forked children are left alone (lib/base/parallel.h).
 // Frames of reference. The axes are the world's, y up; the units are metres, seconds and kilograms. Bodies stand in document order (tree.h): the
@@ -59,7 +59,7 @@ public:
     void begin_before(std::int64_t steps);
     // [s] How long settle() must run until the start is forgotten (plan/settling.h); 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;
-    // Takes `times` steps, and stops early at one that becomes non-finite. The report and events() cover all of them. A step is O(bodies). After the
+    // Takes `times` steps (0 or more, else SceneError), and stops early at one that becomes non-finite. The report and events() cover all of them. A step is O(bodies). After the
     // first few calls it allocates only where something breaks, where a body first turns so fast that its energy is watched (coupled/energy_guard.h),
     // and where more points are pulled than ever before.
     StepReport step(int times = 1);
@@ -147,7 +147,7 @@ public:
     SavedState save() const;
     void restore(const SavedState&);
 
-    std::string explain() const; // which stages and arrays the scene needs, and why
+    std::string explain() const; // which stages and arrays the scene needs, and why; of attach() only account() knows
     RunAccount account() const;  // how it was run, how often each stage ran, what acted in it. O(free bodies)
     std::size_t bytes() const;   // [B] of the state
 

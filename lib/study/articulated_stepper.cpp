@@ -96,7 +96,8 @@ void ArticulatedStepper::take_constants(const Plan<double>& plan, const Tree& tr
 
 void ArticulatedStepper::explain(const Plan<double>& plan, PlanAccount& account) const {
     const std::string solver = std::string("solver ") + kind().name;
-    account.stage(Stage::articulated, true, solver);
+    account.stage(Stage::articulated, true,
+                  solver + (plan.forces ? "; " + forces_reason(plan) + wind_parts(plan) : "") + moved_roots(plan));
     account.array("scaled_rate", plan.bodies * sizeof(Vec3), true, "every scene");
     account.array("articulated", plan.bodies * passes(own) * sizeof(ArticulatedBody), true, solver);
 }

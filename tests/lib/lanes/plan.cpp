@@ -83,7 +83,7 @@ TEMPLATE_TEST_CASE("lanes run alone and leave the plain step's arrays empty", ""
             if (wishes.torque) expected.insert("torque_j");
             const std::map<std::string, std::size_t> bytes = held(run.state);
             for (const PlannedArray& array : explain(run.plan).arrays) {
-                if (!bytes.contains(array.name)) continue; // the articulated solvers', the lanes' own
+                if (!bytes.contains(array.name)) continue; // the lanes' own
                 CAPTURE(array.name);
                 CHECK(bytes.at(array.name) == (array.on ? array.bytes : 0));
                 CHECK_FALSE(array.reason.empty());
