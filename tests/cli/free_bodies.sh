@@ -105,3 +105,10 @@ python3 -c 'import json; s = json.load(open("half.json")); s["free_bodies"] = [3
 refused 2 "/free_bodies" treesim scene.json --frames 2 --resume cut.json
 treeprofile scene.json --frames 6 --repeat 2 -q >profile
 grep -q '^fracture ' profile || fail "treeprofile does not list fracture"
+
+# What no float can say is written nowhere: as data it would be infinite.
+echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "apple.json"}], "balls": [{"position": [1e39, 0, 0], "radius": 0.2, "mass": 1}]}' >far.json
+for file in far.jsonl far.glb far.usda far_%d.obj; do
+    refused 3 "comes to 1e+39, expected at most 3.4e38" treesim far.json --frames 2 --precision float -o $file
+done
+absent far.jsonl far.glb far.usda far_0.obj

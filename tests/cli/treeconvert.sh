@@ -99,3 +99,8 @@ if [[ -s err ]]; then
     refused 2 "--strict" treeconvert "$maple" --strict -o strict.json
     absent strict.json
 fi
+
+# A round pole that goes over under its weight leans any way: what frequency rounding makes of that is none.
+printf 'spline,point,x,y,z,radius\n0,0,0,0,0,0.0112\n0,1,0,15,0,0.0112\n' >pole.csv
+expect 0 treeconvert pole.csv --stats -o pole.json
+grep -q "^sway  *none: branch 0 buckles under what it carries, and leans any way" err || fail "a pole that cannot stand sways: $(grep sway err)"

@@ -32,3 +32,15 @@ treesim tree.json --frames 3 --report plan --no-output --simd off 2>still
 treesim tree.json --frames 3 --report plan --no-output --simd off --wind calm 2>windy
 grep -q 'wind_field left out' still && grep -q 'wind_field on' windy || fail "--report plan says nothing of the wind"
 grep -q '^calls wind_field 0$' still && grep -q '^calls wind_field 2$' windy || fail "calls are not as explained"
+
+# Reasons are those of the scene, whichever solver and path; of the solver alone what only others have.
+treesim tree.json --frames 2 --report plan --no-output --wind calm --solver analytic 2>lanes
+treesim tree.json --frames 2 --report plan --no-output --wind calm --solver analytic --simd off 2>plain
+for reason in "stage root_motion left out: no root motion" "stage fictitious left out: no lagged fictitious terms" "stage attachments left out: no attachments" \
+    "stage midpoint left out: solver analytic"; do
+    grep -q "^$reason$" lanes && grep -q "^$reason$" plain || fail "not said of the analytic solver in lanes and plain: $reason"
+done
+treesim tree.json --frames 2 --report plan --wind calm 2>windy >/dev/null
+grep -q "^array omega_w left out, .*: no output field velocity$" windy || fail "why no velocities are kept in a wind: $(grep omega_w windy)"
+treesim tree.json --frames 2 --report plan --no-output --wind calm --solver articulated-implicit 2>other
+grep -q "^stage articulated on: solver articulated-implicit; /wind$" other || fail "what the articulated solver takes: $(grep articulated other)"
