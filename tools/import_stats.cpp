@@ -77,7 +77,7 @@ std::string sway_text(const Tree& tree) {
             buckles = "branch " + std::to_string(tree.branch[small.buckled().front()]) +
                       " buckles under what it carries, and leans " + (lowest < leans_any_way ? "any way; " : "over; ") +
                       buckling_remedy;
-        if (lowest < leans_any_way) return "none: " + (buckles.empty() ? "nothing holds it upright" : buckles);
+        if (!buckles.empty() && lowest < leans_any_way) return "none: " + buckles;
         text << x.frequency << " and " << z.frequency << " Hz along x and z, " << std::lround(100 * x.share)
              << " % and " << std::lround(100 * z.share) << " % of the bend under a steady push; lowest mode " << lowest
              << " Hz (treeprofile modes)";

@@ -4,6 +4,7 @@
 #include "lib/base/shortest_text.h"
 #include "lib/simulation/run_choice.h"
 #include "lib/study/timed_steps.h"
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -27,18 +28,20 @@ namespace {
 
 // Throws PromiseError for a number that no float, which most outputs hold, can say: written, it would be infinite.
 void require_floats(const MotionFrame& frame) {
-    constexpr double most = std::numeric_limits<float>::max();
+    const auto require = [&](const char* name, std::size_t body, double largest) {
+        if (largest <= double(std::numeric_limits<float>::max())) return;
+        throw PromiseError("frame " + std::to_string(frame.frame) + ": the " + name + " of body " +
+                           std::to_string(body) + " comes to " + four_digits(largest) +
+                           ", expected at most 3.4e38, as a float can say");
+    };
     for (const auto& [name, values] : {std::pair("position", &frame.position),
                                        {"velocity", &frame.velocity},
                                        {"angular velocity", &frame.angular_velocity},
-                                       {"torque", &frame.torque}})
-        for (std::size_t i = 0; i < values->size(); ++i) {
-            const double largest = (*values)[i].cwiseAbs().maxCoeff();
-            if (!(largest <= most))
-                throw PromiseError("frame " + std::to_string(frame.frame) + ": the " + name + " of body " +
-                                   std::to_string(i) + " comes to " + four_digits(largest) +
-                                   ", expected at most 3.4e38, as a float can say");
-        }
+                                       {"torque", &frame.torque},
+                                       {"theta", &frame.theta},
+                                       {"theta_dot", &frame.theta_dot}})
+        for (std::size_t i = 0; i < values->size(); ++i) require(name, i, (*values)[i].cwiseAbs().maxCoeff());
+    for (std::size_t i = 0; i < frame.stress.size(); ++i) require("stress", i, std::abs(frame.stress[i]));
 }
 
 } // namespace

@@ -57,8 +57,8 @@ template <class T> void fast::AnalyticLanesStepper<T>::explain(const Plan<T>& pl
     account.stage(Stage::drag, false, plan.wind ? in_lanes : "no wind");
     // Scenes with these are stepped plainly (analytic_stepper).
     account.stage(Stage::root_motion, false, "no root motion");
-    account.stage(Stage::fictitious, false, "no lagged fictitious terms");
-    account.stage(Stage::attachments, false, "no attachments");
+    account.stage(Stage::fictitious, false, why(plan, false, AnalyticNeed::lagged));
+    account.stage(Stage::attachments, false, why(plan, false, AnalyticNeed::held));
     account.array("scaled_rate", plan.bodies * sizeof(Vector3<T>), plan.pose, pose_reason(plan));
     constexpr std::size_t L = Row<T>::lanes;
     const Layout& layout = own.lanes.layout;

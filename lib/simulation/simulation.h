@@ -59,9 +59,9 @@ public:
     void begin_before(std::int64_t steps);
     // [s] How long settle() must run until the start is forgotten (plan/settling.h); 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;
-    // Takes `times` steps (0 or more, else SceneError), and stops early at one that becomes non-finite. The report and events() cover all of them. A step is O(bodies). After the
-    // first few calls it allocates only where something breaks, where a body first turns so fast that its energy is watched (coupled/energy_guard.h),
-    // and where more points are pulled than ever before.
+    // Takes `times` steps (0 or more, else it throws SceneError), and stops early at one that becomes non-finite. The report and events() cover all of
+    // them. A step is O(bodies). After the first few calls it allocates only where something breaks, where a body first turns so fast that its energy
+    // is watched (coupled/energy_guard.h), and where more points are pulled than ever before.
     StepReport step(int times = 1);
 
     std::size_t bodies() const; // that are shown: of trees, balls and walkers

@@ -111,4 +111,6 @@ echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "apple.json"}],
 for file in far.jsonl far.glb far.usda far_%d.obj; do
     refused 3 "comes to 1e+39, expected at most 3.4e38" treesim far.json --frames 2 --precision float -o $file
 done
+sed 's/"position": \[1e39, 0, 0\]/"position": [9, 9, 0], "velocity": [0, -1e39, 0]/' far.json >fast.json
+refused 3 "the velocity of body" treesim fast.json --frames 2 --precision float --fields pose,velocity -o far.jsonl
 absent far.jsonl far.glb far.usda far_0.obj

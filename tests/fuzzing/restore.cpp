@@ -5,6 +5,7 @@
 #include "lib/model/wood.h"
 #include "lib/simulation/simulation.h"
 #include <cstring>
+#include <type_traits>
 
 using namespace bough;
 
@@ -28,16 +29,19 @@ private:
     const std::uint8_t *at_, *end_;
 };
 
-void change(std::vector<Vec3>& list, Edits& edits) {
+template <class Value> void change(std::vector<Value>& list, Edits& edits) {
     const std::uint8_t where = edits.byte();
-    if (where == 255) return list.resize(edits.byte());
-    if (!list.empty()) list[where % list.size()][edits.byte() % 3] = edits.number();
-}
-
-void change(std::vector<double>& list, Edits& edits) {
-    const std::uint8_t where = edits.byte();
-    if (where == 255) return list.resize(edits.byte());
-    if (!list.empty()) list[where % list.size()] = edits.number();
+    if (where == 255) {
+        Value zero{};
+        if constexpr (std::is_same_v<Value, Vec3>) zero.setZero();
+        return list.resize(edits.byte(), zero);
+    }
+    if (list.empty()) return;
+    Value& value = list[where % list.size()];
+    if constexpr (std::is_same_v<Value, Vec3>)
+        value[edits.byte() % 3] = edits.number();
+    else
+        value = edits.number();
 }
 
 void change(SavedState& state, Edits& edits) {
@@ -105,10 +109,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint64_t before = run.hash();
     try {
         run.restore(changed);
-        run.step(2);
     } catch (const SceneError& error) {
         fuzzing::check_message(error.what(), "");
         if (run.hash() != before) fuzzing::fail("a run that refused a state is another");
+        return 0;
     }
+    run.step(2);
     return 0;
 }

@@ -3,6 +3,7 @@
 #include "fuzzing.h"
 #include "lib/growth/segment.h"
 #include "lib/model/wood.h"
+#include <stdexcept>
 
 using namespace bough;
 
@@ -17,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         Tree tree;
         try {
             tree = segment(splines, wood_presets().front(), {});
-        } catch (const std::exception&) {
+        } catch (const std::invalid_argument&) {
             return; // wood that cannot stand, say: the mesh is not reached
         }
         const OwnMesh mesh =
