@@ -1,7 +1,7 @@
 #include "document_parts.h"
 #include "motion.h"
 #include <charconv>
-#include <cmath>
+#include <optional>
 
 namespace bough {
 namespace {
@@ -73,32 +73,11 @@ void check_carried(const SavedState& state, const std::string& name) {
     check("spin_dot", !state.spin_dot.empty(), !state.spin_dot.empty() && state.solver == "analytic");
 }
 
-void check_step_change(const SavedState& state, const std::string& name) {
-    const std::vector<double>& change = state.step_change;
-    if (change.empty()) return;
-    const double steps = double(state.frame) * state.substeps;
-    if (change.size() != 2 || change[0] != std::floor(change[0]) || !(change[0] <= steps) || !(change[0] >= -1e15))
-        throw InputError(name + ": /step_change", "expected two numbers: steps, at most those of /frame, and seconds");
-}
-
 void check_state(const SavedState& state, const std::string& name) {
-    const auto fail = [&](const char* field, const std::string& message) {
-        throw InputError(name + ": /" + field, message);
-    };
-    if (state.frame < 0) fail("frame", "is " + std::to_string(state.frame) + ", expected 0 or more");
-    if (state.parts < 1 || state.part < 1 || state.part > state.parts)
-        fail("part", "is " + std::to_string(state.part) + " of " + std::to_string(state.parts) +
-                         ", expected 1 to the number of /parts");
-    if (!(state.fps > 0)) fail("fps", "is not above 0, expected frames a second");
-    if (state.substeps < 1) fail("substeps", "is " + std::to_string(state.substeps) + ", expected 1 or more");
-    if (double(state.frame) * state.substeps > 9e15)
-        fail("frame", "is " + std::to_string(state.frame) + ", of " + std::to_string(state.substeps) +
-                          " steps each, expected at most 9e15 steps");
-    if (state.precision != "float" && state.precision != "double")
-        fail("precision", "is \"" + state.precision.substr(0, 20) + "\", expected \"float\" or \"double\"");
+    if (const std::optional<Defect> defect = check(state))
+        throw InputError(name + ": /" + defect->field + (defect->index < 0 ? "" : "/" + std::to_string(defect->index)),
+                         defect->message);
     check_carried(state, name);
-    check_step_change(state, name);
-    if (!(state.articulated_step >= 0)) fail("articulated_step", "is below 0, expected seconds");
 }
 
 } // namespace

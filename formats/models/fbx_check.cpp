@@ -1,5 +1,6 @@
 #include "fbx_check.h"
 #include "formats/plain_text.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -17,6 +18,12 @@ constexpr std::size_t head = 27; // with the version, its last four bytes
 
 [[noreturn]] void fail(std::size_t byte, const std::string& what) {
     throw std::runtime_error("byte " + std::to_string(byte) + ": " + what);
+}
+
+// A record's name in a message: as it is where it is a word, else in quotes.
+std::string said(std::string_view name) {
+    const bool word = std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
+    return word && name.size() <= 40 ? std::string(name) : in_ascii_quotes(name);
 }
 
 struct Record {
@@ -55,7 +62,7 @@ public:
         if (p + 13 > record.first || content_[p] != type) return {};
         const std::uint64_t count = number<std::uint32_t>(p + 1), packed = number<std::uint32_t>(p + 9);
         const bool is_packed = number<std::uint32_t>(p + 5) == 1;
-        const std::string what = std::string(record.name) + " ";
+        const std::string what = said(record.name) + " ";
         if (packed > record.first - (p + 13)) fail(p, what + "ends beyond its record");
         if (is_packed ? count * sizeof(T) > 1100 * packed + 1100 : count * sizeof(T) > packed)
             fail(p, what + "has room for fewer than the " + std::to_string(count) + " numbers that it says it holds");
@@ -126,8 +133,8 @@ private:
         const std::optional<std::vector<double>> numbers = file_.array<double>(record, 'd');
         for (std::size_t k = 0; numbers && k < numbers->size(); ++k)
             if (!std::isfinite((*numbers)[k]))
-                throw std::runtime_error(place_ + std::string(record.name) +
-                                         " has a number that is not finite, number " + std::to_string(k));
+                throw std::runtime_error(place_ + said(record.name) + " has a number that is not finite, number " +
+                                         std::to_string(k));
     }
 
     void require_indices(const Record& record, const std::vector<std::int32_t>& indices, bool ends,
@@ -135,7 +142,7 @@ private:
         for (std::size_t k = 0; k < indices.size(); ++k) {
             const std::int64_t named = ends && indices[k] < 0 ? -1 - std::int64_t(indices[k]) : indices[k];
             if (named < 0 || named >= std::int64_t(vertices))
-                throw std::runtime_error(place_ + std::string(record.name) + " names vertex " + std::to_string(named) +
+                throw std::runtime_error(place_ + said(record.name) + " names vertex " + std::to_string(named) +
                                          " as number " + std::to_string(k) + ", expected 0 to less than " +
                                          std::to_string(vertices));
         }

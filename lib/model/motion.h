@@ -2,6 +2,7 @@
 #pragma once
 #include "../base/math.h"
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,5 +93,10 @@ struct SavedState {
     std::vector<double> step_change;
     std::string source;
 };
+
+struct Defect; // splines.h
+
+// Returns the first broken rule that needs no run to see, or none: numbers are finite, and counts, precision and step_change as said above. O(bodies).
+std::optional<Defect> check(const SavedState&);
 
 } // namespace bough

@@ -330,6 +330,9 @@ SavedState Simulation::save() const {
 }
 
 void Simulation::restore(const SavedState& saved) {
+    if (const std::optional<Defect> defect = check(saved))
+        throw SceneError("/" + defect->field + (defect->index < 0 ? "" : "/" + std::to_string(defect->index)) + ": " +
+                         defect->message);
     run_->restore(saved);
 }
 

@@ -126,6 +126,14 @@ TEST_CASE("FBX indices and numbers that are out of range are named with their pl
     CHECK(with([](Numbers& n) { n.weights.pop_back(); }) == "deformer \"bone\": has 1 Weights for 2 Indexes");
 }
 
+TEST_CASE("What an FBX calls a record is one line of ASCII in a refusal") {
+    Numbers numbers;
+    numbers.link[15] = std::nan("");
+    std::string file = file_of(numbers, false);
+    file[file.find("TransformLink") + 9] = '\n';
+    CHECK(fbx_refusal(file) == R"(deformer "bone": "Transform?ink" has a number that is not finite, number 15)");
+}
+
 TEST_CASE("FBX that is cut anywhere, or says that it is longer, is refused by its byte and never read beyond its end") {
     for (const bool wide : {false, true}) {
         const std::string whole = file_of({}, wide);

@@ -2,6 +2,8 @@
 #include "tests/support/make_tree.h"
 #include "tests/support/random_documents.h"
 #include "tests/support/simulations.h"
+#include <cmath>
+#include <functional>
 
 using namespace bough;
 using namespace simulations;
@@ -35,6 +37,33 @@ TEST_CASE("a run that is cut ends as the whole one, also with what broke off and
     SavedState other_scheme = cut.save();
     other_scheme.scheme = "P34";
     CHECK_THROWS_WITH(again.restore(other_scheme), Catch::Contains("/scheme"));
+}
+
+TEST_CASE("a state that no file could hold is refused with its place, and changes nothing") {
+    Simulation run_(one(leafy(), "gusty"));
+    run(run_, 3);
+    const SavedState saved = run_.save();
+    const std::uint64_t hash = run_.hash();
+    const auto refused = [&](const char* place, const std::function<void(SavedState&)>& change) {
+        SavedState changed = saved;
+        change(changed);
+        CHECK_THROWS_WITH(run_.restore(changed), Catch::StartsWith(std::string(place) + ":"));
+        CHECK(run_.hash() == hash);
+    };
+    const double nan = std::nan("");
+    refused("/step_change", [](SavedState& s) { s.step_change = {1}; }); // read beyond its end once
+    refused("/step_change", [](SavedState& s) { s.step_change = {4, 0.1}; });
+    refused("/step_change", [](SavedState& s) { s.step_change = {0.5, 0.1}; });
+    refused("/step_change/1", [&](SavedState& s) { s.step_change = {1, nan}; });
+    refused("/frame", [](SavedState& s) { s.frame = -1; });
+    refused("/frame", [](SavedState& s) { s.frame = std::int64_t(1) << 62; });
+    refused("/substeps", [](SavedState& s) { s.substeps = 0; });
+    refused("/fps", [&](SavedState& s) { s.fps = nan; });
+    refused("/part", [](SavedState& s) { s.part = 2; });
+    refused("/theta/1", [&](SavedState& s) { s.theta[1].z() = nan; });
+    refused("/theta_dot_change/2", [](SavedState& s) { s.theta_dot_change[2].x() = INFINITY; });
+    refused("/sleep/0", [&](SavedState& s) { s.sleep = {nan}; });
+    refused("/articulated_step", [](SavedState& s) { s.articulated_step = -1; });
 }
 
 TEST_CASE("another run takes a motion over where trees agree, whatever their wood") {

@@ -40,6 +40,9 @@ template <class T> void save_run(Run<T>&, std::int64_t, SavedState&) {
 template <class T> void restore_run(const SavedState&, std::int64_t, Run<T>&) {
     no_part("a saved state");
 }
+std::optional<Defect> check(const SavedState&) {
+    no_part("a saved state");
+}
 double saved_time(const SavedState&, std::int64_t, double) {
     no_part("a saved state");
 }
