@@ -6,8 +6,8 @@ namespace bough {
 Form chosen_form(const CommonOptions& common) {
     if (common.format == "json") return Form::json;
     if (common.format == "safetensors") return Form::safetensors;
-    for (const char* other :
-         {".glb", ".gltf", ".fbx", ".obj", ".dae", ".ply", ".stl", ".abc", ".usd", ".jsonl", ".xml"})
+    for (const char* other : {".glb", ".gltf", ".fbx", ".obj", ".dae", ".ply", ".stl", ".abc", ".usd", ".bvh", ".blend",
+                              ".csv", ".jsonl", ".xml"})
         if (ending(common.output) == other)
             throw UsageError("-o is '" + common.output +
                              "', but this tool writes a document there: .json or .safetensors");

@@ -201,7 +201,8 @@ SegmentOptions segment_options(const Options& o) {
 std::string statistics(const Splines& splines, const Tree& tree, const SegmentReport& report, const Material& wood) {
     const auto [R_wb, x_w] = drawn_pose(tree);
     std::size_t kinds[4] = {0, 0, 0, 0}, roots = 0;
-    double mass = 0, leaves = 0, fruit = 0, area = 0, top = 0, softest = INFINITY, stiffest = 0;
+    double mass = 0, leaves = 0, fruit = 0, area = 0, top = -INFINITY, foot = INFINITY, softest = INFINITY,
+           stiffest = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         ++kinds[std::size_t(tree.kind[i])];
         roots += tree.parent[i] < 0;
@@ -210,6 +211,7 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
             area += foliage_area(tree, i);
             leaves += foliage_area(tree, i) * tree.size[i][2] * wood.leaf_density;
         }
+        if (tree.parent[i] < 0) foot = std::min(foot, x_w[i].y());
         top = std::max({top, x_w[i].y(), (x_w[i] + R_wb[i].col(2) * tree.size[i][0]).y()});
         softest = std::min(softest, tree.stiffness[i].minCoeff());
         stiffest = std::max(stiffest, tree.stiffness[i].maxCoeff());
@@ -223,7 +225,7 @@ std::string statistics(const Splines& splines, const Tree& tree, const SegmentRe
          << "material    " << tree.material << "\n"
          << "mass        " << mass << " kg: wood " << mass - leaves - fruit << ", leaves " << leaves << ", fruit "
          << fruit << "; " << area << " m2 of leaves\n"
-         << "height      " << top << " m\n"
+         << "height      " << top - foot << " m\n"
          << "stiffness   " << softest << " to " << stiffest << " N m/rad\n"
          << "sway        " << sway_text(tree) << "\n"
          << "longest     " << report.segment_length << " m of branch in one body\n"

@@ -193,7 +193,8 @@ std::string chosen_format(const CommonOptions& common) {
                              " holds all frames, so its name takes no number");
         return kind.substr(1);
     }
-    for (const char* known : {".gltf", ".fbx", ".abc", ".usd", ".usdc", ".usdz", ".dae", ".ply", ".stl"})
+    for (const char* known :
+         {".gltf", ".fbx", ".abc", ".usd", ".usdc", ".usdz", ".dae", ".ply", ".stl", ".bvh", ".blend"})
         if (kind == known)
             throw UsageError("-o is '" + common.output + "', but " + known + " is not written; " + written);
     if (kind == ".csv")

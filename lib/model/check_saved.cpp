@@ -1,6 +1,8 @@
 #include "../base/shortest_text.h"
 #include "motion.h"
 #include "splines.h"
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -24,6 +26,12 @@ std::optional<Defect> check_count(const SavedState& state) {
                       "is " + std::to_string(state.frame) + ", of " + std::to_string(state.substeps) +
                           " steps each, expected at most 9e15 steps"};
     return std::nullopt;
+}
+
+// Empty, or what a message may repeat.
+bool is_word(const std::string& text) {
+    const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+    return text.size() <= 40 && std::all_of(text.begin(), text.end(), fits);
 }
 
 std::optional<Defect> check_step_change(const SavedState& state) {
@@ -62,6 +70,8 @@ std::optional<Defect> check(const SavedState& state) {
     if (auto defect = check_count(state)) return defect;
     if (state.precision != "float" && state.precision != "double")
         return Defect{"precision", -1, R"(is neither "float" nor "double")"};
+    for (const auto& [field, word] : {std::pair{"solver", &state.solver}, {"scheme", &state.scheme}})
+        if (!is_word(*word)) return Defect{field, -1, "is no name, expected letters, digits, _ and -"};
     if (auto defect = check_finite(state)) return defect;
     if (auto defect = check_step_change(state)) return defect;
     if (!(state.articulated_step >= 0) || !std::isfinite(state.articulated_step))

@@ -169,9 +169,12 @@ StartPose start_pose(const Tree& tree, const Vec3& gravity, Pose pose) {
         return found(tree, gravity, pose);
     } catch (const NoPose& wrong) {
         const bool under_load = pose == Pose::drawn && !tree.load.empty();
-        throw std::domain_error((under_load ? "load: body " : "body ") + std::to_string(wrong.body) + " of branch " +
-                                std::to_string(tree.branch[wrong.body]) + wrong.why);
+        throw NoStart(wrong.body, tree.branch[wrong.body], (under_load ? " under its load" : "") + wrong.why);
     }
 }
+
+NoStart::NoStart(std::size_t of, std::int32_t on, const std::string& wrong)
+    : std::domain_error("body " + std::to_string(of) + " of branch " + std::to_string(on) + wrong), body(of),
+      branch(on), why(wrong) {}
 
 } // namespace bough

@@ -12,14 +12,24 @@
 // falls), and then do. Newton's matrix decides what is stable. It leaves out how T turns with theta, so for joints turned by half a radian and more
 // it may misjudge a mode next to neutral. `settled` and `rest` treat the load as any other weight.
 // Each root's tree finds its sag by itself. Reads a checked tree (K as scaled by the scene). Cost O(n) (settled: O(n) an iteration, about 5 to 50).
-// Throws std::domain_error that names body and branch: for drawn with K = 0 under load or no solution within half a turn, and for settled without
+// Throws NoStart, which names body and branch: for drawn with K = 0 under load or no solution within half a turn, and for settled without
 // convergence.
 #pragma once
 #include "../model/scene.h"
 #include "../model/tree.h"
 #include "start_pose.h"
+#include <cstdint>
+#include <stdexcept>
+#include <string>
 
 namespace bough {
+
+struct NoStart : std::domain_error {
+    NoStart(std::size_t body, std::int32_t branch, const std::string& why);
+    std::size_t body;
+    std::int32_t branch;
+    std::string why; // what() without "body B of branch b"
+};
 
 StartPose start_pose(const Tree&, const Vec3& gravity, Pose);
 

@@ -2,6 +2,7 @@
 #include "../analytic/analytic_lanes_stepper.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../plan/expand.h"
+#include "../plan/pose.h"
 #include "../plan/spring_torque.h"
 
 namespace bough {
@@ -16,6 +17,16 @@ template <class T> std::string free_text(const World<T>& world, std::size_t k) {
     return "what fell with " + body_text(*world.tree, std::size_t(world.free[k].parts.front().body));
 }
 
+// Of several trees, the place of the one that cannot stand, whose body and branch are counted as its own document counts them.
+std::string text_of(const NoStart& wrong, const Assembly& assembly) {
+    const std::vector<TreeRange>& trees = assembly.ranges;
+    if (trees.size() < 2 || assembly.part.parts > 1) return wrong.what();
+    std::size_t k = trees.size() - 1;
+    while (k > 0 && trees[k].first_body > wrong.body) --k;
+    const NoStart own(wrong.body - trees[k].first_body, wrong.branch - trees[k].first_branch, wrong.why);
+    return "/trees/" + std::to_string(k) + ": " + own.what();
+}
+
 // tree: const Tree& or Tree&&, as make_plan takes it.
 template <class T, class TreeType>
 Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, double dt,
@@ -25,14 +36,16 @@ Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, double
     wishes.clocks = assembly.part.clocks;
     wishes.foliage = assembly.part.foliage;
     wishes.faces = assembly.part.faces;
+    const std::string counted = assembly.whole ? " (bodies counted without the rigid ones)" : "";
     try {
         return make_plan<T>(std::forward<TreeType>(tree), assembly.ranges, assembly.scene, wishes, dt,
                             std::move(stepper));
     } catch (const std::out_of_range& error) {
         throw SceneError(error.what());
+    } catch (const NoStart& wrong) {
+        throw SceneError(text_of(wrong, assembly) + counted);
     } catch (const std::domain_error& error) {
-        throw SceneError(std::string(error.what()) +
-                         (assembly.whole ? " (bodies counted without the rigid ones)" : ""));
+        throw SceneError(error.what() + counted);
     }
 }
 

@@ -77,6 +77,7 @@ refused 1 "--rustle" "${run[@]}" --rustle -o x.usda
 refused 1 "--key-tolerance" "${run[@]}" --key-tolerance 1 -o x.usda
 refused 1 "takes no number" "${run[@]}" -o x_%d.usda
 refused 1 ".usdz is not written" "${run[@]}" -o x.usdz
+refused 1 ".bvh is not written" "${run[@]}" -o x.bvh
 expect 0 "${run[@]}" --max-joints 20 -o joints.usda
 grep -q "bodies merged to 20 joints" err || fail "nothing is said of merged joints: $(cat err)"
 absent x.usda x.usdz

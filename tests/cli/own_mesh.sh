@@ -111,6 +111,8 @@ expect 0 treeconvert art/aside.xml -o set.json
 grep -q "its foot stood at 3, 2, " err || fail "where the foot stood is not told: $(cat err)"
 expect 0 treeconvert art/aside.xml --keep-place -o kept.json
 ! grep -q "its foot" err || fail "--keep-place moves the tree: $(cat err)"
+height() { treeconvert art/aside.xml "$@" --stats -o /dev/null 2>&1 | sed -n 's/^height  *\([0-9.]*\) m$/\1/p'; }
+[[ $(height) && $(height) == "$(height --keep-place)" ]] || fail "--keep-place makes the tree $(height --keep-place) m high, not $(height)"
 for tree in set kept; do expect 0 treesim "$tree.json" --skin art/aside.xml --frames 1 -o "${tree}_%d.obj"; done
 python3 - <<'P' || fail "the mesh of a tree that stands aside"
 vertices = lambda name: [[float(x) for x in line.split()[1:4]] for line in open(name) if line.startswith("v ")]

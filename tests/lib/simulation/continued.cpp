@@ -59,6 +59,8 @@ TEST_CASE("a state that no file could hold is refused with its place, and change
     refused("/frame", [](SavedState& s) { s.frame = std::int64_t(1) << 62; });
     refused("/substeps", [](SavedState& s) { s.substeps = 0; });
     refused("/fps", [&](SavedState& s) { s.fps = nan; });
+    refused("/scheme", [](SavedState& s) { s.scheme = "\n"; });
+    refused("/solver", [](SavedState& s) { s.solver = std::string(41, 'a'); });
     refused("/part", [](SavedState& s) { s.part = 2; });
     refused("/theta/1", [&](SavedState& s) { s.theta[1].z() = nan; });
     refused("/theta_dot_change/2", [](SavedState& s) { s.theta_dot_change[2].x() = INFINITY; });

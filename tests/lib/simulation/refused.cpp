@@ -65,3 +65,15 @@ TEST_CASE("what cannot be run is refused once, with its place") {
     CHECK(refusal(pulled) == "/pulls/0/on/by: is 4, expected one of body, branch, nearest, level");
     CHECK(refusal(one(tree)).empty());
 }
+
+TEST_CASE("a tree that cannot stand is named with its place, and its body as its own document counts it") {
+    const Tree tree = make_tree::branched();
+    Tree soft = tree;
+    for (Vec3& K : soft.stiffness) K *= 1e-9;
+    const std::string alone = refusal(one(soft));
+    CHECK_THAT(alone, Catch::StartsWith("body ") && Catch::Contains(" of branch ") &&
+                          Catch::Contains(" is too soft to carry its weight"));
+    Scene two = one(tree);
+    two.add(soft, Vec3(20, 0, 0));
+    CHECK(refusal(two) == "/trees/1: " + alone);
+}

@@ -43,6 +43,7 @@ TEST_CASE("every promised cell holds, float and double") {
         std::vector<std::string> without;
         if (!first) without = {"depth", "shape", "forest"};
         if (!first || sanitized) without.push_back("10 000 balls");
+        without.push_back("chain of 1e5"); // four fifths of the time: `tests/soak grid`
         const StabilityReport report = measure_stability(setup, {40, false, "", without}, no_progress);
         std::map<std::string, std::size_t> promised;
         int compared = 0;
