@@ -2,7 +2,6 @@
 #include "motion.h"
 #include "splines.h"
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -29,8 +28,8 @@ std::optional<Defect> check_count(const SavedState& state) {
 }
 
 // Empty, or what a message may repeat.
-bool is_word(const std::string& text) {
-    const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+bool is_name(const std::string& text) {
+    const auto fits = [](char c) { return c >= ' ' && c <= '~'; };
     return text.size() <= 40 && std::all_of(text.begin(), text.end(), fits);
 }
 
@@ -71,7 +70,7 @@ std::optional<Defect> check(const SavedState& state) {
     if (state.precision != "float" && state.precision != "double")
         return Defect{"precision", -1, R"(is neither "float" nor "double")"};
     for (const auto& [field, word] : {std::pair{"solver", &state.solver}, {"scheme", &state.scheme}})
-        if (!is_word(*word)) return Defect{field, -1, "is no name, expected letters, digits, _ and -"};
+        if (!is_name(*word)) return Defect{field, -1, "is no name, expected at most 40 characters of ASCII"};
     if (auto defect = check_finite(state)) return defect;
     if (auto defect = check_step_change(state)) return defect;
     if (!(state.articulated_step >= 0) || !std::isfinite(state.articulated_step))
