@@ -119,7 +119,9 @@ private:
             6 * std::max((a.point - 2 * a.right + b.left).norm(), (a.right - 2 * b.left + b.point).norm());
         const double length = (a.right - a.point).norm() + (b.left - a.right).norm() + (b.point - b.left).norm();
         if (!(length > 0)) return 1;
-        return int(std::clamp(std::ceil(std::sqrt(bend / (8 * off_curve * length))), 1.0, std::max(1.0, resolution_)));
+        const double wanted = std::ceil(std::sqrt(bend / (8 * off_curve * length)));
+        return wanted > 1 ? int(std::min(wanted, std::max(1.0, resolution_)))
+                          : 1; // not a number where a point is at 1e308
     }
 
     void add_curve(bool bezier) {

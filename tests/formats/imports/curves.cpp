@@ -201,4 +201,7 @@ TEST_CASE("coordinates whose differences overflow are refused") {
     const std::string far =
         "spline,point,x,y,z,radius\n0,0,-1.7e308,0,0,1\n0,1,1.7e308,0,0,1\n1,0,0,0,0,1\n1,1,1,0,0,1\n";
     CHECK(error_of(far, "far.csv").find("expected") != std::string::npos);
+    CHECK(error_of(content_of(std::string(BOUGH_DATA_DIR) + "/../tests/fuzzing/found/far_bezier.curves.json"),
+                   "far.curves.json")
+              .find("reaches 1e+308 m, expected at most 1e+30 m") != std::string::npos);
 }
