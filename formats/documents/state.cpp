@@ -1,7 +1,6 @@
 #include "document_parts.h"
 #include "motion.h"
 #include <charconv>
-#include <optional>
 
 namespace bough {
 namespace {
@@ -73,13 +72,6 @@ void check_carried(const SavedState& state, const std::string& name) {
     check("spin_dot", !state.spin_dot.empty(), !state.spin_dot.empty() && state.solver == "analytic");
 }
 
-void check_state(const SavedState& state, const std::string& name) {
-    if (const std::optional<Defect> defect = check(state))
-        throw InputError(name + ": /" + defect->field + (defect->index < 0 ? "" : "/" + std::to_string(defect->index)),
-                         defect->message);
-    check_carried(state, name);
-}
-
 } // namespace
 
 bool is_state(std::string_view content) {
@@ -89,10 +81,12 @@ bool is_state(std::string_view content) {
 SavedState read_state(std::string_view content, const std::string& name) {
     SavedState state;
     std::string fingerprint;
-    read_document(content, name, state_document, fields_of(state, fingerprint));
+    const std::vector<Field> fields = fields_of(state, fingerprint);
+    read_document(content, name, state_document, fields);
     if (!read_hexadecimal(fingerprint, state.fingerprint))
         throw InputError(name + ": /fingerprint", "is not 16 hexadecimal digits");
-    check_state(state, name);
+    refuse(check(state), name, fields);
+    check_carried(state, name);
     return state;
 }
 

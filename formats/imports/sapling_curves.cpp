@@ -120,8 +120,8 @@ private:
         const double length = (a.right - a.point).norm() + (b.left - a.right).norm() + (b.point - b.left).norm();
         if (!(length > 0)) return 1;
         const double wanted = std::ceil(std::sqrt(bend / (8 * off_curve * length)));
-        return wanted > 1 ? int(std::min(wanted, std::max(1.0, resolution_)))
-                          : 1; // not a number where a point is at 1e308
+        if (!(wanted > 1)) return 1; // it is not a number where a point is at 1e308, which is refused later
+        return int(std::min(wanted, std::max(1.0, resolution_)));
     }
 
     void add_curve(bool bezier) {

@@ -96,7 +96,8 @@ struct SavedState {
 
 struct Defect; // splines.h
 
-// Returns the first broken rule that needs no run to see, or none: numbers are finite, and counts, precision and step_change as said above. O(bodies).
+// Returns the first broken rule that needs no run to see, or none: numbers are finite, names short and of ASCII,
+// and counts, precision and step_change as said above. O(bodies).
 std::optional<Defect> check(const SavedState&);
 
 } // namespace bough

@@ -90,9 +90,12 @@ double settling_time(const Assembly& assembly) {
                                    : settling_time(assembly.tree, assembly.ranges, assembly.scene);
 }
 
+std::string text_of(const Defect& defect) {
+    return "/" + defect.field + (defect.index < 0 ? "" : "/" + std::to_string(defect.index)) + ": " + defect.message;
+}
+
 Assembly assemble(Scene scene) {
-    if (const std::optional<Defect> defect = check(scene))
-        throw SceneError("/" + defect->field + ": " + defect->message);
+    if (const std::optional<Defect> defect = check(scene)) throw SceneError(text_of(*defect));
     if (scene.trees.empty()) throw SceneError("/trees: is empty, expected at least one tree (Scene::add)");
     Assembly assembly;
     assembly.scene = std::move(scene);
@@ -102,9 +105,7 @@ Assembly assemble(Scene scene) {
         if (!at.tree)
             throw SceneError(name + ": only names a file, '" + at.file +
                              "', expected a tree in memory (Scene::add; read_scene of bough/files.h brings them)");
-        if (const std::optional<Defect> defect = check(*at.tree))
-            throw SceneError(name + ": /" + defect->field +
-                             (defect->index < 0 ? "" : "/" + std::to_string(defect->index)) + ": " + defect->message);
+        if (const std::optional<Defect> defect = check(*at.tree)) throw SceneError(name + ": " + text_of(*defect));
         stand(assembly, *at.tree, at);
         at.tree.reset(); // a park's file is held once, by whoever added it
     }

@@ -57,4 +57,7 @@ double settling_time(const Assembly&);
 // Does all of this for a scene that holds its trees (Placement::tree). Throws SceneError, also for what check() finds.
 Assembly assemble(Scene);
 
+// "/field: message", with the entry behind the field where there is one: of a SceneError.
+std::string text_of(const Defect&);
+
 } // namespace bough

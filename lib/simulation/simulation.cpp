@@ -330,9 +330,7 @@ SavedState Simulation::save() const {
 }
 
 void Simulation::restore(const SavedState& saved) {
-    if (const std::optional<Defect> defect = check(saved))
-        throw SceneError("/" + defect->field + (defect->index < 0 ? "" : "/" + std::to_string(defect->index)) + ": " +
-                         defect->message);
+    if (const std::optional<Defect> defect = check(saved)) throw SceneError(text_of(*defect));
     run_->restore(saved);
 }
 

@@ -40,15 +40,15 @@ TEST_CASE("a run that is cut ends as the whole one, also with what broke off and
 }
 
 TEST_CASE("a state that no file could hold is refused with its place, and changes nothing") {
-    Simulation run_(one(leafy(), "gusty"));
-    run(run_, 3);
-    const SavedState saved = run_.save();
-    const std::uint64_t hash = run_.hash();
+    Simulation simulation(one(leafy(), "gusty"));
+    run(simulation, 3);
+    const SavedState saved = simulation.save();
+    const std::uint64_t hash = simulation.hash();
     const auto refused = [&](const char* place, const std::function<void(SavedState&)>& change) {
         SavedState changed = saved;
         change(changed);
-        CHECK_THROWS_WITH(run_.restore(changed), Catch::StartsWith(std::string(place) + ":"));
-        CHECK(run_.hash() == hash);
+        CHECK_THROWS_WITH(simulation.restore(changed), Catch::StartsWith(std::string(place) + ":"));
+        CHECK(simulation.hash() == hash);
     };
     const double nan = std::nan("");
     refused("/step_change", [](SavedState& s) { s.step_change = {1}; }); // read beyond its end once
