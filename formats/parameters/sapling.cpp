@@ -48,7 +48,8 @@ void read_levels(ParameterTable& t, GrowthParameters& p) {
     read_column(t, p, "branches", {50, 30, 10, 10}, 0, 1e6, &L::branches, true);
     p.level[0].branches = 1;
     const Four res = t.four("curveRes", {3, 5, 3, 1}, 1, 1000, p.levels, true);
-    for (std::size_t n = 0; n < 4; ++n) p.level[n].curve_res = static_cast<int>(res[n]);
+    // Of levels that are not grown anything is taken, which no int need hold.
+    for (std::size_t n = 0; n < std::size_t(p.levels); ++n) p.level[n].curve_res = static_cast<int>(res[n]);
     read_column(t, p, "curve", {0, -40, -40, 0}, -3600, 3600, &L::curve);
     read_column(t, p, "curveV", {20, 50, 75, 0}, -3600, 3600, &L::curve_v);
     read_column(t, p, "curveBack", {0, 0, 0, 0}, -3600, 3600, &L::curve_back);

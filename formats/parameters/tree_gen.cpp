@@ -35,7 +35,8 @@ void read_tree_gen_levels(ParameterTable& t, GrowthParameters& p) {
     column("branch_dist", {0, 0, 0, 0}, 0, 100, false, &L::branch_dist);
     column("radius_mod", {1, 1, 1, 1}, 1e-6, 1000, false, &L::radius_mod);
     const Four res = t.four("curve_res", {5, 5, 3, 1}, 1, 1000, grown, true);
-    for (std::size_t n = 0; n < 4; ++n) p.level[n].curve_res = static_cast<int>(res[n]);
+    // Of levels that are not grown anything is taken, which no int need hold.
+    for (std::size_t n = 0; n < std::size_t(grown); ++n) p.level[n].curve_res = static_cast<int>(res[n]);
     for (int n = 0; n < grown; ++n)
         if (!(p.level[std::size_t(n)].length_v < p.level[std::size_t(n)].length))
             t.refuse("length_v", "less than length for level " + std::to_string(n));

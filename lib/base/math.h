@@ -95,10 +95,6 @@ Quat shortest_turn(const Vec3& from, const Vec3& to);
 Quat least_turn(const Quat& near, const Vec3& axis);
 
 // Returns q / |q| or its opposite, which stands for the same rotation: the one with w >= 0.
-inline Quat positive(const Quat& q) {
-    Quat n = q.normalized();
-    if (n.w() < 0) n.coeffs() *= -1;
-    return n;
-}
+Quat positive(const Quat& q);
 
 } // namespace bough

@@ -9,12 +9,13 @@
 #pragma once
 #include "lib/study/solvers.h"
 #include "tests/support/solver_parts.h"
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <functional>
 #include <vector>
 
 namespace dense {
 
+using bough::operator+, bough::operator-, bough::operator*, bough::operator/; // eager.h: 3x3, for the compiler's time
 using Real = long double;
 using V3 = Eigen::Matrix<Real, 3, 1>;
 using M3 = Eigen::Matrix<Real, 3, 3>;
@@ -232,7 +233,7 @@ inline Solved solve(const Problem& p) {
         const auto& pull = p.plan.pulls[k];
         push(pull.body, pose.x[pull.body] + pose.R[pull.body] * pull.point_b.cast<Real>(), p.pulls[k], V3::Zero());
     }
-    out.rate_dot = out.M.ldlt().solve(out.right);
+    out.rate_dot = out.M.partialPivLu().solve(out.right);
     return out;
 }
 

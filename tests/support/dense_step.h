@@ -17,10 +17,31 @@
 
 namespace dense {
 
+// Products of few types, for the compiler's time.
+inline Matrix times(const Matrix& A, const Matrix& B) {
+    Matrix product = Matrix::Zero(A.rows(), B.cols());
+    for (Eigen::Index c = 0; c < B.cols(); ++c)
+        for (Eigen::Index k = 0; k < A.cols(); ++k)
+            for (Eigen::Index r = 0; r < A.rows(); ++r) product(r, c) += A(r, k) * B(k, c);
+    return product;
+}
+inline Matrix transposed_times(const Matrix& A, const Matrix& B) {
+    return times(Matrix(A.transpose()), B);
+}
+inline Matrix sandwich(const Matrix& A, const M3& S, const Matrix& B) {
+    return transposed_times(A, times(S, B));
+} // A^T S B
+inline Vector transposed_times(const Matrix& A, const V3& x) {
+    return transposed_times(A, Matrix(x)).col(0);
+}
+inline M3 block(const Matrix& A, Eigen::Index row, Eigen::Index column) {
+    return A.block<3, 3>(row, column);
+}
+
 inline Matrix polynomial(const std::vector<Real>& c, const Matrix& W) {
     Matrix sum = c.back() * Matrix::Identity(W.rows(), W.cols());
     for (std::size_t k = c.size() - 1; k-- > 0;) {
-        sum = (sum * W).eval();
+        sum = times(sum, W);
         sum.diagonal().array() += c[k];
     }
     return sum;
@@ -103,8 +124,8 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
         Matrix turn = Matrix::Zero(3, N), move = Matrix::Zero(3, N);
         for (std::int32_t k = std::int32_t(b); k >= 0; k = tree.parent[std::size_t(k)]) {
             const auto q = std::size_t(k);
-            turn.block<3, 3>(0, 3 * k) = pose.R[q] * J.block<3, 3>(3 * k, 3 * k);
-            move.block<3, 3>(0, 3 * k) = -cross(pose.c[b] - pose.x[q]) * turn.block<3, 3>(0, 3 * k);
+            turn.block<3, 3>(0, 3 * k) = pose.R[q] * block(J, 3 * k, 3 * k);
+            move.block<3, 3>(0, 3 * k) = -cross(pose.c[b] - pose.x[q]) * block(turn, 0, 3 * k);
         }
         const auto curvature = [&](const V3& along) { // of -g . (turned P) as it turns
             const auto potential = [&](Real s) {
@@ -127,15 +148,15 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             }
             H += streaming(drag[b], u, leaves);
             const M3 I = pose.R[b] * tree.inertia[b].cast<Real>() * pose.R[b].transpose();
-            C += turn.transpose() * spin_rate(tree.kind[b], area, tree.mass[b], u) * I * turn;
+            C += sandwich(turn, spin_rate(tree.kind[b], area, tree.mass[b], u) * I, turn);
         }
-        K += turn.transpose() * H * turn;
-        C += move.transpose() * D * move;
-        slope += move.transpose() * D * (taken.wind_change - p.ground.a * taken.h);
+        K += sandwich(turn, H, turn);
+        C += sandwich(move, D, move);
+        slope += transposed_times(move, V3(D * (taken.wind_change - p.ground.a * taken.h)));
         for (std::size_t k = 0; k < p.pulls.size(); ++k) {
             if (p.plan.pulls[k].body != b) continue;
             const V3 arm = pose.R[b] * (p.plan.pulls[k].point_b - tree.com[b]).cast<Real>();
-            slope += (move - cross(arm) * turn).transpose() * taken.pull_change[k];
+            slope += transposed_times(Matrix(move - times(cross(arm), turn)), taken.pull_change[k]);
         }
     }
     // Attachments: the force at y0 is that of the point's own place there.
@@ -166,7 +187,7 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             V3 next = x;
             for (std::int32_t k = std::int32_t(body); k >= 0; k = tree.parent[std::size_t(k)]) {
                 const auto q = std::size_t(k);
-                P.block<3, 3>(0, 3 * k) -= sign * cross(x - pose.x[q]) * pose.R[q] * J.block<3, 3>(3 * k, 3 * k);
+                P.block<3, 3>(0, 3 * k) -= sign * (cross(x - pose.x[q]) * pose.R[q] * block(J, 3 * k, 3 * k));
                 Carrier link{q, x - pose.x[q], next - pose.x[q], {}};
                 for (std::int32_t i = k; i >= 0; i = tree.parent[std::size_t(i)])
                     link.carried_by.push_back(std::size_t(i));
@@ -176,11 +197,12 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
         };
         add_end(held.body, held.point_b, 1);
         if (held.far >= 0) add_end(std::size_t(held.far), held.far_point_b, -1);
-        const V3 f = -held.k * (x_apart - (held.from + to) / 2) - held.c * (P * eta_0 - (to - held.from) / taken.h);
-        K += held.k * P.transpose() * P;
-        C += held.c * P.transpose() * P;
-        force += P.transpose() * f;
-        slope += P.transpose() * (held.k * (to - held.from) + held.c * quicker);
+        const V3 rate = times(P, eta_0).col(0);
+        const V3 f = -held.k * (x_apart - (held.from + to) / 2) - held.c * (rate - (to - held.from) / taken.h);
+        K += sandwich(P, held.k * M3::Identity(), P);
+        C += sandwich(P, held.c * M3::Identity(), P);
+        force += transposed_times(P, f);
+        slope += transposed_times(P, V3(held.k * (to - held.from) + held.c * quicker));
         // By how much the paths' springs and inertias alone would turn for what is more than the last step's force.
         const Real per_metre = held.k + held.c / taken.h;
         const auto own = [&](std::size_t b) {
@@ -191,7 +213,7 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
         };
         M3 give = M3::Identity() / per_metre;
         for (const Carrier& link : paths) give -= cross(link.to_end) * cross(link.to_end) / own(link.body);
-        const V3 answer = give.ldlt().solve((f - held.force) / per_metre);
+        const V3 answer = give.inverse() * V3((f - held.force) / per_metre);
         Real turns = 0;
         for (const Carrier& link : paths) turns = std::max(turns, link.to_end.cross(answer).norm() / own(link.body));
         const Real strain = std::min(Real(1), turns / Real(0.1L));
@@ -206,10 +228,11 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
             Matrix turn = Matrix::Zero(3, N);
             for (const std::size_t b : link.carried_by) {
                 const auto at = 3 * Eigen::Index(b);
-                turn.block<3, 3>(0, at) = pose.R[b] * J.block<3, 3>(at, at);
+                turn.block<3, 3>(0, at) = pose.R[b] * block(J, at, at);
             }
-            K += turn.transpose() * H * turn;
-            K_turning += turn.transpose() * H * turn;
+            const Matrix more_turning = sandwich(turn, H, turn);
+            K += more_turning;
+            K_turning += more_turning;
         }
     }
     // Pulls. H of every body that carries a force at a place, as long as the sum over them is small what a potential's is (by differences of it).
@@ -222,7 +245,7 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
     const auto turn_of = [&](std::size_t body) {
         Matrix turn = Matrix::Zero(3, N);
         for (auto k = std::int32_t(body); k >= 0; k = tree.parent[std::size_t(k)])
-            turn.block<3, 3>(0, 3 * k) = pose.R[std::size_t(k)] * J.block<3, 3>(3 * k, 3 * k);
+            turn.block<3, 3>(0, 3 * k) = pose.R[std::size_t(k)] * block(J, 3 * k, 3 * k);
         return turn;
     };
     for (std::size_t k = 0; k < p.pulls.size(); ++k) {
@@ -235,12 +258,11 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
         const Matrix turn = turn_of(pull.body);
         Matrix joint = Matrix::Zero(3, N); // rates of the joint's place
         for (std::int32_t k = tree.parent[pull.body]; k >= 0; k = tree.parent[std::size_t(k)])
-            joint.block<3, 3>(0, 3 * k) =
-                -cross(pose.x[pull.body] - pose.x[std::size_t(k)]) * turn.block<3, 3>(0, 3 * k);
+            joint.block<3, 3>(0, 3 * k) = -cross(pose.x[pull.body] - pose.x[std::size_t(k)]) * block(turn, 0, 3 * k);
         const V3 arm = pose.R[pull.body] * pull.point_b, m = arm.cross(pull.force), f = pull.force;
-        force += joint.transpose() * f + turn.transpose() * m;
-        slope += joint.transpose() * pull.change + turn.transpose() * arm.cross(pull.change);
-        const Matrix more = joint.transpose() * cross(f) * turn + turn.transpose() * cross(m) * turn / 2;
+        force += transposed_times(joint, f) + transposed_times(turn, m);
+        slope += transposed_times(joint, pull.change) + transposed_times(turn, V3(arm.cross(pull.change)));
+        const Matrix more = sandwich(joint, cross(f), turn) + sandwich(turn, cross(m) / 2, turn);
         K += more;
         K_turning += more;
     }
@@ -274,12 +296,12 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
         const Real size = on.f.norm() * on.P.norm(), cosine = size > 0 ? on.f.dot(on.P) / size : Real(1);
         const M3 about = on.P * on.P.transpose() / on.P.squaredNorm();
         H += w * size * (M3::Identity() - about + (1 - cosine * cosine) / 2 * about);
-        const Matrix turn = turn_of(on.body), more = turn.transpose() * H * turn;
+        const Matrix turn = turn_of(on.body), more = sandwich(turn, H, turn);
         K += more;
         K_turning += more;
     }
-    const Matrix M = J.transpose() * solved.M * J;
-    const auto inverse = M.ldlt();
+    const Matrix M = times(transposed_times(J, solved.M), J);
+    const auto inverse = M.partialPivLu();
     const Vector eta_dot = J.partialPivLu().solve(solved.rate_dot - bias);
 
     Matrix W = Matrix::Zero(2 * N + 2, 2 * N + 2);
@@ -290,7 +312,7 @@ inline Vector take(const Step& taken, bough::Scheme scheme) {
     W.block(N, 2 * N, N, 1) = rise;
     W.block(0, 2 * N + 1, N, 1) = eta_0;
     W.block(N, 2 * N + 1, N, 1) =
-        eta_dot + inverse.solve(K_turning * theta_ahead + C_moving * eta_ahead + force) - rise / 2;
+        eta_dot + inverse.solve(Vector(times(K_turning, theta_ahead) + times(C_moving, eta_ahead) + force)) - rise / 2;
     W(2 * N, 2 * N + 1) = 1 / taken.h;
     W *= taken.h;
     const rational::Function R = rational::of(scheme);

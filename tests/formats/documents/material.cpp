@@ -57,6 +57,8 @@ TEST_CASE("what is wrong in a material file is said in one line with its place")
                Catch::StartsWith("my.json: /version: "));
     CHECK_THAT(material_error(with("\"densty\": 900")), Catch::StartsWith("my.json: /densty: "));
     CHECK_THAT(material_error(with("\"density\": \"900\"")), Catch::Contains("/density: is string, expected a number"));
+    CHECK_THAT(material_error(with("\"like\": \"red\\noak\"")),
+               Catch::Contains("/like: is \"red?oak\", expected one of"));
     CHECK_THAT(material_error(with("\"density\": 900, \"density\": 901")), Catch::Contains("/density: is given twice"));
     CHECK_THAT(material_error(with("\"density\": -900")), Catch::Contains("/density: is not a finite number above 0"));
     CHECK_THAT(material_error(with("\"density\": 1e999")), Catch::Contains("too large"));

@@ -199,6 +199,7 @@ TEST_CASE("What the reader refuses has its place named") {
     refused("{", "no JSON at byte");
     refused("[]", "expected an object");
     refused(R"({"branch": {"lenght": {}}})", "/branch/lenght: is no parameter of ez-tree");
+    refused(R"({"branch": {"two\nlines": 1}})", "/branch/two?lines: is no parameter of ez-tree");
     refused(R"({"wind": 1})", "/wind: is no parameter of ez-tree");
     refused(R"({"branch": {"length": {"7": 2}}})", "/branch/length/7: is no parameter");
     refused(R"({"branch": {"length": {"0": "long"}}})", "/branch/length/0: is \"long\", expected a number");

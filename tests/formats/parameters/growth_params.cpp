@@ -212,6 +212,12 @@ TEST_CASE("Parameter files that are broken are refused in one line that names th
     holds(refusal(replaced(json, "true", "maybe"), "x.json"), "expected a number, true or false");
 }
 
+TEST_CASE("Of levels that are not grown, any number is taken") {
+    for (const char* content : {R"({"levels": 1, "curveRes": [2, 5, 92233720368547758073, 1]})",
+                                "tree = {'levels': 1, 'shape': 0, 'curve_res': [2, 5, 92233720368547758073, 1]}"})
+        CHECK(read_params(content, "x").growth.level[0].curve_res == 2);
+}
+
 TEST_CASE("A Sapling stem that would split into millions is refused by name, at once") {
     const auto preset = [](int res, const std::string& splits, int base) {
         return "{\"levels\": 2, \"curveRes\": [3, " + std::to_string(res) + ", 3, 1], \"segSplits\": [0, " + splits +

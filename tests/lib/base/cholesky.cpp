@@ -17,6 +17,14 @@ template <class T> Matrix3<T> any_matrix(std::mt19937& engine) {
     return m;
 }
 
+using WideMatrix = Matrix3<long double>;
+template <class T> WideMatrix wide(const Matrix3<T>& m) {
+    return m.template cast<long double>();
+}
+template <class T> Matrix3<T> narrow(const WideMatrix& m) {
+    return m.template cast<T>();
+}
+
 template <class T> void factors_and_solves() {
     std::mt19937 engine(5);
     const T eps = std::numeric_limits<T>::epsilon();
@@ -29,19 +37,19 @@ template <class T> void factors_and_solves() {
             REQUIRE(root.L(0, 1) == 0);
             REQUIRE(root.L(0, 2) == 0);
             REQUIRE(root.L(1, 2) == 0);
-            const Matrix3<long double> L = root.L.template cast<long double>();
-            const Matrix3<T> left = (L * L.transpose() - A.template cast<long double>()).template cast<T>();
+            const WideMatrix L = wide(root.L), L_inverse = L.inverse();
+            const Matrix3<T> left = narrow<T>(L * L.transpose() - wide(A));
             REQUIRE(left.norm() <= 8 * eps * A.norm());
 
-            const Matrix3<long double> inverse = A.template cast<long double>().inverse();
-            const T condition = T((inverse.norm() * A.template cast<long double>().norm()));
-            const Vector3<T> b = any_matrix<T>(engine).col(0);
-            const Vector3<T> x = (inverse * b.template cast<long double>()).template cast<T>();
+            const WideMatrix inverse = wide(A).inverse();
+            const T condition = T((inverse.norm() * wide(A).norm()));
+            const Matrix3<T> right = any_matrix<T>(engine);
+            const Vector3<T> b = right.col(0), x = narrow<T>(inverse * wide(right)).col(0);
             REQUIRE((root.solve(b) - x).norm() <= 8 * eps * condition * x.norm());
 
             Matrix3<T> X = any_matrix<T>(engine), Y = X;
-            const Matrix3<T> lower = (L.inverse() * X.template cast<long double>()).template cast<T>();
-            const Matrix3<T> upper = (L.transpose().inverse() * Y.template cast<long double>()).template cast<T>();
+            const Matrix3<T> lower = narrow<T>(L_inverse * wide(X));
+            const Matrix3<T> upper = narrow<T>(L_inverse.transpose() * wide(Y));
             solve_lower(root.L, X);
             solve_lower_transposed(root.L, Y);
             REQUIRE((X - lower).norm() <= 8 * eps * condition * lower.norm());

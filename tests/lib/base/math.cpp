@@ -134,6 +134,23 @@ TEMPLATE_TEST_CASE("no map jumps where its series ends", "", float, double) {
     }
 }
 
+TEST_CASE("shortest_turn brings one direction to another, by the angle between them, opposite ones too") {
+    std::mt19937 engine(3);
+    std::normal_distribution<double> normal;
+    const auto any = [&] { return Vec3(normal(engine), normal(engine), normal(engine)); };
+    for (const double apart : {0.0, 1e-12, 1e-3, 1.0, 3.0, 3.14, -1e-3, -1e-5, -9e-7, -1e-8, -1e-13, -1e-15, -0.0})
+        for (int k = 0; k < 20; ++k) { // below 0: from the opposite
+            const Vec3 from = any(), a = from.normalized(), across = any().cross(a).normalized();
+            const double sign = std::signbit(apart) ? -1 : 1;
+            const Vec3 b = sign * std::cos(apart) * a + std::sin(apart) * across;
+            const Quat turn = shortest_turn(from, 7 * b);
+            CHECK((turn.toRotationMatrix() * a - b).norm() < 1e-13);
+            CHECK(std::abs(turn.norm() - 1) < 1e-13);
+            CHECK(turn.w() >= 0);
+            CHECK(std::abs(turn.vec().dot(a)) < 1e-13); // the shortest: about what is across
+        }
+}
+
 TEST_CASE("least_turn points z along the axis by the shortest way") {
     const Quat near(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
     const Vec3 axis(0.3, -2, 1);

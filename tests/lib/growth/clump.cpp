@@ -80,7 +80,7 @@ TEST_CASE("leaves fill the ellipsoid of a clump evenly, and face up") {
 TEST_CASE("leaves of a clump that hangs hang") {
     const auto falls = [](const Vec3& way) { // of the leaves, a mean
         Tree tree = clump(64);
-        tree.joint_rotation[0] = Quat::FromTwoVectors(Vec3::UnitZ(), way);
+        tree.joint_rotation[0] = shortest_turn(Vec3::UnitZ(), way);
         const Skin skin = build_skin(tree, {});
         double sum = 0;
         for (const std::int32_t v : skin.clump_leaf)
@@ -162,7 +162,7 @@ TEST_CASE("leaves are enlarged alike in small clumps and large ones") {
 
 TEST_CASE("leaves of a species whose twigs hang do so wherever their clump points") {
     Tree tree = clump(64);
-    tree.joint_rotation[0] = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
+    tree.joint_rotation[0] = shortest_turn(Vec3::UnitZ(), Vec3::UnitY());
     const Mat3 upright = tree.joint_rotation[0].toRotationMatrix();
     const auto falls = [&](double hang) {
         double sum = 0;
