@@ -4,6 +4,7 @@
 #include "formats/plain_text.h"
 #include "gltf_document.h"
 #include "jpeg_check.h"
+#include "png_check.h"
 #include "tga_check.h"
 #include <algorithm>
 #include <cstring>
@@ -133,10 +134,11 @@ bool decode(const std::string& content, Pixels& pixels, std::string& why) {
     if (stbi_info_from_memory(data, size, &pixels.width, &pixels.height, &pixels.channels) &&
         !may_hold(std::uint64_t(pixels.width), std::uint64_t(pixels.height), content.size(), why))
         return false;
-    if (std::string defect = tga_defect(content); !defect.empty()) {
-        why = std::move(defect);
-        return false;
-    }
+    for (const auto defect_of : {png_defect, tga_defect})
+        if (std::string defect = defect_of(content); !defect.empty()) {
+            why = std::move(defect);
+            return false;
+        }
     stbi_uc* const read = stbi_load_from_memory(data, size, &pixels.width, &pixels.height, &pixels.channels, 4);
     if (!read) {
         if (const char* reason = stbi_failure_reason()) why = valid_utf8(reason); // it may repeat the file
