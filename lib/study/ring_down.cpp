@@ -1,7 +1,7 @@
 #include "ring_down.h"
 #include "../plan/state_update.h"
 #include "solvers.h"
-#include <Eigen/Cholesky>
+#include <cmath>
 #include <numbers>
 
 namespace bough {
@@ -10,19 +10,16 @@ namespace {
 constexpr double periods = 3, least_samples = 8;
 constexpr double amplitude = 0.01; // [rad] of the joint that turns most
 
-// Sum of squared residuals of the best a, b for f, d.
+// Sum of squared residuals of the best a, b for f, d: y = e^(-d t) (a cos + b sin), whose two equations are solved by Cramer's rule.
 double misfit(const std::vector<double>& y, double dt, double f, double d) {
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    double total = 0;
+    double cc = 0, cs = 0, ss = 0, yc = 0, ys = 0, yy = 0;
     for (std::size_t k = 0; k < y.size(); ++k) {
         const double t = double(k) * dt, e = std::exp(-d * t), angle = 2 * std::numbers::pi * f * t;
-        const Eigen::Vector2d base(e * std::cos(angle), e * std::sin(angle));
-        normal += base * base.transpose();
-        right += base * y[k];
-        total += y[k] * y[k];
+        const double c = e * std::cos(angle), s = e * std::sin(angle);
+        cc += c * c, cs += c * s, ss += s * s;
+        yc += y[k] * c, ys += y[k] * s, yy += y[k] * y[k];
     }
-    return total - right.dot(normal.ldlt().solve(right));
+    return yy - (ss * yc * yc - 2 * cs * yc * ys + cc * ys * ys) / (cc * ss - cs * cs);
 }
 
 // Smallest value of `cost` in [a, b] by golden sections.
