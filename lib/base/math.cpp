@@ -4,8 +4,8 @@
 namespace bough {
 
 Quat shortest_turn(const Vec3& from, const Vec3& to) {
-    // As Eigen's FromTwoVectors, which for opposite vectors takes a singular value decomposition (5 s of a compiler's time), and before that 1 + cosine, of
-    // which rounding leaves little.
+    // The numbers of Eigen's FromTwoVectors, but for nearly opposite directions: there Eigen divides by what rounding leaves of 1 + cosine, and for
+    // opposite ones takes a singular value decomposition, which costs 5 s of a compiler's time.
     const Vec3 a = from.normalized(), b = to.normalized();
     const double cosine = b.dot(a);
     if (cosine < -0.99) {
