@@ -188,7 +188,7 @@ std::string glb_by_assimp(std::string_view content, AssimpKind kind, const Impor
     const std::string own = options.name + ": "; // of an InputError in the child
     for (const char* none : {moves_lines, moves_nothing})
         if (child.failure == own + none) throw NoSkinnedMesh(options.name, none);
-    if (child.failure.starts_with(own)) throw InputError(options.name, valid_utf8(child.failure.substr(own.size())));
+    if (child.failure.starts_with(own)) throw InputError(options.name, child.failure.substr(own.size()));
     if (child.limited) throw LimitError(options.name, not_turned(child.failure));
     throw InputError(options.name, not_turned(child.failure));
 }

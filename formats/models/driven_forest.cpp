@@ -1,5 +1,4 @@
 #include "driven_forest.h"
-#include "formats/plain_text.h"
 #include "gltf_complete.h"
 #include "joined_gltf.h"
 #include <numeric>
@@ -37,7 +36,7 @@ DrivenForest::DrivenForest(UserModel model, const std::vector<DrivenStand>& stan
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& error) {
-        throw InputError(model_.name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(model_.name, "is no glTF 2.0: " + std::string(error.what()));
     }
     std::vector<std::string> again; // the same of each tree
     for (const DrivenStand& stand : stands) {
@@ -71,7 +70,7 @@ void DrivenForest::join_to(GltfDocument& to) {
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& error) {
-        throw InputError(model_.name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(model_.name, "is no glTF 2.0: " + std::string(error.what()));
     }
 }
 

@@ -25,7 +25,7 @@ DrivenModel::DrivenModel(UserModel model, const Tree& tree, const DrivenOptions&
         find_nodes(notes);
         leave_out_animations(notes);
     } catch (const Json::exception& error) {
-        throw InputError(model_.name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(model_.name, "is no glTF 2.0: " + std::string(error.what()));
     } catch (const std::out_of_range& error) {
         throw InputError(model_.name,
                          std::string("is no glTF 2.0: an index is beyond its list (") + error.what() + ")");

@@ -1,5 +1,4 @@
 #include "driven_surface.h"
-#include "formats/plain_text.h"
 #include "gltf_accessor.h"
 #include "gltf_check.h"
 #include "gltf_faces.h"
@@ -259,7 +258,7 @@ DrivenSurface surface_of(GltfDocument& document, const std::string& name, std::v
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& error) { // a type that is wrong, an index beyond
-        throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(name, "is no glTF 2.0: " + std::string(error.what()));
     }
     if (surface.triangle.empty()) throw NoSkinnedMesh(name, "has no triangles in its scene, expected a mesh");
     for (const std::string& note : found) notes.push_back(name + ": " + note);

@@ -74,7 +74,7 @@ AssimpMesh mesh_of_child(std::string_view content, AssimpKind kind, const Import
     const ChildResult child = run_forked([&] { return packed(read_by_assimp(content, kind, options.up != 0)); },
                                          reader_limits(content.size()));
     if (!child.failure.empty())
-        throw InputError(options.name, "assimp could not read it: " + valid_utf8(child.failure) + "; " + readable);
+        throw InputError(options.name, "assimp could not read it: " + child.failure + "; " + readable);
     return unpacked(child.bytes);
 }
 

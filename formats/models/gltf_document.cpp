@@ -290,9 +290,9 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
     } catch (const ImageError&) {
         throw;
     } catch (const Json::exception& error) {
-        throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(name, "is no glTF 2.0: " + std::string(error.what()));
     } catch (const std::exception& error) {
-        throw InputError(name, valid_utf8(error.what()) + " (glTF 2.0)");
+        throw InputError(name, std::string(error.what()) + " (glTF 2.0)");
     }
     return document;
 }

@@ -1,7 +1,6 @@
 #include "gltf_nodes.h"
 #include "formats/error.h"
 #include "formats/imports/imported_tree.h"
-#include "formats/plain_text.h"
 #include "gltf_document.h"
 #include <new>
 #include <nlohmann/json.hpp>
@@ -102,7 +101,7 @@ GltfNodes nodes_of(const Json& json, const std::string& name) {
     } catch (const std::bad_alloc&) {
         throw; // not the file's fault
     } catch (const std::exception& error) {
-        throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(name, "is no glTF 2.0: " + std::string(error.what()));
     }
     return result;
 }

@@ -205,7 +205,7 @@ ModelScene scene_of_gltf(std::string_view content, const ImportOptions& options)
         throw;
     } catch (const std::exception& error) {
         // A type that is wrong, an index beyond.
-        throw InputError(options.name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(options.name, "is no glTF 2.0: " + std::string(error.what()));
     }
     const bool stated = std::count(out.role.begin(), out.role.end(), NodeRole::joint) > 0;
     out.open_are_joints = !stated && out.triangles == 0;

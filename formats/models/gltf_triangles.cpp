@@ -1,5 +1,4 @@
 #include "envelope_mesh.h"
-#include "formats/plain_text.h"
 #include "gltf_accessor.h"
 #include "gltf_faces.h"
 #include "gltf_nodes.h"
@@ -44,7 +43,7 @@ EnvelopeMesh triangles_of_gltf(std::string_view content, const std::string& fold
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& error) { // a type that is wrong, an index beyond
-        throw InputError(name, "is no glTF 2.0: " + valid_utf8(error.what()));
+        throw InputError(name, "is no glTF 2.0: " + std::string(error.what()));
     }
     return out;
 }

@@ -1,6 +1,5 @@
 #include "model_scene.h"
 #include "assimp_scene.h"
-#include "formats/plain_text.h"
 #include "model_collada.h"
 #include "reader_limits.h"
 #include "skin_joint.h"
@@ -234,9 +233,9 @@ ModelScene read_model(std::string_view content, AssimpKind kind, const ImportOpt
     const std::string own = options.name + ":"; // of an InputError in the child, with a line or without
     const std::size_t place = child.failure.find(": ", options.name.size());
     if (child.failure.starts_with(own) && place != std::string::npos)
-        throw InputError(child.failure.substr(0, place), valid_utf8(child.failure.substr(place + 2)));
+        throw InputError(child.failure.substr(0, place), child.failure.substr(place + 2));
     throw InputError(options.name,
-                     "assimp could not read it: " + valid_utf8(child.failure) + "; expected " + model_kind_name(kind));
+                     "assimp could not read it: " + child.failure + "; expected " + model_kind_name(kind));
 }
 
 } // namespace bough

@@ -1,6 +1,5 @@
 #include "png_check.h"
 #include "formats/plain_text.h"
-#include <cstdint>
 
 namespace bough {
 

@@ -25,7 +25,7 @@ ParameterTable parse(std::string_view content, const std::string& file, std::str
     const pugi::xml_node root = xml.document_element(), tree = root.child("species");
     if (std::string_view(root.name()) != "arbaro" || !tree)
         throw InputError(line_at(content, file, root.offset_debug()),
-                         "<" + valid_utf8(root.name()) + ">, expected Arbaro's <arbaro> with a <species>");
+                         "<" + std::string(root.name()) + ">, expected Arbaro's <arbaro> with a <species>");
     if (const pugi::xml_node second = tree.next_sibling("species"))
         throw InputError(line_at(content, file, second.offset_debug()), "a second <species>, expected one");
     species = valid_utf8(tree.attribute("name").value());
@@ -37,7 +37,7 @@ ParameterTable parse(std::string_view content, const std::string& file, std::str
         value.line = lines.line_of(static_cast<std::size_t>(std::max<std::ptrdiff_t>(param.offset_debug(), 0)));
         if (std::string_view(param.name()) != "param" || !param.attribute("name") || !param.attribute("value"))
             throw InputError(file_line(file, value.line),
-                             "<" + valid_utf8(param.name()) + ">, expected <param name=\"...\" value=\"...\"/>");
+                             "<" + std::string(param.name()) + ">, expected <param name=\"...\" value=\"...\"/>");
         value.kind = ParameterValue::Kind::text;
         value.text = param.attribute("value").value();
         table.add(param.attribute("name").value(), value);

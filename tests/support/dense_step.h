@@ -28,9 +28,10 @@ inline Matrix times(const Matrix& A, const Matrix& B) {
 inline Matrix transposed_times(const Matrix& A, const Matrix& B) {
     return times(Matrix(A.transpose()), B);
 }
+// A^T S B
 inline Matrix sandwich(const Matrix& A, const M3& S, const Matrix& B) {
     return transposed_times(A, times(S, B));
-} // A^T S B
+}
 inline Vector transposed_times(const Matrix& A, const V3& x) {
     return transposed_times(A, Matrix(x)).col(0);
 }

@@ -1,5 +1,6 @@
 // formats/models/png_check.h, on chunks that are written byte by byte as the format's description has them.
 #include "formats/models/png_check.h"
+#include "formats/models/texture_file.h"
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <string>
@@ -36,4 +37,9 @@ TEST_CASE("a PNG's chunks lie within it, or it is said which does not") {
 TEST_CASE("what is no PNG is none of its matters") {
     for (const char* other : {"", "BM", "\x89PNG", "GIF89a of more than eighteen bytes"})
         CHECK(png_defect(other).empty());
+}
+
+TEST_CASE("the file that was found, of 168 bytes, is refused") {
+    const std::string path = std::string(BOUGH_DATA_DIR) + "/../tests/fuzzing/found/long_chunk.png";
+    CHECK_THROWS_WITH(read_texture(path, "a test"), Catch::Contains("declares") && Catch::Contains("are there"));
 }

@@ -135,9 +135,8 @@ TEST_CASE("All eight species are one tree from 300 bodies on: height, masses, le
             const Measured now = measured(tree, wood);
             INFO(species.name << ", " << tree.size_bodies() << " bodies");
             CHECK_FALSE(check(tree));
-            for (const Mat3& I : tree.inertia)
-                REQUIRE((I(0, 0) > 0 && I.topLeftCorner<2, 2>().determinant() > 0 &&
-                         I.determinant() > 0)); // also what breaks off turns
+            for (const Mat3& I : tree.inertia) // also what breaks off turns: by Sylvester's minors
+                REQUIRE((I(0, 0) > 0 && I.topLeftCorner<2, 2>().determinant() > 0 && I.determinant() > 0));
             CHECK(double(tree.size_bodies()) == Approx(double(bodies)).epsilon(0.1));
             CHECK(now.height == Approx(whole.height).epsilon(0.1));
             CHECK(now.wood == Approx(whole.wood).epsilon(0.1));
