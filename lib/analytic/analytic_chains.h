@@ -126,7 +126,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
         }
     }
 
-    template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane, T fold) const {
+    template <Kind kind> BOUGH_FORCE void step_out(Frame& f, std::uint32_t row, int lane, Folds<T> folds) const {
         const Rows<const T> k = constants_of(row, lane), y0{motion_at(row, lane)};
         const Rows<T> out = loaded_of(row, lane);
         const T *const next_row = constants_at(row + 1, lane), *const next_motion = y0.at + motion::count * L;
@@ -161,8 +161,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             const W still2 = dot(still, still), still_speed = root(still2);
             W speed_0, speed_1;
             const W facing = this->template facing<kind>(row, lane);
-            const V3<W> f0 = air_in_body_axes<kind>(still, speed_0, fold, facing),
-                        f1 = air_in_body_axes<kind>(moving, speed_1, fold, facing);
+            const V3<W> f0 = air_in_body_axes<kind>(still, speed_0, folds, facing),
+                        f1 = air_in_body_axes<kind>(moving, speed_1, folds, facing);
             prefetch<2 * most / 3, 5 * most / 6>(next_row);
             const V3<W> force = scale * f0;
             out.set(loaded::f, force);
@@ -183,7 +183,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                 out.set(loaded::turn, W(turns * scale * pressing * still_speed));
             }
             if constexpr (kind != Kind::branch)
-                if (fold > 0) {
+                if (folds.fold > 0) {
                     W rate = spin_rate<kind>(scale, k.real(constant::mass), speed_1);
                     if (kind == Kind::leaf && rows.leaf.on) rate = rate + leaf_spin(rows.leaf);
                     damp_spin(k, row, lane, rate, f.omega);
@@ -211,7 +211,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
                 }
             }
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step_out<kind>(f, row, lane, fold_of<T>(g.kind));
+                step_out<kind>(f, row, lane, folds_of<T>(g.kind));
                 if (!placed || rows.fork_of_row[row] < 0) continue;
                 q.set(outward::R_bw, f.R_bw);
                 q.set(outward::omega, f.omega);

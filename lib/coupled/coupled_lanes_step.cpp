@@ -101,7 +101,7 @@ CoupledRows<T> rows_of(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Stat
         const Pull& pull = plan.scene.pulls[on.source];
         put(on.change, pull_force(pull, time + h) - pull_force(pull, time));
     }
-    rows.fold = fold_where<T>(plan.foliage);
+    rows.folds = folds_of<T>(plan.foliage ? Kind::leaf : Kind::branch);
     rows.shorten = shorten<T>;
     place_grounds(plan, own, work, time, slope);
     put_attachments(plan, work, pole.p, rows);

@@ -124,7 +124,7 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
     // from which each part reads what it needs (coupled_in.h, step_in).
     template <bool wind, bool gravity, Kind kind>
     BOUGH_FORCE void step_out(const Rows<T>& f, std::uint32_t row, std::uint32_t row_base, int lane, const Rows<T>& out,
-                              W& fastest, SweepFlags& flags, T fold) const {
+                              W& fastest, SweepFlags& flags, Folds<T> folds) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         const T *const next_row = constants(row + 1, lane).at, *const next_motion = now(row + 1, lane).at;
         const T h = rows.h;
@@ -244,10 +244,10 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
             const V3<W> ahead = f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c);
             const V3<W> com = k.vector(constant::com);
             const W arm = has_face(kind) ? root(dot(com, com)) : W{};
-            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, fold,
+            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, folds,
                                               this->template facing<kind>(row, lane));
             out.set(loaded::D, air.D);
-            H = H + streaming_stiffness(rows.fold, V3<W>(R * k.vector(constant::carried_drag)), u,
+            H = H + streaming_stiffness(rows.folds, V3<W>(R * k.vector(constant::carried_drag)), u,
                                         kind == Kind::branch ? root(dot(u, u)) : speed.speed);
             const V3<W> slope_F = air.D * (wind_on.factor * wind_change_here(wind_on));
             at_com = at_com - air.force - rows.slope[0] * slope_F;
@@ -263,9 +263,9 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
                         V3<W>{N.x.im + ahead_back.x, N.y.im + ahead_back.y, N.z.im + ahead_back.z});
         }
         if constexpr (wind && kind != Kind::branch)
-            if (fold > 0) {
-                W rate =
-                    spin_rate<kind>(k.real(constant::drag_area), mass, W(unfolded(fold, speed.speed) * speed.speed));
+            if (folds.fold > 0) {
+                W rate = spin_rate<kind>(k.real(constant::drag_area), mass,
+                                         W(unfolding<kind>(folds, speed.speed).share * speed.speed));
                 if (kind == Kind::leaf && rows.leaf.on) rate = rate + leaf_spin(rows.leaf);
                 Symmetric<W> J = out.symmetric(loaded::J);
                 damp_spin(out, rate, mass, c, V3<W>(omega - f.vector(outward::ahead_omega)), J, H, N);
@@ -295,7 +295,7 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
                 step_out<wind, gravity, kind>(f, row, g.first_base, lane,
                                               {loaded_rows + std::size_t(row - g.first_row) * loaded::count * L + lane},
-                                              fastest, flags, fold_of<T>(g.kind));
+                                              fastest, flags, folds_of<T>(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
                 base.template scatter<false>(rows.outward_records,
                                              &rows.fork[std::size_t(rows.fork_of_row[row]) * L + std::size_t(lane)], 0);

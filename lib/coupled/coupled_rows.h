@@ -2,6 +2,7 @@
 // sweep is given (sweep_rows.h). Quantities are those of coupled_body.h, which names the frame of each.
 #pragma once
 #include "../lanes/sweep_rows.h"
+#include "../model/air_constants.h"
 
 namespace bough::fast {
 
@@ -83,9 +84,9 @@ template <class T> struct CoupledRows : SweepRows<T> {
     T* attached;         // records inward, a row each quantity
     T* inverses; // of the rows that `attached` has: E of resolvent.h, complex symmetric, for attachments between bodies; else null
 
-    T fold;          // fold_where (air_constants.h) there is foliage: how the drag of what bodies carry is taken
-    bool adds, ends; // a scheme's poles, a solve each: adds to the changes of those before; its last
-    bool stream;     // solved_rows are more than the caches hold, and go past them
+    Folds<T> folds;           // of leaves, where there is foliage: how the drag of what bodies carry is taken
+    bool adds, ends;          // a scheme's poles, a solve each: adds to the changes of those before; its last
+    bool stream;              // solved_rows are more than the caches hold, and go past them
     T s1[2], s2[2], slope[2]; // 1/s, 1/s^2, 1/p - 1/2
     // The weights of x in the changes of theta_dot and theta, and that of theta_dot in the change of theta.
     T of_rate[2], of_angle[2], eta;

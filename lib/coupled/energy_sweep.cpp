@@ -137,7 +137,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
     };
 
     template <bool wind, Kind kind>
-    BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane, T fold) const {
+    BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane, Folds<T> folds) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         const Rows<T> y1 = next(row, lane);
         const T *const next_row = constants(row + 1, lane).at, *const next_start = now(row + 1, lane).at,
@@ -219,7 +219,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             Symmetric<W> unused{};
             const V3<W> u = air_velocity - rate_at_com;
             const W facing = this->template facing<kind>(row, lane);
-            force = air_on<kind>(u, air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{}, fold, facing).force;
+            force = air_on<kind>(u, air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{}, folds, facing).force;
             const LeafBody<W> body{b.mass, scale};
             if constexpr (kind == Kind::leaf)
                 if (rows.leaf.on)
@@ -279,7 +279,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             }
             Sums sums;
             for (std::uint32_t row = g.first_row; row < g.first_row + g.length; ++row) {
-                step<wind, kind>(f, sums, ground, row, lane, fold_of<T>(g.kind));
+                step<wind, kind>(f, sums, ground, row, lane, folds_of<T>(g.kind));
                 if (rows.fork_of_row[row] < 0) continue;
                 write_frame(base, f);
                 base.template scatter<false>(out.records,

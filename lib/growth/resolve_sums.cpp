@@ -2,11 +2,14 @@
 #include "../model/body_shape.h"
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace bough {
 namespace {
 
-constexpr double unfolded_at_8 = 1 / folding(8.0); // of leaves' speed at 8 m/s
+constexpr Unfolding<double> at_8 = unfolding(Kind::clump, 8.0);
+constexpr double grows_at_8 = at_8.slope / at_8.share; // d log (G |u|) / d log |u|
 
 // How the air meets a body, as leaves that face along `axis` by `facing` (Tree::leaf_facing). A blade faces along its normal wholly. Wood has -1, where
 // c_n + c_u of air.h is 0: as (21), the law then has no force along the axis. (No leaves have -1; those of which none faces along an axis have -1/2.)
@@ -106,8 +109,11 @@ void add_bend(const Tree& whole, const Flexibility& bend, const Resolution& chos
             const Face face = face_of(whole, i, R);
             s.braked += foliage_area(whole, i) * b.center.cwiseProduct(damped(face.axis, face.facing) * b.center).sum();
         } else {
-            s.braked +=
-                wood_across(whole, i, R) * wood_in_leaf * b.center.cwiseProduct(damped_all_ways() * b.center).sum();
+            const bool wood = whole.kind[i] == Kind::branch;
+            const Vec3& size = whole.size[i];
+            const double area = wood ? frustum_section(size[0], size[1], size[2]) : wood_across(whole, i, R);
+            const Mat3 D = wood ? damped_wood(R.col(2)) : Mat3(Vec3(1.5, 1, 1.5).asDiagonal());
+            s.braked += area * wood_in_leaf * b.center.cwiseProduct(D * b.center).sum();
         }
     });
 }
@@ -129,11 +135,24 @@ double met_by_wind(const Vec3& n, double facing) {
 
 Mat3 damped(const Vec3& n, double facing) {
     return (1 - facing / 2) * damped_all_ways() +
-           1.5 * facing * (1 + unfolded_at_8 / 2 * (1 - n.y() * n.y())) * (n * n.transpose());
+           1.5 * facing * (1 + grows_at_8 / 2 * (1 - n.y() * n.y())) * (n * n.transpose());
 }
 
 Mat3 damped_all_ways() {
-    return Vec3(1 + unfolded_at_8 / 2, 1, 1 + unfolded_at_8 / 2).asDiagonal();
+    return Vec3(1 + grows_at_8 / 2, 1, 1 + grows_at_8 / 2).asDiagonal();
+}
+
+Mat3 damped_wood(const Vec3& t) {
+    constexpr int winds = 4; // those against them damp alike
+    Mat3 sum = Mat3::Zero();
+    for (int k = 0; k < winds; ++k) {
+        const double angle = k * std::numbers::pi / winds;
+        const Vec3 u(std::cos(angle), 0, std::sin(angle));
+        const Vec3 across = u - u.dot(t) * t;
+        const double speed = across.norm();
+        if (speed > 0) sum += speed * (Mat3::Identity() - t * t.transpose()) + across * across.transpose() / speed;
+    }
+    return sum / winds;
 }
 
 std::vector<Sums> sum_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen) {

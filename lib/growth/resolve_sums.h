@@ -34,9 +34,9 @@ struct Sums {
 // Of each resolved body. O(bodies).
 std::vector<Sums> sum_up(const Tree& whole, const Flexibility&, const Resolution&);
 
-// A twig's drag in that of leaves that face all ways, of the same area (air.h): twice as much broadside, and leaves fold, which is made up
-// for at 8 m/s.
-constexpr double wood_in_leaf = 2 * folding(8.0);
+// A twig's drag in that of a clump's leaves that face all ways, of the same area (air.h): twice as much broadside, and leaves fold and turn with the
+// wind, which is made up for at 8 m/s.
+constexpr double wood_in_leaf = 2 / unfolding(Kind::clump, 8.0).share;
 
 // A cylinder's drag over that of one across the wind, mean over horizontal winds.
 double met_by_wind_across(const Vec3& axis);
@@ -48,7 +48,10 @@ double met_by_wind(const Vec3& n, double facing);
 // How the air damps the motion of such leaves, in units of the next.
 Mat3 damped(const Vec3& n, double facing);
 
-// How the air damps the motion of leaves that face all ways, over their speed's part that folding leaves: mean over horizontal winds of 8 m/s.
+// How the air damps the motion of a clump's leaves that face all ways, over G |u| of air.h: mean over horizontal winds of 8 m/s.
 Mat3 damped_all_ways();
+
+// Likewise of wood along t, over |u| of one across the wind.
+Mat3 damped_wood(const Vec3& t);
 
 } // namespace bough

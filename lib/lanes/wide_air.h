@@ -21,13 +21,13 @@ template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE AirSpeed<W> air_s
     return {speed, 1 / larger(speed, all(T(1e-30)))};
 }
 
-// Returns the fold (air_constants.h) of a kind. Only in this does a clump without a face differ from a fruit.
-template <class T> constexpr T fold_of(Kind kind) {
-    return fold_where<T>(is_foliage(kind));
-}
-// g
-template <class W, class T = RealOf<W>> BOUGH_FORCE W unfolded(T fold, const W& speed) {
-    return 1 / (1 + fold * speed);
+// unfolding() of air_constants.h. Only in its Folds does a clump without a face differ from a fruit.
+template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE Unfolding<W> unfolding(Folds<T> folds, const W& speed) {
+    const W g = 1 / (1 + folds.fold * speed);
+    if constexpr (kind == Kind::leaf) return {g, g * g};
+    const W square = speed * speed, r = 1 / (1 + folds.turn * square * square);
+    const W h = all(T(streamed)) + T(1 - streamed) * r;
+    return {g * h, g * (g * h - T(4 * (1 - streamed)) * r * (1 - r))};
 }
 
 // The law's factors of (u.n) n and of u (Facing of air.h): of a leaf, and of a clump with a face. Kind::clump is the latter alone in what is compiled
@@ -52,13 +52,13 @@ template <class W> struct AirOn {
 // Returns force and damping, and adds to H how the moment of what has a face changes with its turning. arm: |com|.
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
-                            Symmetric<W>& H, const W& arm, T fold, const W& facing) {
+                            Symmetric<W>& H, const W& arm, Folds<T> folds, const W& facing) {
     AirOn<W> out;
     W one = scale * s.speed, more = scale * s.inverse;
     if constexpr (kind != Kind::branch) {
-        const W g = unfolded(fold, s.speed);
-        one = g * one;
-        more = g * g * more;
+        const Unfolding<W> G = unfolding<kind>(folds, s.speed);
+        one = G.share * one;
+        more = G.slope * more;
     }
     if constexpr (has_face(kind)) {
         const V3<W>&n = R.y, &x = R.x;
@@ -89,13 +89,13 @@ BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& a
 
 // streaming_stiffness. past: |u|. P: first moment of what is carried.
 template <class W, class T = RealOf<W>>
-BOUGH_FORCE Symmetric<W> streaming_stiffness(T fold, const V3<W>& P, const V3<W>& u, const W& past) {
-    const W along = past * unfolded(fold, past) * larger(dot(P, u), W{});
+BOUGH_FORCE Symmetric<W> streaming_stiffness(Folds<T> folds, const V3<W>& P, const V3<W>& u, const W& past) {
+    const W along = past * unfolding<Kind::leaf>(folds, past).share * larger(dot(P, u), W{});
     const V3<W> p = W(along / larger(dot(P, P), all(T(1e-30)))) * P;
     return {along - p.x * P.x, -(p.x * P.y), -(p.x * P.z), along - p.y * P.y, -(p.y * P.z), along - p.z * P.z};
 }
 
-// spin_rate of foliage. folded: [m/s] g |u|.
+// spin_rate of foliage. folded: [m/s] G |u|.
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE W spin_rate(const W& scale, const W& mass, const W& folded) {
     return T(kind == Kind::leaf ? blade_turning : clump_turning) * scale / larger(mass, all(T(1e-30))) * folded;
@@ -119,13 +119,13 @@ BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& 
 
 // Returns the force over kappa rho A in the body's own axes, and the speed that scales it (AirForce).
 template <Kind kind, class W, class T = RealOf<W>>
-BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, T fold, const W& facing) {
+BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, Folds<T> folds, const W& facing) {
     if constexpr (kind == Kind::branch) {
         speed = root(W(u.x * u.x + u.y * u.y));
         return {speed * u.x, speed * u.y, W{}};
     } else {
         speed = root(dot(u, u));
-        speed = unfolded(fold, speed) * speed;
+        speed = unfolding<kind>(folds, speed).share * speed;
         if constexpr (kind == Kind::fruit) return speed * u;
         const auto [along, all_ways] = facing_of<kind>(facing);
         const W streams = all_ways * speed;
