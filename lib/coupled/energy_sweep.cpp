@@ -137,7 +137,8 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
     };
 
     template <bool wind, Kind kind>
-    BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane, Folds<T> folds) const {
+    BOUGH_FORCE void step(Frame& f, Sums& sums, const OnGround& ground, std::uint32_t row, int lane,
+                          Folds<T> folds) const {
         const Rows<const T> k = constants(row, lane), y0 = now(row, lane);
         const Rows<T> y1 = next(row, lane);
         const T *const next_row = constants(row + 1, lane).at, *const next_start = now(row + 1, lane).at,
