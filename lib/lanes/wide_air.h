@@ -23,9 +23,13 @@ template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE AirSpeed<W> air_s
 
 // unfolding() of air_constants.h. Only in its Folds does a clump without a face differ from a fruit.
 template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE Unfolding<W> unfolding(Folds<T> folds, const W& speed) {
-    const W g = 1 / (1 + folds.fold * speed);
-    if constexpr (kind == Kind::leaf) return {g, g * g};
-    const W square = speed * speed, r = 1 / (1 + folds.turn * square * square);
+    const W opened = 1 + folds.fold * speed;
+    if constexpr (kind == Kind::leaf) {
+        const W g = 1 / opened;
+        return {g, g * g};
+    }
+    const W square = speed * speed, turned = 1 + folds.turn * square * square;
+    const W both = 1 / (opened * turned), g = turned * both, r = opened * both; // one division for two
     const W h = all(T(streamed)) + T(1 - streamed) * r;
     return {g * h, g * (g * h - T(4 * (1 - streamed)) * r * (1 - r))};
 }

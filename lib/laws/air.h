@@ -20,13 +20,13 @@
 //   apple                            1.07    0.96    0.83    0.71     0.64
 //   cherry                           1.11    0.94    0.81    0.69     0.65
 //   maple                            1.06    0.85    0.76    0.71     0.69
-//   h                                0.97    0.87    0.77    0.68     0.65
+//   h                                0.97    0.89    0.79    0.70     0.67
 // The mean drag [N] in a steady wind is then
 //                                     5 m/s    10 m/s   20 m/s   E from 5 to 20 m/s
 //   a leaf of 9 cm, all directions    0.0142   0.0311   0.0612   -0.94
-//   a clump of 14, 30 cm              0.157    0.345    0.80     -0.83
-//   maple of 20 000 bodies            2980     7860     22600    -0.54     its foliage alone -0.84
-//   maple of 1 000, birch of 1 000    3140 830 7530 2050 19800 5570 -0.67 -0.63, foliage -0.83
+//   a clump of 14, 30 cm              0.159    0.356    0.825    -0.81
+//   maple of 20 000 bodies            3000     7980     22900    -0.53     its foliage alone -0.82
+//   maple of 1 000, birch of 1 000    3140 830 7660 2080 20100 5650 -0.66 -0.62, foliage -0.82
 // At 20 000 bodies more of the drag is that of bare wood, which does not fold: clumps hold their twigs, which fold with them (growth/resolve.h).
 // tests/lib/laws/foliage.cpp holds leaf, clump and a crown's foliage within -0.5 and -1.
 // Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges. This gives a torque

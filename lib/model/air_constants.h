@@ -9,7 +9,7 @@ constexpr double cylinder_drag = 1.2, sphere_drag = 0.47, plate_drag = 1.2; // C
 constexpr double streaming_drag = 0.25;                                     // [1] s
 constexpr double fold_speed = 7.5;                                          // [m/s]
 // Of h: what a clump's leaves keep of their drag as they turn with the wind [1], and the wind at which half of the rest has gone [m/s].
-constexpr double streamed = 0.64, stream_speed = 7;
+constexpr double streamed = 0.66, stream_speed = 7.2;
 constexpr double blade_mean =
     (1 + 2 * streaming_drag) / 3; // [1] a blade's drag over that broadside, mean over all directions
 // [1] In the law of a clump whose leaves all face along n, over that of one whose leaves face all ways: of (u.n) n, and what is taken from that of u.

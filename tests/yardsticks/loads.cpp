@@ -33,8 +33,8 @@ Vec3 air_force(const Tree& tree, std::size_t i, double density, const Mat3& R, c
     default: {
         const Vec3 normal = R.col(1);
         const bool clump = !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
-        // At 7.5 m/s; a quarter of the drag from all sides. A clump's leaves turn with the wind besides, at 7 m/s.
-        const double turned = clump ? 0.64 + 0.36 / (1 + std::pow(u.norm() / 7, 4)) : 1;
+        // At 7.5 m/s; a quarter of the drag from all sides. A clump's leaves turn with the wind besides, at 7.2 m/s.
+        const double turned = clump ? 0.66 + 0.34 / (1 + std::pow(u.norm() / 7.2, 4)) : 1;
         const double folded = turned * u.norm() / (1 + u.norm() / 7.5);
         // Of a clump's leaves so many face along its normal, the others all ways: half of a leaf's drag broadside, whichever way.
         const double face = !clump ? 1 : tree.leaf_facing.empty() ? 0 : tree.leaf_facing[i];

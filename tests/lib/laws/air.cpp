@@ -41,7 +41,7 @@ const Vec3 blade(0.09, 0.06, 2e-4); // its size
 
 // h of air.h
 double turned(const Vec3& u) {
-    return 0.64 + 0.36 / (1 + std::pow(u.norm() / 7, 4));
+    return 0.66 + 0.34 / (1 + std::pow(u.norm() / 7.2, 4));
 }
 
 } // namespace

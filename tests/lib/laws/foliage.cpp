@@ -67,7 +67,7 @@ double mean_drag(const Tree& tree, double speed, double dt, double seconds) {
 
 // h of air.h: what a clump's leaves keep of their drag as they turn with the wind.
 double turned(double speed) {
-    return 0.64 + 0.36 / (1 + std::pow(speed / 7, 4));
+    return 0.66 + 0.34 / (1 + std::pow(speed / 7.2, 4));
 }
 
 double vogel_exponent(double drag_5, double drag_20) {
