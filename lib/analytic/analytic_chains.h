@@ -364,7 +364,7 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             if (!wind || g.kind == Kind::branch)
                 group_out<Kind::branch>(g);
             else if constexpr (wind) {
-                if (g.kind == Kind::clump && rows.facing)
+                if (stands_for_many(g.kind) && rows.facing)
                     group_out<Kind::clump>(g);
                 else if (!is_flat(g.kind))
                     group_out<Kind::fruit>(g);

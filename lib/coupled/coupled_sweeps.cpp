@@ -30,7 +30,7 @@ template <class T, bool field = false> struct Sweep {
                 out.template group_out<wind, gravity, Kind::branch>(g, loaded_rows, flags);
             else if (g.kind == Kind::branch)
                 out.template group_out<wind, gravity, Kind::branch>(g, loaded_rows, flags);
-            else if (g.kind == Kind::clump && rows.facing)
+            else if (stands_for_many(g.kind) && rows.facing)
                 out.template group_out<wind, gravity, Kind::clump>(g, loaded_rows, flags);
             else if (!is_flat(g.kind))
                 out.template group_out<wind, gravity, Kind::fruit>(g, loaded_rows, flags);

@@ -301,7 +301,7 @@ void energy_block(const CoupledRows<T>& rows, const EnergyRows<T>& energies, con
         const Group& g = rows.groups[k];
         if (!wind || g.kind == Kind::branch)
             sweep.template group<wind, Kind::branch>(g);
-        else if (g.kind == Kind::clump && rows.facing)
+        else if (stands_for_many(g.kind) && rows.facing)
             sweep.template group<wind, Kind::clump>(g);
         else if (!is_flat(g.kind))
             sweep.template group<wind, Kind::fruit>(g);

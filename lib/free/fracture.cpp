@@ -23,6 +23,7 @@ double of_kind(const Fracture& f, const Tree& tree, std::size_t i) {
     switch (tree.kind[i]) {
     case Kind::leaf:
     case Kind::clump:
+    case Kind::tuft:
         return f.leaf;
     case Kind::petal:
         return f.petal;

@@ -54,6 +54,7 @@ Capsule capsule_of(Kind kind, const Vec3& size) {
     case Kind::leaf:
     case Kind::petal:
     case Kind::clump:
+    case Kind::tuft:
         return {Vec3::Zero(), Vec3(0, 0, size[0]), size[1] / 4, size[1] / 4};
     case Kind::fruit:
         return {Vec3(0, 0, size[0]), Vec3(0, 0, size[0]), size[1], size[1]};

@@ -18,13 +18,13 @@ constexpr double most_apart = 0.8;      // of the second moments of a clump's he
 constexpr double most_matched = 7;      // by how much a joint is stiffened or softened, as a power of e
 
 // [m^2] of leaves that face all ways.
-double area_in_air(const Sums& s) {
-    return s.met + s.wood * wood_in_leaf;
+double area_in_air(const Sums& s, Kind many) {
+    return s.met + s.wood * wood_in_leaf(many);
 }
 
 // The middle of what the air takes hold of.
-Vec3 middle_in_air(const Sums& s) {
-    const double area = area_in_air(s);
+Vec3 middle_in_air(const Sums& s, Kind many) {
+    const double area = area_in_air(s, many);
     return area > 0 ? Vec3(s.air / area) : s.com;
 }
 
@@ -37,7 +37,8 @@ double leaf_facing(const Sums& s, const Vec3& y) {
 class Lumper {
 public:
     Lumper(const Tree& whole, const Flexibility& give, const Resolution& chosen)
-        : whole_(whole), give_(give), chosen_(chosen), sum_(sum_up(whole, give, chosen)) {}
+        : whole_(whole), give_(give), chosen_(chosen), many_(kind_of_many_leaves(whole)),
+          sum_(sum_up(whole, give, chosen)) {}
     Tree run();
 
 private:
@@ -48,13 +49,14 @@ private:
         double mass, over_lever2, droop; // [kg]; r^2 / L^2; [m] least L
     };
     Swinging swinging(const Sums&, const Vec3& y, const Vec3& z, double facing) const;
-    static Vec3 place_of_kept_mass(const Sums&, double kept);
+    Vec3 place_of_kept_mass(const Sums&, double kept) const;
     void give_rest_to_wood(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at);
     void match_give();
 
     const Tree& whole_;
     const Flexibility& give_;
     const Resolution& chosen_;
+    const Kind many_;
     std::vector<Sums> sum_;
     Tree tree_;
     DrawnPose pose_;
@@ -105,9 +107,9 @@ void Lumper::shape_wood(std::size_t b, std::size_t i) {
 // that of a point: m = A T Q / 2 D.
 Lumper::Swinging Lumper::swinging(const Sums& s, const Vec3& y, const Vec3& z, double facing) const {
     Swinging w;
-    const double A = area_in_air(s) / met_by_wind(y, facing), S = s.give, Q = s.swing;
+    const double A = area_in_air(s, many_) / met_by_wind(y, facing), S = s.give, Q = s.swing;
     if (!(S > 0 && Q > 0)) return {s.mass, 0, 0};
-    const Mat3 damped = bough::damped(y, facing);
+    const Mat3 damped = bough::damped(many_, y, facing);
     const double T = damped.trace() - z.dot(damped * z);
     const double square = Q * Q - (4 - T) * S * S / 4 * s.braked / A;
     w.mass =
@@ -155,7 +157,7 @@ void Lumper::shape_clump(std::size_t b) {
     tree_.leaf_length[b] = std::sqrt(2 * one / slim);
     tree_.leaf_width[b] = std::sqrt(2 * one * slim);
     tree_.leaf_facing[b] = facing;
-    tree_.drag[b] = area_in_air(s) / met_by_wind(y, facing) / leaf_area(tree_.size[b][0], tree_.size[b][1]);
+    tree_.drag[b] = area_in_air(s, many_) / met_by_wind(y, facing) / leaf_area(tree_.size[b][0], tree_.size[b][1]);
 }
 
 // Where the mass that a clump keeps is: in the middle of what the air takes hold of, as leaves are further out than the wood under them. What is
@@ -163,10 +165,10 @@ void Lumper::shape_clump(std::size_t b) {
 // mass, C its second moments about it, m what is kept, that takes the part
 //   m M^2 / (M - m)^2 d^T C^-1 d
 // of the second moments of what is held. Where that is more than most_apart, d is as much shorter.
-Vec3 Lumper::place_of_kept_mass(const Sums& s, double kept) {
+Vec3 Lumper::place_of_kept_mass(const Sums& s, double kept) const {
     const double held = s.mass - kept;
     if (!(held > 1e-9 * s.mass)) return s.com;
-    const Vec3 way = middle_in_air(s) - s.com;
+    const Vec3 way = middle_in_air(s, many_) - s.com;
     const Mat3 C = (0.5 + 1e-9) * s.inertia.trace() * Mat3::Identity() - s.inertia;
     const double part = s.mass * s.mass * kept / (held * held) * way.dot(C.inverse() * way);
     return s.com + (part > most_apart ? std::sqrt(most_apart / part) : 1) * way;

@@ -34,7 +34,7 @@
 // that of all its parts, the share is as much further in.
 // Its y is as far up as its length allows, which most leaves face.
 // Air. Tree::drag gives each body the drag of its parts as they stand in horizontal winds, mean over their directions: wood that of its
-// pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold), of its wood. Tree::leaf_facing is that of its
+// pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold and turn), of its wood. Tree::leaf_facing is that of its
 // leaves about its y, and wood counts as leaves that face all ways across it. Where fewer face y than other axes, it is 0.
 // What comes out, in leaf: README.md beside this; held by tests/lib/growth/resolve.cpp.
 // Reads a tree of segment(). Cost O(bodies), some eighty times.

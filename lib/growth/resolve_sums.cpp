@@ -8,8 +8,11 @@
 namespace bough {
 namespace {
 
-constexpr Unfolding<double> at_8 = unfolding(Kind::clump, 8.0);
-constexpr double grows_at_8 = at_8.slope / at_8.share; // d log (G |u|) / d log |u|
+// d log (G |u|) / d log |u| at 8 m/s
+double grows_at_8(Kind many) {
+    const Unfolding<double> G = unfolding(many, 8.0);
+    return G.slope / G.share;
+}
 
 // How the air meets a body, as leaves that face along `axis` by `facing` (Tree::leaf_facing). A blade faces along its normal wholly. Wood has -1, where
 // c_n + c_u of air.h is 0: as (21), the law then has no force along the axis. (No leaves have -1; those of which none faces along an axis have -1/2.)
@@ -49,6 +52,7 @@ Mat3 share_of_torque(const Vec3& outer, const Vec3& inner) {
 
 void add_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen, std::vector<Sums>& sums) {
     const std::size_t n = whole.size_bodies();
+    const double in_leaf = wood_in_leaf(kind_of_many_leaves(whole));
     for (std::size_t i = 0; i < n; ++i) {
         Sums& s = sums[std::size_t(chosen.body[i])];
         const Vec3 &size = whole.size[i], center = bend.pose.at(i, whole.com[i]);
@@ -72,8 +76,8 @@ void add_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen
         } else {
             const double wood = wood_across(whole, i, bend.pose.R_wb[i]);
             s.wood += wood;
-            s.air += wood * wood_in_leaf * center;
-            s.faces += faces_of(face, wood * wood_in_leaf / met_by_wind(face.axis, face.facing));
+            s.air += wood * in_leaf * center;
+            s.faces += faces_of(face, wood * in_leaf / met_by_wind(face.axis, face.facing));
         }
         const std::int32_t p = whole.parent[i];
         if (p < 0 || chosen.body[std::size_t(p)] != chosen.body[i]) {
@@ -99,6 +103,8 @@ void add_up(const Tree& whole, const Flexibility& bend, const Resolution& chosen
 
 // How the parts of a body bend where what bears it is held.
 void add_bend(const Tree& whole, const Flexibility& bend, const Resolution& chosen, std::vector<Sums>& sums) {
+    const Kind many = kind_of_many_leaves(whole);
+    const double in_leaf = wood_in_leaf(many);
     bends(whole, bend, chosen.body, [&](std::size_t i, const Bend& b) {
         Sums& s = sums[std::size_t(chosen.body[i])];
         const Mat3& R = bend.pose.R_wb[i];
@@ -107,18 +113,35 @@ void add_bend(const Tree& whole, const Flexibility& bend, const Resolution& chos
                    b.turned.cwiseProduct(R * whole.inertia[i] * R.transpose() * b.turned).sum();
         if (is_flat(whole.kind[i])) {
             const Face face = face_of(whole, i, R);
-            s.braked += foliage_area(whole, i) * b.center.cwiseProduct(damped(face.axis, face.facing) * b.center).sum();
+            s.braked +=
+                foliage_area(whole, i) * b.center.cwiseProduct(damped(many, face.axis, face.facing) * b.center).sum();
         } else {
             const bool wood = whole.kind[i] == Kind::branch;
             const Vec3& size = whole.size[i];
             const double area = wood ? frustum_section(size[0], size[1], size[2]) : wood_across(whole, i, R);
             const Mat3 D = wood ? damped_wood(R.col(2)) : Mat3(Vec3(1.5, 1, 1.5).asDiagonal());
-            s.braked += area * wood_in_leaf * b.center.cwiseProduct(D * b.center).sum();
+            s.braked += area * in_leaf * b.center.cwiseProduct(D * b.center).sum();
         }
     });
 }
 
 } // namespace
+
+Kind kind_of_many_leaves(const Tree& tree) {
+    double area = 0, proportion = 0;
+    for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
+        if (!is_flat(tree.kind[i])) continue;
+        const bool said = is_clump(tree, i) && !tree.leaf_length.empty() && tree.leaf_length[i] > 0;
+        const double one = foliage_area(tree, i);
+        area += one;
+        proportion += one * (said ? tree.leaf_width[i] / tree.leaf_length[i] : tree.size[i][1] / tree.size[i][0]);
+    }
+    return area > 0 ? kind_of_many(1, proportion / area) : Kind::clump;
+}
+
+double wood_in_leaf(Kind many) {
+    return 2 / unfolding(many, 8.0).share;
+}
 
 // Of (1 - c^2)^3/2, c = u.t, to second order in the axis' level part, and
 // exact for upright and level ones.
@@ -127,19 +150,20 @@ double met_by_wind_across(const Vec3& axis) {
     return 1 - 0.75 * level + 0.1744 * level * level;
 }
 
-// Of a blade, air.h: (u.n)^2 is (1 - n_y^2) / 2 of |u|^2, which a quarter of its drag does not ask for. At 8 m/s blades that stream give the same
-// within a tenth, as they turn to the wind as often as from it.
+// Of a blade, air.h: (u.n)^2 is (1 - n_y^2) / 2 of |u|^2, which a quarter of its drag does not ask for. What blades that turn with the wind have
+// less is in h of air.h.
 double met_by_wind(const Vec3& n, double facing) {
     return 1 + facing * (-0.5 + 0.75 * (1 - n.y() * n.y()));
 }
 
-Mat3 damped(const Vec3& n, double facing) {
-    return (1 - facing / 2) * damped_all_ways() +
-           1.5 * facing * (1 + grows_at_8 / 2 * (1 - n.y() * n.y())) * (n * n.transpose());
+Mat3 damped(Kind many, const Vec3& n, double facing) {
+    return (1 - facing / 2) * damped_all_ways(many) +
+           1.5 * facing * (1 + grows_at_8(many) / 2 * (1 - n.y() * n.y())) * (n * n.transpose());
 }
 
-Mat3 damped_all_ways() {
-    return Vec3(1 + grows_at_8 / 2, 1, 1 + grows_at_8 / 2).asDiagonal();
+Mat3 damped_all_ways(Kind many) {
+    const double level = 1 + grows_at_8(many) / 2;
+    return Vec3(level, 1, level).asDiagonal();
 }
 
 Mat3 damped_wood(const Vec3& t) {

@@ -34,9 +34,12 @@ struct Sums {
 // Of each resolved body. O(bodies).
 std::vector<Sums> sum_up(const Tree& whole, const Flexibility&, const Resolution&);
 
-// A twig's drag in that of a clump's leaves that face all ways, of the same area (air.h): twice as much broadside, and leaves fold and turn with the
-// wind, which is made up for at 8 m/s.
-constexpr double wood_in_leaf = 2 / unfolding(Kind::clump, 8.0).share;
+// How the air sees several of the tree's leaves, by the mean of their proportions.
+Kind kind_of_many_leaves(const Tree&);
+
+// A twig's drag in that of many leaves that face all ways, of the same area (air.h): twice as much broadside, and leaves fold and turn with the
+// wind, which is made up for at 8 m/s. (So a clump's wood has half as much drag again at 5 m/s, and half of it at 20.)
+double wood_in_leaf(Kind many);
 
 // A cylinder's drag over that of one across the wind, mean over horizontal winds.
 double met_by_wind_across(const Vec3& axis);
@@ -46,10 +49,10 @@ double met_by_wind_across(const Vec3& axis);
 double met_by_wind(const Vec3& n, double facing);
 
 // How the air damps the motion of such leaves, in units of the next.
-Mat3 damped(const Vec3& n, double facing);
+Mat3 damped(Kind many, const Vec3& n, double facing);
 
-// How the air damps the motion of a clump's leaves that face all ways, over G |u| of air.h: mean over horizontal winds of 8 m/s.
-Mat3 damped_all_ways();
+// How the air damps the motion of many leaves that face all ways, over G |u| of air.h: mean over horizontal winds of 8 m/s.
+Mat3 damped_all_ways(Kind many);
 
 // Likewise of wood along t, over |u| of one across the wind.
 Mat3 damped_wood(const Vec3& t);

@@ -13,7 +13,7 @@ namespace {
 // 8192 91, of 16384 91; these figures 93. One of 100 000: 104, 99, 94, 91, 86. A stand of small trees is indifferent.
 constexpr std::size_t largest_block = 4096, largest_deep_block = 16384, smallest_block = 1024;
 constexpr std::uint32_t longest_carrying = 8, longest_bare = 16; // chains [bodies]
-constexpr std::size_t kinds = std::size_t(Kind::clump) + 1;
+constexpr std::size_t kinds = std::size_t(Kind::tuft) + 1;
 
 struct Chain {
     std::int32_t first;

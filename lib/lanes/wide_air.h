@@ -28,8 +28,9 @@ template <Kind kind, class W, class T = RealOf<W>> BOUGH_FORCE Unfolding<W> unfo
         const W g = 1 / opened;
         return {g, g * g};
     }
-    const W square = speed * speed, turned = 1 + folds.turn * square * square;
-    const W both = 1 / (opened * turned), g = turned * both, r = opened * both; // one division for two
+    const W square = smaller(speed * speed, all(T(1e9))), turned = 1 + folds.turn * square * square;
+    const W both = 1 / (opened * turned), g = turned * both,
+            r = opened * both; // one division for two; at 1e9 r is nothing
     const W h = all(T(streamed)) + T(1 - streamed) * r;
     return {g * h, g * (g * h - T(4 * (1 - streamed)) * r * (1 - r))};
 }

@@ -27,7 +27,9 @@ template <class T> constexpr Unfolding<T> unfolding(Kind kind, T speed) {
     const T x = speed / T(stream_speed), r = 1 / (1 + x * x * (x * x)), h = T(streamed) + T(1 - streamed) * r;
     return {g * h, g * (g * h - T(4 * (1 - streamed)) * r * (1 - r))};
 }
-// The same as lanes take it: g = 1 / (1 + fold |u|), r = 1 / (1 + turn |u|^4); both are 0 for what does neither.
+static_assert(unfolding(Kind::clump, 8.0).slope > 0 &&
+              unfolding(Kind::clump, 9.0).slope > 0); // about where it is least
+// The same as lanes take it: g = 1 / (1 + fold |u|), r = 1 / (1 + turn |u|^4); fold is 0 for what does not fold, turn for all but clumps.
 template <class T> struct Folds {
     T fold, turn; // [s/m], [s^4/m^4]
 };

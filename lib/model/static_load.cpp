@@ -12,6 +12,7 @@ double density_of(const StaticLoad& load, Kind kind) {
         return load.leaf;
     case Kind::petal:
     case Kind::clump:
+    case Kind::tuft:
         return load.petal;
     case Kind::fruit:
         return load.fruit;
@@ -29,6 +30,7 @@ double area_from_above(const Tree& tree, std::size_t i, const Mat3& R_wb) {
     case Kind::leaf:
     case Kind::petal:
     case Kind::clump:
+    case Kind::tuft:
         return foliage_area(tree, i) * std::abs(R_wb(1, 1));
     case Kind::fruit:
         return sphere_section(size[1]);

@@ -31,6 +31,7 @@ double damping_ratio(const Material& material, const Tree& tree, std::size_t i) 
     case Kind::leaf:
     case Kind::petal:
     case Kind::clump:
+    case Kind::tuft:
         return material.leaf_damping_ratio;
     case Kind::fruit:
         return material.fruit_damping_ratio;
@@ -86,6 +87,7 @@ void set_mass(Tree& tree, const Material& material) {
         case Kind::leaf:
         case Kind::petal:
         case Kind::clump:
+        case Kind::tuft:
             body = (is_clump(tree, i)            ? leaf_clump
                     : tree.kind[i] == Kind::leaf ? leaf_blade
                                                  : leaf_prism)(size[0], size[1], size[2], material.leaf_density);
@@ -111,6 +113,7 @@ void set_stiffness(Tree& tree, const Material& material) {
         case Kind::leaf:
         case Kind::petal:
         case Kind::clump:
+        case Kind::tuft:
             tree.stiffness[i] = is_clump(tree, i) ? clump_stiffness(material, size) : leaf_stiffness(material, size[0]);
             break;
         case Kind::fruit:

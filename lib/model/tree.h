@@ -69,6 +69,12 @@ inline bool is_clump(const Tree& tree, std::size_t i) {
     return !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
 }
 
+// Returns how the air sees several leaves of this length and width: those narrower than a seventh of their length, needles and leaflets of palms, do not
+// turn with the wind (air.h).
+inline Kind kind_of_many(double length, double width) {
+    return 7 * width < length ? Kind::tuft : Kind::clump;
+}
+
 // [m^2] Returns one side's area of all the leaves or petals that a flat body stands for: length times width / 2 each.
 inline double foliage_area(const Tree& tree, std::size_t i) {
     if (!is_clump(tree, i) || tree.leaf_length.empty() || !(tree.leaf_length[i] > 0))

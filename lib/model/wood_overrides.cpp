@@ -26,6 +26,7 @@ const WoodFactors& factors_of(const Wood& wood, Kind kind) {
         return wood.leaf;
     case Kind::petal:
     case Kind::clump:
+    case Kind::tuft:
         return wood.petal;
     case Kind::fruit:
         return wood.fruit;

@@ -6,10 +6,13 @@
 namespace bough {
 
 template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree) {
+    plan.kind.reserve(plan.bodies);
     plan.drag_area.reserve(plan.bodies);
     const Scene& scene = plan.scene;
-    for (std::size_t i = 0; i < plan.bodies; ++i)
-        plan.drag_area.push_back(T(drag_area(tree, i, kind_in_air(tree, i), scene.air_density, plate_kappa(scene))));
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        plan.kind.push_back(kind_in_air(tree, i));
+        plan.drag_area.push_back(T(drag_area(tree, i, plan.kind[i], scene.air_density, plate_kappa(scene))));
+    }
     for (std::size_t i = 0; i < tree.leaf_facing.size(); ++i) {
         if (!(facing_in_air(tree, i) > 0)) continue;
         if (plan.facing.empty()) plan.facing.assign(plan.bodies, T(0));

@@ -5,7 +5,7 @@
 
 namespace bough {
 
-// Fills in Plan::drag_area.
+// Fills in Plan::kind, drag_area and facing.
 template <class T> void plan_surfaces(Plan<T>&, const Tree&);
 
 // [kg m] Returns P_b: the first moment that body b's own turning moves: of its mass and, at its children's joints, their composites. Body axes. Reads

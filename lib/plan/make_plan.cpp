@@ -71,8 +71,6 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, Tree* own) 
     take(plan.mass, tree.mass);
     take(plan.beta, tree.damping);
     give_back(own, &Tree::mass, &Tree::damping);
-    if (plan.wind) plan.kind = tree.kind;
-    for (std::size_t i = 0; i < plan.kind.size(); ++i) plan.kind[i] = kind_in_air(tree, i);
     plan.foliage = std::any_of(plan.kind.begin(), plan.kind.end(), is_foliage);
     plan.parent = tree.parent;
     give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid, &Tree::leaf_count, &Tree::leaf_facing);

@@ -70,7 +70,7 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan, const std
     std::vector<Obstacle> obstacles;
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const Vec3 place = pose.x[i] + pose.R[i] * plan.com[i].template cast<double>();
-        const double own = plan.kind[i] == Kind::clump ? 0 : share(i, 1) / bodies_in(i);
+        const double own = stands_for_many(plan.kind[i]) ? 0 : share(i, 1) / bodies_in(i);
         if (!(own < 1))
             throw std::domain_error("/wind/shelter/cell: is " + std::to_string(cell) + " m, but body " +
                                     std::to_string(i) + " alone drags as much as " + std::to_string(own) +
@@ -88,7 +88,7 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan, const std
         double& u2 = left.try_emplace(o.column, 1).first->second;
         double u = std::sqrt(u2);
         const auto own_share = [&](double at) { return share(o.body, at); };
-        const bool many = plan.kind[o.body] == Kind::clump || bodies_in(o.body) > 1;
+        const bool many = stands_for_many(plan.kind[o.body]) || bodies_in(o.body) > 1;
         if (u2 < calm) {
             u = 0;
         } else if (many || own_share(u) > 0.5) {

@@ -71,7 +71,7 @@ LowestModes::LowestModes(const SmallMotion& motion, Index count, const std::func
     }
 }
 
-// D of the air on body i, of its centre of mass's velocity and its turning. Single leaves turn with the wind, as those of clumps do.
+// D of the air on body i, of its centre of mass's velocity and its turning. Single leaves and petals turn with the wind, as those of clumps do.
 struct AirDamping {
     Mat3 drag = Mat3::Zero(), spin = Mat3::Zero();
 };
@@ -87,7 +87,7 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
         if (scene.wind) u = mean_wind(*scene.wind, motion.joints()[i] + R * tree.com[i]);
         const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
         const AirBody<double> body{kind, area, tree.mass[i], tree.com[i], facing_in_air(tree, i)};
-        const AirBody<double> mean = streaming(body);
+        const AirBody<double> mean = streaming(body, tree.size[i][0], tree.size[i][1]);
         damping[i].drag = mean.drag_area * air_damping(mean.kind, R, u, mean.facing);
         if (has_leaf_air(terms, kind)) damping[i].drag += leaf_damping(terms, body, R, u);
         damping[i].spin = air_load(body, terms, R, u).spin * I;

@@ -42,8 +42,9 @@ Measured measured(const Tree& tree, const Material& wood) {
         }
         for (int k = 0; k < 8; ++k) {
             const Vec3 u = 8 * Vec3(std::cos(k * pi / 4), 0, std::sin(k * pi / 4));
-            const AirBody<double> body = streaming(AirBody<double>{kind, drag_area(tree, i, kind, 1.2), tree.mass[i],
-                                                                   tree.com[i], facing_in_air(tree, i)});
+            const AirBody<double> body = streaming(
+                AirBody<double>{kind, drag_area(tree, i, kind, 1.2), tree.mass[i], tree.com[i], facing_in_air(tree, i)},
+                tree.size[i][0], tree.size[i][1]);
             m.drag += body.drag_area * air_force(body.kind, pose.R_wb[i], u, body.facing).force.dot(u) / 64;
         }
     }

@@ -1,6 +1,7 @@
 // lib/laws/air.h: a clump whose leaves face one way more than others meets the air as its leaves do together, one by one.
 #include "lib/laws/air.h"
 #include "lib/laws/air_load.h"
+#include "lib/plan/reduced.h"
 #include "tests/support/make_tree.h"
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
@@ -66,7 +67,22 @@ TEST_CASE("A clump's force is the sum of its leaves', which turn with the wind")
             }
             const Vec3 together = all * air_force(Kind::clump, R, u, facing).force;
             CHECK((together - turned(u) * force).norm() < 1e-11 * force.norm());
+            const Vec3 needles = all * air_force(Kind::tuft, R, u, facing).force; // they do not turn
+            CHECK((needles - force).norm() < 1e-11 * force.norm());
         }
+    }
+}
+
+TEST_CASE("Needles and a palm's leaflets are a tuft, a willow's leaves a clump") {
+    CHECK(kind_of_many(0.13, 0.0156) == Kind::tuft);
+    CHECK(kind_of_many(0.75, 0.056) == Kind::tuft);
+    CHECK(kind_of_many(0.11, 0.0176) == Kind::clump);
+    for (const bool said : {false, true}) { // by the leaf's own measures where the tree has them
+        Tree tree;
+        make_tree::add_leaf(tree, -1, {0, 1, 0}, Quat::Identity(), 0.4, said ? 0.4 : 0.04, 2e-4, 0, 0, 0);
+        tree.leaf_count = {20};
+        if (said) tree.leaf_length = {0.1}, tree.leaf_width = {0.01};
+        CHECK(kind_in_air(tree, 0) == Kind::tuft);
     }
 }
 
