@@ -1,4 +1,5 @@
 #include "loads.h"
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
