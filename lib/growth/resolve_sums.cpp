@@ -131,12 +131,11 @@ Kind kind_of_many_leaves(const Tree& tree) {
     double area = 0, proportion = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
         if (!is_flat(tree.kind[i])) continue;
-        const bool said = is_clump(tree, i) && !tree.leaf_length.empty() && tree.leaf_length[i] > 0;
         const double one = foliage_area(tree, i);
         area += one;
-        proportion += one * (said ? tree.leaf_width[i] / tree.leaf_length[i] : tree.size[i][1] / tree.size[i][0]);
+        proportion += one * leaf_proportion(tree, i);
     }
-    return area > 0 ? kind_of_many(1, proportion / area) : Kind::clump;
+    return area > 0 ? kind_of_many(proportion / area) : Kind::clump;
 }
 
 double wood_in_leaf(Kind many) {

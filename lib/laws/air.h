@@ -80,11 +80,11 @@ template <class T> struct AirBody {
     T facing = 0;   // [1] Tree::leaf_facing of a clump
 };
 
-// A blade of this length and width as it meets the air in the mean over its own motion, in which a broad one turns with the wind: a clump of one, which
+// A blade of this width over length as it meets the air in the mean over its own motion, in which a broad one turns with the wind: a clump of one, which
 // faces its way. Other bodies are as they are.
-template <class T> AirBody<T> streaming(const AirBody<T>& body, double length, double width) {
+template <class T> AirBody<T> streaming(const AirBody<T>& body, double proportion) {
     if (!is_flat(body.kind)) return body;
-    return {kind_of_many(length, width), T(blade_mean) * body.drag_area, body.mass, body.com, T(1)};
+    return {kind_of_many(proportion), T(blade_mean) * body.drag_area, body.mass, body.com, T(1)};
 }
 
 template <class T> struct AirForce {

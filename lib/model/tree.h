@@ -69,10 +69,17 @@ inline bool is_clump(const Tree& tree, std::size_t i) {
     return !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
 }
 
-// Returns how the air sees several leaves of this length and width: those narrower than a seventh of their length, needles and leaflets of palms, do not
+// [1] Width over length of a leaf or petal, or of each that a clump stands for; of a clump that does not say, its own.
+inline double leaf_proportion(const Tree& tree, std::size_t i) {
+    if (!is_clump(tree, i) || tree.leaf_length.empty() || !(tree.leaf_length[i] > 0))
+        return tree.size[i][1] / tree.size[i][0];
+    return tree.leaf_width[i] / tree.leaf_length[i];
+}
+
+// Returns how the air sees several leaves of this width over length: those below a seventh, needles and leaflets of palms, do not
 // turn with the wind (air.h).
-inline Kind kind_of_many(double length, double width) {
-    return 7 * width < length ? Kind::tuft : Kind::clump;
+inline Kind kind_of_many(double proportion) {
+    return 7 * proportion < 1 ? Kind::tuft : Kind::clump;
 }
 
 // [m^2] Returns one side's area of all the leaves or petals that a flat body stands for: length times width / 2 each.

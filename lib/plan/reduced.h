@@ -12,10 +12,7 @@ constexpr std::uint8_t round_to_air = 2;
 // Returns what the air takes the body for, that is, by whose law (air.h).
 inline Kind kind_in_air(const Tree& tree, std::size_t i) {
     if (!tree.rigid.empty() && tree.rigid[i] == round_to_air) return Kind::fruit;
-    if (!is_clump(tree, i)) return tree.kind[i];
-    const bool said = !tree.leaf_length.empty() && tree.leaf_length[i] > 0;
-    return said ? kind_of_many(tree.leaf_length[i], tree.leaf_width[i])
-                : kind_of_many(tree.size[i][0], tree.size[i][1]);
+    return is_clump(tree, i) ? kind_of_many(leaf_proportion(tree, i)) : tree.kind[i];
 }
 
 // Returns how much a clump's leaves face one way, and 0 for other bodies.

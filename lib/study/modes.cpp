@@ -87,7 +87,7 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
         if (scene.wind) u = mean_wind(*scene.wind, motion.joints()[i] + R * tree.com[i]);
         const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
         const AirBody<double> body{kind, area, tree.mass[i], tree.com[i], facing_in_air(tree, i)};
-        const AirBody<double> mean = streaming(body, tree.size[i][0], tree.size[i][1]);
+        const AirBody<double> mean = streaming(body, leaf_proportion(tree, i));
         damping[i].drag = mean.drag_area * air_damping(mean.kind, R, u, mean.facing);
         if (has_leaf_air(terms, kind)) damping[i].drag += leaf_damping(terms, body, R, u);
         damping[i].spin = air_load(body, terms, R, u).spin * I;

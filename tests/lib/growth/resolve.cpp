@@ -44,7 +44,7 @@ Measured measured(const Tree& tree, const Material& wood) {
             const Vec3 u = 8 * Vec3(std::cos(k * pi / 4), 0, std::sin(k * pi / 4));
             const AirBody<double> body = streaming(
                 AirBody<double>{kind, drag_area(tree, i, kind, 1.2), tree.mass[i], tree.com[i], facing_in_air(tree, i)},
-                tree.size[i][0], tree.size[i][1]);
+                leaf_proportion(tree, i));
             m.drag += body.drag_area * air_force(body.kind, pose.R_wb[i], u, body.facing).force.dot(u) / 64;
         }
     }

@@ -74,9 +74,9 @@ TEST_CASE("A clump's force is the sum of its leaves', which turn with the wind")
 }
 
 TEST_CASE("Needles and a palm's leaflets are a tuft, a willow's leaves a clump") {
-    CHECK(kind_of_many(0.13, 0.0156) == Kind::tuft);
-    CHECK(kind_of_many(0.75, 0.056) == Kind::tuft);
-    CHECK(kind_of_many(0.11, 0.0176) == Kind::clump);
+    CHECK(kind_of_many(0.0156 / 0.13) == Kind::tuft);
+    CHECK(kind_of_many(0.056 / 0.75) == Kind::tuft);
+    CHECK(kind_of_many(0.0176 / 0.11) == Kind::clump);
     for (const bool said : {false, true}) { // by the leaf's own measures where the tree has them
         Tree tree;
         make_tree::add_leaf(tree, -1, {0, 1, 0}, Quat::Identity(), 0.4, said ? 0.4 : 0.04, 2e-4, 0, 0, 0);

@@ -380,3 +380,33 @@ TEST_CASE("wind damps a mode by its drag's derivative") {
         CHECK(mode.damping - mode.wood == Approx(drag / (2 * 2 * pi * mode.frequency * J)).epsilon(1e-9));
     }
 }
+
+TEST_CASE("wind damps a mode of a single leaf as one that turns with the wind, where it is not narrow") {
+    // The upright rod as a blade that faces z, in 6 m/s along x. Of its drag a quarter is from all sides; h is that of air.h.
+    for (const double width : {0.9, 0.15}) {
+        Tree tree = rod(Vec3(40, 55, 9));
+        tree.kind[0] = Kind::leaf;
+        tree.size[0] = {1.5, width, 2e-4};
+        Scene scene = still();
+        scene.wind = Wind();
+        scene.wind->velocity = Vec3(6, 0, 0);
+        scene.wind->profile = 0;
+        const auto unfolded = [](double u) { return 1 / (1 + u / 7.5); };
+        const auto past = [&](double u) { // G |u|
+            const double h = width > 0.5 ? 0.66 + 0.34 / (1 + std::pow(u / 7.2, 4)) : 1;
+            return unfolded(u) * h * u;
+        };
+        const double slope = (past(6 + 1e-4) - past(6 - 1e-4)) / 2e-4;
+        const double J = 2 * 1.5 * 1.5 / 3, area = 1.2 / 2 * scene.air_density * 1.5 * width / 2;
+        const double spin = 6 * area / 2 * unfolded(6) * 6 * (J - 2 * 0.75 * 0.75);
+        int leaves = 0;
+        for (const NaturalMode& mode : modes_of(tree, scene, {2, true})) {
+            const bool along = mode.effective_mass.x() > mode.effective_mass.z();
+            const double drag = area * (along ? 0.25 * (past(6) + 6 * slope) : past(6)) * 0.75 * 0.75;
+            CAPTURE(width, along);
+            CHECK(mode.damping - mode.wood == Approx((drag + spin) / (2 * 2 * pi * mode.frequency * J)).epsilon(1e-6));
+            ++leaves;
+        }
+        CHECK(leaves == 2);
+    }
+}
