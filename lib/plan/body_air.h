@@ -1,9 +1,11 @@
-// body_air.h: what every solver, guard and reference asks about the air at a body of a plan: what the laws take of the body (laws/air_load.h), and
+// body_air.h: what every solver, guard and reference asks about the air at a body: what the laws take of the body (laws/air_load.h), and
 // the wind there, with its shelter and its tree's clock. WindTable::at and wind_factor (laws/wind.h) hold what else a wind does at a place.
 #pragma once
 #include "../laws/air.h"
+#include "../laws/leaf_air.h"
 #include "../laws/wind.h"
 #include "plan.h"
+#include "reduced.h"
 
 namespace bough {
 
@@ -16,6 +18,13 @@ template <class T> T facing_of(const Plan<T>& plan, std::size_t body) {
 template <class Real, class T> AirBody<Real> air_body(const Plan<T>& plan, std::size_t body) {
     return {plan.kind[body], Real(plan.drag_area[body]), Real(plan.mass[body]), plan.com[body].template cast<Real>(),
             Real(facing_of(plan, body))};
+}
+
+// The same of a tree that no plan has been made of.
+inline AirBody<double> air_body(const Tree& tree, std::size_t body, const Scene& scene) {
+    const Kind kind = kind_in_air(tree, body);
+    return {kind, drag_area(tree, body, kind, scene.air_density, plate_kappa(scene)), tree.mass[body], tree.com[body],
+            facing_in_air(tree, body)};
 }
 
 // Returns the wind's clock that a body's tree goes by.

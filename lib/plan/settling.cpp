@@ -1,9 +1,7 @@
 #include "settling.h"
-#include "../laws/air.h"
-#include "../laws/leaf_air.h"
 #include "../laws/wind_field.h"
+#include "body_air.h"
 #include "pose.h"
-#include "reduced.h"
 #include "sag.h"
 #include <algorithm>
 #include <cmath>
@@ -79,11 +77,9 @@ FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scen
         moved += own.mass[i] * u.squaredNorm();
         lost += scene.damping_scale * tree.damping[whole] * theta.dot(own.stiffness[i].cwiseProduct(theta));
         if (!scene.wind) continue;
-        const Kind kind = kind_in_air(tree, whole);
-        const double scale = drag_area(tree, whole, kind, scene.air_density, plate_kappa(scene));
-        lost += scale * u.dot(air_damping(kind, before.R[i], mean_wind(*scene.wind, before.com[i]),
-                                          facing_in_air(tree, whole)) *
-                              u);
+        const AirBody<double> mean = streaming(air_body(tree, whole, scene), leaf_proportion(tree, whole));
+        const Mat3 D = air_damping(mean.kind, before.R[i], mean_wind(*scene.wind, before.com[i]), mean.facing);
+        lost += mean.drag_area * u.dot(D * u);
     }
     if (!(pushed > 0) || !(moved > 0) || !std::isfinite(moved)) return {}; // it buckles
     const double omega = std::sqrt(a * pushed / moved);

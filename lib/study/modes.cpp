@@ -1,7 +1,7 @@
 #include "modes.h"
 #include "../laws/air_load.h"
 #include "../laws/wind.h"
-#include "../plan/reduced.h"
+#include "../plan/body_air.h"
 #include "lanczos.h"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -80,16 +80,14 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
     std::vector<AirDamping> damping(tree.size_bodies());
     const LeafTerms<double> terms = leaf_terms<double>(scene);
     for (std::size_t i = 0; i < damping.size(); ++i) {
-        const Kind kind = kind_in_air(tree, i);
         const Mat3& R = motion.rotations()[i];
         const Mat3 I = R * tree.inertia[i] * R.transpose();
         Vec3 u = Vec3::Zero();
         if (scene.wind) u = mean_wind(*scene.wind, motion.joints()[i] + R * tree.com[i]);
-        const double area = drag_area(tree, i, kind, scene.air_density, plate_kappa(scene));
-        const AirBody<double> body{kind, area, tree.mass[i], tree.com[i], facing_in_air(tree, i)};
+        const AirBody<double> body = air_body(tree, i, scene);
         const AirBody<double> mean = streaming(body, leaf_proportion(tree, i));
         damping[i].drag = mean.drag_area * air_damping(mean.kind, R, u, mean.facing);
-        if (has_leaf_air(terms, kind)) damping[i].drag += leaf_damping(terms, body, R, u);
+        if (has_leaf_air(terms, body.kind)) damping[i].drag += leaf_damping(terms, body, R, u);
         damping[i].spin = air_load(body, terms, R, u).spin * I;
     }
     return damping;

@@ -7,6 +7,7 @@
 #include "lib/growth/segment.h"
 #include "lib/laws/air.h"
 #include "lib/model/drawn_pose.h"
+#include "lib/plan/body_air.h"
 #include "lib/plan/reduce.h"
 #include "lib/study/modes.h"
 #include "tests/support/hand_made.h"
@@ -42,9 +43,7 @@ Measured measured(const Tree& tree, const Material& wood) {
         }
         for (int k = 0; k < 8; ++k) {
             const Vec3 u = 8 * Vec3(std::cos(k * pi / 4), 0, std::sin(k * pi / 4));
-            const AirBody<double> body = streaming(
-                AirBody<double>{kind, drag_area(tree, i, kind, 1.2), tree.mass[i], tree.com[i], facing_in_air(tree, i)},
-                leaf_proportion(tree, i));
+            const AirBody<double> body = streaming(air_body(tree, i, Scene()), leaf_proportion(tree, i));
             m.drag += body.drag_area * air_force(body.kind, pose.R_wb[i], u, body.facing).force.dot(u) / 64;
         }
     }

@@ -4,6 +4,10 @@
 #include "lib/study/modes.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulations.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
 
 using namespace bough;
 
@@ -51,6 +55,37 @@ TEST_CASE("in the wind a rod's sway is damped by the drag of its speed past the 
     CHECK(sway.zeta == Approx(drag / (2 * sway.omega * mass)).epsilon(1e-3));
     CHECK(settling_time(tree, {range_of(tree)}, scene) ==
           Approx(std::min(20.0, std::max(2.0, std::log(100) / (sway.zeta * sway.omega)))).epsilon(1e-3));
+}
+
+TEST_CASE("in the wind a single leaf's sway is damped as that of one which turns with it, where it is not narrow") {
+    // A blade that stands as a rod does. zeta = D / (2 omega m), D the slope of its drag kappa rho A c G U^2, c 1 broadside and 1/4 edge on (air.h).
+    const double U = 8;
+    for (const double width : {0.9, 0.15}) {
+        Tree tree = rod(1, 1.5, 0.01, 9e9, 900, 0);
+        tree.kind[0] = Kind::leaf;
+        tree.size[0] = {1.5, width, 2e-4};
+        const auto pushed = [&](double u) {
+            const double h = width > 0.5 ? 0.66 + 0.34 / (1 + std::pow(u / 7.2, 4)) : 1;
+            return h / (1 + u / 7.5) * u * u;
+        };
+        const double slope = (pushed(U + 1e-4) - pushed(U - 1e-4)) / 2e-4;
+        std::vector<double> zetas, expected;
+        for (const Vec3& along : {Vec3(U, 0, 0), Vec3(0, 0, U)}) {
+            Scene scene;
+            scene.gravity = Vec3::Zero();
+            scene.wind = Wind();
+            scene.wind->velocity = along;
+            scene.wind->profile = 0;
+            const FirstSway sway = first_sway(tree, range_of(tree), scene);
+            const double area = 1.2 / 2 * scene.air_density * 1.5 * width / 2;
+            zetas.push_back(sway.zeta);
+            expected.push_back(area * slope / (2 * sway.omega * tree.mass[0]));
+        }
+        std::sort(zetas.begin(), zetas.end());
+        CAPTURE(width);
+        CHECK(zetas[0] == Approx(0.25 * expected[0]).epsilon(1e-6));
+        CHECK(zetas[1] == Approx(expected[1]).epsilon(1e-6));
+    }
 }
 
 TEST_CASE("a grown tree's first sway lies among the modes that Lanczos finds") {
