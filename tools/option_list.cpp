@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <type_traits>
 
 namespace bough {
 namespace {
@@ -38,7 +39,17 @@ OptionEntry& OptionEntry::one_of(const std::vector<std::string>& names) {
 
 OptionEntry& OptionEntry::one_of_any_case(const std::vector<std::string>& names) {
     option_.transform(CLI::IsMember(names, CLI::ignore_case));
+    refuse_empty(); // before that
     return suggests(names);
+}
+
+void OptionEntry::refuse_empty() {
+    option_.transform(CLI::Validator(
+        [&help = help_](const std::string& text) {
+            if (!text.empty()) return std::string();
+            return "is empty, expected " + (help.names.front()[0] == '-' ? help.takes : "a file name");
+        },
+        "", ""));
 }
 
 OptionEntry& OptionEntry::suggests(const std::vector<std::string>& names) {
@@ -78,7 +89,10 @@ OptionEntry OptionList::entry(CLI::Option& option, const std::string& name, cons
 }
 
 template <class Value> OptionEntry OptionList::add(const std::string& name, Value& value, const std::string& help) {
-    return entry(*app_->add_option(name, value), name, help);
+    OptionEntry added = entry(*app_->add_option(name, value), name, help);
+    if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, std::vector<std::string>>)
+        added.refuse_empty();
+    return added;
 }
 
 template OptionEntry OptionList::add(const std::string&, std::string&, const std::string&);
@@ -159,10 +173,14 @@ std::string OptionList::taken() const {
 }
 
 OptionsRead OptionList::read(int argc, char** argv) {
-    for (int k = 1; k < argc; ++k)
+    for (int k = 1; k < argc; ++k) {
+        const std::string word = argv[k], given = word.substr(0, word.find('='));
         for (const auto& [name, why] : refused_)
-            if (const std::string word = argv[k]; word.substr(0, word.find('=')) == name)
-                return {OptionsRead::End::wrong, name + ": " + why};
+            if (given == name) return {OptionsRead::End::wrong, name + ": " + why};
+        // CLI11 would take the next argument for the value.
+        if (word.starts_with("--") && given.size() + 1 == word.size())
+            return {OptionsRead::End::wrong, given + ": is empty after its '='"};
+    }
     try {
         app_->parse(argc, argv);
         return {OptionsRead::End::work, {}};

@@ -45,7 +45,6 @@ ValueCheck whole_number(std::int64_t least, std::int64_t most) {
 
 ValueCheck file_name() {
     return [](const std::string& text) -> std::string {
-        if (text.empty()) return "is empty, expected a file name";
         if (text.size() > 1 && text[0] == '-')
             return "is '" + text + "', which looks like an option (write ./" + text + " for a file of that name)";
         return {};

@@ -257,12 +257,16 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
     shown.sink = open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, model);
     if (model.driven && balls > 0)
         o.common.notes.push_back("balls and walkers are not shown beside a model's own mesh");
-    if (o.common.output != "-")
-        shown.sink = sized_sink(std::move(shown.sink), format, last - first + 1, [&o](const std::string& text) {
-            if (o.common.quiet) return;
-            clear_progress();
-            std::cerr << treesim_info.name << ": " << text << "\n";
-        });
+    if (o.common.output != "-") {
+        std::string smaller =
+            smaller_output(format, o.digits || o.run.precision == "float", split_list(o.fields).size() > 1);
+        shown.sink =
+            sized_sink(std::move(shown.sink), std::move(smaller), last - first + 1, [&o](const std::string& text) {
+                if (o.common.quiet) return;
+                clear_progress();
+                std::cerr << treesim_info.name << ": " << text << "\n";
+            });
+    }
     if (is_point_cache(format)) note_cache(o, setting, balls, bound || model.driven);
     return shown;
 }

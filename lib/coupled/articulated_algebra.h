@@ -30,15 +30,29 @@ template <class T, class S> Matrix<S> cross_left(const Vector3<T>& r, const Matr
     return m;
 }
 
+// Returns x / y by the textbook. The standard library's quotient of complex numbers scales them first, and rounds otherwise from one compiler to another.
+template <class S> S quotient(const S& x, const S& y) {
+    if constexpr (Eigen::NumTraits<S>::IsComplex) {
+        const auto square = y.real() * y.real() + y.imag() * y.imag();
+        return S((x.real() * y.real() + x.imag() * y.imag()) / square,
+                 (x.imag() * y.real() - x.real() * y.imag()) / square);
+    } else {
+        return x / y;
+    }
+}
+template <class S> Vector<S> quotient(const Vector<S>& x, const S& y) {
+    return {quotient(x.x(), y), quotient(x.y(), y), quotient(x.z(), y)};
+}
+
 // Returns X^-1 of a symmetric X = L D L^T, L with unit diagonal.
 template <class S> Matrix<S> symmetric_inverse(const Matrix<S>& X) {
     const S one(1);
-    const S d0 = one / X(0, 0);
+    const S d0 = quotient(one, X(0, 0));
     const S l10 = X(1, 0) * d0, l20 = X(2, 0) * d0;
-    const S d1 = one / (X(1, 1) - l10 * X(1, 0));
+    const S d1 = quotient(one, S(X(1, 1) - l10 * X(1, 0)));
     const S y21 = X(2, 1) - l20 * X(1, 0);
     const S l21 = y21 * d1;
-    const S d2 = one / (X(2, 2) - l20 * X(2, 0) - l21 * y21);
+    const S d2 = quotient(one, S(X(2, 2) - l20 * X(2, 0) - l21 * y21));
     const S m20 = l10 * l21 - l20; // L^-1 has -l10, -l21 and this below its diagonal
     const S e21 = -l21 * d2, e20 = m20 * d2;
     Matrix<S> E;

@@ -82,7 +82,8 @@ template <class T, class S> struct Solve {
         const Vector<S> gamma = q.E * (q.u - q.A * alpha_p - q.B * q.a);
         q.alpha = alpha_p + gamma;
         const Vector<S> x = b.rates.template cast<S>() * gamma;
-        const Vector<S> x_v = -x / p, x_u = (h * x_v - state.theta_dot[i].template cast<S>()) / p;
+        const Vector<S> x_v = quotient(Vector<S>(-x), p),
+                        x_u = quotient(Vector<S>(h * x_v - state.theta_dot[i].template cast<S>()), p);
         work.theta_dot_change[i] += h * weighed(Vector<S>(c * x_v));
         work.theta_change[i] += h * weighed(Vector<S>(c * x_u));
     }

@@ -55,8 +55,25 @@ if command -v fish >/dev/null; then
     [[ $(fish -c 'source treeprofile.fish; complete -C "treeprofile --wind gu"' | cut -f 1) == gusty ]] || fail "fish completes no wind"
 fi
 
-# Old names say the new ones.
 treegen --age 12 --bodies 60 --leaves -q | treeconvert - -q -o tree.json
+
+# An empty value, as of a shell's variable that was never set, is none.
+for page in treegen "treeconvert tree.json" "treesim tree.json" "treeprofile tree.json"; do
+    tool=${page%% *} count=0
+    while read -r name; do
+        count=$((count + 1))
+        # shellcheck disable=SC2086
+        refused 1 ": is " $page "$name" ''
+        grep -qE "(is empty|is ''), expected [^ ]|is '', expected" err || fail "$page $name '': $(cat err)"
+        # shellcheck disable=SC2086
+        refused 1 "$name: is empty after its '='" $page "$name="
+    done < <("$tool" --help-all | sed -nE 's/^  (-[a-zA-Z], )?(--[a-z-]+) [^ ].*/\2/p')
+    [[ $count -ge 8 ]] || fail "$tool has $count options with a value"
+done
+refused 1 "INPUT: is empty, expected a file name" treesim ''
+refused 1 "PART: is empty, expected a file name" treesim join '' -o joined.json
+
+# Old names say the new ones.
 for old in "--hash:--report hash" "--explain:--report plan" "--report-error:--report error" "--report-cost:--report cost" \
     "--report-rigid:--report rigid" "--pose drawn:--set pose=" "--joint-limit=3:--set joint_limit=" "--stiffness-scale 2:--set stiffness_scale=" \
     "--damping-scale 2:--set damping_scale=" "--joint-inertia paper:--set joint_inertia=" "--join part.json:treesim join"; do

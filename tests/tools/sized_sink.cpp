@@ -24,9 +24,9 @@ private:
     std::uint64_t each_, bytes_ = 0;
 };
 
-std::vector<std::string> said(std::uint64_t each, std::int64_t frames, const std::string& format) {
+std::vector<std::string> said(std::uint64_t each, std::int64_t frames, const std::string& smaller) {
     std::vector<std::string> lines;
-    const auto sink = sized_sink(std::make_unique<Counter>(each), format, frames,
+    const auto sink = sized_sink(std::make_unique<Counter>(each), smaller, frames,
                                  [&lines](const std::string& text) { lines.push_back(text); });
     for (int k = 0; k < 3; ++k) {
         sink->write(MotionFrame());
@@ -39,12 +39,21 @@ std::vector<std::string> said(std::uint64_t each, std::int64_t frames, const std
 } // namespace
 
 TEST_CASE("More than 2 GB are told once, after the second frame, with what is smaller") {
-    CHECK(said(20'000'000, 100, "obj").empty());
-    const std::vector<std::string> lines = said(20'000'001, 100, "obj");
-    REQUIRE(lines.size() == 1);
-    CHECK(lines[0].find("about 2.0 GB, 20 MB a frame") != std::string::npos);
-    CHECK(lines[0].find(".pc2") != std::string::npos);
-    CHECK(said(1'000'000'000, 3, "jsonl").at(0).find(".safetensors") != std::string::npos);
+    CHECK(said(20'000'000, 100, "less").empty());
+    CHECK(said(20'000'001, 100, "less") == std::vector<std::string>{"-o: will be about 2.0 GB, 20 MB a frame; less"});
+    CHECK(said(1'000'000'000, 3, "") == std::vector<std::string>{"-o: will be about 3.0 GB, 1.0 GB a frame"});
+}
+
+TEST_CASE("What is told to be smaller is what the options have not done already") {
+    const std::string text = smaller_output("jsonl", false, true);
+    for (const char* part : {".safetensors takes less than half", "--digits 6", "--fields"})
+        CHECK(text.find(part) != std::string::npos);
+    CHECK(smaller_output("jsonl", true, false) == ".safetensors takes less");
+    CHECK(smaller_output("safetensors", false, true) == "--fields names what is wanted");
+    CHECK(smaller_output("safetensors", false, false).empty());
+    CHECK(smaller_output("obj", false, false).find(".pc2") != std::string::npos);
+    for (const char* format : {"mdd", "pc2", "usda", "vat"})
+        CHECK(smaller_output(format, false, false) == ".glb holds the joints' turns alone");
 }
 
 TEST_CASE("What is written at the end is not told of") {
@@ -76,7 +85,7 @@ TEST_CASE("What is told of a real output is what is written in the end") {
         sink = motion_sink(file, format, header);
     }
     sink = sized_sink(
-        std::move(sink), format, frames, [&](const std::string& text) { lines.push_back(text); }, 1);
+        std::move(sink), "", frames, [&](const std::string& text) { lines.push_back(text); }, 1);
     make_tree::Dice dice{std::mt19937(3)};
     for (std::int64_t f = 1; f <= frames; ++f) {
         MotionFrame frame;
