@@ -102,7 +102,11 @@ void require_unchanged(int fd, const FileVersion& opened, const std::string& nam
 
 std::string read_all(int fd, const struct stat& status, const std::string& path) {
     const std::string name = input_name(path);
-    if (!S_ISREG(status.st_mode)) return read_all(fd, 65536, true, name);
+    if (!S_ISREG(status.st_mode)) {
+        std::string content = read_all(fd, 65536, true, name);
+        if (path != "-") hold_pipe(path, content);
+        return content;
+    }
     const FileVersion opened = settled_version(fd);
     if (path != "-") require_held(path, opened);
     std::string content = read_all(fd, opened.size > 0 ? std::size_t(opened.size) : 65536, false, name);
@@ -138,12 +142,18 @@ std::size_t binary_header(int fd, std::uint64_t size, const std::string& name) {
 } // namespace
 
 std::string read_input(const std::string& path) {
+    if (const auto known = held_pipe(path)) return *known;
     const std::string name = input_name(path);
     const Descriptor file = open_descriptor(path);
     return read_all(file.fd, status_of(file.fd, name), path);
 }
 
 Input::Input(const std::string& path) : name_(input_name(path)) {
+    if (const auto known = held_pipe(path)) {
+        content_ = *known;
+        size_ = content_.size();
+        return;
+    }
     Descriptor file = open_descriptor(path);
     const struct stat status = status_of(file.fd, name_);
     size_ = std::uint64_t(status.st_size);

@@ -149,8 +149,12 @@ std::string valid_utf8(std::string text) {
         const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[at + k]); };
         const bool control = length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F);
         if (length == 0 || control) text[at] = '?';
-        if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) // the other control characters, U+0080 to U+009F
-            text.replace(at, 2, "?"), at += 1;
+        // The other control characters, U+0080 to U+009F; U+2028 to U+202E and U+2066 to U+2069, which break lines and turn their direction.
+        const bool turns = length == 3 && byte(0) == 0xE2 &&
+                           ((byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE) ||
+                            (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9));
+        if (turns || (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0))
+            text.replace(at, length, "?"), at += 1;
         else
             at += std::max<std::size_t>(1, length);
     }

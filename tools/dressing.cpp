@@ -65,6 +65,10 @@ bool dresses(const DressChoice& o, const std::string& format, const char* plain)
     return !plain && (detail_of(o, format) != "kite" || (has_textures(format) && o.textures != "none"));
 }
 
+std::string look_file(const DressChoice& o) {
+    return o.look.empty() || o.look == "none" || find_species(o.look) ? "" : o.look;
+}
+
 bool has_look(const std::string& name, const DressChoice& o) {
     return species_of(name, o).has_value();
 }

@@ -32,6 +32,8 @@ void refuse_contradictions(const DressChoice&, const std::string& format, bool m
 
 // Whether `dressed` gives any tree of that format leaves or textures.
 bool dresses(const DressChoice&, const std::string& format, const char* plain);
+// The file that --look names, "" where it names none.
+std::string look_file(const DressChoice&);
 // Whether a tree's look is known: by its name, or by --look. Throws as `dressed` does.
 bool has_look(const std::string& name, const DressChoice&);
 

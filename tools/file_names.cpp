@@ -28,9 +28,11 @@ Written written_by(const NamedFile& output) {
     if (!is_pattern(output.file)) return {output.option, {}, {output_place(output.file)}};
     // The last number has as many digits as a pattern can ask for, so that %d and %04d give one name.
     constexpr std::int64_t last = 999'999'999'999'999'999;
-    Written files{output.option,
-                  output.file,
-                  {output_place(sequence_name(output.file, 0)), output_place(sequence_name(output.file, last))}};
+    Written files{output.option, output.file, {output_place(sequence_name(output.file, 0))}};
+    try {
+        files.places.push_back(output_place(sequence_name(output.file, last)));
+    } catch (const OutputError&) { // a name that is too long, which a number of fewer digits may not make
+    }
     std::error_code none;
     for (const SequenceFile& file : sequence_files(output.file))
         if (std::filesystem::is_symlink(file.name, none)) files.places.push_back(output_place(file.name));
@@ -97,6 +99,31 @@ void refuse_overwriting_by_images(const std::vector<NamedFile>& named, const std
     }
 }
 
+namespace {
+
+// Two files of a sequence that are one, by links that stand there already.
+void refuse_one_for_two(const NamedFile& output) {
+    std::error_code none;
+    std::vector<std::pair<std::string, OutputPlace>> links;
+    for (const SequenceFile& file : sequence_files(output.file)) {
+        if (!std::filesystem::is_symlink(file.name, none)) continue;
+        OutputPlace place = output_place(file.name);
+        std::string other;
+        for (const auto& [name, known] : links)
+            if (same_output(known, place)) other = name;
+        const std::int64_t frame = place.direct ? -1 : sequence_frame(output.file, place.name).value_or(-1);
+        if (other.empty() && frame >= 0 && frame != file.frame)
+            if (const std::string named = sequence_name(output.file, frame); same_output(output_place(named), place))
+                other = named;
+        if (!other.empty())
+            throw UsageError(output.option + ": '" + file.name + "' is a link to the file of '" + other +
+                             "', and each would replace the other; remove the link");
+        links.emplace_back(file.name, std::move(place));
+    }
+}
+
+} // namespace
+
 void require_outputs(const std::vector<NamedFile>& written) {
     std::vector<Written> all;
     for (const NamedFile& output : written) {
@@ -106,6 +133,7 @@ void require_outputs(const std::vector<NamedFile>& written) {
             if (meet(files, other))
                 throw UsageError(output.option + ": is '" + output.file + "', the same file as " + other.option +
                                  " writes");
+        if (!files.pattern.empty()) refuse_one_for_two(output);
         all.push_back(std::move(files));
     }
     for (const NamedFile& output : written)

@@ -96,6 +96,8 @@ std::string table(const Report& r) {
 void work_stages(StagesOptions& o) {
     const std::int64_t frames = frames_of(o.run, stages_seconds);
     if (frames < 3) throw UsageError("--frames: at least 3 (the start, a warm-up, and one to measure)");
+    if (const std::string end = ending(o.report); end != "" && end != ".json" && end != ".csv")
+        throw UsageError("--report is '" + o.report + "', expected a name that ends in .json or .csv");
     require_outputs({{"-o", o.common.output}, {"--report", o.report}});
     const std::vector<NamedFile> written{{"--report", o.report}, {"-o", o.common.output}};
     refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}}, written);

@@ -17,8 +17,11 @@ namespace {
 
 // What the run reads and writes, none of which an image beside the output may replace.
 std::vector<NamedFile> files_of_run(const TreesimOptions& o, const Setting& setting) {
-    std::vector<NamedFile> files{
-        {"INPUT", o.run.input}, {"--wind", wind_file(o.run.wind)}, {"--skin", o.skin}, {"--resume", o.resume}};
+    std::vector<NamedFile> files{{"INPUT", o.run.input},
+                                 {"--wind", wind_file(o.run.wind)},
+                                 {"--skin", o.skin},
+                                 {"--look", look_file(o.dress)},
+                                 {"--resume", o.resume}};
     for (const NamedFile& output : {NamedFile{"--save-state", o.save_state}, NamedFile{"--save-tree", o.save_tree}})
         if (output.file != "-") files.push_back(output);
     for (const std::string& file : setting.tree_files) files.push_back({"the scene", file});

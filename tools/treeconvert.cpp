@@ -117,10 +117,21 @@ void declare(OptionList& list, Options& o) {
     add_import_options(list, o.choice);
 }
 
+std::string mtl_of(const std::string& mesh) {
+    return std::filesystem::path(mesh).replace_extension(".mtl").string();
+}
+
 void refuse_own_inputs(const Options& o, const std::string& output, const std::string& mesh,
                        const std::string& wind_groups) {
-    const std::vector<NamedFile> written{{"-o", output}, {"--mesh", mesh}, {"--wind-groups", wind_groups}};
-    refuse_overwriting({{"INPUT", o.input}, {"--material", o.material}, {"--wind", wind_file(o.merge.wind)}}, written);
+    const std::vector<NamedFile> written{{"-o", output},
+                                         {"--mesh", mesh},
+                                         {"the .mtl of --mesh", ending(mesh) == ".obj" ? mtl_of(mesh) : ""},
+                                         {"--wind-groups", wind_groups}};
+    refuse_overwriting({{"INPUT", o.input},
+                        {"--material", o.material},
+                        {"--wind", wind_file(o.merge.wind)},
+                        {"--look", look_file(o.dress)}},
+                       written);
     refuse_overwriting_the_model(written);
 }
 
@@ -131,10 +142,6 @@ void refuse_no_patterns(const Options& o) {
         const std::string wrong = *file == "-" ? "a pattern such as trunk_%d.json is needed" : valid_sequence(*file);
         if (!wrong.empty()) throw UsageError("--split: " + std::string(name) + " is '" + *file + "': " + wrong);
     }
-}
-
-std::string mtl_of(const std::string& mesh) {
-    return std::filesystem::path(mesh).replace_extension(".mtl").string();
 }
 
 // The option that asks for leaves as they are without species.

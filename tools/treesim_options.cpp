@@ -281,13 +281,15 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
         throw UsageError("--save-tree -: the tree and " + std::string(o.save_state == "-" ? "the state" : "frames") +
                          " cannot both go to stdout");
     // --save-tree INPUT, where that is a tree, and --save-state of what is resumed are another state of the same thing.
-    const std::string wind = wind_file(o.run.wind);
+    const std::vector<NamedFile> beside{
+        {"--wind", wind_file(o.run.wind)}, {"--skin", o.skin}, {"--look", look_file(o.dress)}};
     std::vector<NamedFile> written = output_files(o, format);
     refuse_overwriting({{"--resume", o.resume}}, written);
     refuse_overwriting({{"--resume", o.resume}}, {{"--save-tree", o.save_tree}});
     written.push_back({"--save-state", o.save_state});
-    refuse_overwriting({{"INPUT", o.run.input}, {"--wind", wind}, {"--skin", o.skin}}, written);
-    refuse_overwriting({{"--wind", wind}, {"--skin", o.skin}}, {{"--save-tree", o.save_tree}});
+    refuse_overwriting({{"INPUT", o.run.input}}, written);
+    refuse_overwriting(beside, written);
+    refuse_overwriting(beside, {{"--save-tree", o.save_tree}});
     refuse_contradictions(o.loop, o.run);
     if (o.settle.value_or(0) > 0 && o.loop.seconds)
         throw UsageError("--settle: not with --loop, whose first periods are run before anything is written");

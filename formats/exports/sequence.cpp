@@ -24,7 +24,7 @@ Pattern parse(const std::string& pattern) {
         parts.wrong = what + ", expected a name like oak_%04d.obj";
         return parts;
     };
-    if (percent == std::string::npos) return wrong("has no %d for the frame's number");
+    if (percent == std::string::npos) return wrong("has no %d for the number");
     if (percent < name) return wrong("has a % in its folder");
     if (percent == name) return wrong("has nothing before the number in the file's name (programs look for a prefix)");
     std::size_t end = percent + 1;

@@ -32,6 +32,7 @@ struct Ending {
 constexpr std::array endings{Ending{".swc", &swc_format}, Ending{".mtg", &mtg_format}, Ending{".obj", &obj_format}};
 
 const SplineFormat* format_of(std::string_view content, const std::string& name) {
+    if (content.starts_with("\xFF\xFE") || content.starts_with("\xFE\xFF")) return nullptr; // UTF-16 (refused.h)
     for (const SplineFormat* format : formats)
         if (format->recognizes(content)) return format;
     if (content.substr(0, 65536).find('\0') != std::string_view::npos) return nullptr;

@@ -3,6 +3,7 @@
 #include "formats/plain_text.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace bough {
 namespace {
@@ -12,8 +13,9 @@ constexpr double floats = 0.5, floats_of_extent = 0.05; // [m]; [1]: stems of on
 constexpr double tallest = 120, lowest = 0.1;           // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
-constexpr double farthest = 1e30, smallest = 1e-30; // [m]
-constexpr double far = 100; // of the median distance: trees stay below it, a neuron's axon below aloof
+constexpr double farthest = 1e15,
+                 smallest = 1e-30; // [m]: what a document may hold, and what an inertia does not vanish by
+constexpr double far = 100;        // of the median distance: trees stay below it, a neuron's axon below aloof
 
 struct Oddness {
     double extent, median; // least share of the tree's extent, least multiple of the median radius
@@ -44,6 +46,54 @@ void find_thick(const Splines& s, const std::string& name, ImportNotes& notes) {
                               place_text(s.point[odd->at]) + " is " + odd->text;
     if (odd->is_refused) throw InputError(name, found + "; expected less than the tree is large");
     notes.lines.push_back(found + ": is it a slip?");
+}
+
+// Where the middle of points is, and within what half of them are [m].
+struct Spread {
+    Vec3 middle;
+    double half;
+};
+
+Spread spread_of(const std::vector<Vec3>& points) {
+    Spread spread{Vec3::Zero(), 0};
+    std::vector<double> values(points.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        std::transform(points.begin(), points.end(), values.begin(), [=](const Vec3& p) { return p[axis]; });
+        spread.middle[axis] = middle_of(values);
+    }
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [&](const Vec3& p) { return (p - spread.middle).norm(); });
+    spread.half = middle_of(values);
+    return spread;
+}
+
+// The farthest of `points`, called by its index, beside the spread of the branches' own.
+void find_far(const std::vector<Vec3>& points, const Spread& spread,
+              const std::function<std::string(std::size_t)>& called, const std::string& name, ImportNotes& notes) {
+    double most = 0;
+    std::size_t worst = 0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (const double distance = (points[k] - spread.middle).norm(); distance > most) most = distance, worst = k;
+    if (!(most > far * spread.half) || spread.half == 0) return;
+    const std::string found = called(worst) + " is at " + place_text(points[worst]) + ", " + shown(most) +
+                              " m from the middle of the tree, half of which is within " + shown(spread.half) + " m";
+    if (most > aloof * spread.half) throw InputError(name, found + "; expected all of it in one place" + right);
+    notes.lines.push_back(found + ": is it a slip?");
+}
+
+// A leaf or fruit that is larger than the whole tree, and a hundred times as large as others.
+void find_large(const std::vector<double>& sizes, const Splines& s, const std::string& called,
+                const std::string& name) {
+    if (sizes.empty()) return;
+    std::vector<double> values(sizes);
+    const double median = middle_of(values);
+    const auto most = std::max_element(sizes.begin(), sizes.end());
+    const Box box = box_of(s.point);
+    const double extent = (box.high - box.low).maxCoeff();
+    if (!(*most > refused.extent * extent && *most > refused.median * median)) return;
+    throw InputError(name, "the " + called + std::to_string(most - sizes.begin()) + " is " + shown(*most) +
+                               " m in a tree that is " + shown(extent) + " large, with a median of " + shown(median) +
+                               "; expected less than the tree is large");
 }
 
 } // namespace
@@ -134,22 +184,17 @@ std::optional<OddRadius> odd_radius(std::span<const double> radius, double exten
 void find_outlier(const Splines& s, const std::string& name, ImportNotes& notes) {
     if (s.point.empty()) return;
     find_thick(s, name, notes);
-    std::vector<double> values(s.point.size());
-    Vec3 middle;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::transform(s.point.begin(), s.point.end(), values.begin(), [=](const Vec3& p) { return p[axis]; });
-        middle[axis] = middle_of(values);
-    }
-    const auto distance = [&](const Vec3& p) { return (p - middle).norm(); };
-    std::transform(s.point.begin(), s.point.end(), values.begin(), distance);
-    const std::size_t worst = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
-    const double most = values[worst], half = middle_of(values);
-    if (!(most > far * half) || half == 0) return;
-    const std::string found = "a point of branch " + std::to_string(branch_at(s, worst)) + " is at " +
-                              place_text(s.point[worst]) + ", " + shown(most) +
-                              " m from the middle of the tree, half of which is within " + shown(half) + " m";
-    if (most > aloof * half) throw InputError(name, found + "; expected all of it in one place" + right);
-    notes.lines.push_back(found + ": is it a slip?");
+    const Spread spread = spread_of(s.point);
+    find_far(
+        s.point, spread, [&](std::size_t k) { return "a point of branch " + std::to_string(branch_at(s, k)); }, name,
+        notes);
+    find_far(
+        s.leaf_position, spread, [](std::size_t k) { return "leaf " + std::to_string(k); }, name, notes);
+    find_far(
+        s.fruit_position, spread, [](std::size_t k) { return "fruit " + std::to_string(k); }, name, notes);
+    find_large(s.leaf_length, s, "length of leaf ", name);
+    find_large(s.leaf_width, s, "width of leaf ", name);
+    find_large(s.fruit_radius, s, "radius of fruit ", name);
 }
 
 } // namespace bough

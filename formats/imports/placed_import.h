@@ -26,14 +26,15 @@ void set_on_ground(Splines&, bool keep, ImportNotes&);
 void name_absurd_scale(const Splines&, bool unit_given, ImportNotes&);
 
 // Throw InputError (place `name`) where a coordinate or radius of the branches, or `reach` [m] (of others) is beyond
-// 1e30 m, and where the whole tree is smaller than 1e-30 m: an inertia goes with the fifth power of lengths, products of
+// 1e15 m, and where the whole tree is smaller than 1e-30 m: an inertia goes with the fifth power of lengths, products of
 // two of them with the tenth, and doubles end at 1e308.
 void refuse_too_far(const Splines&, double reach, const std::string& name);
 void refuse_too_small(const Splines&, const std::string& name);
 
-// Looks for a point of a branch that is far from the middle of all (their medians along x, y, z). Beyond 10 000 times the distance within which half
-// of them are, it throws InputError: beside such a branch all others are without length, and what is left of the tree is a slip in one number.
-// Beyond 100 times, it adds a note. A radius that is odd (below) is refused or noted too. O(points).
+// Looks for a point of a branch, a leaf or a fruit that is far from the middle of the branches' points (their medians along x, y, z). Beyond 10 000 times
+// the distance within which half of those are, it throws InputError: beside such a branch all others are without length, and what is left of the tree is a
+// slip in one number. Beyond 100 times, it adds a note. A radius that is odd (below) is refused or noted too, and a leaf or fruit refused that is larger than
+// the tree and 100 times as large as others. O(points).
 void find_outlier(const Splines&, const std::string& name, ImportNotes&);
 
 // A radius as no tree has it, the greatest of all. Refused: the wood is twice as thick as the whole tree is large, and more than 100 times

@@ -3,6 +3,7 @@
 #include "formats/free_memory.h"
 #include "formats/json_shape.h"
 #include "formats/plain_text.h"
+#include "gltf_shape.h"
 #include "gltf_uri.h"
 #include <algorithm>
 #include <cstring>
@@ -195,6 +196,12 @@ std::size_t add_view(GltfDocument& document, std::string_view bytes) {
     return views.size() - 1;
 }
 
+// A white pixel as PNG, in place of an image that is named in no output.
+constexpr std::string_view white_pixel(
+    "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x8\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDAT\x78\xda\x63\xf8\xf"
+    "\0\1\1\1\0\x1c\xb0\x8c\x99\0\0\0\0IEND\xae\x42\x60\x82",
+    67);
+
 void embed_images(GltfDocument& document, const std::string& name, const std::string& folder, ImportNotes& notes) {
     if (!document.json.contains("images")) return;
     std::map<std::string, std::size_t> views; // by file: images of one file share its view
@@ -218,6 +225,8 @@ void embed_images(GltfDocument& document, const std::string& name, const std::st
         } catch (const std::exception& error) {
             why = error.what();
         }
+        const bool refused = bytes.empty() && leads_out(uri, folder);
+        if (refused) bytes = white_pixel;
         const char* const type = image_type(bytes);
         const std::string file = lower_case(uri), stated = image.value("mimeType", std::string());
         if (!type && !bytes.empty() &&
@@ -230,6 +239,7 @@ void embed_images(GltfDocument& document, const std::string& name, const std::st
                                   " not put into the file, its name stays: " + why);
             continue;
         }
+        if (refused) notes.lines.push_back("image " + bough::in_ascii_quotes(uri) + " is white: " + why);
         require_room(document, bytes.size());
         const std::size_t view = add_view(document, bytes);
         views[place] = view, types[place] = type;
@@ -280,6 +290,7 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
     GltfDocument document;
     document.json = parsed(chunks.json, name);
     document.text = chunks.json.size();
+    require_gltf_shape(document.json, name);
     try {
         const std::string version = document.json.at("asset").at("version").get<std::string>();
         if (!version.starts_with("2.")) throw std::out_of_range("asset version is " + bough::in_ascii_quotes(version));

@@ -64,6 +64,13 @@ std::string place_of_uri(const std::string& uri, const std::string& folder) {
     return std::filesystem::weakly_canonical(file, error).string();
 }
 
+bool leads_out(const std::string& uri, const std::string& folder) {
+    if (uri.starts_with("data:")) return false;
+    const std::string path = unescaped(uri);
+    if (path.substr(0, path.find('/')).find(':') != std::string::npos || path.starts_with("/")) return true;
+    return !within_reach(folder + (folder.empty() ? "" : "/") + path, folder.empty() ? "." : folder);
+}
+
 std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
     if (uri.starts_with("data:")) {
         const std::size_t comma = uri.find(',');
@@ -72,13 +79,15 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
                                data = std::string_view(uri).substr(comma + 1);
         return head.ends_with(";base64") ? from_base64(data) : unescaped(data);
     }
-    if (uri.find("://") != std::string::npos || uri.starts_with("/"))
+    if (uri.substr(0, uri.find('/')).find(':') != std::string::npos || uri.starts_with("/"))
         throw std::runtime_error(bough::in_ascii_quotes(uri) +
                                  " is not beside the file, expected a relative path or a data: URI");
     if (folder.empty())
         throw std::runtime_error(bough::in_ascii_quotes(uri) +
                                  " cannot be looked for: the file was read from a pipe or from memory");
     const std::string file = folder + "/" + unescaped(uri);
+    if (file.find('\0') != std::string::npos)
+        throw std::runtime_error(bough::in_ascii_quotes(uri) + " has a NUL, expected the name of a file");
     if (!within_reach(file, folder)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + out_of_reach);
     if (!opens_at_once(file)) throw std::runtime_error(bough::in_ascii_quotes(uri) + " " + no_regular_file);
     try {

@@ -8,6 +8,9 @@ namespace bough {
 // that is not read, as it leads out of the folder, stays as it is spelt.
 std::string place_of_uri(const std::string& uri, const std::string& folder);
 
+// True for an address, and for a path that leads out of the folder (inside.h): what is not read, and is named in no output.
+bool leads_out(const std::string& uri, const std::string& folder);
+
 // A relative URI may have %XX escapes. Throws std::runtime_error: not there, no folder, a path or an address that is not relative, base64 that
 // is none.
 std::string bytes_of_uri(const std::string& uri, const std::string& folder);

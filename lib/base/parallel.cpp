@@ -68,8 +68,8 @@ struct alignas(64) Stretch {
     }
 
 private:
-    static std::size_t begin_of(std::uint64_t both) { return both & 0xFFFFFFFFu; }
-    static std::size_t end_of(std::uint64_t both) { return both >> 32; }
+    static std::size_t begin_of(std::uint64_t both) { return std::size_t(both & 0xFFFFFFFFu); }
+    static std::size_t end_of(std::uint64_t both) { return std::size_t(both >> 32); }
     static bool is_empty(std::uint64_t both) { return begin_of(both) >= end_of(both); }
 };
 

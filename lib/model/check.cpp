@@ -1,5 +1,6 @@
 #include "../base/cholesky.h"
 #include "../base/shortest_text.h"
+#include "check_parts.h"
 #include "splines.h"
 #include "tree.h"
 #include <Eigen/Eigenvalues>
@@ -7,6 +8,8 @@
 
 namespace bough {
 namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 std::string text(double value) {
     return shortest_text(value);
@@ -56,6 +59,17 @@ public:
             [](std::size_t, const T&) { return std::string("is not finite, expected finite numbers"); });
     }
 
+    // Of places and sizes.
+    Rules& lengths(const char* field, const std::vector<Vec3>& values) {
+        return all_finite(field, values)
+            .each(
+                field, values, [](std::size_t, const Vec3& v) { return v.cwiseAbs().maxCoeff() <= largest_length; },
+                [](std::size_t, const Vec3& v) {
+                    return "is (" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + "), expected at most " +
+                           text(largest_length) + " either way";
+                });
+    }
+
     Rules& between(const char* field, const std::vector<double>& values, double low, double high) {
         const bool open = high == std::numeric_limits<double>::infinity();
         const std::string expected = open ? text(low) + " or more" : text(low) + " to " + text(high);
@@ -64,10 +78,12 @@ public:
             [=](std::size_t, double v) { return "is " + text(v) + ", expected " + expected; });
     }
 
-    Rules& positive(const char* field, const std::vector<double>& values) {
+    Rules& positive(const char* field, const std::vector<double>& values, double high = unbounded) {
         return each(
-            field, values, [](std::size_t, double v) { return is_finite(v) && v > 0; },
-            [](std::size_t, double v) { return "is " + text(v) + ", expected more than 0"; });
+            field, values, [=](std::size_t, double v) { return is_finite(v) && v > 0 && v <= high; },
+            [=](std::size_t, double v) {
+                return "is " + text(v) + ", expected more than 0" + (v > high ? ", at most " + text(high) : "");
+            });
     }
 
     Rules& index(const char* field, const std::vector<std::int32_t>& values, std::size_t count, const char* what) {
@@ -113,8 +129,6 @@ private:
         defect = Defect{field, index, message};
     }
 };
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // Every entry of the vector >= 0, the first `positive` of them > 0.
 void check_sizes(Rules& rules, const char* field, const std::vector<Vec3>& values, int positive) {
@@ -199,27 +213,27 @@ std::optional<Defect> check(const Splines& splines) {
             })
         .rule(std::size_t(first.back()) == points, "first_point", std::int64_t(branches),
               "is " + std::to_string(first.back()) + ", expected the number of points, " + text(points))
-        .all_finite("point", splines.point)
-        .between("radius", splines.radius, 0, unbounded)
+        .lengths("point", splines.point)
+        .between("radius", splines.radius, 0, largest_length)
         .index("leaf_branch", splines.leaf_branch, branches, "a branch")
         .between("leaf_at", splines.leaf_at, 0, 1)
-        .all_finite("leaf_position", splines.leaf_position)
+        .lengths("leaf_position", splines.leaf_position)
         .unit("leaf_rotation", splines.leaf_rotation)
-        .positive("leaf_length", splines.leaf_length)
-        .positive("leaf_width", splines.leaf_width)
+        .positive("leaf_length", splines.leaf_length, largest_length)
+        .positive("leaf_width", splines.leaf_width, largest_length)
         .each(
             "leaf_kind", splines.leaf_kind, [](std::size_t, std::int32_t k) { return k == 0 || k == 1; },
             [](std::size_t, std::int32_t k) { return "is " + std::to_string(k) + ", expected 0 (leaf) or 1 (petal)"; });
     check_counts(rules, splines.leaf_count, [&](std::size_t k) { return !splines.is_petal(k); });
     rules.index("fruit_branch", splines.fruit_branch, branches, "a branch")
         .between("fruit_at", splines.fruit_at, 0, 1)
-        .all_finite("fruit_position", splines.fruit_position)
-        .all_finite("fruit_center", splines.fruit_center)
+        .lengths("fruit_position", splines.fruit_position)
+        .lengths("fruit_center", splines.fruit_center)
         .each(
             "fruit_center", splines.fruit_center,
             [&](std::size_t i, const Vec3& center) { return center != splines.fruit_position[i]; },
             [](std::size_t, const Vec3&) { return std::string("is the fruit's joint, expected a point off it"); })
-        .positive("fruit_radius", splines.fruit_radius);
+        .positive("fruit_radius", splines.fruit_radius, largest_length);
     check_colors(rules, splines.color);
     return rules.defect;
 }
@@ -256,7 +270,7 @@ std::optional<Defect> check(const Tree& tree) {
                 return "is " + std::to_string(int(k)) + ", expected 0 (branch), 1 (leaf), 2 (fruit) or 3 (petal)";
             })
         .positive("mass", tree.mass)
-        .all_finite("com", tree.com)
+        .lengths("com", tree.com)
         .all_finite("inertia", tree.inertia)
         .each(
             "inertia", tree.inertia, [](std::size_t, const Mat3& i) { return possible_inertia(i); },
@@ -265,11 +279,12 @@ std::optional<Defect> check(const Tree& tree) {
                 return "has principal moments " + text(m[0]) + ", " + text(m[1]) + ", " + text(m[2]) +
                        ", which no body has, expected none negative and the two smaller to reach the largest";
             })
-        .all_finite("joint_position", tree.joint_position)
+        .lengths("joint_position", tree.joint_position)
         .unit("joint_rotation", tree.joint_rotation);
     check_sizes(rules, "stiffness", tree.stiffness, 0);
     rules.between("damping", tree.damping, 0, unbounded);
     check_sizes(rules, "size", tree.size, 1);
+    rules.lengths("size", tree.size);
     rules.not_negative("branch", tree.branch).not_negative("level", tree.level).between("s", tree.s, 0, 1);
     rules.each(
         "rigid", tree.rigid, [](std::size_t, std::uint8_t r) { return r <= 1; },
@@ -277,8 +292,8 @@ std::optional<Defect> check(const Tree& tree) {
             return "is " + std::to_string(int(r)) + ", expected 0 (its joint moves) or 1 (it is rigid)";
         });
     check_counts(rules, tree.leaf_count, [&](std::size_t i) { return is_flat(tree.kind[i]); });
-    rules.between("leaf_length", tree.leaf_length, 0, unbounded)
-        .between("leaf_width", tree.leaf_width, 0, unbounded)
+    rules.between("leaf_length", tree.leaf_length, 0, largest_length)
+        .between("leaf_width", tree.leaf_width, 0, largest_length)
         .between("leaf_facing", tree.leaf_facing, 0, 1)
         .between("drag", tree.drag, 0, unbounded);
     check_colors(rules, tree.color);

@@ -23,10 +23,13 @@ std::optional<Defect> check(const Fracture& fracture, std::size_t trees) {
 }
 
 std::optional<Defect> check(const Ball& ball, const std::string& at) {
-    if (auto defect = finite(at + "/position", ball.position)) return defect;
-    if (auto defect = finite(at + "/velocity", ball.velocity)) return defect;
+    if (auto defect = within_reach(at + "/position", ball.position)) return defect;
+    if (auto defect = within_reach(at + "/velocity", ball.velocity)) return defect;
     if (auto defect = finite(at + "/angular_velocity", ball.angular_velocity)) return defect;
     if (auto defect = above_zero(at + "/radius", ball.radius)) return defect;
+    if (ball.radius > largest_length)
+        return Defect{at + "/radius", -1,
+                      "is " + shortest_text(ball.radius) + ", expected at most " + shortest_text(largest_length)};
     return above_zero(at + "/mass", ball.mass);
 }
 

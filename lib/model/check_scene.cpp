@@ -8,6 +8,15 @@ std::optional<Defect> finite(std::string_view field, const Vec3& value) {
     return Defect{std::string(field), -1, "is not finite, expected finite numbers"};
 }
 
+std::optional<Defect> within_reach(std::string_view field, const Vec3& value) {
+    if (auto defect = finite(field, value)) return defect;
+    Eigen::Index most = 0;
+    if (value.cwiseAbs().maxCoeff(&most) <= largest_length) return std::nullopt;
+    return Defect{std::string(field), -1,
+                  "holds " + shortest_text(value[most]) + ", expected at most " + shortest_text(largest_length) +
+                      " either way"};
+}
+
 std::optional<Defect> at_least(std::string_view field, double value, double low) {
     if (std::isfinite(value) && value >= low) return std::nullopt;
     return Defect{std::string(field), -1,
@@ -35,7 +44,7 @@ namespace {
 
 std::optional<Defect> check(const Placement& tree, const std::string& at) {
     if (tree.file.empty() && !tree.tree) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
-    if (auto defect = finite(at + "/position", tree.position)) return defect;
+    if (auto defect = within_reach(at + "/position", tree.position)) return defect;
     if (!std::isfinite(tree.yaw)) return Defect{at + "/yaw", -1, "is not finite, expected degrees"};
     if (!(std::abs(tree.start) <= 1e9))
         return Defect{at + "/start", -1, "is " + shortest_text(tree.start) + ", expected seconds, -1e9 to 1e9"};
@@ -85,7 +94,7 @@ std::optional<Defect> check(const Attachment& held, const std::string& at, std::
     if (held.target && !held.time.empty())
         return Defect{at + "/target", -1, "stands beside time and position, expected one of the two"};
     if (held.target)
-        if (auto defect = finite(at + "/target", *held.target)) return defect;
+        if (auto defect = within_reach(at + "/target", *held.target)) return defect;
     if (!held.time.empty())
         if (auto defect = check_keys(held.time, at + "/time")) return defect;
     if (held.position.size() != held.time.size())
@@ -93,8 +102,7 @@ std::optional<Defect> check(const Attachment& held, const std::string& at, std::
                       "has " + counted(held.position.size(), "key", "keys") + ", expected " +
                           std::to_string(held.time.size()) + " (one for each time)"};
     for (std::size_t i = 0; i < held.position.size(); ++i)
-        if (!held.position[i].allFinite())
-            return Defect{at + "/position", std::int64_t(i), "is not finite, expected metres"};
+        if (auto defect = within_reach(at + "/position/" + std::to_string(i), held.position[i])) return defect;
     if (auto defect = at_least(at + "/stiffness", held.stiffness, 0)) return defect;
     if (auto defect = at_least(at + "/damping", held.damping, 0)) return defect;
     if (held.stiffness == 0 && held.damping == 0)
@@ -131,8 +139,7 @@ std::optional<Defect> check(const std::vector<RootMotion>& motions, std::size_t 
     if (auto defect = count_defect("position", motion.position.size())) return defect;
     if (auto defect = count_defect("rotation", motion.rotation.size())) return defect;
     for (std::size_t i = 0; i < motion.position.size(); ++i)
-        if (!motion.position[i].allFinite())
-            return Defect{at + "/position", std::int64_t(i), "is not finite, expected metres"};
+        if (auto defect = within_reach(at + "/position/" + std::to_string(i), motion.position[i])) return defect;
     for (std::size_t i = 0; i < motion.rotation.size(); ++i)
         if (!(std::abs(motion.rotation[i].norm() - 1) <= 1e-6))
             return Defect{at + "/rotation", std::int64_t(i),

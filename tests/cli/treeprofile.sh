@@ -24,6 +24,7 @@ for s in r["stages"]:
     assert math.isclose(s["seconds"] * 1e9 / r["bodies"] / r["frames"], s["ns_per_body_frame"], rel_tol=1e-6)
     assert s["calls"] == r["frames"]' || fail "the report does not add up"
 ! treeprofile tree.json --frames 5 | grep -q wind_field || fail "a stage that did not run is in the table"
+refused 1 "expected a name that ends in .json or .csv" treeprofile tree.json --frames 5 --report r.svg
 expect 0 treeprofile tree.json --frames 5 --report r.csv
 expect 0 treeprofile stages tree.json --frames 5 --repeat 1 --solver articulated-implicit
 grep -q '^articulated ' out && ! grep -q '^spring ' out || fail "the articulated solver's stages are not in the table"

@@ -31,11 +31,41 @@ code=0
 cp tree.json f_0007.obj
 refused 1 "which INPUT reads" treesim f_0007.obj --frames 3 -o f_%04d.obj
 same tree.json f_0007.obj
-rm -f x.json f_0002.obj
+# A species document is read too.
+cp "$top/data/species/oak.json" look.json
+for file in "--save-tree look.json -o x.glb" "--save-state look.json -o x.glb" "-o look.json --format glb"; do
+    # shellcheck disable=SC2086
+    refused 1 "which --look reads" treesim tree.json --frames 2 --look look.json $file
+done
+refused 1 "which --look reads" treeconvert splines.json --look look.json -o look.json --mesh x.glb
+same "$top/data/species/oak.json" look.json
+# Two files of a sequence that are one, by links.
+ln -s w_1.json w_0.json
+refused 1 "is a link to the file of 'w_1.json'" treeconvert "$top/data/fixtures/two_trunks_spines.xml" --split -o w_%d.json
+ln -s w.obj w_0.obj
+expect 0 "${run[@]}" -o w_%d.obj
+[[ -L w_0.obj && -s w.obj && -s w_1.obj ]] || fail "one link of a sequence is no place for its file"
+rm -f w_1.obj
+ln -s w.obj w_1.obj
+refused 1 "is a link to the file of 'w_0.obj'" "${run[@]}" -o w_%d.obj
+# A name with room for the numbers that are written, not for eighteen digits.
+long=$(printf 'n%.0s' {1..245})
+expect 0 "${run[@]}" -o "${long}_%d.obj"
+rm -f x.json f_0002.obj "$long"_* w.obj w_*
 absent x.glb x.mtl x.obj q.json state.json f.mtl f_0001.obj
 # Not one file: other names, other folders, what swallows all.
 expect 0 "${run[@]}" -o there/x.json --save-state x.json --save-tree y.json
 expect 0 "${run[@]}" -o /dev/null --save-state /dev/null --save-tree /dev/null
+
+# A pipe with a name brings what it has once, however often its path is opened.
+wanted=$(treesim - --frames 3 --no-output --report hash 2>&1 <tree.json | grep ^hash)
+found=$(treesim <(cat tree.json) --frames 3 --no-output --report hash 2>&1 | grep ^hash) || true
+[[ $found == "$wanted" ]] || fail "a tree by <(...) has $found, by stdin $wanted"
+(cat tree.json >pipe &)
+found=$(timeout 60 treesim pipe --frames 3 --no-output --report hash 2>&1 | grep ^hash) || true
+[[ $found == "$wanted" ]] || fail "a tree by a named pipe has $found, by stdin $wanted"
+(cat tree.json >pipe &)
+timeout 60 treeprofile modes pipe -q >/dev/null 2>err || fail "treeprofile modes of a named pipe: $(cat err)"
 
 # A folder that is not there, or may not be written to, is said before the first frame: a run that would take hours ends at once.
 long=(treesim tree.json --seconds 1e9)

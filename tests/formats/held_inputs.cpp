@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 using namespace bough;
@@ -50,9 +52,26 @@ TEST_CASE("an input that is another file, or written anew, when it is opened aga
     CHECK(read_input(a) == "ten");
 }
 
-TEST_CASE("a pipe, which is no file, is read as it comes") {
+TEST_CASE("a pipe with a name brings what it has once: for one result that is what everyone gets who opens it") {
+    const Holding holding;
+    const std::string pipe = (holding.folder / "pipe").string();
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    std::thread writer([&] { std::ofstream(pipe) << "once"; });
+    CHECK(MappedInput(pipe).content() == "once");
+    writer.join();
+    CHECK(read_input(pipe) == "once"); // opened again it would wait for another writer
+    CHECK(Input(pipe).content() == "once");
+    CHECK(Input(pipe).size() == 4);
+    hold_inputs();
+    std::thread again([&] { std::ofstream(pipe) << "anew"; });
+    CHECK(read_input(pipe) == "anew");
+    again.join();
+}
+
+TEST_CASE("of another result a pipe is read as it comes") {
     const Holding holding;
     for (const std::string text : {"one", "another"}) { // two pipes, one after the other under one name
+        hold_inputs();
         int ends[2];
         REQUIRE(::pipe(ends) == 0);
         constexpr int number = 99;

@@ -47,6 +47,8 @@ TEST_CASE("what goes on one line of a terminal is valid and moves no cursor") {
     CHECK(valid_utf8("a\xc2\x9b"
                      "2Jb\xc2\x85") == "a?2Jb?"); // the one-character forms of the same
     CHECK(valid_utf8("\xc2\xa0") == "\xc2\xa0");
+    CHECK(valid_utf8("a\u2028b\u202ec\u2066d\u2069") == "a?b?c?d?"); // lines broken, letters turned round
+    CHECK(valid_utf8("\u2027\u202f\u2065\u206a") == "\u2027\u202f\u2065\u206a");
     CHECK(valid_utf8("\xc0\x80\xed\xa0\x80\xf4\x90\x80\x80").find_first_not_of('?') == std::string::npos);
 }
 

@@ -79,6 +79,12 @@ struct Random {
             }
         }
     }
+    double length() { // as a document may hold it, up to its largest
+        const double value = any();
+        return std::abs(value) <= 1e15 ? value : std::copysign(1e15, value);
+    }
+    Vec3 place() { return {length(), length(), length()}; }
+    double size() { return std::max(std::abs(length()), std::numeric_limits<double>::denorm_min()); }
     double positive() { return std::max(std::abs(any()), std::numeric_limits<double>::denorm_min()); }
     double fraction() { return std::generate_canonical<double, 53>(engine); }
     Vec3 vector() { return {any(), any(), any()}; }
@@ -103,13 +109,13 @@ inline Tree random_tree(std::size_t bodies, Random& random) {
         t.parent[i] = i == 0 ? -1 : random.below(i + 1) - 1;
         t.kind[i] = Kind(random.below(3));
         t.mass[i] = random.positive();
-        t.com[i] = random.vector();
+        t.com[i] = random.place();
         t.inertia[i] = random_inertia(random);
-        t.joint_position[i] = random.vector();
+        t.joint_position[i] = random.place();
         t.joint_rotation[i] = random.rotation();
         t.stiffness[i] = random.vector().cwiseAbs();
         t.damping[i] = std::abs(random.any());
-        t.size[i] = {random.positive(), std::abs(random.any()), 0};
+        t.size[i] = {random.size(), std::abs(random.length()), 0};
         t.branch[i] = random.below(1u << 31);
         t.level[i] = random.below(9);
         t.s[i] = random.fraction();
@@ -128,16 +134,16 @@ inline Splines random_splines(std::size_t branches, Random& random) {
         s.level.push_back(random.below(5));
         const int points = 2 + random.below(4);
         for (int i = 0; i < points; ++i) {
-            s.point.push_back(random.vector());
-            s.radius.push_back(std::abs(random.any()));
+            s.point.push_back(random.place());
+            s.radius.push_back(std::abs(random.length()));
         }
         s.first_point.push_back(std::int32_t(s.points()));
         s.leaf_branch.push_back(random.below(branches));
         s.leaf_at.push_back(random.fraction());
-        s.leaf_position.push_back(random.vector());
+        s.leaf_position.push_back(random.place());
         s.leaf_rotation.push_back(random.rotation());
-        s.leaf_length.push_back(random.positive());
-        s.leaf_width.push_back(random.positive());
+        s.leaf_length.push_back(random.size());
+        s.leaf_width.push_back(random.size());
         s.leaf_kind.push_back(random.below(2));
         s.leaf_count.push_back(s.leaf_kind.back() == 1 ? 1 : 1 + random.below(2000));
         if (b % 2 == 0) continue;
@@ -145,7 +151,7 @@ inline Splines random_splines(std::size_t branches, Random& random) {
         s.fruit_at.push_back(random.fraction());
         s.fruit_position.push_back(Vec3(1, 2, 3));
         s.fruit_center.push_back(Vec3(1, 2, random.fraction()));
-        s.fruit_radius.push_back(random.positive());
+        s.fruit_radius.push_back(random.size());
     }
     for (int i = 0; i < 4; ++i) s.color.push_back({random.fraction(), random.fraction(), random.fraction()});
     s.material = "black-willow";
@@ -159,7 +165,7 @@ inline RootMotion random_root_motion(std::int32_t tree, std::size_t keys, bool p
     m.tree = tree;
     for (std::size_t k = 0; k < keys; ++k) {
         m.time.push_back(random.fraction() + double(k));
-        if (position) m.position.push_back(random.vector());
+        if (position) m.position.push_back(random.place());
         if (rotation) m.rotation.push_back(random.rotation());
     }
     return m;

@@ -177,7 +177,7 @@ TEST_CASE("splines name the branch that is wrong") {
     CHECK(wrong("[0, 2, 4]", "[0, 4]") ==
           "s: /first_point: has 2 numbers, expected 3 (one for each branch in /parent, and the end)");
     CHECK_THAT(wrong("1,1,0]", "1,1]"), StartsWith("s: /point: has 11 numbers, expected a multiple of 3"));
-    CHECK_THAT(wrong("[1,1,1,1]", "[1,1,-1,1]"), StartsWith("s: /radius/2: is -1, expected 0 or more"));
+    CHECK_THAT(wrong("[1,1,1,1]", "[1,1,-1,1]"), StartsWith("s: /radius/2: is -1, expected 0 to 1e+15"));
     CHECK_THAT(wrong("[1], \"leaf_at\"", "[2], \"leaf_at\""), StartsWith("s: /leaf_branch/0: is 2, expected a branch"));
     CHECK_THAT(wrong("\"leaf_width\": [1]", "\"leaf_width\": [0]"),
                StartsWith("s: /leaf_width/0: is 0, expected more"));

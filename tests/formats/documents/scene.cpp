@@ -97,8 +97,8 @@ TEST_CASE("scenes come back from both forms") {
     scene.fracture->seed = 18446744073709551615u;
     scene.fracture->joints = {{{Selector::By::level, 0, 0, {}, 0, 1, Vec3::Zero(), 2}, 3.5}, {{}, Fracture::never}};
     scene.balls.resize(2);
-    scene.balls[1].position = random.vector();
-    scene.balls[1].velocity = random.vector();
+    scene.balls[1].position = random.place();
+    scene.balls[1].velocity = random.place();
     scene.balls[1].angular_velocity = random.vector();
     scene.balls[1].radius = 0.1 / 3;
     scene.balls[1].mass = 7;
@@ -134,7 +134,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.pulls.push_back(pull);
     scene.attachments.resize(2);
     scene.attachments[0].on = pull.on;
-    scene.attachments[0].target = random.vector();
+    scene.attachments[0].target = random.place();
     scene.attachments[0].stiffness = 1e12 / 3;
     scene.attachments[0].from = 0.1 / 3;
     scene.attachments[0].to = 2.5;
@@ -144,7 +144,7 @@ TEST_CASE("scenes come back from both forms") {
     scene.attachments[1].with->body = 1;
     scene.attachments[1].with->point = random.vector();
     scene.attachments[1].time = {0, 0.7, 1 / 0.7};
-    scene.attachments[1].position = {random.vector(), random.vector(), random.vector()};
+    scene.attachments[1].position = {random.place(), random.place(), random.place()};
     scene.attachments[1].damping = 0.7;
     scene.root_motion.resize(2);
     scene.root_motion[0] = random_root_motion(1, 5, true, true, random);

@@ -57,6 +57,35 @@ TEST_CASE("a point far off is noted where it may be meant, and not in a tree of 
     CHECK_FALSE(noted(0));
 }
 
+TEST_CASE("a leaf or a fruit far off, or larger than its tree, is a slip too") {
+    const std::string maple = content_of(std::string(BOUGH_DATA_DIR) + "/young_maple.xml");
+    const auto with = [&](const std::string& element, const std::string& number) {
+        const std::size_t leaf = maple.find("<LeafReferences");
+        REQUIRE(leaf != std::string::npos);
+        const std::size_t begin = maple.find('>', maple.find("<" + element, leaf)) + 1,
+                          end = maple.find_first_of(" <", begin);
+        std::string broken = maple;
+        broken.replace(begin, end - begin, number);
+        ImportOptions options;
+        options.name = "m.xml";
+        ImportNotes notes;
+        std::string error;
+        try {
+            import_splines(broken, options, notes);
+        } catch (const InputError& wrong) {
+            error = wrong.what();
+        }
+        for (const std::string& line : notes.lines)
+            if (line.ends_with("is it a slip?")) error += "noted: " + line;
+        return error;
+    };
+    CHECK(with("X", "1e12").find("m.xml: leaf 0 is at ") == 0);
+    CHECK(with("X", "1e5").find("noted: leaf 0 is at ") == 0);
+    CHECK(with("X", "20").empty());
+    CHECK(with("Scale", "1e12").find("m.xml: the length of leaf 0 is 1e+10 m in a tree that is 4.186 large") == 0);
+    CHECK(with("Scale", "40").empty());
+}
+
 TEST_CASE("one coordinate of a SpeedTree file far off is refused, wherever it stands") {
     const std::string maple = content_of(std::string(BOUGH_DATA_DIR) + "/young_maple.xml");
     std::size_t spine = 0;

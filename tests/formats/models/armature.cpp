@@ -302,10 +302,25 @@ TEST_CASE("damaged glTF is refused in one line") {
     says([](Json& j) { j["bufferViews"][0]["byteLength"] = 9999; }, "of a buffer of 1576");
     says([](Json& j) { j["bufferViews"][0]["buffer"] = 3; }, "buffer is 3, expected less than 1");
     says([](Json& j) { j["asset"]["version"] = "1.0"; }, "asset version is \"1.0\"");
-    says([](Json& j) { j["nodes"] = 7; }, "d.gltf: ");
     says([](Json& j) { j["skins"][0]["joints"][0] = 77; }, "d.gltf: ");
-    says([](Json& j) { j["skins"][0]["joints"] = "all"; }, "d.gltf: ");
-    says([](Json& j) { j["meshes"][0]["primitives"] = Json::object({{"a", 1}}); }, "d.gltf: ");
+    // Of another kind than glTF has it: the place, what it is and what was expected.
+    says([](Json& j) { j["nodes"] = 7; }, "is no glTF 2.0: /nodes: is a number, expected a list of objects");
+    says([](Json& j) { j["nodes"][1] = nullptr; }, "/nodes/1: is null, expected an object");
+    says([](Json& j) { j["skins"][0]["joints"] = "all"; }, "/skins/0/joints: is a text, expected a list of numbers");
+    says([](Json& j) { j["skins"][0]["joints"][1] = "a"; }, "/skins/0/joints/1: is a text, expected a number");
+    says(
+        [](Json& j) {
+            j["meshes"][0]["primitives"] = Json::object({{"a", 1}});
+        },
+        "/meshes/0/primitives: is an object, expected a list of objects");
+    says([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"] = true; },
+         "/meshes/0/primitives/0/attributes: is true or false, expected an object");
+    says([](Json& j) { j["accessors"][0].erase("count"); }, "/accessors/0/count: is missing, expected a number");
+    says([](Json& j) { j["buffers"][0].erase("byteLength"); }, "/buffers/0/byteLength: is missing");
+    says([](Json& j) { j["animations"][0]["channels"][0]["target"] = 3; },
+         "/animations/0/channels/0/target: is a number, expected an object");
+    says([](Json& j) { j["extensionsRequired"] = Json::array({1}); },
+         "/extensionsRequired/0: is a number, expected a text");
     CHECK(error_beside(good.substr(0, good.size() / 2), "d.gltf").find("JSON is broken") != std::string::npos);
     const std::string deep(100000, '[');
     CHECK(error_beside("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep, "d.gltf").find("nested deeper") !=

@@ -2,10 +2,12 @@
 #include "formats/forked.h"
 #include "formats/models/gltf_document.h"
 #include "formats/models/model_scene.h"
+#include "formats/models/texture_file.h"
 #include "tests/support/import_support.h"
 #include "tests/support/random_documents.h"
 #include "tests/support/sanitized.h"
 #include <ctime>
+#include <filesystem>
 
 using namespace bough;
 using namespace bough::test;
@@ -100,6 +102,35 @@ TEST_CASE("reading many nodes takes time in proportion to their number") {
     };
     if (sanitized) return;
     CHECK(seconds(160000) < 12 * seconds(40000)); // 16 and more where it goes with the square
+}
+
+TEST_CASE("an image whose name leads out is white, and is named in no output") {
+    const Folder folder;
+    std::filesystem::create_directory(folder.path / "in");
+    put(folder / "out.png", "\x89PNG\r\n\x1a\n" + std::string(3000, 'x'));
+    std::filesystem::create_symlink("../out.png", folder.path / "in" / "link.png");
+    for (const char* uri : {"http://127.0.0.1:1/a.png", "file:///etc/passwd", "/etc/passwd", "../out.png",
+                            "%2e%2e/out.png", "link.png", "C:/a.png"}) {
+        CAPTURE(uri);
+        const Json json{{"asset", {{"version", "2.0"}}}, {"images", {{{"uri", uri}}}}};
+        ImportNotes notes;
+        const GltfDocument read =
+            read_gltf(json.dump(), "m.gltf", (folder.path / "in").string(), GltfImages::embed, notes);
+        CHECK(read.json["images"][0].size() == 2);
+        CHECK(read.json["images"][0]["mimeType"] == "image/png");
+        CHECK(read.binary.size() < 80);
+        put(folder / "white.png", read.binary.substr(0, read.json["bufferViews"][0]["byteLength"]));
+        const Pixels pixels = read_texture(folder / "white.png", "the test").pixels;
+        CHECK((pixels.width == 1 && pixels.height == 1));
+        CHECK(pixels.rgba == std::vector<std::uint8_t>(4, 255));
+        REQUIRE(notes.lines.size() == 1);
+        CHECK(notes.lines[0].find("is white") != std::string::npos);
+    }
+    // One that is not there may come to stand beside the output.
+    const Json json{{"asset", {{"version", "2.0"}}}, {"images", {{{"uri", "gone.png"}}}}};
+    ImportNotes notes;
+    CHECK(read_gltf(json.dump(), "m.gltf", (folder.path / "in").string(), GltfImages::embed, notes)
+              .json["images"][0]["uri"] == "gone.png");
 }
 
 TEST_CASE("buffers and images of one file are held once, however it is spelt") {

@@ -57,6 +57,9 @@ TEST_CASE("each rule of a tree") {
     CHECK(broken(good, [](Tree& t) { t.damping[1] = -1; }) == "damping/1");
     CHECK(broken(good, [](Tree& t) { t.size[1].x() = 0; }) == "size/1");
     CHECK(broken(good, [](Tree& t) { t.size[1].z() = -1; }) == "size/1");
+    CHECK(broken(good, [](Tree& t) { t.size[1].x() = 1.1e15; }) == "size/1");
+    CHECK(broken(good, [](Tree& t) { t.joint_position[1].y() = -1.1e15; }) == "joint_position/1");
+    CHECK(broken(good, [](Tree& t) { t.com[1].y() = 1e300; }) == "com/1");
     CHECK(broken(good, [](Tree& t) { t.branch[1] = -1; }) == "branch/1");
     CHECK(broken(good, [](Tree& t) { t.level[1] = -1; }) == "level/1");
     CHECK(broken(good, [](Tree& t) { t.s[1] = 1.01; }) == "s/1");
@@ -109,6 +112,9 @@ TEST_CASE("each rule of splines") {
     CHECK(broken(good, [](Splines& s) { s.first_point.clear(); }) == "first_point");
     CHECK(broken(good, [](Splines& s) { s.point[2].x() = not_a_number; }) == "point/2");
     CHECK(broken(good, [](Splines& s) { s.radius[2] = -1; }) == "radius/2");
+    CHECK(broken(good, [](Splines& s) { s.radius[2] = 1.1e15; }) == "radius/2");
+    CHECK(broken(good, [](Splines& s) { s.point[2].z() = -1.1e15; }) == "point/2");
+    CHECK(broken(good, [](Splines& s) { s.leaf_length[2] = 1e39; }) == "leaf_length/2");
     CHECK(broken(good, [](Splines& s) { s.leaf_branch[2] = 6; }) == "leaf_branch/2");
     CHECK(broken(good, [](Splines& s) { s.leaf_at[2] = not_a_number; }) == "leaf_at/2");
     CHECK(broken(good, [](Splines& s) { s.leaf_rotation[2].x() += 1; }) == "leaf_rotation/2");
@@ -146,6 +152,11 @@ TEST_CASE("each rule of a scene") {
           "root_motion/1/rotation/1");
     CHECK(broken(good, [](Scene& s) { s.gravity.x() = not_a_number; }) == "gravity");
     CHECK(broken(good, [](Scene& s) { s.trees[0].file.clear(); }) == "trees/0/file");
+    CHECK(broken(good, [](Scene& s) { s.trees[0].position.x() = -1.1e15; }) == "trees/0/position");
+    CHECK(broken(good, [](Scene& s) { s.root_motion[0].position[1].x() = 1e300; }) == "root_motion/0/position/1");
+    CHECK(broken(good, [](Scene& s) { s.wind->velocity.x() = 1e308; }) == "wind/velocity");
+    CHECK(broken(good, [](Scene& s) { s.balls.resize(1), s.balls[0].radius = 3.5e38; }) == "balls/0/radius");
+    CHECK(broken(good, [](Scene& s) { s.balls.resize(1), s.balls[0].velocity.y() = 1e300; }) == "balls/0/velocity");
     CHECK(broken(good, [](Scene& s) { s.wind->velocity.x() = not_a_number; }) == "wind/velocity");
     CHECK(broken(good, [](Scene& s) { s.wind->reference_height = 0; }) == "wind/reference_height");
     CHECK(broken(good, [](Scene& s) { s.wind->gust_factor = 0.9; }) == "wind/gust_factor");
