@@ -19,7 +19,7 @@ namespace bough {
 class FrameQueue {
 public:
     // Keeps a reference to the sink. slots >= 1; a thread is started for 2 or more, in which all signals are blocked
-    // (they are the caller's) and loops have one thread.
+    // (they are the caller's) and loops have one thread. Where the system has none to give, push() writes.
     FrameQueue(FrameSink&, std::size_t slots);
     FrameQueue(const FrameQueue&) = delete;
     FrameQueue& operator=(const FrameQueue&) = delete;

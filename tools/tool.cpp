@@ -123,7 +123,7 @@ int work_and_report(const ToolInfo& info, const std::function<void()>& work) {
         say(info.name, error.what());
         return interrupted_exit();
     } catch (const std::bad_alloc&) {
-        say(info.name, "out of memory");
+        say(info.name, "out of memory: expected more, or a higher limit (ulimit -v)");
         return exit_input;
     } catch (const std::exception& error) {
         say(info.name, error.what());

@@ -5,6 +5,7 @@
 
 namespace bough {
 namespace {
+namespace gltf_shape { // its names are short ones, and a folder's sources may be compiled together
 
 using Json = nlohmann::ordered_json;
 
@@ -185,9 +186,11 @@ private:
     const std::string& name_;
 };
 
+} // namespace gltf_shape
 } // namespace
 
-void require_gltf_shape(const Json& document, const std::string& name) {
+void require_gltf_shape(const nlohmann::ordered_json& document, const std::string& name) {
+    using namespace gltf_shape;
     if (!document.is_object())
         throw InputError(name, std::string("is no glTF 2.0: is ") + found(document) + ", expected an object");
     const Shape shape(name);

@@ -208,7 +208,7 @@ public:
         if (std::abs(saved.fps * options().step * saved.substeps - 1) > 1e-12)
             throw SceneError("/fps: differs from this run's step");
         refuse("theta", std::to_string(saved.theta.size()) + " bodies", std::to_string(run_.plan.bodies) + " bodies");
-        refuse("fingerprint", hash_text(saved.fingerprint), hash_text(own.fingerprint));
+        refuse("fingerprint (of tree, wind, seed and scene)", hash_text(saved.fingerprint), hash_text(own.fingerprint));
         refuse("whole", saved.whole, own.whole);
         const std::int64_t step = saved.frame * saved.substeps;
         const auto stay = [&](Run<T>& run) { // grounds as they are by now

@@ -279,7 +279,7 @@ broken 'pot, leaf = model["nodes"][-1], model["meshes"][1]["primitives"][0]["att
 pot.pop("translation"); pot["matrix"] = [1, 1e308, 0, 0, 0, -1e308, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 put(leaf, "f", 3, 100); put(leaf, "f", 4, 100)' 'is drawn beyond any float, at 100, ' # in y alone
 broken 'put(model["skins"][0]["inverseBindMatrices"], "f", 3, float("nan"))' 'inverseBindMatrices: matrix 0 is not finite'
-broken 'model["materials"][1]["alphaMode"] = 5' 'type must be string, but is number'
+broken 'model["materials"][1]["alphaMode"] = 5' '/materials/1/alphaMode: is a number, expected a text'
 broken 'bark["material"] = 7' 'material is 7, expected less than 2'
 broken 'model["accessors"][bark["attributes"]["WEIGHTS_1"]]["count"] = 31' 'WEIGHTS_1 has 31 elements, expected one for each of 32 vertices'
 absent x_0.obj x.pc2 x.mdd x.mtl x_.mtl x_textures
