@@ -46,6 +46,10 @@ template <class Take> void each_index(const pugi::xml_node& list, const std::str
     });
 }
 
+std::string without_hash(const char* reference) {
+    return *reference == '#' ? reference + 1 : "";
+}
+
 // What an <input> of indices points into.
 struct SharedInput {
     std::string semantic;
@@ -97,8 +101,6 @@ public:
     }
 
 private:
-    static std::string without_hash(const char* reference) { return *reference == '#' ? reference + 1 : ""; }
-
     void add(const pugi::xml_node& source) {
         const std::string id = source.attribute("id").value();
         const pugi::xml_node accessor = source.child("technique_common").child("accessor");
@@ -173,6 +175,81 @@ private:
     std::unordered_map<std::string, std::int64_t> count_; // of each source, by its id
 };
 
+// Which nodes hold which, as children and by <instance_node>, which names one that stands elsewhere.
+class Nodes {
+public:
+    explicit Nodes(const pugi::xml_node& root) { // by a walk that does not call itself, however deep nodes lie
+        for (pugi::xml_node at = root; at;) {
+            if (std::string_view(at.name()) == "node") add(at);
+            pugi::xml_node next = at.first_child();
+            while (!next && at != root) {
+                next = at.next_sibling();
+                if (!next) at = at.parent();
+            }
+            at = next;
+        }
+        for (const auto& [index, id] : named_)
+            if (const auto target = index_.find(id); target != index_.end()) hold(index, target->second);
+    }
+
+    // What holds nothing is counted first, and then what holds only what is counted.
+    void check() const {
+        std::vector<std::size_t> left(held_), done;
+        std::vector<double> count(left.size(), 1);
+        for (std::size_t k = 0; k < left.size(); ++k)
+            if (left[k] == 0) done.push_back(k);
+        for (std::size_t next = 0; next < done.size(); ++next) {
+            const std::size_t k = done[next];
+            if (count[k] > most_nodes)
+                throw std::runtime_error(place(k) + "has more than " + std::to_string(most_nodes) +
+                                         " nodes in it, as <instance_node> names them again and again");
+            for (const std::size_t holder : holder_[k]) {
+                count[holder] += count[k];
+                if (--left[holder] == 0) done.push_back(holder);
+            }
+        }
+        if (done.size() < left.size()) refuse_circle(left);
+    }
+
+private:
+    static constexpr std::int64_t most_nodes = 10'000'000;
+
+    // left: of each node, how many it holds that were not counted. Each of these leads on to another, and at last round.
+    [[noreturn]] void refuse_circle(const std::vector<std::size_t>& left) const {
+        std::vector<std::size_t> next(left.size());
+        std::size_t at = 0;
+        for (std::size_t k = 0; k < left.size(); ++k)
+            if (left[k] > 0)
+                for (const std::size_t holder : holder_[k]) next[holder] = at = k;
+        for (std::size_t k = 0; k < left.size() || id_[at].empty(); ++k) at = next[at];
+        throw std::runtime_error(place(at) + "holds itself, by <instance_node>");
+    }
+
+    void add(const pugi::xml_node& node) {
+        const std::size_t index = id_.size();
+        id_.emplace_back(node.attribute("id").value());
+        index_.emplace(id_.back(), index);
+        of_.emplace(node.hash_value(), index);
+        held_.push_back(0);
+        holder_.emplace_back();
+        if (const auto parent = of_.find(node.parent().hash_value()); parent != of_.end()) hold(parent->second, index);
+        for (const pugi::xml_node& instance : node.children("instance_node"))
+            named_.emplace_back(index, without_hash(instance.attribute("url").value()));
+    }
+    void hold(std::size_t holder, std::size_t held) {
+        ++held_[holder];
+        holder_[held].push_back(holder);
+    }
+    std::string place(std::size_t k) const { return "node " + in_ascii_quotes(id_[k]) + " "; }
+
+    std::vector<std::string> id_;
+    std::vector<std::size_t> held_; // by each, how many
+    std::vector<std::vector<std::size_t>> holder_;
+    std::vector<std::pair<std::size_t, std::string>> named_;
+    std::unordered_map<std::string, std::size_t> index_;
+    std::unordered_map<std::size_t, std::size_t> of_; // by the element
+};
+
 } // namespace
 
 void check_collada(std::string_view content) {
@@ -185,6 +262,7 @@ void check_collada(std::string_view content) {
     for (const pugi::xml_node& library : root.children("library_controllers"))
         for (const pugi::xml_node& controller : library.children("controller"))
             for (const pugi::xml_node& skin : controller.children("skin")) Library(controller, skin).check_skin();
+    Nodes(root).check();
 }
 
 } // namespace bough

@@ -23,8 +23,8 @@ std::optional<Defect> check(const Fracture& fracture, std::size_t trees) {
 }
 
 std::optional<Defect> check(const Ball& ball, const std::string& at) {
-    if (auto defect = within_reach(at + "/position", ball.position)) return defect;
-    if (auto defect = within_reach(at + "/velocity", ball.velocity)) return defect;
+    if (auto defect = not_too_far(at + "/position", ball.position)) return defect;
+    if (auto defect = not_too_far(at + "/velocity", ball.velocity)) return defect;
     if (auto defect = finite(at + "/angular_velocity", ball.angular_velocity)) return defect;
     if (auto defect = above_zero(at + "/radius", ball.radius)) return defect;
     if (ball.radius > largest_length)

@@ -8,7 +8,7 @@ std::optional<Defect> finite(std::string_view field, const Vec3& value) {
     return Defect{std::string(field), -1, "is not finite, expected finite numbers"};
 }
 
-std::optional<Defect> within_reach(std::string_view field, const Vec3& value) {
+std::optional<Defect> not_too_far(std::string_view field, const Vec3& value) {
     if (auto defect = finite(field, value)) return defect;
     Eigen::Index most = 0;
     if (value.cwiseAbs().maxCoeff(&most) <= largest_length) return std::nullopt;
@@ -44,7 +44,7 @@ namespace {
 
 std::optional<Defect> check(const Placement& tree, const std::string& at) {
     if (tree.file.empty() && !tree.tree) return Defect{at + "/file", -1, "is empty, expected the file of a tree"};
-    if (auto defect = within_reach(at + "/position", tree.position)) return defect;
+    if (auto defect = not_too_far(at + "/position", tree.position)) return defect;
     if (!std::isfinite(tree.yaw)) return Defect{at + "/yaw", -1, "is not finite, expected degrees"};
     if (!(std::abs(tree.start) <= 1e9))
         return Defect{at + "/start", -1, "is " + shortest_text(tree.start) + ", expected seconds, -1e9 to 1e9"};
@@ -94,7 +94,7 @@ std::optional<Defect> check(const Attachment& held, const std::string& at, std::
     if (held.target && !held.time.empty())
         return Defect{at + "/target", -1, "stands beside time and position, expected one of the two"};
     if (held.target)
-        if (auto defect = within_reach(at + "/target", *held.target)) return defect;
+        if (auto defect = not_too_far(at + "/target", *held.target)) return defect;
     if (!held.time.empty())
         if (auto defect = check_keys(held.time, at + "/time")) return defect;
     if (held.position.size() != held.time.size())
@@ -102,7 +102,7 @@ std::optional<Defect> check(const Attachment& held, const std::string& at, std::
                       "has " + counted(held.position.size(), "key", "keys") + ", expected " +
                           std::to_string(held.time.size()) + " (one for each time)"};
     for (std::size_t i = 0; i < held.position.size(); ++i)
-        if (auto defect = within_reach(at + "/position/" + std::to_string(i), held.position[i])) return defect;
+        if (auto defect = not_too_far(at + "/position/" + std::to_string(i), held.position[i])) return defect;
     if (auto defect = at_least(at + "/stiffness", held.stiffness, 0)) return defect;
     if (auto defect = at_least(at + "/damping", held.damping, 0)) return defect;
     if (held.stiffness == 0 && held.damping == 0)
@@ -139,7 +139,7 @@ std::optional<Defect> check(const std::vector<RootMotion>& motions, std::size_t 
     if (auto defect = count_defect("position", motion.position.size())) return defect;
     if (auto defect = count_defect("rotation", motion.rotation.size())) return defect;
     for (std::size_t i = 0; i < motion.position.size(); ++i)
-        if (auto defect = within_reach(at + "/position/" + std::to_string(i), motion.position[i])) return defect;
+        if (auto defect = not_too_far(at + "/position/" + std::to_string(i), motion.position[i])) return defect;
     for (std::size_t i = 0; i < motion.rotation.size(); ++i)
         if (!(std::abs(motion.rotation[i].norm() - 1) <= 1e-6))
             return Defect{at + "/rotation", std::int64_t(i),

@@ -32,7 +32,7 @@ std::optional<Defect> check(const WindGrid& grid) {
                       "has " + std::to_string(cells) + " cells, expected at most " + std::to_string(most_cells)};
     if (!grid.velocity.empty())
         if (auto defect = check_cells(at + "velocity", grid.velocity, cells,
-                                      [](const std::string& field, const Vec3& v) { return within_reach(field, v); }))
+                                      [](const std::string& field, const Vec3& v) { return not_too_far(field, v); }))
             return defect;
     const auto octaves = [](const std::string& field, std::int32_t value) -> std::optional<Defect> {
         if (value >= 0 && value <= most_octaves) return std::nullopt;
@@ -75,7 +75,7 @@ std::optional<Defect> check(const WindSwirl& swirl) {
 } // namespace
 
 std::optional<Defect> check(const Wind& wind) {
-    if (auto defect = within_reach("wind/velocity", wind.velocity)) return defect;
+    if (auto defect = not_too_far("wind/velocity", wind.velocity)) return defect;
     if (auto defect = above_zero("wind/reference_height", wind.reference_height)) return defect;
     if (auto defect = at_least("wind/profile", wind.profile, 0)) return defect;
     if (auto defect = at_least("wind/turbulence", wind.turbulence, 0)) return defect;

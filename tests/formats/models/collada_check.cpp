@@ -45,6 +45,31 @@ TEST_CASE("COLLADA files that are whole pass, and what is no COLLADA is left to 
     CHECK(refusal("") == "");
 }
 
+TEST_CASE("a COLLADA node that holds itself, or others without end, is named") {
+    const auto nodes = [](const std::string& inside) {
+        return with("</library_controllers>", "</library_controllers><library_nodes>" + inside + "</library_nodes>");
+    };
+    const auto node = [](const std::string& id, const std::string& inside) {
+        return "<node id=\"" + id + "\">" + inside + "</node>";
+    };
+    const auto instance = [](const std::string& id) { return "<instance_node url=\"#" + id + "\"/>"; };
+    CHECK(refusal(nodes(node("a", instance("b")) + node("b", node("c", "")))) == "");
+    CHECK(refusal(nodes(node("a", instance("gone")))) == "");
+    CHECK(refusal(nodes(node("a", instance("a")))) == "node \"a\" holds itself, by <instance_node>");
+    CHECK(refusal(nodes(node("a", "") + node("b", node("c", instance("b"))))) ==
+          "node \"b\" holds itself, by <instance_node>");
+    CHECK(refusal(nodes(node("a", instance("b")) + node("b", "<node>" + instance("b") + "</node>"))) ==
+          "node \"b\" holds itself, by <instance_node>");
+    std::string doubled = node("n0", ""), deep;
+    for (int k = 1; k < 40; ++k)
+        doubled += node("n" + std::to_string(k),
+                        instance("n" + std::to_string(k - 1)) + instance("n" + std::to_string(k - 1)));
+    CHECK(refusal(nodes(doubled)).find("has more than 10000000 nodes in it") != std::string::npos);
+    for (int k = 0; k < 20000; ++k) deep += "<node>";
+    for (int k = 0; k < 20000; ++k) deep += "</node>";
+    CHECK(refusal(nodes(deep)) == "");
+}
+
 TEST_CASE("COLLADA indices and numbers that are out of range are named with their place") {
     CHECK(refusal(with("<p>0 1 2", "<p>0 1 3")) ==
           "geometry \"bark\": <triangles> names VERTEX 3, expected 0 to less than 3");
