@@ -5,7 +5,10 @@ find_package(assimp 5 REQUIRED)
 find_package(TIFF REQUIRED)
 find_package(PNG REQUIRED)
 find_package(OpenEXR 3.1 CONFIG REQUIRED)
-find_package(meshoptimizer 0.18 CONFIG REQUIRED)
+find_package(meshoptimizer CONFIG REQUIRED) # which says of each version that it stands for itself alone
+if(meshoptimizer_VERSION VERSION_LESS 0.18)
+  message(FATAL_ERROR "meshoptimizer is ${meshoptimizer_VERSION}: 0.18 or newer is needed")
+endif()
 find_path(BOUGH_STB stb/stb_image.h REQUIRED)
 
 # Other programs' trees from bytes (c/bough_imports.h), a library that is installed too and needs pugixml beside. The readers are compiled once, for it and for
