@@ -144,21 +144,24 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
 } // namespace
 
 std::string valid_utf8(std::string text) {
+    std::string valid;
+    valid.reserve(text.size());
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t length = utf8_length(text, at);
         const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[at + k]); };
-        const bool control = length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F);
-        if (length == 0 || control) text[at] = '?';
-        // The other control characters, U+0080 to U+009F; U+2028 to U+202E and U+2066 to U+2069, which break lines and turn their direction.
-        const bool turns = length == 3 && byte(0) == 0xE2 &&
-                           ((byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE) ||
-                            (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9));
-        if (turns || (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0))
-            text.replace(at, length, "?"), at += 1;
+        // Control characters, U+0080 to U+009F too; U+2028 to U+202E and U+2066 to U+2069, which break lines and turn their direction.
+        const bool control = (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F)) ||
+                             (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) ||
+                             (length == 3 && byte(0) == 0xE2 &&
+                              ((byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE) ||
+                               (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9)));
+        if (length == 0 || control)
+            valid += '?';
         else
-            at += std::max<std::size_t>(1, length);
+            valid.append(text, at, length);
+        at += std::max<std::size_t>(1, length);
     }
-    return text;
+    return valid;
 }
 
 std::string in_words(std::string text) {

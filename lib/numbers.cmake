@@ -110,7 +110,7 @@ function(bough_for_target library simd) # sources; their objects go into the lib
 endfunction()
 foreach(simd ${simd_targets})
   bough_for_target(bough_numbers ${simd} ${sweeps})
-  if(NOT simd STREQUAL counted)
+  if(BOUGH_TOOLS AND NOT simd STREQUAL counted)
     bough_for_target(bough_study ${simd} study/machine_kernels.cpp)
   endif()
 endforeach()

@@ -6,6 +6,7 @@
 #include "formats/plain_text.h"
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string_view>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -104,13 +105,12 @@ namespace {
 // Two files of a sequence that are one, by links that stand there already.
 void refuse_one_for_two(const NamedFile& output) {
     std::error_code none;
-    std::vector<std::pair<std::string, OutputPlace>> links;
+    std::map<std::string, std::string> links; // by the place that each leads to
     for (const SequenceFile& file : sequence_files(output.file)) {
         if (!std::filesystem::is_symlink(file.name, none)) continue;
-        OutputPlace place = output_place(file.name);
-        std::string other;
-        for (const auto& [name, known] : links)
-            if (same_output(known, place)) other = name;
+        const OutputPlace place = output_place(file.name);
+        const auto [known, first] = links.emplace(place.path, file.name);
+        std::string other = first || place.direct ? "" : known->second;
         const std::int64_t frame = place.direct ? -1 : sequence_frame(output.file, place.name).value_or(-1);
         if (other.empty() && frame >= 0 && frame != file.frame)
             if (const std::string named = sequence_name(output.file, frame); same_output(output_place(named), place))
@@ -118,7 +118,6 @@ void refuse_one_for_two(const NamedFile& output) {
         if (!other.empty())
             throw UsageError(output.option + ": '" + file.name + "' is a link to the file of '" + other +
                              "', and each would replace the other; remove the link");
-        links.emplace_back(file.name, std::move(place));
     }
 }
 

@@ -19,6 +19,9 @@ void FrameQueue::start() {
     try {
         writer_ = std::thread([this] { run(); });
     } catch (const std::system_error&) { // no thread is to be had (ulimit -u, -v): push() writes, as with one slot
+    } catch (...) {
+        ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+        throw;
     }
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }

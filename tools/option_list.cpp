@@ -177,9 +177,12 @@ OptionsRead OptionList::read(int argc, char** argv) {
         const std::string word = argv[k], given = word.substr(0, word.find('='));
         for (const auto& [name, why] : refused_)
             if (given == name) return {OptionsRead::End::wrong, name + ": " + why};
-        // CLI11 would take the next argument for the value.
-        if (word.starts_with("--") && given.size() + 1 == word.size())
-            return {OptionsRead::End::wrong, given + ": is empty after its '='"};
+        if (word == "--") break;
+        if (given.size() + 1 != word.size()) continue;
+        for (const OptionHelp& option : help_) // CLI11 would take the next argument for the value
+            if (!option.takes.empty() &&
+                std::find(option.names.begin(), option.names.end(), given) != option.names.end())
+                return {OptionsRead::End::wrong, given + ": is empty after its '=', expected " + option.takes};
     }
     try {
         app_->parse(argc, argv);

@@ -119,7 +119,7 @@ void work_stages(StagesOptions& o) {
     output.write(table(report));
     if (!o.report.empty()) {
         Output file(o.report);
-        if (std::filesystem::path(o.report).extension() == ".csv")
+        if (ending(o.report) == ".csv")
             write_report_csv(file, report);
         else
             write_report_json(file, report);

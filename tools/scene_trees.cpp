@@ -18,10 +18,7 @@ class TreeFiles {
 public:
     TreeFiles(const Scene& scene, const std::string& scene_file, const MaterialChange& material, bool together)
         : scene_file_(scene_file), material_(material), together_(together) {
-        for (std::size_t k = 0; k < scene.trees.size(); ++k) {
-            ++wanted_[scene.trees[k].file];
-            index_.emplace(scene.trees[k].file, k);
-        }
+        for (const Placement& place : scene.trees) ++wanted_[place.file];
     }
     Tree take(const Placement& place) {
         const std::string& file = place.file;
@@ -29,7 +26,7 @@ public:
         auto known = read_.find(file);
         if (known == read_.end()) {
             const std::string path = tree_file(scene_file_, place);
-            TreeOfFile read = read_named(path, place);
+            TreeOfFile read = read_named(path);
             notes_.insert(notes_.end(), read.notes.begin(), read.notes.end());
             if (read.imported) converted_.push_back(path);
             known = read_.emplace(file, with_material(std::move(read.tree), material_, path)).first;
@@ -50,13 +47,12 @@ public:
     }
 
 private:
-    // A tree of a scene: what is wrong with it is said with where it is named.
-    TreeOfFile read_named(const std::string& path, const Placement& place) const {
+    // A tree of a scene: what is wrong with it is said with the scene.
+    TreeOfFile read_named(const std::string& path) const {
         try {
             return read_any_tree(path);
         } catch (const InputError& error) {
-            throw InputError(input_name(scene_file_) + ": /trees/" + std::to_string(index_.at(place.file)) + "/file",
-                             error.what());
+            throw InputError(input_name(scene_file_) + ": /trees", error.what());
         }
     }
 
@@ -75,8 +71,8 @@ private:
     std::string scene_file_;
     const MaterialChange& material_;
     const bool together_;
-    std::size_t bodies_ = 0;                            // of the files that were read, as often as they are wanted
-    std::map<std::string, std::size_t> wanted_, index_; // how often; where the first of them stands in /trees
+    std::size_t bodies_ = 0; // of the files that were read, as often as they are wanted
+    std::map<std::string, std::size_t> wanted_;
     std::map<std::string, Tree> read_;
     std::map<std::string, TreeLook> looks_;      // of trees that were read
     std::vector<std::string> notes_, converted_; // of files that were converted

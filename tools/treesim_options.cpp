@@ -309,7 +309,9 @@ void refuse_contradictions(const TreesimOptions& o, const std::string& format) {
             throw UsageError("--loop-blend: only with --fields pose, which it changes");
     }
     if (o.watch) {
-        if (o.run.input == "-") throw UsageError("--watch: not with stdin, which cannot be read again");
+        std::error_code none;
+        if (o.run.input == "-" || std::filesystem::is_fifo(o.run.input, none))
+            throw UsageError("--watch: not with stdin or a pipe, which cannot be read again");
         if (o.no_output || o.common.output == "-") throw UsageError("--watch: needs -o FILE, written anew by each run");
         if (!o.resume.empty()) throw UsageError("--watch: not with --resume, which goes on with one scene alone");
     }

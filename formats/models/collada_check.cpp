@@ -188,8 +188,12 @@ public:
             }
             at = next;
         }
+        // By its id or else, as assimp looks, by its name; what names another file holds nothing here.
         for (const auto& [index, id] : named_)
-            if (const auto target = index_.find(id); target != index_.end()) hold(index, target->second);
+            if (const auto target = index_.find(id); target != index_.end())
+                hold(index, target->second);
+            else if (const auto other = called_.find(id); other != called_.end())
+                hold(index, other->second);
     }
 
     // What holds nothing is counted first, and then what holds only what is counted.
@@ -212,7 +216,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t most_nodes = 10'000'000;
+    static constexpr std::int64_t most_nodes = 1'000'000;
 
     // left: of each node, how many it holds that were not counted. Each of these leads on to another, and at last round.
     [[noreturn]] void refuse_circle(const std::vector<std::size_t>& left) const {
@@ -221,20 +225,23 @@ private:
         for (std::size_t k = 0; k < left.size(); ++k)
             if (left[k] > 0)
                 for (const std::size_t holder : holder_[k]) next[holder] = at = k;
-        for (std::size_t k = 0; k < left.size() || id_[at].empty(); ++k) at = next[at];
+        for (std::size_t k = 0; k < left.size(); ++k) at = next[at];
+        for (std::size_t k = 0; k < left.size() && id_[at].empty(); ++k) at = next[at];
         throw std::runtime_error(place(at) + "holds itself, by <instance_node>");
     }
 
     void add(const pugi::xml_node& node) {
         const std::size_t index = id_.size();
         id_.emplace_back(node.attribute("id").value());
-        index_.emplace(id_.back(), index);
+        if (!id_.back().empty()) index_.emplace(id_.back(), index);
+        if (const std::string name = node.attribute("name").value(); !name.empty()) called_.emplace(name, index);
         of_.emplace(node.hash_value(), index);
         held_.push_back(0);
         holder_.emplace_back();
         if (const auto parent = of_.find(node.parent().hash_value()); parent != of_.end()) hold(parent->second, index);
         for (const pugi::xml_node& instance : node.children("instance_node"))
-            named_.emplace_back(index, without_hash(instance.attribute("url").value()));
+            if (std::string id = without_hash(instance.attribute("url").value()); !id.empty())
+                named_.emplace_back(index, std::move(id));
     }
     void hold(std::size_t holder, std::size_t held) {
         ++held_[holder];
@@ -246,8 +253,8 @@ private:
     std::vector<std::size_t> held_; // by each, how many
     std::vector<std::vector<std::size_t>> holder_;
     std::vector<std::pair<std::size_t, std::string>> named_;
-    std::unordered_map<std::string, std::size_t> index_;
-    std::unordered_map<std::size_t, std::size_t> of_; // by the element
+    std::unordered_map<std::string, std::size_t> index_, called_; // by id, by name: the first of each
+    std::unordered_map<std::size_t, std::size_t> of_;             // by the element
 };
 
 } // namespace

@@ -196,6 +196,16 @@ std::size_t add_view(GltfDocument& document, std::string_view bytes) {
     return views.size() - 1;
 }
 
+// An older version has other kinds of values, so that it is looked at first.
+void refuse_other_version(const Json& json, const std::string& name) {
+    if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object()) return;
+    const Json& asset = json["asset"];
+    if (!asset.contains("version") || !asset["version"].is_string()) return;
+    const std::string version = asset["version"].get<std::string>();
+    if (!version.starts_with("2."))
+        throw InputError(name, "asset version is " + bough::in_ascii_quotes(version) + " (glTF 2.0)");
+}
+
 // A white pixel as PNG, in place of an image that is named in no output.
 constexpr std::string_view white_pixel(
     "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x8\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDAT\x78\xda\x63\xf8\xf"
@@ -242,7 +252,7 @@ void embed_images(GltfDocument& document, const std::string& name, const std::st
         if (refused) notes.lines.push_back("image " + bough::in_ascii_quotes(uri) + " is white: " + why);
         require_room(document, bytes.size());
         const std::size_t view = add_view(document, bytes);
-        views[place] = view, types[place] = type;
+        if (!refused) views[place] = view, types[place] = type;
         Json& embedded = document.json["images"][i];
         embedded.erase("uri");
         embedded["mimeType"] = type;
@@ -290,10 +300,9 @@ GltfDocument read_gltf(std::string_view content, const std::string& name, const 
     GltfDocument document;
     document.json = parsed(chunks.json, name);
     document.text = chunks.json.size();
+    refuse_other_version(document.json, name);
     require_gltf_shape(document.json, name);
     try {
-        const std::string version = document.json.at("asset").at("version").get<std::string>();
-        if (!version.starts_with("2.")) throw std::out_of_range("asset version is " + bough::in_ascii_quotes(version));
         move_views(document.json, merge_buffers(document, chunks, folder));
         if (images == GltfImages::embed) embed_images(document, name, folder, notes);
     } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 #include "formats/inside.h"
 #include "formats/open.h"
 #include "formats/plain_text.h"
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <stdexcept>
@@ -65,9 +66,15 @@ std::string place_of_uri(const std::string& uri, const std::string& folder) {
 }
 
 bool leads_out(const std::string& uri, const std::string& folder) {
-    if (uri.starts_with("data:")) return false;
-    const std::string path = unescaped(uri);
-    if (path.substr(0, path.find('/')).find(':') != std::string::npos || path.starts_with("/")) return true;
+    const std::string scheme = lower_case(uri.substr(0, uri.find(':') + 1));
+    if (scheme == "data:") return false;
+    if (uri.find("://") != std::string::npos || scheme == "file:" || scheme == "http:" || scheme == "https:")
+        return true;
+    std::string path = unescaped(uri);
+    std::replace(path.begin(), path.end(), '\\', '/'); // as Windows takes it
+    const bool drive = path.size() > 2 && path[1] == ':' && path[2] == '/';
+    const bool control = std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < 0x20; });
+    if (drive || control || path.starts_with("/")) return true;
     return !within_reach(folder + (folder.empty() ? "" : "/") + path, folder.empty() ? "." : folder);
 }
 
@@ -79,7 +86,7 @@ std::string bytes_of_uri(const std::string& uri, const std::string& folder) {
                                data = std::string_view(uri).substr(comma + 1);
         return head.ends_with(";base64") ? from_base64(data) : unescaped(data);
     }
-    if (uri.substr(0, uri.find('/')).find(':') != std::string::npos || uri.starts_with("/"))
+    if (uri.find("://") != std::string::npos || uri.starts_with("/"))
         throw std::runtime_error(bough::in_ascii_quotes(uri) +
                                  " is not beside the file, expected a relative path or a data: URI");
     if (folder.empty())

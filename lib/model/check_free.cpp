@@ -27,9 +27,7 @@ std::optional<Defect> check(const Ball& ball, const std::string& at) {
     if (auto defect = not_too_far(at + "/velocity", ball.velocity)) return defect;
     if (auto defect = finite(at + "/angular_velocity", ball.angular_velocity)) return defect;
     if (auto defect = above_zero(at + "/radius", ball.radius)) return defect;
-    if (ball.radius > largest_length)
-        return Defect{at + "/radius", -1,
-                      "is " + shortest_text(ball.radius) + ", expected at most " + shortest_text(largest_length)};
+    if (auto defect = not_too_far(at + "/radius", ball.radius)) return defect;
     return above_zero(at + "/mass", ball.mass);
 }
 
@@ -42,7 +40,7 @@ std::optional<Defect> check(const Contact& contact) {
     if (auto defect = at_least("contact/penalty", contact.penalty, 0)) return defect;
     if (!std::isfinite(contact.ground_height))
         return Defect{"contact/ground_height", -1, "is not finite, expected metres"};
-    return std::nullopt;
+    return not_too_far("contact/ground_height", contact.ground_height);
 }
 
 } // namespace bough

@@ -10,6 +10,7 @@ std::optional<Defect> finite(std::string_view field, const Vec3&);
 // [m], [m/s] Of places, sizes and velocities: meshes are written in floats, which a chain of bodies of this length still fits into.
 constexpr double largest_length = 1e15;
 std::optional<Defect> not_too_far(std::string_view field, const Vec3&);
+std::optional<Defect> not_too_far(std::string_view field, double value);
 std::optional<Defect> finite(std::string_view field, double);
 std::optional<Defect> at_least(std::string_view field, double value, double low);
 std::optional<Defect> above_zero(std::string_view field, double value);

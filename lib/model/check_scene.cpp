@@ -17,6 +17,12 @@ std::optional<Defect> not_too_far(std::string_view field, const Vec3& value) {
                       " either way"};
 }
 
+std::optional<Defect> not_too_far(std::string_view field, double value) {
+    if (std::abs(value) <= largest_length) return std::nullopt;
+    return Defect{std::string(field), -1,
+                  "is " + shortest_text(value) + ", expected at most " + shortest_text(largest_length)};
+}
+
 std::optional<Defect> at_least(std::string_view field, double value, double low) {
     if (std::isfinite(value) && value >= low) return std::nullopt;
     return Defect{std::string(field), -1,

@@ -6,6 +6,7 @@ namespace bough {
 std::optional<Defect> check(const Walker& walker, const std::string& at, std::size_t trees) {
     if (auto defect = above_zero(at + "/mass", walker.mass)) return defect;
     if (auto defect = above_zero(at + "/radius", walker.radius)) return defect;
+    if (auto defect = not_too_far(at + "/radius", walker.radius)) return defect;
     if (auto defect = at_least(at + "/push", walker.push, 0)) return defect;
     if (walker.stops.size() < 2)
         return Defect{at + "/stops", -1,

@@ -4,7 +4,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # A tree that cannot be read is named with its scene and place; a message stays short whatever a file names.
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "gone.json", "position": [1, 0, 0]}]}' >gone_scene.json
-refused 2 "gone_scene.json: /trees/0/file: gone.json: cannot be opened: No such file" treesim gone_scene.json --frames 2
+refused 2 "gone_scene.json: /trees: gone.json: cannot be opened: No such file" treesim gone_scene.json --frames 2
 printf '{"format": "bough-scene", "version": 1, "trees": [{"file": "%s"}]}' "$(head -c 100000 /dev/zero | tr '\0' x)" >long_scene.json
 refused 2 " ... " treesim long_scene.json --frames 2
 [[ $(wc -c <err) -lt 7000 ]] || fail "a message of $(wc -c <err) bytes"

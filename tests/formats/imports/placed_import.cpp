@@ -82,7 +82,7 @@ TEST_CASE("a leaf or a fruit far off, or larger than its tree, is a slip too") {
     CHECK(with("X", "1e12").find("m.xml: leaf 0 is at ") == 0);
     CHECK(with("X", "1e5").find("noted: leaf 0 is at ") == 0);
     CHECK(with("X", "20").empty());
-    CHECK(with("Scale", "1e12").find("m.xml: the length of leaf 0 is 1e+10 m in a tree that is 4.186 large") == 0);
+    CHECK(with("Scale", "1e12").find("m.xml: the length of leaf 0 is 1e+10 m in a tree that is 4.186 m large") == 0);
     CHECK(with("Scale", "40").empty());
 }
 

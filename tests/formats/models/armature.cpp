@@ -301,7 +301,8 @@ TEST_CASE("damaged glTF is refused in one line") {
     says([](Json& j) { j["buffers"][0]["byteLength"] = 99999; }, "has 1576 bytes, expected 99999");
     says([](Json& j) { j["bufferViews"][0]["byteLength"] = 9999; }, "of a buffer of 1576");
     says([](Json& j) { j["bufferViews"][0]["buffer"] = 3; }, "buffer is 3, expected less than 1");
-    says([](Json& j) { j["asset"]["version"] = "1.0"; }, "asset version is \"1.0\"");
+    says([](Json& j) { j["asset"]["version"] = "1.0", j["scene"] = "first", j["meshes"] = Json::object(); },
+         "asset version is \"1.0\"");
     says([](Json& j) { j["skins"][0]["joints"][0] = 77; }, "d.gltf: ");
     // Of another kind than glTF has it: the place, what it is and what was expected.
     says([](Json& j) { j["nodes"] = 7; }, "is no glTF 2.0: /nodes: is a number, expected a list of objects");

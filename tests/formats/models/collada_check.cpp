@@ -55,6 +55,12 @@ TEST_CASE("a COLLADA node that holds itself, or others without end, is named") {
     const auto instance = [](const std::string& id) { return "<instance_node url=\"#" + id + "\"/>"; };
     CHECK(refusal(nodes(node("a", instance("b")) + node("b", node("c", "")))) == "");
     CHECK(refusal(nodes(node("a", instance("gone")))) == "");
+    // Another file's node, or none, is no node of this one that has no id.
+    for (const char* url : {"other.dae#x", "#", ""})
+        CHECK(refusal(nodes("<node>" + node("a", std::string("<instance_node url=\"") + url + "\"/>") + "</node>")) ==
+              "");
+    CHECK(refusal(nodes("<node name=\"a\"><instance_node url=\"#a\"/></node>")).find("holds itself") !=
+          std::string::npos);
     CHECK(refusal(nodes(node("a", instance("a")))) == "node \"a\" holds itself, by <instance_node>");
     CHECK(refusal(nodes(node("a", "") + node("b", node("c", instance("b"))))) ==
           "node \"b\" holds itself, by <instance_node>");
@@ -64,7 +70,7 @@ TEST_CASE("a COLLADA node that holds itself, or others without end, is named") {
     for (int k = 1; k < 40; ++k)
         doubled += node("n" + std::to_string(k),
                         instance("n" + std::to_string(k - 1)) + instance("n" + std::to_string(k - 1)));
-    CHECK(refusal(nodes(doubled)).find("has more than 10000000 nodes in it") != std::string::npos);
+    CHECK(refusal(nodes(doubled)).find("has more than 1000000 nodes in it") != std::string::npos);
     for (int k = 0; k < 20000; ++k) deep += "<node>";
     for (int k = 0; k < 20000; ++k) deep += "</node>";
     CHECK(refusal(nodes(deep)) == "");

@@ -110,7 +110,7 @@ TEST_CASE("an image whose name leads out is white, and is named in no output") {
     put(folder / "out.png", "\x89PNG\r\n\x1a\n" + std::string(3000, 'x'));
     std::filesystem::create_symlink("../out.png", folder.path / "in" / "link.png");
     for (const char* uri : {"http://127.0.0.1:1/a.png", "file:///etc/passwd", "/etc/passwd", "../out.png",
-                            "%2e%2e/out.png", "link.png", "C:/a.png"}) {
+                            "%2e%2e/out.png", "link.png", "C:/a.png", "..\\out.png", "\\\\host\\a.png", "HTTP:a.png"}) {
         CAPTURE(uri);
         const Json json{{"asset", {{"version", "2.0"}}}, {"images", {{{"uri", uri}}}}};
         ImportNotes notes;
@@ -126,11 +126,20 @@ TEST_CASE("an image whose name leads out is white, and is named in no output") {
         REQUIRE(notes.lines.size() == 1);
         CHECK(notes.lines[0].find("is white") != std::string::npos);
     }
-    // One that is not there may come to stand beside the output.
-    const Json json{{"asset", {{"version", "2.0"}}}, {"images", {{{"uri", "gone.png"}}}}};
+    // One that is not there may come to stand beside the output; a colon is a letter like others.
+    for (const char* uri : {"gone.png", "b:1.png", "b%3A1.png"}) {
+        const Json json{{"asset", {{"version", "2.0"}}}, {"images", {{{"uri", uri}}}}};
+        ImportNotes notes;
+        CHECK(read_gltf(json.dump(), "m.gltf", (folder.path / "in").string(), GltfImages::embed, notes)
+                  .json["images"][0]["uri"] == uri);
+    }
+    // One that is there stays itself, however a refused one is spelt.
+    put((folder.path / "in" / "b.png").string(), "\x89PNG\r\n\x1a\n" + std::string(3000, 'y'));
+    const Json json{{"asset", {{"version", "2.0"}}}, {"images", {{{"uri", "C:/b.png"}}, {{"uri", "b.png"}}}}};
     ImportNotes notes;
-    CHECK(read_gltf(json.dump(), "m.gltf", (folder.path / "in").string(), GltfImages::embed, notes)
-              .json["images"][0]["uri"] == "gone.png");
+    const GltfDocument read = read_gltf(json.dump(), "m.gltf", (folder.path / "in").string(), GltfImages::embed, notes);
+    CHECK(read.json["images"][0]["bufferView"] != read.json["images"][1]["bufferView"]);
+    CHECK(read.binary.size() > 3000);
 }
 
 TEST_CASE("buffers and images of one file are held once, however it is spelt") {

@@ -155,6 +155,9 @@ TEST_CASE("each rule of a scene") {
     CHECK(broken(good, [](Scene& s) { s.trees[0].position.x() = -1.1e15; }) == "trees/0/position");
     CHECK(broken(good, [](Scene& s) { s.root_motion[0].position[1].x() = 1e300; }) == "root_motion/0/position/1");
     CHECK(broken(good, [](Scene& s) { s.wind->velocity.x() = 1e308; }) == "wind/velocity");
+    CHECK(broken(good, [](Scene& s) { s.wind->reference_height = 1e39; }) == "wind/reference_height");
+    CHECK(broken(good, [](Scene& s) { s.contact.emplace().ground_height = -1e39; }) == "contact/ground_height");
+    CHECK(broken(good, [](Scene& s) { s.walkers.resize(1), s.walkers[0].radius = 1e39; }) == "walkers/0/radius");
     CHECK(broken(good, [](Scene& s) { s.balls.resize(1), s.balls[0].radius = 3.5e38; }) == "balls/0/radius");
     CHECK(broken(good, [](Scene& s) { s.balls.resize(1), s.balls[0].velocity.y() = 1e300; }) == "balls/0/velocity");
     CHECK(broken(good, [](Scene& s) { s.wind->velocity.x() = not_a_number; }) == "wind/velocity");
